@@ -1,0 +1,1 @@
+"""The MuJoCo Debugging Clinic: broken simulations that prove themselves."""

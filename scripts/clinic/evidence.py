@@ -1,0 +1,204 @@
+"""Evidence: what the runs of a case showed, as plain data; published as `evidence.json`."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Literal
+
+import mujoco
+import numpy as np
+from pydantic import BaseModel, ConfigDict
+
+from clinic.case import Case
+from clinic.checks import TAKES, Trace, Verdict, judge, take
+from clinic.examine import examine
+from clinic.measure import measure_model, measure_output
+from clinic.problem import CaseError, Problem
+from clinic.record import Check
+from clinic.script import ScriptError, run_python
+from clinic.simulate import compile_model
+from clinic.variant import Variant, remedies, variants
+from clinic.yamlmap import Where
+
+MAX_SAMPLES = 400
+
+
+class Plain(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class CheckResult(Plain):
+    """A check with its measured number; None where nothing could be measured."""
+
+    signal: str
+    take: str
+    window: tuple[float, float] | None = None
+    expected: dict[str, float | tuple[float, float]]
+    measured: float | None
+    holds: bool
+
+
+class Samples(Plain):
+    """At most MAX_SAMPLES samples of a signal, evenly spread over the run, the first and last included."""
+
+    unit: str
+    time: list[float]
+    value: list[float | None]
+
+
+class VariantEvidence(Plain):
+    """What one variant showed.
+
+    Attributes:
+        timestep: In s; None for a script.
+        values: Every number that can be taken from a signal, by signal and take.
+        output: What a script printed; None for a model.
+    """
+
+    kind: Literal["broken", "fix", "refuted"]
+    title: str
+    edits: list[dict[str, str]]
+    timestep: float | None
+    steps: int | None
+    warnings: dict[str, int]
+    messages: list[str]
+    output: str | None
+    checks: dict[Literal["broken", "fixed"], list[CheckResult]]
+    values: dict[str, dict[str, float | None]]
+    traces: dict[str, Samples]
+
+    @property
+    def well(self) -> bool:
+        """Whether every `fixed` check holds."""
+        return all(check.holds for check in self.checks["fixed"])
+
+    @property
+    def broken(self) -> bool:
+        """Whether every `broken` check holds."""
+        return all(check.holds for check in self.checks["broken"])
+
+
+class Evidence(Plain):
+    """Everything measured for one case.
+
+    Attributes:
+        case: The case's slug.
+        engine: The version of MuJoCo that ran.
+        snippet: What the diagnosis snippet printed; None without a snippet.
+    """
+
+    case: str
+    number: int
+    engine: str
+    snippet: str | None
+    variants: dict[str, VariantEvidence]
+
+
+def collect(case: Case) -> Evidence:
+    """Runs every variant and the snippet of a case.
+
+    Raises:
+        CaseError: With every problem that keeps the case from running.
+    """
+    examine(case)
+    observed: dict[str, VariantEvidence] = {}
+    problems: list[Problem] = []
+    for variant in variants(case):
+        try:
+            observed[variant.id] = observe(case, variant)
+        except ScriptError as error:
+            problems.append(_script_problem(case, variant, error))
+    try:
+        snippet = None if case.record.snippet is None else run_snippet(case)
+    except ScriptError as error:
+        problems.append(case.problem(("snippet",), error.found, "code that runs as it stands", error.repair))
+    if problems:
+        raise CaseError(problems)
+    return Evidence(
+        case=case.slug,
+        number=case.record.number,
+        engine=mujoco.__version__,
+        snippet=snippet,
+        variants=observed,
+    )
+
+
+def run_snippet(case: Case) -> str:
+    """What the diagnosis snippet prints, run beside the case's files.
+
+    Raises:
+        ScriptError: If it does not end well.
+    """
+    assert case.record.snippet is not None
+    return run_python(case.record.snippet, case.texts, name="snippet.py").text
+
+
+def observe(case: Case, variant: Variant) -> VariantEvidence:
+    """Runs one variant of a case and judges it by the record's checks."""
+    record = case.record
+    details: dict[str, Any]
+    if record.run is not None:
+        run, traces = measure_model(case, compile_model(variant.text), record.run)
+        details = {
+            "timestep": run.timestep,
+            "steps": run.steps,
+            "warnings": run.warnings,
+            "messages": list(run.messages),
+            "output": None,
+        }
+    else:
+        output = run_python(variant.text, case.texts, name=record.source)
+        traces = measure_output(record, output)
+        details = {"timestep": None, "steps": None, "warnings": {}, "messages": [], "output": output.text}
+    return VariantEvidence(
+        kind=variant.kind,
+        title=variant.title,
+        edits=[edit.model_dump() for edit in variant.edits],
+        checks={
+            "broken": [_result(judge(check, traces)) for check in record.checks.broken],
+            "fixed": [_result(judge(check, traces)) for check in record.checks.fixed],
+        },
+        values={name: {which: _number(take(trace, which)) for which in TAKES} for name, trace in traces.items()},
+        traces={name: samples(trace, record.signals[name].unit) for name, trace in traces.items()},
+        **details,
+    )
+
+
+def samples(trace: Trace, unit: str) -> Samples:
+    """The trace thinned to MAX_SAMPLES; a constant one to its two ends."""
+    n = len(trace.value)
+    constant = n > 2 and bool(np.all(trace.value == trace.value[0]))
+    chosen = np.unique(np.linspace(0, n - 1, min(n, 2 if constant else MAX_SAMPLES)).round().astype(int))
+    return Samples(
+        unit=unit,
+        time=[round(float(t), 9) for t in trace.time[chosen]],
+        value=[_number(v) for v in trace.value[chosen]],
+    )
+
+
+def comparison(check: Check) -> dict[str, float | tuple[float, float]]:
+    """The check's comparison as data: `{"below": 0.1}`."""
+    return check.model_dump(include={"above", "below", "between", "equals", "within"}, exclude_none=True)
+
+
+def _script_problem(case: Case, variant: Variant, error: ScriptError) -> Problem:
+    places = {remedy.id: where for where, _, remedy in remedies(case)}
+    where: Where = (*places[variant.id], "edits") if variant.id in places else ("script",)
+    after = " after these edits" if variant.id in places else ""
+    return case.problem(where, f"{case.record.source}{after}: {error.found}", "a script that ends by itself", error.repair)
+
+
+def _result(verdict: Verdict) -> CheckResult:
+    check = verdict.check
+    return CheckResult(
+        signal=check.signal,
+        take=check.take,
+        window=check.window,
+        expected=comparison(check),
+        measured=_number(verdict.measured),
+        holds=verdict.holds,
+    )
+
+
+def _number(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None

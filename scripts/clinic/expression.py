@@ -1,0 +1,98 @@
+"""Arithmetic as data: a small language for numbers computed from other numbers.
+
+    expression := + - * / ** , unary -, parentheses, numbers, names, pi, and the functions below
+"""
+
+from __future__ import annotations
+
+import ast
+import operator
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Value = float | NDArray[np.float64]
+
+FUNCTIONS: dict[str, Callable[..., Any]] = {
+    "abs": np.abs,
+    "sqrt": np.sqrt,
+    "exp": np.exp,
+    "log": np.log,
+    "sin": np.sin,
+    "cos": np.cos,
+    "tan": np.tan,
+    "arccos": np.arccos,
+    "minimum": np.minimum,
+    "maximum": np.maximum,
+    "floor": np.floor,
+}
+BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: np.divide,
+    ast.Pow: np.power,
+}
+
+
+class ExpressionError(ValueError):
+    """Text that is no expression; the message says what was expected."""
+
+
+def parse(text: str) -> ast.expr:
+    """The expression's tree, with nothing in it but the language above.
+
+    Raises:
+        ExpressionError: For anything else.
+    """
+    try:
+        tree = ast.parse(text.strip(), mode="eval").body
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        raise ExpressionError("arithmetic that can be parsed") from None
+    for node in ast.walk(tree):
+        _allow(node)
+    return tree
+
+
+def names(tree: ast.expr) -> set[str]:
+    """The names the expression reads."""
+    called = {node.func.id for node in ast.walk(tree) if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)}
+    return {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)} - called - {"pi"}
+
+
+def evaluate(tree: ast.expr, values: Mapping[str, Value]) -> Value:
+    """The expression's value; arrays are combined element by element."""
+    match tree:
+        case ast.Constant(value=value):
+            return float(value)
+        case ast.Name(id="pi"):
+            return float(np.pi)
+        case ast.Name(id=name):
+            return values[name]
+        case ast.UnaryOp(operand=operand):
+            return -evaluate(operand, values)
+        case ast.BinOp(left=left, op=op, right=right):
+            result: Value = BINARY[type(op)](evaluate(left, values), evaluate(right, values))
+            return result
+        case ast.Call(func=ast.Name(id=name), args=args):
+            return FUNCTIONS[name](*(evaluate(arg, values) for arg in args))  # type: ignore[no-any-return]
+    raise AssertionError(ast.dump(tree))
+
+
+def _allow(node: ast.AST) -> None:
+    match node:
+        case ast.Constant(value=value) if isinstance(value, int | float) and not isinstance(value, bool):
+            return
+        case ast.UnaryOp(op=ast.USub()) | ast.USub() | ast.Name() | ast.Load():
+            return
+        case ast.BinOp(op=op) if type(op) in BINARY:
+            return
+        case ast.operator() if type(node) in BINARY:
+            return
+        case ast.Call(func=ast.Name(id=name), keywords=[], args=[_, *_]):
+            if name in FUNCTIONS:
+                return
+            raise ExpressionError(f"one of the functions {', '.join(FUNCTIONS)}")
+    raise ExpressionError("numbers, names, + - * / **, parentheses and functions")

@@ -1,0 +1,57 @@
+"""Images of a model, drawn by MuJoCo's own renderer off screen."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+from numpy.typing import NDArray
+
+os.environ.setdefault("MUJOCO_GL", "egl")
+
+import mujoco  # noqa: E402  (MUJOCO_GL is read at import)
+
+WIDTH, HEIGHT = 480, 360
+Image = NDArray[np.uint8]
+
+
+class RenderError(RuntimeError):
+    """Images cannot be drawn on this machine."""
+
+
+@contextmanager
+def renderer(model: mujoco.MjModel, width: int = WIDTH, height: int = HEIGHT) -> Iterator[mujoco.Renderer]:
+    """A renderer that is closed afterwards.
+
+    Raises:
+        RenderError: If there is no OpenGL library, or it cannot make a context.
+    """
+    model.vis.global_.offwidth = max(model.vis.global_.offwidth, width)
+    model.vis.global_.offheight = max(model.vis.global_.offheight, height)
+    try:
+        made = mujoco.Renderer(model, height, width)
+    except (ImportError, AttributeError, RuntimeError, mujoco.FatalError) as error:
+        raise RenderError(f"OpenGL by {os.environ['MUJOCO_GL']} is not available: {error}") from None
+    try:
+        yield made
+    finally:
+        made.close()
+
+
+def image(model: mujoco.MjModel, data: mujoco.MjData, camera: str) -> Image:
+    """The camera's colour image, shape (HEIGHT, WIDTH, 3)."""
+    with renderer(model) as draw:
+        draw.update_scene(data, camera)
+        return draw.render().copy()
+
+
+def geom_row(model: mujoco.MjModel, data: mujoco.MjData, camera: str, geom: str) -> float:
+    """The mean row of the geom's visible pixels: 0 the image's top edge, 1 its bottom; NaN when none is visible."""
+    with renderer(model) as draw:
+        draw.enable_segmentation_rendering()
+        draw.update_scene(data, camera)
+        ids, kinds = np.moveaxis(draw.render(), 2, 0)
+    rows = np.nonzero((ids == model.geom(geom).id) & (kinds == int(mujoco.mjtObj.mjOBJ_GEOM)))[0]
+    return float((rows.mean() + 0.5) / HEIGHT) if len(rows) else float("nan")

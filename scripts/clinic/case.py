@@ -20,7 +20,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import mujoco
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
@@ -28,11 +27,11 @@ from clinic import record as schema
 from clinic.expression import ExpressionError, names, parse
 from clinic.problem import CaseError, Problem, closest, listed
 from clinic.record import Check, ExpressionSignal, PathSignal, Record, StartsSignal
+from clinic.signals import WARNINGS
 from clinic.yamlmap import Lines, Where, YamlProblem, read_yaml
 
 RECORD = "case.yaml"
 SLUG = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
-WARNINGS = [name.removeprefix("mjWARN_") for name in mujoco.mjtWarning.__members__]
 SIGNALS: dict[str, type[BaseModel]] = {
     "path": schema.PathSignal,
     "expr": schema.ExpressionSignal,

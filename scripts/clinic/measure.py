@@ -15,7 +15,7 @@ from clinic.record import ExpressionSignal, PathSignal, Record, RowSignal, RunSp
 from clinic.render import geom_row
 from clinic.script import Output
 from clinic.signals import Path, parse_path
-from clinic.simulate import Run, captured_messages, simulate, start
+from clinic.simulate import Run, simulate, state_at
 
 
 def paths(record: Record) -> dict[str, Path]:
@@ -71,10 +71,7 @@ def fraction_of_starts(record: Record, signal: StartsSignal, model: mujoco.MjMod
 
 def image_row(signal: RowSignal, model: mujoco.MjModel, spec: RunSpec) -> float:
     """The mean row of a geom's pixels at the start of the run; 0 is the image's top edge, 1 its bottom."""
-    data = start(model, spec)
-    with captured_messages():
-        mujoco.mj_forward(model, data)
-    return geom_row(model, data, signal.camera, signal.geom)
+    return geom_row(model, state_at(model, spec, 0.0), signal.camera, signal.geom)
 
 
 def _single(value: float) -> Trace:

@@ -32,6 +32,7 @@ from clinic.problem import closest, listed
 Reader = Callable[[], float]
 
 KINDS = ("body", "joint", "geom", "site", "camera", "actuator", "tendon", "sensor", "light", "equality", "key")
+WARNINGS = [name.removeprefix("mjWARN_") for name in mujoco.mjtWarning.__members__ if name.startswith("mjWARN_")]
 CONTACT = ("friction", "dist", "pos", "frame", "includemargin", "dim", "force", "count")
 PATH = re.compile(
     r"""(?P<model>model\.)?
@@ -172,9 +173,8 @@ def _checked_index(path: Path, shape: tuple[int, ...], shown: str) -> tuple[int,
 
 
 def _bind_warning(path: Path, data: mujoco.MjData) -> Reader:
-    known = [name.removeprefix("mjWARN_") for name in mujoco.mjtWarning.__members__]
-    if path.name not in known:
-        raise SignalError(f"warning({path.name})", f"one of {listed(known, 20)}", "correct the name")
+    if path.name not in WARNINGS:
+        raise SignalError(f"warning({path.name})", f"one of {listed(WARNINGS, 20)}", "correct the name")
     number = int(getattr(mujoco.mjtWarning, f"mjWARN_{path.name}"))
     return lambda: float(data.warning[number].number)
 

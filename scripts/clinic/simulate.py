@@ -16,6 +16,7 @@ from clinic.record import RunSpec
 from clinic.signals import Path, bind, element_names
 
 MAX_STEPS = 2_000_000
+Drive = dict[int, tuple[list[float], list[float]]]
 _log = threading.Lock()
 
 
@@ -97,9 +98,7 @@ def simulate(
     values = np.empty((steps, len(readers)))
     with captured_messages() as messages:
         for i in range(steps):
-            for actuator, (times, targets) in drive.items():
-                data.ctrl[actuator] = np.interp(i * timestep, times, targets)
-            mujoco.mj_step(model, data)
+            step(model, data, drive, i)
             values[i] = [read() for read in readers.values()]
             for k in range(len(counts)):
                 counts[k] = max(counts[k], data.warning[k].number)
@@ -127,6 +126,23 @@ def captured_messages() -> Iterator[list[str]]:
             mujoco.set_mju_user_warning(None)
 
 
+def step(model: mujoco.MjModel, data: mujoco.MjData, drive: Drive, i: int) -> None:
+    """Makes step `i`, counted from 0, with the controls of time i * timestep."""
+    for actuator, (times, targets) in drive.items():
+        data.ctrl[actuator] = np.interp(i * model.opt.timestep, times, targets)
+    mujoco.mj_step(model, data)
+
+
+def state_at(model: mujoco.MjModel, spec: RunSpec, time: float) -> mujoco.MjData:
+    """The data after round(time / timestep) steps of the run, with everything derived from its state up to date."""
+    data, drive = start(model, spec), controls(model, spec)
+    with captured_messages():
+        for i in range(round(time / model.opt.timestep)):
+            step(model, data, drive, i)
+        mujoco.mj_forward(model, data)
+    return data
+
+
 def step_count(model: mujoco.MjModel, spec: RunSpec) -> int:
     """How many steps the run takes.
 
@@ -141,13 +157,13 @@ def step_count(model: mujoco.MjModel, spec: RunSpec) -> int:
     return steps
 
 
-def controls(model: mujoco.MjModel, spec: RunSpec) -> dict[int, tuple[list[float], list[float]]]:
+def controls(model: mujoco.MjModel, spec: RunSpec) -> Drive:
     """The times in s and values of every driven actuator, by its id.
 
     Raises:
         RunError: If the model lacks an actuator, or the times do not increase.
     """
-    drive = {}
+    drive: Drive = {}
     for name, value in spec.ctrl.items():
         _require(model, "actuator", name, ("ctrl", name))
         points = [(0.0, value)] if isinstance(value, float | int) else value

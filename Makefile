@@ -1,0 +1,47 @@
+# make serve   the site with live reload at http://localhost:8000
+# make test    every test; sets everything up by itself
+# make site    builds site/ strictly
+# make lint    style and types
+# make lock    renews requirements.txt
+# make clean   forgets everything built
+
+SHELL := /bin/bash
+VENV := .venv
+BIN := $(VENV)/bin
+export MUJOCO_GL ?= egl
+# MkDocs' and Material's notices about the end of their lines: CONTRIBUTING.md says what the way out is.
+export NO_MKDOCS_2_WARNING := 1
+export DISABLE_MKDOCS_2_WARNING := true
+
+.DEFAULT_GOAL := help
+.PHONY: help setup serve site test lint lock clean
+
+help:
+	@sed -n 's/^# make/make/p' Makefile
+
+setup: $(VENV)/.ready
+
+$(VENV)/.ready: requirements.txt pyproject.toml package-lock.json scripts/setup.sh
+	@bash scripts/setup.sh $(VENV)
+	@touch $@
+
+serve: setup
+	$(BIN)/mkdocs serve --livereload
+
+site: setup
+	$(BIN)/mkdocs build --strict
+
+test: setup
+	$(BIN)/pytest -n auto --dist loadgroup
+
+lint: setup
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+
+lock: setup
+	$(BIN)/uv pip compile pyproject.toml --extra dev --universal --python-version 3.11 --generate-hashes \
+	  --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" --upgrade --quiet --output-file requirements.txt
+
+clean:
+	rm -rf site .cache node_modules $(VENV)

@@ -1,0 +1,118 @@
+"""The laws that every case obeys. Each law gives its complaints, and a complaint says what to do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import combinations
+
+from clinic.case import Case
+from clinic.checks import expected, judge
+from clinic.evidence import CheckResult, Evidence, VariantEvidence, observe
+from clinic.measure import measure_model, measure_output
+from clinic.prose import quantity
+from clinic.record import Check, Edit, Fix
+from clinic.script import run_python
+from clinic.simulate import compile_model
+from clinic.variant import EditError, apply_edits, changed_lines, variants
+
+MAX_CHANGED_LINES = 5
+
+
+def verdicts(case: Case, evidence: Evidence) -> Iterator[str]:
+    """Law 1. Broken: all of `checks.broken`, not all of `checks.fixed`. A fix: the other way round.
+
+    A refuted remedy: not all of `checks.fixed`.
+    """
+    for name, variant in evidence.variants.items():
+        match variant.kind:
+            case "broken":
+                yield from _failing(name, variant, "broken")
+                if variant.well:
+                    yield f"{name}: passes every check of `fixed`; tighten one until the broken variant fails it"
+            case "fix":
+                yield from _failing(name, variant, "fixed")
+                if variant.broken:
+                    yield f"{name}: passes every check of `broken` too; tighten one until the repair fails it"
+            case "refuted":
+                if variant.well:
+                    yield f"{name}: is refuted, yet passes every check of `fixed`; move it to `fixes`, or tighten a check"
+
+
+def ablation(case: Case, evidence: Evidence) -> Iterator[str]:
+    """Law 2. Of a fix with several edits, no proper subset passes `fixed`, or `redundant` says why."""
+    for fix in case.record.fixes:
+        enough = [subset for subset in _subsets(fix) if passes(case, subset)]
+        if enough and fix.redundant is None:
+            part = " and ".join(f"{edit.find!r}" for edit in enough[0])
+            yield f"{fix.id}: the edit of {part} alone repairs it; drop the other edits, or say why in `redundant`"
+        if not enough and fix.redundant is not None:
+            yield f"{fix.id}: `redundant` is no longer needed: every edit is necessary; remove it"
+
+
+def small_edits(case: Case, evidence: Evidence) -> Iterator[str]:
+    """Law 3. Every remedy changes at most a handful of lines (that edits match once is checked on loading)."""
+    for variant in variants(case)[1:]:
+        count = changed_lines(case.text, variant.text)
+        if not 1 <= count <= MAX_CHANGED_LINES:
+            yield f"{variant.id}: changes {count} lines; keep it to 1 to {MAX_CHANGED_LINES}"
+
+
+def repeatable(case: Case, evidence: Evidence) -> Iterator[str]:
+    """Law 4, first half. A second run of a variant gives bitwise the same evidence."""
+    for variant in variants(case):
+        again = observe(case, variant)
+        if again != evidence.variants[variant.id]:
+            yield f"{variant.id}: two runs differ; seed what is random, and bound loops by steps"
+
+
+def warned(case: Case, evidence: Evidence) -> Iterator[str]:
+    """Law 4, second half. A fix raises no MuJoCo warning; the broken variant exactly those in `warnings`."""
+    for name, variant in evidence.variants.items():
+        raised, named = sorted(variant.warnings), sorted(case.record.warnings)
+        if variant.kind == "fix" and raised:
+            yield f"{name}: a fix that raises {', '.join(raised)}; repair the model until it is silent"
+        if variant.kind == "broken" and raised != named:
+            yield f"{name}: raises {raised}, while `warnings` names {named}; write `warnings: {raised}`"
+
+
+LAWS: dict[str, Callable[[Case, Evidence], Iterator[str]]] = {
+    law.__name__: law for law in (verdicts, ablation, small_edits, repeatable, warned)
+}
+
+
+def complaints(case: Case, evidence: Evidence) -> list[str]:
+    """What every law complains of, each as `case 7 ball-passes-through-shelf: ...`."""
+    return [
+        f"case {case.record.number} {case.slug}: {complaint}" for law in LAWS.values() for complaint in law(case, evidence)
+    ]
+
+
+def passes(case: Case, edits: tuple[Edit, ...]) -> bool:
+    """Whether the broken text after these edits passes every check of `fixed`."""
+    try:
+        text = apply_edits(case.text, edits)
+        if case.record.run is not None:
+            _, traces = measure_model(case, compile_model(text), case.record.run)
+        else:
+            traces = measure_output(case.record, run_python(text, case.texts, name=case.record.source))
+    except (EditError, ValueError):
+        return False
+    return all(judge(check, traces).holds for check in case.record.checks.fixed)
+
+
+def _subsets(fix: Fix) -> Iterator[tuple[Edit, ...]]:
+    for size in range(1, len(fix.edits)):
+        yield from combinations(fix.edits, size)
+
+
+def _failing(name: str, variant: VariantEvidence, kind: str) -> Iterator[str]:
+    for result in variant.checks[kind]:  # type: ignore[index]
+        if not result.holds:
+            yield f"{name}: {_measured(result, variant)}; correct the bound of checks.{kind}, the edits, or the model"
+
+
+def _measured(result: CheckResult, variant: VariantEvidence) -> str:
+    unit = variant.traces[result.signal].unit
+    value = "nothing" if result.measured is None else quantity(result.measured, unit, 6)
+    check = Check.model_validate({"signal": result.signal, "take": result.take, **result.expected}, strict=False)
+    return f"{result.signal} ({result.take}) measured {value}, expected {expected(check)} {unit}".rstrip()

@@ -1,0 +1,116 @@
+"""Figures: broken against fixed, as SVG in two palettes."""
+
+from __future__ import annotations
+
+import io
+import math
+from typing import Literal
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from clinic.case import Case
+from clinic.evidence import Evidence, VariantEvidence
+from clinic.prose import quantity
+
+Theme = Literal["light", "dark"]
+THEMES: tuple[Theme, ...] = ("light", "dark")
+INK = {"light": "#333a42", "dark": "#d5dae0"}
+GRID = {"light": "#d9dde2", "dark": "#454b54"}
+BROKEN = {"light": "#c2410c", "dark": "#ff9a5c"}
+FIXED = {"light": ("#0b66c3", "#0a7d54", "#7a3fb5"), "dark": ("#6db3ff", "#55d6a3", "#c79bff")}
+DASHES = ("--", "-.", ":")
+SIZE = (4.8, 3.0)
+EXPLODED = 50.0
+
+
+def figures(case: Case, evidence: Evidence) -> dict[str, bytes]:
+    """The case's plot in every theme: `plot-light.svg`, `plot-dark.svg`."""
+    return {f"plot-{theme}.svg": plot(case, evidence, theme) for theme in THEMES}
+
+
+def plot(case: Case, evidence: Evidence, theme: Theme) -> bytes:
+    """The first signal of the broken variant and of every fix, over time; its final values when none changes."""
+    name, signal = next(iter(case.record.signals.items()))
+    shown = {key: v for key, v in evidence.variants.items() if v.kind != "refuted"}
+    label = f"{signal.label or name}" + (f" [{signal.unit}]" if signal.unit else "")
+    settings = {
+        "svg.hashsalt": case.slug,
+        "font.size": 9.5,
+        "axes.edgecolor": GRID[theme],
+        "axes.labelcolor": INK[theme],
+        "text.color": INK[theme],
+        "xtick.color": INK[theme],
+        "ytick.color": INK[theme],
+        "grid.color": GRID[theme],
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.axisbelow": True,
+    }
+    with mpl.rc_context(settings):
+        figure = Figure(figsize=SIZE, layout="constrained")
+        axes = figure.add_subplot()
+        if all(_constant(variant.traces[name].value) for variant in shown.values()):
+            _dots(axes, shown, name, label, theme)
+        else:
+            _lines(axes, shown, name, label, theme)
+        out = io.BytesIO()
+        figure.savefig(out, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
+    return out.getvalue()
+
+
+def _lines(axes: Axes, shown: dict[str, VariantEvidence], name: str, label: str, theme: Theme) -> None:
+    fixes = 0
+    for key, variant in shown.items():
+        trace = variant.traces[name]
+        value = [math.nan if v is None else v for v in trace.value]
+        colour, dash, title = BROKEN[theme], "-", "broken"
+        if variant.kind == "fix":
+            colour, dash, title = FIXED[theme][fixes % 3], DASHES[fixes % 3], key
+            fixes += 1
+        marker = "o" if len(value) == 1 else None
+        axes.plot(trace.time, value, color=colour, linestyle=dash, linewidth=1.8, label=title, marker=marker)
+    axes.set_xlabel("time [s]" if any(v.timestep for v in shown.values()) else "line of output")
+    axes.set_ylabel(label)
+    axes.grid(visible=True, linewidth=0.6)
+    _tame(axes, shown, name)
+    axes.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, handlelength=2.6)
+
+
+def _tame(axes: Axes, shown: dict[str, VariantEvidence], name: str) -> None:
+    """Compresses the axis when the broken run leaves the others' range by far."""
+    spread = {key: _extent(variant, name) for key, variant in shown.items()}
+    usual = max((extent for key, extent in spread.items() if key != "broken"), default=0.0)
+    if usual > 0 and spread.get("broken", 0.0) > EXPLODED * usual:
+        axes.set_yscale("symlog", linthresh=10 ** math.ceil(math.log10(usual)))
+
+
+def _dots(axes: Axes, shown: dict[str, VariantEvidence], name: str, label: str, theme: Theme) -> None:
+    finals = {key: variant.values[name]["final"] for key, variant in shown.items()}
+    unit = next(iter(shown.values())).traces[name].unit
+    for row, (key, value) in enumerate(finals.items()):
+        if value is None:
+            axes.text(0, row, "  not measured", va="center")
+            continue
+        broken = shown[key].kind == "broken"
+        colour = BROKEN[theme] if broken else FIXED[theme][(row - 1) % 3]
+        axes.plot([0, value], [row, row], color=colour, linewidth=2, linestyle="-" if broken else DASHES[(row - 1) % 3])
+        axes.plot([value], [row], color=colour, marker="X" if broken else "o", markersize=9, linestyle="")
+        axes.annotate(quantity(value, unit), (value, row), xytext=(0, 9), textcoords="offset points", ha="center")
+    axes.set_yticks(range(len(finals)), list(finals))
+    axes.set_ylim(len(finals) - 0.4, -0.7)
+    axes.axvline(0, color=INK[theme], linewidth=0.8)
+    axes.margins(x=0.15)
+    axes.set_xlabel(label)
+    axes.grid(visible=True, axis="x", linewidth=0.6)
+
+
+def _constant(values: list[float | None]) -> bool:
+    return len(set(values)) <= 1
+
+
+def _extent(variant: VariantEvidence, name: str) -> float:
+    values = [abs(v) for v in variant.traces[name].value if v is not None]
+    return float(np.max(values)) if values else 0.0

@@ -1,0 +1,154 @@
+"""Prose of a record made into Markdown: fields filled from the evidence, formulas set as MathML, HTML made inert."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterator
+
+import latex2mathml.converter
+
+from clinic.evidence import Evidence, VariantEvidence
+from clinic.problem import closest, listed
+
+FIELD = re.compile(r"\{\{(.*?)\}\}", re.DOTALL)
+CODE = re.compile(r"(^ *(?P<fence>```+|~~~+).*?^ *(?P=fence) *$|(?P<tick>`+)(?!`).+?(?<!`)(?P=tick)(?!`))", re.DOTALL | re.M)
+FORMULA = re.compile(r"\$\$(?P<block>.+?)\$\$|(?<![\\$\w])\$(?P<inline>[^\s$](?:[^$]*[^\s$\\])?)\$(?![\d$])", re.DOTALL)
+CONVERSIONS = {
+    "mm": ("m", 1e3, "mm"),
+    "cm": ("m", 1e2, "cm"),
+    "ms": ("s", 1e3, "ms"),
+    "deg": ("rad", 180 / math.pi, "°"),
+    "percent": ("", 100.0, "%"),
+}
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+class FieldError(ValueError):
+    """A template field that resolves to nothing: what was found, expected, and the repair."""
+
+    def __init__(self, found: str, expected: str, repair: str) -> None:
+        self.found, self.expected, self.repair = found, expected, repair
+        super().__init__(f"{found}; expected {expected}; {repair}")
+
+
+def markdown(text: str, evidence: Evidence) -> str:
+    """The prose with its fields filled, formulas as MathML, and no HTML of its own.
+
+    Raises:
+        FieldError: For the first field that resolves to nothing.
+    """
+    return outside_code(fill(text, evidence), lambda part: formulas(part.replace("<", "&lt;")))
+
+
+def fill(text: str, evidence: Evidence) -> str:
+    """The text with every `{{ field | filter }}` replaced.
+
+    Raises:
+        FieldError: For the first field that resolves to nothing.
+    """
+    return FIELD.sub(lambda match: resolve(match[1], evidence), text)
+
+
+def field_errors(text: str, evidence: Evidence) -> Iterator[FieldError]:
+    """Every field of the text that resolves to nothing."""
+    for match in FIELD.finditer(text):
+        try:
+            resolve(match[1], evidence)
+        except FieldError as error:
+            yield error
+
+
+def resolve(field: str, evidence: Evidence) -> str:
+    """The text for one field, such as `broken.height.final | mm`.
+
+    Raises:
+        FieldError: If it resolves to nothing.
+    """
+    name, *filters = (part.strip() for part in field.split("|"))
+    if name == "engine" and not filters:
+        return evidence.engine
+    variant_id, _, rest = name.partition(".")
+    if variant_id not in evidence.variants:
+        raise _unknown(name, variant_id, evidence.variants, "variant")
+    variant = evidence.variants[variant_id]
+    if rest == "warning" and not filters:
+        if not variant.messages:
+            raise FieldError(f"{{{{ {name} }}}}", "a variant that MuJoCo warned about", "remove the field")
+        return variant.messages[0]
+    value, unit = _value(name, rest, variant)
+    digits = 3
+    for conversion in filters:
+        if conversion.isdigit():
+            digits = int(conversion)
+        elif conversion in CONVERSIONS and CONVERSIONS[conversion][0] == unit:
+            _, factor, unit = CONVERSIONS[conversion]
+            value *= factor
+        else:
+            fitting = [key for key, (source, _, _) in CONVERSIONS.items() if source == unit]
+            raise FieldError(f"the filter {conversion} on {name} in {unit or 'no unit'}", listed(fitting), "change the filter")
+    return quantity(value, unit, digits)
+
+
+def quantity(value: float, unit: str, digits: int = 3) -> str:
+    """The number with significant digits and its unit: `49.9 mm`, `3.0 × 10⁻² m`."""
+    space = "" if unit in ("", "°") else "\u00a0"
+    return number(value, digits) + space + unit.replace(" ", "\u00a0")
+
+
+def number(value: float, digits: int = 3) -> str:
+    """The number with significant digits; whole numbers below 100,000 as they are."""
+    if value == int(value) and abs(value) < 1e5:
+        text = str(int(value))
+    elif 1e-3 <= abs(value) < 1e5:
+        places = max(0, digits - 1 - math.floor(math.log10(abs(float(f"{value:.{digits - 1}e}")))))
+        text = f"{value:.{places}f}"
+    else:
+        mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+        text = f"{mantissa}\u00a0×\u00a010{str(int(exponent)).translate(SUPERSCRIPT)}"
+    return text.replace("-", "\u2212")
+
+
+def formulas(text: str) -> str:
+    """The text with `$..$` and `$$..$$` set as MathML."""
+
+    def convert(match: re.Match[str]) -> str:
+        source = (match["block"] or match["inline"]).replace("&lt;", "<").strip()
+        display = "block" if match["block"] else "inline"
+        made = latex2mathml.converter.convert(" ".join(source.split()), display=display)
+        return f'\n\n<div class="formula">{made}</div>\n\n' if match["block"] else made
+
+    return FORMULA.sub(convert, text)
+
+
+def outside_code(text: str, change: Callable[[str], str]) -> str:
+    """The text with `change` applied to everything but code spans and fences."""
+    made, end = [], 0
+    for match in CODE.finditer(text):
+        made += [change(text[end : match.start()]), match[0]]
+        end = match.end()
+    return "".join([*made, change(text[end:])])
+
+
+def _value(name: str, rest: str, variant: VariantEvidence) -> tuple[float, str]:
+    if rest in ("timestep", "duration") and variant.timestep is not None and variant.steps is not None:
+        return (variant.timestep if rest == "timestep" else variant.timestep * variant.steps), "s"
+    signal, _, which = rest.partition(".")
+    if signal not in variant.values:
+        raise _unknown(name, signal, [*variant.values, "timestep", "duration", "warning"], "signal")
+    if which not in variant.values[signal]:
+        raise _unknown(name, which, variant.values[signal], "take")
+    value = variant.values[signal][which]
+    if value is None:
+        raise FieldError(f"{{{{ {name} }}}}", "a number that the run measured", "take another number of the signal")
+    return value, "s" if which == "onset" else variant.traces[signal].unit
+
+
+def _unknown(name: str, word: str, known: object, kind: str) -> FieldError:
+    options = list(known)  # type: ignore[call-overload]
+    guess = closest(word, options)
+    return FieldError(
+        f"{{{{ {name} }}}}: {word or 'nothing'} is no {kind}",
+        f"a {kind}: {listed(options, 20)}",
+        f"write {guess}" if guess else "correct the field",
+    )

@@ -1,0 +1,82 @@
+"""The whole site's generated pages, as {path: bytes}: what every adapter writes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import mujoco
+
+from clinic.cache import Cache, Files
+from clinic.case import RECORD, Case, load_cases
+from clinic.exhibit import all_exhibits, evidence_of
+from clinic.fences import run_fences
+from clinic.laws import verdicts
+from clinic.pages import card, case_page, home_page
+from clinic.problem import CaseError, Problem
+
+PAGE = "cases/{slug}/index.md"
+BROWSER_PARTS = {"javascripts/iframe-worker.js": "node_modules/iframe-worker/shim/index.js"}
+
+
+def project_root() -> Path:
+    """The folder that holds `cases/`: the working directory or the nearest one above it.
+
+    Raises:
+        FileNotFoundError: If there is none.
+    """
+    here = Path.cwd()
+    for folder in (here, *here.parents):
+        if (folder / "cases").is_dir() and (folder / "pyproject.toml").is_file():
+            return folder
+    raise FileNotFoundError(f"no folder with cases/ and pyproject.toml at or above {here}")
+
+
+def build(root: Path, cache: Cache | None = None) -> Files:
+    """Every generated file of the site, by its path below the documentation folder.
+
+    Raises:
+        CaseError: With all problems of all cases, and every claim that the runs do not bear out.
+    """
+    cache = cache or Cache(root / ".cache" / "clinic")
+    cases = load_cases(root / "cases")
+    exhibits = all_exhibits(cases, cache)
+    by_slug = {case.slug: case for case in cases}
+    evidence = {slug: evidence_of(files) for slug, files in exhibits.items()}
+    problems: list[Problem] = []
+    made: Files = {}
+    for case in cases:
+        problems += _unproven(case, [*verdicts(case, evidence[case.slug])])
+        try:
+            page = case_page(case, evidence[case.slug], exhibits[case.slug], by_slug)
+        except CaseError as error:
+            problems += error.problems
+            continue
+        made[PAGE.format(slug=case.slug)] = page.encode()
+        for name, content in exhibits[case.slug].items():
+            made[f"cases/{case.slug}/{name}"] = content
+        for name in (RECORD, *case.texts):
+            made[f"cases/{case.slug}/{name}"] = (root / "cases" / case.slug / name).read_bytes()
+    if problems:
+        raise CaseError(problems)
+    cards = [card(case, evidence[case.slug], exhibits[case.slug]) for case in cases]
+    made["index.md"] = home_page(cards, mujoco.__version__).encode()
+    triage = (root / "docs" / "triage.md").read_text(encoding="utf-8")
+    made["triage.md"] = run_fences("docs/triage.md", triage, by_slug, cache).encode()
+    for path, source in BROWSER_PARTS.items():
+        if (root / source).is_file():
+            made[path] = (root / source).read_bytes()
+    return made
+
+
+def navigation(root: Path) -> list[dict[str, object]]:
+    """The site's navigation as MkDocs takes it: the cases by number, then the pages written by hand."""
+    cases = load_cases(root / "cases")
+    pages = [{f"{case.record.number}. {case.record.title}": PAGE.format(slug=case.slug)} for case in cases]
+    return [{"Home": "index.md"}, {"Triage": "triage.md"}, {"Cases": pages}]
+
+
+def _unproven(case: Case, complaints: list[str]) -> list[Problem]:
+    return [
+        case.problem(("checks",), complaint.split(";")[0], "what the record claims", complaint.split("; ", 1)[-1])
+        for complaint in complaints
+    ]

@@ -15,45 +15,21 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-from pydantic import BaseModel, ValidationError
-from pydantic_core import ErrorDetails
+from pydantic import ValidationError
 
-from clinic import record as schema
+from clinic.explain import field_problems
 from clinic.expression import ExpressionError, names, parse
 from clinic.problem import CaseError, Problem, closest, listed
 from clinic.record import Check, ExpressionSignal, PathSignal, Record, StartsSignal
 from clinic.signals import WARNINGS
-from clinic.yamlmap import Lines, Where, YamlProblem, read_yaml
+from clinic.yamlmap import Lines, Where, YamlError, dotted, read_yaml
 
 RECORD = "case.yaml"
 SLUG = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
-SIGNALS: dict[str, type[BaseModel]] = {
-    "path": schema.PathSignal,
-    "expr": schema.ExpressionSignal,
-    "fraction_of_starts": schema.StartsSignal,
-    "image_row": schema.RowSignal,
-}
-MODELS: dict[str | int, type[BaseModel]] = {
-    "run": schema.RunSpec,
-    "checks": schema.Checks,
-    "broken": schema.Check,
-    "fixed": schema.Check,
-    "holds": schema.Check,
-    "fixes": schema.Fix,
-    "refuted": schema.Refuted,
-    "edits": schema.Edit,
-    "picture": schema.Picture,
-}
-PATTERNS = {
-    "^[a-z][a-z0-9]*(?:-[a-z0-9]+)*$": "lower-case words joined by hyphens",
-    "^[a-z][a-z0-9_]*$": "a lower-case word; underscores allowed",
-    "^[A-Za-z0-9_-]+\\.[a-z]+$": "a plain file name with an ending",
-}
 
 
 @dataclass(frozen=True)
@@ -87,14 +63,6 @@ class Case:
         return Problem(self.file, self.lines.at(where), dotted(where), found, expected, repair)
 
 
-def dotted(where: Where) -> str:
-    """`("fixes", 0, "id")` as `fixes[0].id`."""
-    text = ""
-    for part in where:
-        text += f"[{part}]" if isinstance(part, int) else f".{part}" if text else part
-    return text
-
-
 def load_case(folder: Path) -> Case:
     """Reads and validates one case.
 
@@ -106,15 +74,13 @@ def load_case(folder: Path) -> Case:
         raise CaseError(problems)
     try:
         data, lines = read_yaml((folder / RECORD).read_text(encoding="utf-8"))
-    except YamlProblem as error:
+    except YamlError as error:
         raise CaseError([Problem(file, error.line, "", error.found, error.expected, error.repair)]) from None
     try:
         record = Record.model_validate_json(json.dumps(data, default=str))
     except ValidationError as error:
-        raise CaseError(_field_problems(file, lines, error.errors(), data)) from None
-    texts = {
-        path.name: path.read_text(encoding="utf-8") for path in sorted(folder.iterdir()) if path.name != RECORD
-    }
+        raise CaseError(field_problems(file, lines, error.errors(), data)) from None
+    texts = {path.name: path.read_text(encoding="utf-8") for path in sorted(folder.iterdir()) if path.name != RECORD}
     case = Case(slug, record, texts, lines)
     if problems := [*_file_problems(case), *_reference_problems(case)]:
         raise CaseError(problems)
@@ -132,7 +98,9 @@ def load_cases(root: Path) -> list[Case]:
     for path in sorted(root.iterdir()):
         if not path.is_dir():
             problems.append(
-                Problem(f"cases/{path.name}", 1, "", "a file", "only folders, one a case", "move it into a case's folder")
+                Problem(
+                    f"cases/{path.name}", 1, "", "a file", "only folders, one a case", "move it into a case's folder"
+                )
             )
             continue
         try:
@@ -152,11 +120,15 @@ def _folder_problems(folder: Path) -> Iterator[Problem]:
             place, 1, "", f"a folder named {folder.name}", "lower-case words joined by hyphens", "rename the folder"
         )
     if not (folder / RECORD).is_file():
-        yield Problem(place, 1, "", f"no {RECORD}", f"a {RECORD} in every folder of cases/", "add it, or remove the folder")
+        yield Problem(
+            place, 1, "", f"no {RECORD}", f"a {RECORD} in every folder of cases/", "add it, or remove the folder"
+        )
     for path in sorted(folder.iterdir()):
         if path.is_symlink() or not path.is_file():
             kind = "a symbolic link" if path.is_symlink() else "a folder"
-            yield Problem(f"{place}/{path.name}", 1, "", kind, "plain files", "put the file itself into the case's folder")
+            yield Problem(
+                f"{place}/{path.name}", 1, "", kind, "plain files", "put the file itself into the case's folder"
+            )
             continue
         try:
             path.read_text(encoding="utf-8")
@@ -166,75 +138,9 @@ def _folder_problems(folder: Path) -> Iterator[Problem]:
             )
 
 
-def _field_problems(file: str, lines: Lines, errors: Sequence[ErrorDetails], data: Any) -> Iterator[Problem]:
-    seen: set[Where] = set()
-    for error in errors:
-        where, tag = _where(error["loc"], data)
-        if error["type"] == "missing":
-            where = (*where, error["loc"][-1])
-        if where in seen:
-            continue
-        seen.add(where)
-        found, expected, repair = _explained(error, where, tag)
-        yield Problem(file, lines.at(where), dotted(where), found, expected, repair)
-
-
-def _where(loc: Where, data: Any) -> tuple[Where, str]:
-    """The part of pydantic's location that stands in the file, and the last part that does not."""
-    where: Where = ()
-    tag = ""
-    for part in loc:
-        if (isinstance(data, dict) and part in data) or (isinstance(data, list) and isinstance(part, int)):
-            data, where = data[part], (*where, part)  # type: ignore[index]
-        else:
-            tag = str(part)
-    return where, tag
-
-
-def _explained(error: ErrorDetails, where: Where, tag: str) -> tuple[str, str, str]:
-    message = str(error.get("ctx", {}).get("error", error["msg"]))
-    match error["type"]:
-        case "value_error" if message.count("||") == 2:
-            found, expected, repair = message.split("||")
-            return found, expected, repair
-        case "extra_forbidden":
-            known = list(_model_at(where[:-1], tag).model_fields)
-            guess = closest(str(where[-1]), known)
-            repair = f"write `{guess}`" if guess else "remove the key"
-            return f"the unknown key `{where[-1]}`", f"one of {listed(known, 30)}", repair
-        case "missing":
-            return "nothing", f"the field `{where[-1]}`", f"add `{where[-1]}:`"
-        case "union_tag_not_found" | "union_tag_invalid":
-            return (
-                _shown(error["input"]),
-                "one of `path`, `expr`, `measure: fraction_of_starts`, `measure: image_row`",
-                "say where the number comes from",
-            )
-        case "string_pattern_mismatch":
-            return _shown(error["input"]), PATTERNS[error["ctx"]["pattern"]], "rename it"
-    if where[:2] == ("run", "ctrl"):
-        message = "a number, or a list of [time, value] pairs"
-    return _shown(error["input"]), message[0].lower() + message[1:], "correct the value"
-
-
-def _model_at(where: Where, tag: str) -> type[BaseModel]:
-    """The class of the mapping at `where`."""
-    if len(where) == 2 and where[0] == "signals":
-        return SIGNALS[tag]
-    for part in reversed(where):
-        if part in MODELS:
-            return MODELS[part]
-    return Record
-
-
-def _shown(value: Any) -> str:
-    text = json.dumps(value, default=str, ensure_ascii=False)
-    return text if len(text) <= 60 else text[:57] + "..."
-
-
 def _file_problems(case: Case) -> Iterator[Problem]:
     record = case.record
-    named = {record.source: ("model" if record.model else "script",)}
+    named: dict[str, Where] = {record.source: ("model" if record.model else "script",)}
     named |= {name: ("files", index) for index, name in enumerate(record.files)}
     for name, where in named.items():
         if name not in case.texts:
@@ -294,7 +200,11 @@ def checks_of(record: Record) -> Iterator[tuple[Where, Check]]:
 def _unknown(word: str, known: Iterable[str], kind: str) -> tuple[str, str, str]:
     known = list(known)
     guess = closest(word, known)
-    return f"{word}, which is no {kind}", f"a {kind}: {listed(known, 30)}", f"write {guess}" if guess else "correct the name"
+    return (
+        f"{word}, which is no {kind}",
+        f"a {kind}: {listed(known, 30)}",
+        f"write {guess}" if guess else "correct the name",
+    )
 
 
 def _relation_problems(cases: list[Case], slugs: set[str]) -> Iterator[Problem]:

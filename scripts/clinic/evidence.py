@@ -15,8 +15,10 @@ from clinic.examine import examine
 from clinic.measure import measure_model, measure_output
 from clinic.problem import CaseError, Problem
 from clinic.record import Check
+from clinic.robust import Robustness
 from clinic.script import ScriptError, run_python
 from clinic.simulate import compile_model
+from clinic.sweep import SweepEvidence
 from clinic.variant import Variant, remedies, variants
 from clinic.yamlmap import Where
 
@@ -24,6 +26,8 @@ MAX_SAMPLES = 400
 
 
 class Plain(BaseModel):
+    """Frozen data without unknown fields."""
+
     model_config = ConfigDict(frozen=True, extra="forbid")
 
 
@@ -85,6 +89,8 @@ class Evidence(Plain):
         case: The case's slug.
         engine: The version of MuJoCo that ran.
         snippet: What the diagnosis snippet printed; None without a snippet.
+        sweep: The points of every sweep and how its predictions fared.
+        robustness: How firmly each variant's verdict stands; empty for a code case.
     """
 
     case: str
@@ -92,6 +98,8 @@ class Evidence(Plain):
     engine: str
     snippet: str | None
     variants: dict[str, VariantEvidence]
+    sweep: dict[str, SweepEvidence] = {}
+    robustness: dict[str, Robustness] = {}
 
 
 def collect(case: Case) -> Evidence:
@@ -138,7 +146,7 @@ def observe(case: Case, variant: Variant) -> VariantEvidence:
     record = case.record
     details: dict[str, Any]
     if record.run is not None:
-        run, traces = measure_model(case, compile_model(variant.text), record.run)
+        run, traces = measure_model(record, compile_model(variant.text), record.run)
         details = {
             "timestep": run.timestep,
             "steps": run.steps,
@@ -185,7 +193,9 @@ def _script_problem(case: Case, variant: Variant, error: ScriptError) -> Problem
     places = {remedy.id: where for where, _, remedy in remedies(case)}
     where: Where = (*places[variant.id], "edits") if variant.id in places else ("script",)
     after = " after these edits" if variant.id in places else ""
-    return case.problem(where, f"{case.record.source}{after}: {error.found}", "a script that ends by itself", error.repair)
+    return case.problem(
+        where, f"{case.record.source}{after}: {error.found}", "a script that ends by itself", error.repair
+    )
 
 
 def _result(verdict: Verdict) -> CheckResult:

@@ -61,8 +61,7 @@ def _variant_problems(case: Case, variant: Variant, place: Where) -> Iterator[Pr
         return
     try:
         data = start(model, record.run)
-        step_count(model, record.run)
-        controls(model, record.run)
+        controls(model, record.run, step_count(model, record.run))
     except RunError as error:
         yield case.problem(("run", *error.where), error.found, error.expected, error.repair)
         data = mujoco.MjData(model)

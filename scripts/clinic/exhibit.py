@@ -1,61 +1,165 @@
-"""Exhibits: everything a case's page shows that had to be run or drawn, as files; made once and cached."""
+"""Exhibits: everything a case's page shows that had to be run or drawn, as files.
+
+The work is cut into tasks. A task's result is kept under a key made of all it depends on, so that a change of prose
+runs nothing and a change of one case runs that case's tasks alone. Tasks that are not kept run in parallel.
+"""
 
 from __future__ import annotations
 
-import io
+import logging
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import partial
 
 import joblib
 import mujoco
-from PIL import Image as Pictures
+from pydantic import TypeAdapter
 
 from clinic.cache import Cache, Files, key_of
 from clinic.case import Case
 from clinic.evidence import Evidence, collect
+from clinic.film import film, webp
 from clinic.plots import figures
-from clinic.problem import CaseError
+from clinic.problem import CaseError, Problem
 from clinic.render import Image, RenderError, image
+from clinic.robust import Robustness, robustness
 from clinic.simulate import compile_model, state_at
+from clinic.sweep import Point, grid, measure_points, summarise
 from clinic.variant import Variant, variants
 
-PROSE = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "tags", "phrases", "see"}
+PROSE = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "tags", "phrases", "see", "no_sweep"}
+SLICE = 60
+EVIDENCE = "evidence.json"
+POINTS = TypeAdapter(list[Point])
+ROBUST = TypeAdapter(dict[str, Robustness])
+log = logging.getLogger("mkdocs.clinic")
+
+
+@dataclass(frozen=True)
+class Task:
+    """Work for one case: `make` gives files, kept under `key`."""
+
+    slug: str
+    key: str
+    make: Callable[[], Files]
+
+
+def all_exhibits(cases: Iterable[Case], cache: Cache) -> dict[str, Files]:
+    """The exhibits of every case, by slug.
+
+    Raises:
+        CaseError: With the problems of all cases that cannot be run.
+    """
+    cases = list(cases)
+    first = run_tasks([evidence_task(case) for case in cases], cache)
+    rest = run_tasks([task for case in cases for task in measuring_tasks(case)], cache)
+    whole = {case.slug: assembled(case, first[case.slug], rest.get(case.slug, {})) for case in cases}
+    drawn = run_tasks([figure_task(case, whole[case.slug]) for case in cases], cache)
+    return {
+        slug: {
+            EVIDENCE: (evidence.model_dump_json() + "\n").encode(),
+            **drawn[slug],
+            **{name: content for name, content in rest.get(slug, {}).items() if not name.endswith(".json")},
+        }
+        for slug, evidence in whole.items()
+    }
 
 
 def exhibits(case: Case, cache: Cache) -> Files:
-    """The case's evidence.json, plots and pictures.
+    """The exhibits of one case.
 
     Raises:
         CaseError: If the case cannot be run.
     """
-    experiment = case.record.model_dump(mode="json", exclude=PROSE)
-    key = key_of(case.slug, case.record.number, experiment, case.texts)
-    return cache.remember(key, lambda: make(case))
+    return all_exhibits([case], cache)[case.slug]
 
 
-def make(case: Case) -> Files:
-    """Runs and draws everything anew."""
-    evidence = collect(case)
-    return {
-        "evidence.json": (evidence.model_dump_json(exclude_none=False) + "\n").encode(),
-        **figures(case, evidence),
-        **pictures(case),
-    }
+def evidence_of(files: Files) -> Evidence:
+    """The evidence among a case's exhibits."""
+    return Evidence.model_validate_json(files[EVIDENCE])
+
+
+def evidence_task(case: Case) -> Task:
+    """Runs every variant and the snippet."""
+    return _task(case, "evidence", partial(_collect, case))
+
+
+def measuring_tasks(case: Case) -> Iterator[Task]:
+    """The sweeps in slices, the robustness, the film and the pictures."""
+    for name, sweep in case.record.sweep.items():
+        points = grid(sweep)
+        for k in range(0, len(points), SLICE):
+            yield _task(case, f"sweep {name} {k}", partial(_slice, case, name, k))
+    if case.record.run is not None:
+        yield _task(case, "robustness", partial(_robustness, case))
+    if case.record.film is not None:
+        yield _task(case, "film", partial(film, case))
+    yield _task(case, "pictures", partial(pictures, case))
+
+
+def figure_task(case: Case, evidence: Evidence) -> Task:
+    """Draws the plots."""
+    return Task(
+        case.slug, key_of("figures", case.slug, evidence.model_dump(mode="json")), partial(figures, case, evidence)
+    )
+
+
+def assembled(case: Case, first: Files, rest: Files) -> Evidence:
+    """The evidence with the sweeps' and the robustness' results."""
+    sweeps = {}
+    for name, sweep in case.record.sweep.items():
+        slices = [rest[_points_file(name, k)] for k in range(0, len(grid(sweep)), SLICE)]
+        sweeps[name] = summarise(case, sweep, [point for part in slices for point in POINTS.validate_json(part)])
+    robust = ROBUST.validate_json(rest["robustness.json"]) if "robustness.json" in rest else {}
+    return evidence_of(first).model_copy(update={"sweep": sweeps, "robustness": robust})
+
+
+def run_tasks(tasks: list[Task], cache: Cache) -> dict[str, Files]:
+    """The files of all tasks, by slug; those not kept are run in parallel and kept.
+
+    Raises:
+        CaseError: With the problems of all tasks.
+    """
+    done = {task.key: files for task in tasks if (files := cache.get(task.key)) is not None}
+    missing = [task for task in tasks if task.key not in done]
+    workers = min(jobs(), len(missing))
+    results = joblib.Parallel(n_jobs=workers or 1)(joblib.delayed(_attempt)(task.make) for task in missing)
+    problems: list[Problem] = []
+    unseen: set[str] = set()
+    for task, (files, wrong, blind) in zip(missing, results, strict=True):
+        problems += wrong
+        unseen |= {blind} if blind else set()
+        done[task.key] = files
+        if not (wrong or blind):
+            cache.put(task.key, files)
+    for reason in unseen:
+        log.warning("no pictures and no films: %s", reason) if os.environ.get("CI") else log.info(
+            "no films: %s", reason
+        )
+    if problems:
+        raise CaseError(problems)
+    merged: dict[str, Files] = {}
+    for task in tasks:
+        merged.setdefault(task.slug, {}).update(done[task.key])
+    return merged
+
+
+def jobs() -> int:
+    """How many processes to run: CLINIC_JOBS, or one a processor."""
+    return int(os.environ.get("CLINIC_JOBS", joblib.cpu_count()))
 
 
 def pictures(case: Case) -> Files:
-    """The still images: `broken.webp`, and `fixed.webp` of the first fix where the model is the case's."""
-    made: Files = {}
-    try:
-        if case.record.model is None:
-            if case.record.picture.scene is not None:
-                made["broken.webp"] = webp(scene_image(case))
-        else:
-            broken, fixed, *_ = variants(case)
-            made = {"broken.webp": webp(still(case, broken)), "fixed.webp": webp(still(case, fixed))}
-    except RenderError:
-        return {}
-    return made
+    """The still images: `broken.webp`, and `fixed.webp` of the first fix where the model is the case's.
+
+    Raises:
+        RenderError: If images cannot be drawn on this machine.
+    """
+    if case.record.model is not None:
+        broken, fixed, *_ = variants(case)
+        return {"broken.webp": webp(still(case, broken)), "fixed.webp": webp(still(case, fixed))}
+    return {"broken.webp": webp(scene_image(case))} if case.record.picture.scene is not None else {}
 
 
 def still(case: Case, variant: Variant) -> Image:
@@ -78,38 +182,32 @@ def scene_image(case: Case) -> Image:
     return image(model, data, picture.camera)
 
 
-def webp(pixels: Image) -> bytes:
-    """The image, compressed."""
-    out = io.BytesIO()
-    Pictures.fromarray(pixels).save(out, format="webp", quality=85, method=6)
-    return out.getvalue()
+def _task(case: Case, name: str, make: Callable[[], Files]) -> Task:
+    experiment = case.record.model_dump(mode="json", exclude=PROSE)
+    return Task(case.slug, key_of(name, case.slug, case.record.number, experiment, case.texts), make)
 
 
-def all_exhibits(cases: Iterable[Case], cache: Cache) -> dict[str, Files]:
-    """The exhibits of every case, by slug; cases that are not cached are run in parallel processes.
-
-    Raises:
-        CaseError: With the problems of all cases that cannot be run.
-    """
-    results = joblib.Parallel(n_jobs=jobs())(joblib.delayed(_attempt)(case, cache) for case in cases)
-    problems = [problem for _, _, error in results for problem in error]
-    if problems:
-        raise CaseError(problems)
-    return {slug: files for slug, files, _ in results}
-
-
-def jobs() -> int:
-    """How many processes to run: CLINIC_JOBS, or one a processor."""
-    return int(os.environ.get("CLINIC_JOBS", joblib.cpu_count()))
-
-
-def evidence_of(files: Files) -> Evidence:
-    """The evidence among a case's exhibits."""
-    return Evidence.model_validate_json(files["evidence.json"])
-
-
-def _attempt(case: Case, cache: Cache) -> tuple[str, Files, tuple[object, ...]]:
+def _attempt(make: Callable[[], Files]) -> tuple[Files, tuple[Problem, ...], str]:
     try:
-        return case.slug, exhibits(case, cache), ()
+        return make(), (), ""
     except CaseError as error:
-        return case.slug, {}, error.problems
+        return {}, error.problems, ""
+    except RenderError as error:
+        return {}, (), str(error)
+
+
+def _collect(case: Case) -> Files:
+    return {EVIDENCE: collect(case).model_dump_json().encode()}
+
+
+def _slice(case: Case, name: str, k: int) -> Files:
+    sweep = case.record.sweep[name]
+    return {_points_file(name, k): POINTS.dump_json(measure_points(case, sweep, grid(sweep)[k : k + SLICE]))}
+
+
+def _robustness(case: Case) -> Files:
+    return {"robustness.json": ROBUST.dump_json(robustness(case))}
+
+
+def _points_file(name: str, k: int) -> str:
+    return f"sweep-{name}-{k}.json"

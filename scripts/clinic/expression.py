@@ -1,6 +1,6 @@
 """Arithmetic as data: a small language for numbers computed from other numbers.
 
-    expression := + - * / ** , unary -, parentheses, numbers, names, pi, and the functions below
+expression := + - * / ** , unary -, parentheses, numbers, names, pi, and the functions below
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from clinic import predictions
 
 Value = float | NDArray[np.float64]
 
@@ -27,6 +29,7 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "minimum": np.minimum,
     "maximum": np.maximum,
     "floor": np.floor,
+    **predictions.FUNCTIONS,
 }
 BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
@@ -65,7 +68,7 @@ def names(tree: ast.expr) -> set[str]:
 def evaluate(tree: ast.expr, values: Mapping[str, Value]) -> Value:
     """The expression's value; arrays are combined element by element."""
     match tree:
-        case ast.Constant(value=value):
+        case ast.Constant(value=int() | float() as value):
             return float(value)
         case ast.Name(id="pi"):
             return float(np.pi)

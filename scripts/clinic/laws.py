@@ -35,7 +35,7 @@ def verdicts(case: Case, evidence: Evidence) -> Iterator[str]:
                     yield f"{name}: passes every check of `broken` too; tighten one until the repair fails it"
             case "refuted":
                 if variant.well:
-                    yield f"{name}: is refuted, yet passes every check of `fixed`; move it to `fixes`, or tighten a check"
+                    yield f"{name}: refuted, yet passes every check of `fixed`; move it to `fixes` or tighten a check"
 
 
 def ablation(case: Case, evidence: Evidence) -> Iterator[str]:
@@ -83,7 +83,9 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[str]]] = {
 def complaints(case: Case, evidence: Evidence) -> list[str]:
     """What every law complains of, each as `case 7 ball-passes-through-shelf: ...`."""
     return [
-        f"case {case.record.number} {case.slug}: {complaint}" for law in LAWS.values() for complaint in law(case, evidence)
+        f"case {case.record.number} {case.slug}: {complaint}"
+        for law in LAWS.values()
+        for complaint in law(case, evidence)
     ]
 
 
@@ -92,7 +94,7 @@ def passes(case: Case, edits: tuple[Edit, ...]) -> bool:
     try:
         text = apply_edits(case.text, edits)
         if case.record.run is not None:
-            _, traces = measure_model(case, compile_model(text), case.record.run)
+            _, traces = measure_model(case.record, compile_model(text), case.record.run)
         else:
             traces = measure_output(case.record, run_python(text, case.texts, name=case.record.source))
     except (EditError, ValueError):

@@ -3,40 +3,53 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import mujoco
 import numpy as np
 
-from clinic.case import Case
 from clinic.checks import Trace, judge
 from clinic.expression import evaluate, parse
+from clinic.expression import names as names_in
 from clinic.record import ExpressionSignal, PathSignal, Record, RowSignal, RunSpec, StartsSignal
 from clinic.render import geom_row
 from clinic.script import Output
 from clinic.signals import Path, parse_path
-from clinic.simulate import Run, simulate, state_at
+from clinic.simulate import Nudge, Run, simulate, state_at
 
 
-def paths(record: Record) -> dict[str, Path]:
-    """The parsed path signals of a record, by name."""
-    return {name: parse_path(s.path) for name, s in record.signals.items() if isinstance(s, PathSignal)}
+def paths(record: Record, wanted: Collection[str] | None = None) -> dict[str, Path]:
+    """The parsed path signals of a record, by name; only those that the signals in `wanted` need, if given."""
+    needed = set(record.signals if wanted is None else wanted)
+    for name in list(needed):
+        signal = record.signals[name]
+        needed |= names_in(parse(signal.expr)) if isinstance(signal, ExpressionSignal) else set()
+    found = {name: s for name, s in record.signals.items() if name in needed and isinstance(s, PathSignal)}
+    return {name: parse_path(signal.path) for name, signal in found.items()}
 
 
-def measure_model(case: Case, model: mujoco.MjModel, spec: RunSpec) -> tuple[Run, dict[str, Trace]]:
-    """Simulates the model and gives the run with every signal of the record.
+def measure_model(
+    record: Record,
+    model: mujoco.MjModel,
+    spec: RunSpec,
+    wanted: Collection[str] | None = None,
+    nudge: Nudge | None = None,
+) -> tuple[Run, dict[str, Trace]]:
+    """Simulates the model and gives the run with every signal of the record, or with those in `wanted`.
 
     Raises:
         RunError, SignalError: If the run or a signal does not fit the model.
     """
-    run = simulate(model, spec, paths(case.record))
-    traces = with_expressions(case.record, run.traces)
-    for name, signal in case.record.signals.items():
+    run = simulate(model, spec, paths(record, wanted), nudge)
+    traces = with_expressions(record, run.traces)
+    names = [name for name in record.signals if wanted is None or name in wanted]
+    for name in names:
+        signal = record.signals[name]
         if isinstance(signal, StartsSignal):
-            traces[name] = _single(fraction_of_starts(case.record, signal, model, spec))
+            traces[name] = _single(fraction_of_starts(record, signal, model, spec))
         elif isinstance(signal, RowSignal):
             traces[name] = _single(image_row(signal, model, spec))
-    return run, {name: traces[name] for name in case.record.signals}
+    return run, {name: traces[name] for name in names}
 
 
 def measure_output(record: Record, output: Output) -> dict[str, Trace]:
@@ -47,25 +60,30 @@ def measure_output(record: Record, output: Output) -> dict[str, Trace]:
 
 
 def with_expressions(record: Record, traces: Mapping[str, Trace]) -> dict[str, Trace]:
-    """The traces and, computed from them sample by sample, the record's expression signals."""
+    """The traces and, computed from them sample by sample, every expression signal that they suffice for."""
     made = dict(traces)
+    values = {name: trace.value for name, trace in traces.items()}
     for name, signal in record.signals.items():
         if isinstance(signal, ExpressionSignal):
-            time = next(iter(traces.values())).time
-            with np.errstate(all="ignore"):
-                value = evaluate(parse(signal.expr), {key: trace.value for key, trace in traces.items()})
-            made[name] = Trace(time, np.broadcast_to(np.asarray(value, dtype=float), time.shape))
+            tree = parse(signal.expr)
+            if (read := names_in(tree)) <= traces.keys():
+                time = traces[next(iter(sorted(read)))].time
+                with np.errstate(all="ignore"):
+                    made[name] = Trace(time, np.broadcast_to(np.asarray(evaluate(tree, values), float), time.shape))
     return made
 
 
 def fraction_of_starts(record: Record, signal: StartsSignal, model: mujoco.MjModel, spec: RunSpec) -> float:
     """The share of evenly spaced start positions from which `signal.holds` holds, 0 to 1."""
-    address = model.joint(signal.joint).qposadr[0] + signal.index
     path = {signal.holds.signal: paths(record)[signal.holds.signal]}
-    offsets = np.linspace(*signal.offset, signal.count)
-    held = [
-        judge(signal.holds, simulate(model, spec, path, {address: float(offset)}).traces).holds for offset in offsets
-    ]
+
+    def held_from(offset: float) -> bool:
+        def nudge(_: mujoco.MjModel, data: mujoco.MjData) -> None:
+            data.joint(signal.joint).qpos[signal.index] += offset
+
+        return judge(signal.holds, simulate(model, spec, path, nudge).traces).holds
+
+    held = [held_from(offset) for offset in np.linspace(*signal.offset, signal.count)]
     return math.fsum(held) / signal.count
 
 

@@ -79,7 +79,9 @@ def card(case: Case, evidence: Evidence, files: Files) -> Card:
     """The case's card on the home page."""
     symptom = _first_sentence(fill(case.record.symptom, evidence))
     picture = "broken.webp" if "broken.webp" in files else "plot-light.svg"
-    return Card(case.slug, case.record.number, case.record.title, symptom, picture, f"Case {case.record.number}: {symptom}")
+    return Card(
+        case.slug, case.record.number, case.record.title, symptom, picture, f"Case {case.record.number}: {symptom}"
+    )
 
 
 def home_page(cards: Iterable[Card], engine: str) -> str:
@@ -104,7 +106,9 @@ def _table(case: Case, evidence: Evidence) -> dict[str, Any]:
     columns: dict[tuple[object, ...], dict[str, list[Check]]] = {}
     for kind in ("broken", "fixed"):
         for check in getattr(record.checks, kind):
-            columns.setdefault((check.signal, check.take, check.window), {"broken": [], "fixed": []})[kind].append(check)
+            columns.setdefault((check.signal, check.take, check.window), {"broken": [], "fixed": []})[kind].append(
+                check
+            )
     heads = [_head(record.signals[str(signal)], str(signal), str(take), window) for signal, take, window in columns]
 
     def meaning(kind: str) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import math
-from typing import Literal
+from typing import Any, Literal
 
 import matplotlib as mpl
 import numpy as np
@@ -36,7 +36,7 @@ def plot(case: Case, evidence: Evidence, theme: Theme) -> bytes:
     name, signal = next(iter(case.record.signals.items()))
     shown = {key: v for key, v in evidence.variants.items() if v.kind != "refuted"}
     label = f"{signal.label or name}" + (f" [{signal.unit}]" if signal.unit else "")
-    settings = {
+    settings: dict[Any, Any] = {
         "svg.hashsalt": case.slug,
         "font.size": 9.5,
         "axes.edgecolor": GRID[theme],

@@ -12,7 +12,9 @@ from clinic.evidence import Evidence, VariantEvidence
 from clinic.problem import closest, listed
 
 FIELD = re.compile(r"\{\{(.*?)\}\}", re.DOTALL)
-CODE = re.compile(r"(^ *(?P<fence>```+|~~~+).*?^ *(?P=fence) *$|(?P<tick>`+)(?!`).+?(?<!`)(?P=tick)(?!`))", re.DOTALL | re.M)
+CODE = re.compile(
+    r"(^ *(?P<fence>```+|~~~+).*?^ *(?P=fence) *$|(?P<tick>`+)(?!`).+?(?<!`)(?P=tick)(?!`))", re.DOTALL | re.M
+)
 FORMULA = re.compile(r"\$\$(?P<block>.+?)\$\$|(?<![\\$\w])\$(?P<inline>[^\s$](?:[^$]*[^\s$\\])?)\$(?![\d$])", re.DOTALL)
 CONVERSIONS = {
     "mm": ("m", 1e3, "mm"),
@@ -86,7 +88,9 @@ def resolve(field: str, evidence: Evidence) -> str:
             value *= factor
         else:
             fitting = [key for key, (source, _, _) in CONVERSIONS.items() if source == unit]
-            raise FieldError(f"the filter {conversion} on {name} in {unit or 'no unit'}", listed(fitting), "change the filter")
+            raise FieldError(
+                f"the filter {conversion} on {name} in {unit or 'no unit'}", listed(fitting), "change the filter"
+            )
     return quantity(value, unit, digits)
 
 

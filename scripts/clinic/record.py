@@ -36,8 +36,8 @@ class Edit(Strict):
         return self
 
 
-class Check(Strict):
-    """One number taken from a signal, compared with a bound."""
+class Taken(Strict):
+    """One number taken from a signal."""
 
     signal: Name = Field(description="The name of a signal of this record.")
     take: Take = Field(
@@ -46,6 +46,11 @@ class Check(Strict):
         "`span` (max - min), or its `onset`: the time in s at which it first differs from zero.",
     )
     window: Interval | None = Field(default=None, description="Only samples with t0 <= time <= t1, in s.")
+
+
+class Check(Taken):
+    """One number taken from a signal, compared with a bound."""
+
     above: float | None = Field(default=None, description="Holds when the number is greater.")
     below: float | None = Field(default=None, description="Holds when the number is smaller.")
     between: Interval | None = Field(default=None, description="Holds when low <= number <= high.")
@@ -145,6 +150,22 @@ class Picture(Strict):
     scene: FileName | None = Field(default=None, description="Code cases: the scene to render, from its keyframe 0.")
 
 
+Overlay = Literal[
+    "contact_points", "contact_forces", "joint_axes", "body_frames", "actuators", "transparent", "cameras"
+]
+
+
+class Film(Strict):
+    """The film of the broken model beside the first fix: same camera, same clock."""
+
+    camera: str | None = Field(default=None, description="The camera to film from; the picture's when absent.")
+    duration: float | None = Field(default=None, gt=0, description="Simulated time filmed, in s; the run's by default.")
+    speed: float = Field(
+        default=1.0, gt=0, le=10, description="Simulated seconds a second of film; below 1 is slow motion."
+    )
+    overlays: list[Overlay] = Field(default=[], description="What MuJoCo draws over the scene to show the cause.")
+
+
 class Checks(Strict):
     """What `it is broken` and `it is well` mean, measured."""
 
@@ -174,6 +195,77 @@ class Refuted(Remedy):
     why: Text = Field(description="Why it does not work, for the page; may hold measured numbers.")
 
 
+class Parameter(Strict):
+    """A number of the model that a sweep varies."""
+
+    name: Name = Field(description="How predictions call it.")
+    find: Text = Field(description="The text to replace, once in the base variant's text.")
+    replace: Text = Field(description="What to write in its place; `{}` stands for the number.")
+    values: list[float] = Field(default=[], description="The numbers, increasing; or give start, stop and count.")
+    start: float | None = Field(default=None, description="The first number.")
+    stop: float | None = Field(default=None, description="The last number.")
+    count: int | None = Field(default=None, ge=2, le=1000, description="How many numbers.")
+    scale: Literal["linear", "log"] = Field(default="linear", description="How they are spaced and drawn.")
+    unit: str = Field(default="", description="Unit as it is printed.")
+    label: str = Field(default="", description="What the axis calls it; the name when absent.")
+    marks: dict[Identifier, float] = Field(
+        default={}, description="Where a variant stands, if its text does not show it in the form of `replace`."
+    )
+
+    @model_validator(mode="after")
+    def _numbers(self) -> Parameter:
+        spaced = [value is not None for value in (self.start, self.stop, self.count)]
+        if bool(self.values) == all(spaced) or any(spaced) != all(spaced):
+            raise ValueError("no numbers, or two kinds||`values`, or all of start, stop, count||keep one of the two")
+        if self.replace.count("{}") != 1:
+            raise ValueError(f"{self.replace}||`{{}}` once, where the number goes||write `{{}}` for the number")
+        return self
+
+
+class Prediction(Strict):
+    """A closed form for the outcome of a sweep."""
+
+    label: Text = Field(description="What the legend calls it.")
+    expr: Text = Field(
+        description="Arithmetic over the parameters, the signals (their final values) and the named model numbers. "
+        "For a sweep with `holds`: the value of the first parameter at which the outcome changes."
+    )
+    within: float = Field(
+        gt=0,
+        description="The agreement to reach: the largest error allowed; with `holds`, points nearer to the line than "
+        "this share of it are not judged, and all others must agree.",
+    )
+    relative: bool = Field(default=True, description="Whether errors are a share of the prediction.")
+    over: Interval | None = Field(default=None, description="Judge only where the first parameter is in this range.")
+
+
+class Rival(Prediction):
+    """A popular explanation, drawn as the wrong one: somewhere it must miss by more than `within`."""
+
+    id: Identifier = Field(description="Names it in prose: `{{ sweep.ID.RIVAL.wrong }}`.")
+
+
+class Sweep(Strict):
+    """The cause as a law: parameters varied, an outcome measured, a prediction drawn over it."""
+
+    title: Text = Field(description="What is varied and what is seen.")
+    text: Text = Field(description="Prose under Cause; may hold `{{ sweep.ID.points }}`, `.worst`, `.agreed`, ...")
+    base: Identifier = Field(default="broken", description="The variant whose text is varied.")
+    vary: list[Parameter] = Field(min_length=1, max_length=2, description="One or two parameters.")
+    duration: float | None = Field(default=None, gt=0, le=60, description="In s, in place of the run's.")
+    outcome: Taken = Field(description="The number measured at every point.")
+    holds: dict[str, float] | None = Field(
+        default=None, description="Makes the outcome a yes or no: whether the number is `above` or `below` this."
+    )
+    yes: str = Field(default="", description="What a yes means, for the legend.")
+    no: str = Field(default="", description="What a no means.")
+    side: Literal["below", "above"] = Field(
+        default="below", description="With `holds`: on which side of the predicted line the answer is yes."
+    )
+    prediction: Prediction = Field(description="The closed form that a law holds to its word.")
+    rivals: list[Rival] = Field(default=[], description="Closed forms that are popular and wrong.")
+
+
 class Record(Strict):
     """One broken simulation: what is seen, what is wrong, what repairs it, and the proof."""
 
@@ -201,6 +293,9 @@ class Record(Strict):
     )
     fixes: list[Fix] = Field(min_length=1, description="At least one repair; the first is the one plotted.")
     refuted: list[Refuted] = Field(default=[], description="Remedies people try that do not work.")
+    sweep: dict[Identifier, Sweep] = Field(default={}, description="Sweeps by name.")
+    no_sweep: str | None = Field(default=None, description="Why no sweep would tell anything; without one, required.")
+    film: Film | None = Field(default=None, description="Required for a model.")
     picture: Picture = Field(description="The still image on the page and on the home page's card.")
 
     @model_validator(mode="after")
@@ -209,7 +304,9 @@ class Record(Strict):
             found = "both model and script" if self.model else "neither model nor script"
             raise ValueError(f"{found}||exactly one of `model`, `script`||name the file that holds the bug")
         if (self.model is None) != (self.run is None):
-            found, repair = ("model without run", "add `run: {duration: 1}`") if self.model else ("script with run", "remove `run`")
+            found, repair = (
+                ("model without run", "add `run: {duration: 1}`") if self.model else ("script with run", "remove `run`")
+            )
             raise ValueError(f"{found}||`run` beside `model`, and only there||{repair}")
         return self
 

@@ -43,6 +43,10 @@ def _chapter(title: str, model: type[BaseModel]) -> Iterator[str]:
 
 
 def _type(annotation: object) -> str:
-    text = getattr(annotation, "__name__", "") if isinstance(annotation, type) and not hasattr(annotation, "__args__") else ""
+    text = (
+        getattr(annotation, "__name__", "")
+        if isinstance(annotation, type) and not hasattr(annotation, "__args__")
+        else ""
+    )
     text = text or re.sub(r"Annotated\[(\w+), .*?\]\)?", r"\1", str(annotation))
     return text.replace("|", "or")

@@ -6,14 +6,12 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-os.environ.setdefault("MUJOCO_GL", "egl")
-
-import mujoco  # noqa: E402  (MUJOCO_GL is read at import)
-
 WIDTH, HEIGHT = 480, 360
+SHADOW_SIZE = 1024
 Image = NDArray[np.uint8]
 
 
@@ -30,10 +28,11 @@ def renderer(model: mujoco.MjModel, width: int = WIDTH, height: int = HEIGHT) ->
     """
     model.vis.global_.offwidth = max(model.vis.global_.offwidth, width)
     model.vis.global_.offheight = max(model.vis.global_.offheight, height)
+    model.vis.quality.shadowsize = min(model.vis.quality.shadowsize, SHADOW_SIZE)
     try:
         made = mujoco.Renderer(model, height, width)
     except (ImportError, AttributeError, RuntimeError, mujoco.FatalError) as error:
-        raise RenderError(f"OpenGL by {os.environ['MUJOCO_GL']} is not available: {error}") from None
+        raise RenderError(f"OpenGL by {os.environ.get('MUJOCO_GL', 'the default')} is not available: {error}") from None
     try:
         yield made
     finally:
@@ -44,7 +43,8 @@ def image(model: mujoco.MjModel, data: mujoco.MjData, camera: str) -> Image:
     """The camera's colour image, shape (HEIGHT, WIDTH, 3)."""
     with renderer(model) as draw:
         draw.update_scene(data, camera)
-        return draw.render().copy()
+        pixels: Image = draw.render().copy()
+    return pixels
 
 
 def geom_row(model: mujoco.MjModel, data: mujoco.MjData, camera: str, geom: str) -> float:

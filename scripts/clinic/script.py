@@ -16,7 +16,9 @@ import numpy as np
 from clinic.checks import Trace
 
 TIME_LIMIT = 20.0
-PRINTED = re.compile(r"^\s*(?P<name>[a-z][a-z0-9 _,()-]*?)\s*=\s*(?P<value>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\b")
+PRINTED = re.compile(
+    r"^\s*(?P<name>[a-z][a-z0-9 _,()-]*?)\s*=\s*(?P<value>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\b"
+)
 
 
 class ScriptError(ValueError):
@@ -61,6 +63,7 @@ def run_python(code: str, files: Mapping[str, str], time_limit: float = TIME_LIM
         try:
             done = subprocess.run(
                 [sys.executable, name],
+                check=False,
                 cwd=folder,
                 env=environment,
                 stdin=subprocess.DEVNULL,

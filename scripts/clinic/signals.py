@@ -7,6 +7,7 @@ A path is one of
     sensor(force)[0]            short for sensor(force).data[0]
     model.joint(elbow).range[1] the same of `MjModel`
     qpos[0], ncon, energy[1]    a field of `MjData`; model.opt.timestep, model.nq: of `MjModel`
+    efc_R[0], efc_KBIP[0][2]    of the active constraints; not a number while there are fewer
     warning(BADQACC)            how often MuJoCo raised the warning (mind that a reset clears it)
     contact(*).friction[0]      the largest over all contacts; not a number while there is none
     contact(pad, cube).dist     the same over the contacts between two geoms
@@ -20,7 +21,7 @@ An index defaults to 0. Several indices are allowed on a field with as many dime
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -83,7 +84,9 @@ def parse_path(text: str) -> Path:
     kind, name, field = match["kind"] or "", match["name"] or "", match["field"] or ""
     if kind and kind not in kinds:
         guess = closest(kind, kinds)
-        raise SignalError(f"{kind}(...)", f"one of {listed(kinds, 20)}", f"write {guess}({name})" if guess else "correct it")
+        raise SignalError(
+            f"{kind}(...)", f"one of {listed(kinds, 20)}", f"write {guess}({name})" if guess else "correct it"
+        )
     if kind and not name.strip():
         raise SignalError(f"{kind}()", "a name in the parentheses", "name the element")
     if kind == "sensor" and not field:
@@ -139,6 +142,8 @@ def _bind_field(path: Path, owner: Any, shown: str) -> Reader:
     for parent in parents:
         owner = _attribute(owner, parent, shown)
     value = _attribute(owner, last, shown)
+    if shown == "data" and last.startswith("efc_"):
+        return _constraint_reader(path, owner)
     if isinstance(value, np.ndarray) and value.ndim:
         where = _checked_index(path, value.shape, shown)
         return lambda: float(value[where])
@@ -147,6 +152,16 @@ def _bind_field(path: Path, owner: Any, shown: str) -> Reader:
             raise SignalError(f"an index on {shown}.{last}", "no index: it is one number", "remove the brackets")
         return lambda: float(getattr(owner, last))
     raise SignalError(f"{shown}.{path.field}", "a field that holds numbers", "name a numeric field")
+
+
+def _constraint_reader(path: Path, data: mujoco.MjData) -> Reader:
+    """Reads a field whose length follows the number of active constraints; not a number beyond it."""
+
+    def read() -> float:
+        value, where = getattr(data, path.field), path.index or (0,)
+        return float(value[where]) if where[0] < len(value) and value[where].ndim == 0 else float("nan")
+
+    return read
 
 
 def _attribute(owner: Any, name: str, shown: str) -> Any:
@@ -176,13 +191,13 @@ def _bind_warning(path: Path, data: mujoco.MjData) -> Reader:
     if path.name not in WARNINGS:
         raise SignalError(f"warning({path.name})", f"one of {listed(WARNINGS, 20)}", "correct the name")
     number = int(getattr(mujoco.mjtWarning, f"mjWARN_{path.name}"))
-    return lambda: float(data.warning[number].number)
+    return lambda: float(data.warning.number[number])
 
 
 def _bind_contact(path: Path, model: mujoco.MjModel, data: mujoco.MjData) -> Reader:
     if path.field not in CONTACT:
         raise SignalError(f"contact(...).{path.field}", f"one of {listed(CONTACT)}", "correct the field")
-    pair: frozenset[int] | None = None
+    pair: list[list[int]] | None = None
     if path.name != "*":
         known = element_names(model, "geom")
         names = [name.strip() for name in path.name.split(",")]
@@ -190,24 +205,35 @@ def _bind_contact(path: Path, model: mujoco.MjModel, data: mujoco.MjData) -> Rea
             raise SignalError(
                 f"contact({path.name})", f"`*`, or two geoms: {listed(known)}", "name the two geoms of the contact"
             )
-        pair = frozenset(model.geom(name).id for name in names)
+        ids = [int(model.geom(name).id) for name in names]
+        pair = [ids, ids[::-1]]
     sizes = {"friction": 5, "pos": 3, "frame": 9, "force": 6}
     index = path.index or (0,)
     if len(index) != 1 or not 0 <= index[0] < sizes.get(path.field, 1):
-        raise SignalError(f"contact(...).{path.field}{list(index)}", f"an index below {sizes.get(path.field, 1)}", "correct it")
+        raise SignalError(
+            f"contact(...).{path.field}{list(index)}", f"an index below {sizes.get(path.field, 1)}", "correct it"
+        )
     force = np.zeros(6)
 
+    def chosen() -> Sequence[int]:
+        if pair is None or not data.ncon:
+            return range(data.ncon)
+        return [i for i, geoms in enumerate(data.contact.geom.tolist()) if geoms in pair]
+
+    def normal_force(i: int) -> float:
+        mujoco.mj_contactForce(model, data, i, force)
+        return float(force[index[0]])
+
     def read() -> float:
-        chosen = [i for i in range(data.ncon) if pair is None or pair == frozenset(data.contact[i].geom.tolist())]
-        if path.field == "count":
-            return float(len(chosen))
-        values = []
-        for i in chosen:
-            if path.field == "force":
-                mujoco.mj_contactForce(model, data, i, force)
-                values.append(force[index[0]])
-            else:
-                values.append(np.atleast_1d(getattr(data.contact[i], path.field))[index[0]])
-        return float(max(values, default=np.nan))
+        found = chosen()
+        match path.field:
+            case "count":
+                return float(len(found))
+            case "force":
+                values = [normal_force(i) for i in found]
+            case field:
+                whole = getattr(data.contact, field) if found else np.empty(0)
+                values = [float(whole[i][index[0]] if whole.ndim > 1 else whole[i]) for i in found]
+        return max(values, default=float("nan"))
 
     return read

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import pairwise
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from clinic.checks import Trace
 from clinic.problem import closest, listed
@@ -16,7 +18,7 @@ from clinic.record import RunSpec
 from clinic.signals import Path, bind, element_names
 
 MAX_STEPS = 2_000_000
-Drive = dict[int, tuple[list[float], list[float]]]
+Nudge = Callable[[mujoco.MjModel, mujoco.MjData], None]
 _log = threading.Lock()
 
 
@@ -47,6 +49,14 @@ class Run:
     messages: tuple[str, ...]
 
 
+@dataclass(frozen=True)
+class Drive:
+    """The controls of a run: `values`, shape (steps, n), for the n actuators with ids `actuators`, shape (n,)."""
+
+    actuators: NDArray[np.int64]
+    values: NDArray[np.float64]
+
+
 def compile_model(xml: str) -> mujoco.MjModel:
     """The compiled model.
 
@@ -57,8 +67,8 @@ def compile_model(xml: str) -> mujoco.MjModel:
         return mujoco.MjModel.from_xml_string(xml)
 
 
-def start(model: mujoco.MjModel, spec: RunSpec, offsets: Mapping[int, float] | None = None) -> mujoco.MjData:
-    """The data at the run's start: keyframe, then named positions and velocities, then `offsets` by qpos address.
+def start(model: mujoco.MjModel, spec: RunSpec, nudge: Nudge | None = None) -> mujoco.MjData:
+    """The data at the run's start: keyframe, then named positions and velocities, then `nudge` applied to them.
 
     Raises:
         RunError: If the model lacks a keyframe or joint that the run names.
@@ -72,16 +82,16 @@ def start(model: mujoco.MjModel, spec: RunSpec, offsets: Mapping[int, float] | N
             _require(model, "joint", name, (field, name))
             target = getattr(data.joint(name), field)
             if len(target) != 1:
-                raise RunError((field, name), f"a joint with {len(target)} numbers", "a hinge or slide joint", "use a keyframe")
+                raise RunError(
+                    (field, name), f"a joint with {len(target)} numbers", "a hinge or slide joint", "use a keyframe"
+                )
             target[0] = value
-    for address, offset in (offsets or {}).items():
-        data.qpos[address] += offset
+    if nudge is not None:
+        nudge(model, data)
     return data
 
 
-def simulate(
-    model: mujoco.MjModel, spec: RunSpec, paths: Mapping[str, Path], offsets: Mapping[int, float] | None = None
-) -> Run:
+def simulate(model: mujoco.MjModel, spec: RunSpec, paths: Mapping[str, Path], nudge: Nudge | None = None) -> Run:
     """Steps the model for `spec.duration` and reads every path after each step.
 
     The loop is bounded by steps, never by `data.time`, which an automatic reset turns back.
@@ -91,25 +101,24 @@ def simulate(
         SignalError: If a path cannot be bound to the model.
     """
     timestep, steps = model.opt.timestep, step_count(model, spec)
-    data = start(model, spec, offsets)
+    data = start(model, spec, nudge)
     readers = {name: bind(path, model, data) for name, path in paths.items()}
-    drive = controls(model, spec)
+    drive = controls(model, spec, steps)
     counts = np.zeros(len(data.warning), dtype=int)
     values = np.empty((steps, len(readers)))
+    reading = list(readers.values())
     with captured_messages() as messages:
         for i in range(steps):
             step(model, data, drive, i)
-            values[i] = [read() for read in readers.values()]
-            for k in range(len(counts)):
-                counts[k] = max(counts[k], data.warning[k].number)
+            values[i] = [read() for read in reading]
+            if np.any(data.warning.number):
+                np.maximum(counts, data.warning.number, out=counts)
     time = np.arange(1, steps + 1) * timestep
     return Run(
         timestep=timestep,
         steps=steps,
         traces={name: Trace(time, values[:, k]) for k, name in enumerate(readers)},
-        warnings={
-            mujoco.mjtWarning(k).name.removeprefix("mjWARN_"): int(n) for k, n in enumerate(counts) if n
-        },
+        warnings={mujoco.mjtWarning(k).name.removeprefix("mjWARN_"): int(n) for k, n in enumerate(counts) if n},
         messages=tuple(dict.fromkeys(messages)),
     )
 
@@ -128,16 +137,17 @@ def captured_messages() -> Iterator[list[str]]:
 
 def step(model: mujoco.MjModel, data: mujoco.MjData, drive: Drive, i: int) -> None:
     """Makes step `i`, counted from 0, with the controls of time i * timestep."""
-    for actuator, (times, targets) in drive.items():
-        data.ctrl[actuator] = np.interp(i * model.opt.timestep, times, targets)
+    if len(drive.actuators):
+        data.ctrl[drive.actuators] = drive.values[i]
     mujoco.mj_step(model, data)
 
 
 def state_at(model: mujoco.MjModel, spec: RunSpec, time: float) -> mujoco.MjData:
     """The data after round(time / timestep) steps of the run, with everything derived from its state up to date."""
-    data, drive = start(model, spec), controls(model, spec)
+    steps = round(time / model.opt.timestep)
+    data, drive = start(model, spec), controls(model, spec, steps)
     with captured_messages():
-        for i in range(round(time / model.opt.timestep)):
+        for i in range(steps):
             step(model, data, drive, i)
         mujoco.mj_forward(model, data)
     return data
@@ -157,21 +167,25 @@ def step_count(model: mujoco.MjModel, spec: RunSpec) -> int:
     return steps
 
 
-def controls(model: mujoco.MjModel, spec: RunSpec) -> Drive:
-    """The times in s and values of every driven actuator, by its id.
+def controls(model: mujoco.MjModel, spec: RunSpec, steps: int) -> Drive:
+    """The controls of every driven actuator at the start of each step.
 
     Raises:
-        RunError: If the model lacks an actuator, or the times do not increase.
+        RunError: If the model lacks an actuator, or the times of a schedule do not increase.
     """
-    drive: Drive = {}
+    moments = np.arange(steps) * model.opt.timestep
+    actuators, columns = [], []
     for name, value in spec.ctrl.items():
         _require(model, "actuator", name, ("ctrl", name))
         points = [(0.0, value)] if isinstance(value, float | int) else value
         times = [time for time, _ in points]
-        if not points or any(later <= earlier for earlier, later in zip(times, times[1:], strict=False)):
-            raise RunError(("ctrl", name), f"times {times}", "one or more times, each after the one before", "sort them")
-        drive[model.actuator(name).id] = (times, [float(target) for _, target in points])
-    return drive
+        if not points or any(later <= earlier for earlier, later in pairwise(times)):
+            raise RunError(
+                ("ctrl", name), f"times {times}", "one or more times, each after the one before", "sort them"
+            )
+        actuators.append(model.actuator(name).id)
+        columns.append(np.interp(moments, times, [target for _, target in points]))
+    return Drive(np.array(actuators, dtype=np.int64), np.array(columns).T)
 
 
 def _require(model: mujoco.MjModel, kind: str, name: str, where: tuple[str, ...]) -> None:
@@ -184,5 +198,3 @@ def _require(model: mujoco.MjModel, kind: str, name: str, where: tuple[str, ...]
             f"a {kind}: {listed(known)}",
             f"write {guess}" if guess else "correct the name",
         )
-
-

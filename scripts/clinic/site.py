@@ -13,8 +13,10 @@ from clinic.fences import run_fences
 from clinic.laws import verdicts
 from clinic.pages import card, case_page, home_page
 from clinic.problem import CaseError, Problem
+from clinic.reference import reference
 
 PAGE = "cases/{slug}/index.md"
+REFERENCE_MARK = "Print it with `clinic reference`."
 BROWSER_PARTS = {"javascripts/iframe-worker.js": "node_modules/iframe-worker/shim/index.js"}
 
 
@@ -62,6 +64,8 @@ def build(root: Path, cache: Cache | None = None) -> Files:
     made["index.md"] = home_page(cards, mujoco.__version__).encode()
     triage = (root / "docs" / "triage.md").read_text(encoding="utf-8")
     made["triage.md"] = run_fences("docs/triage.md", triage, by_slug, cache).encode()
+    contributing = (root / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    made["contributing.md"] = contributing.replace(REFERENCE_MARK, reference()).encode()
     for path, source in BROWSER_PARTS.items():
         if (root / source).is_file():
             made[path] = (root / source).read_bytes()
@@ -72,7 +76,7 @@ def navigation(root: Path) -> list[dict[str, object]]:
     """The site's navigation as MkDocs takes it: the cases by number, then the pages written by hand."""
     cases = load_cases(root / "cases")
     pages = [{f"{case.record.number}. {case.record.title}": PAGE.format(slug=case.slug)} for case in cases]
-    return [{"Home": "index.md"}, {"Triage": "triage.md"}, {"Cases": pages}]
+    return [{"Home": "index.md"}, {"Triage": "triage.md"}, {"Cases": pages}, {"Add a case": "contributing.md"}]
 
 
 def _unproven(case: Case, complaints: list[str]) -> list[Problem]:

@@ -67,7 +67,7 @@ def variants(case: Case) -> list[Variant]:
     Raises:
         CaseError: With every edit that does not match exactly once.
     """
-    made = [Variant(BROKEN, BROKEN, "", (), case.text)]
+    made = [Variant("broken", BROKEN, "", (), case.text)]
     problems: list[Problem] = []
     for where, kind, remedy in remedies(case):
         try:
@@ -91,9 +91,7 @@ def remedies(case: Case) -> Iterator[tuple[Where, Kind, Remedy]]:
 
 def diff(before: str, after: str, name: str, context: int = 1) -> str:
     """A unified diff without the file header's dates."""
-    lines = difflib.unified_diff(
-        before.splitlines(), after.splitlines(), name, name, lineterm="", n=context
-    )
+    lines = difflib.unified_diff(before.splitlines(), after.splitlines(), name, name, lineterm="", n=context)
     return "\n".join(list(lines)[2:])
 
 

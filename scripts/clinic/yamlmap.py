@@ -10,8 +10,8 @@ import yaml
 Where = tuple[str | int, ...]
 
 
-@dataclass(frozen=True)
-class YamlProblem(Exception):
+@dataclass
+class YamlError(Exception):
     """YAML that is refused: `line` counts from 1."""
 
     line: int
@@ -33,49 +33,61 @@ class Lines:
         return self.by_path.get(where, 1)
 
 
+def dotted(where: Where) -> str:
+    """`("fixes", 0, "id")` as `fixes[0].id`."""
+    text = ""
+    for part in where:
+        text += f"[{part}]" if isinstance(part, int) else f".{part}" if text else part
+    return text
+
+
 def read_yaml(text: str) -> tuple[Any, Lines]:
     """The document's data and the line of each of its fields.
 
     Raises:
-        YamlProblem: For a syntax error, an alias, a key given twice, or a document that is no mapping.
+        YamlError: For a syntax error, an alias, a key given twice, or a document that is no mapping.
     """
     try:
         for event in yaml.parse(text, Loader=yaml.SafeLoader):
             if isinstance(event, yaml.AliasEvent):
-                raise YamlProblem(
-                    event.start_mark.line + 1, f"the alias *{event.anchor}", "no aliases", "write the value out"
+                raise YamlError(
+                    _line(event.start_mark), f"the alias *{event.anchor}", "no aliases", "write the value out"
                 )
         node = yaml.compose(text, Loader=yaml.SafeLoader)
         if not isinstance(node, yaml.MappingNode):
-            raise YamlProblem(1, "no mapping", "`field: value` lines", "start with `number:` and `title:`")
+            raise YamlError(1, "no mapping", "`field: value` lines", "start with `number:` and `title:`")
         by_path: dict[Where, int] = {}
         _walk(node, (), by_path)
         return yaml.safe_load(text), Lines(by_path)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
-        raise YamlProblem(
-            mark.line + 1 if mark else 1,
+        raise YamlError(
+            _line(mark),
             str(error.problem or error.context),
             "valid YAML",
             "quote text that holds `: `, `#`, `{` or `[`; indent by two spaces",
         ) from None
     except yaml.YAMLError as error:
-        raise YamlProblem(1, str(error).splitlines()[0], "valid YAML", "remove the characters named") from None
+        raise YamlError(1, str(error).splitlines()[0], "valid YAML", "remove the characters named") from None
     except (ValueError, TypeError, RecursionError) as error:
-        raise YamlProblem(1, str(error).splitlines()[0], "plain values", "quote text that looks like a date") from None
+        raise YamlError(1, str(error).splitlines()[0], "plain values", "quote text that looks like a date") from None
 
 
 def _walk(node: yaml.Node, where: Where, by_path: dict[Where, int]) -> None:
-    by_path.setdefault(where, node.start_mark.line + 1)
+    by_path.setdefault(where, _line(node.start_mark))
     if isinstance(node, yaml.MappingNode):
         for key, value in node.value:
             path = (*where, key.value)
             if path in by_path:
-                raise YamlProblem(
-                    key.start_mark.line + 1, f"the key {key.value} twice", "each key once", "remove or rename one"
+                raise YamlError(
+                    _line(key.start_mark), f"the key {key.value} twice", "each key once", "remove or rename one"
                 )
-            by_path[path] = key.start_mark.line + 1
+            by_path[path] = _line(key.start_mark)
             _walk(value, path, by_path)
     elif isinstance(node, yaml.SequenceNode):
         for index, value in enumerate(node.value):
             _walk(value, (*where, index), by_path)
+
+
+def _line(mark: Any) -> int:
+    return mark.line + 1 if mark else 1

@@ -1,0 +1,110 @@
+"""What pydantic finds wrong with a record, in the author's words and with the file's lines."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from pydantic import BaseModel
+from pydantic_core import ErrorDetails
+
+from clinic import record as schema
+from clinic.problem import Problem, closest, listed
+from clinic.yamlmap import Lines, Where, dotted
+
+SIGNALS: dict[str, type[BaseModel]] = {
+    "path": schema.PathSignal,
+    "expr": schema.ExpressionSignal,
+    "fraction_of_starts": schema.StartsSignal,
+    "image_row": schema.RowSignal,
+}
+MODELS: dict[str | int, type[BaseModel]] = {
+    "run": schema.RunSpec,
+    "checks": schema.Checks,
+    "broken": schema.Check,
+    "fixed": schema.Check,
+    "holds": schema.Check,
+    "fixes": schema.Fix,
+    "refuted": schema.Refuted,
+    "edits": schema.Edit,
+    "picture": schema.Picture,
+    "vary": schema.Parameter,
+    "outcome": schema.Taken,
+    "prediction": schema.Prediction,
+    "rivals": schema.Rival,
+    "sweep": schema.Sweep,
+    "film": schema.Film,
+}
+PATTERNS = {
+    "^[a-z][a-z0-9]*(?:-[a-z0-9]+)*$": "lower-case words joined by hyphens",
+    "^[a-z][a-z0-9_]*$": "a lower-case word; underscores allowed",
+    "^[A-Za-z0-9_-]+\\.[a-z]+$": "a plain file name with an ending",
+}
+
+
+def field_problems(file: str, lines: Lines, errors: Sequence[ErrorDetails], data: Any) -> Iterator[Problem]:
+    """What pydantic found wrong with a record, one problem a place."""
+    seen: set[Where] = set()
+    for error in errors:
+        where, tag = _where(error["loc"], data)
+        if error["type"] == "missing":
+            where = (*where, error["loc"][-1])
+        if where in seen:
+            continue
+        seen.add(where)
+        found, expected, repair = _explained(error, where, tag)
+        yield Problem(file, lines.at(where), dotted(where), found, expected, repair)
+
+
+def _where(loc: Where, data: Any) -> tuple[Where, str]:
+    """The part of pydantic's location that stands in the file, and the last part that does not."""
+    where: Where = ()
+    tag = ""
+    for part in loc:
+        if (isinstance(data, dict) and part in data) or (isinstance(data, list) and isinstance(part, int)):
+            data, where = data[part], (*where, part)  # type: ignore[index]
+        else:
+            tag = str(part)
+    return where, tag
+
+
+def _explained(error: ErrorDetails, where: Where, tag: str) -> tuple[str, str, str]:
+    message = str(error.get("ctx", {}).get("error", error["msg"]))
+    match error["type"]:
+        case "value_error" if message.count("||") == 2:
+            found, expected, repair = message.split("||")
+            return found, expected, repair
+        case "extra_forbidden":
+            known = list(_model_at(where[:-1], tag).model_fields)
+            guess = closest(str(where[-1]), known)
+            repair = f"write `{guess}`" if guess else "remove the key"
+            return f"the unknown key `{where[-1]}`", f"one of {listed(known, 30)}", repair
+        case "missing":
+            return "nothing", f"the field `{where[-1]}`", f"add `{where[-1]}:`"
+        case "union_tag_not_found" | "union_tag_invalid":
+            return (
+                _shown(error["input"]),
+                "one of `path`, `expr`, `measure: fraction_of_starts`, `measure: image_row`",
+                "say where the number comes from",
+            )
+        case "string_pattern_mismatch":
+            return _shown(error["input"]), PATTERNS[error["ctx"]["pattern"]], "rename it"
+    if where[:2] == ("run", "ctrl"):
+        message = "a number, or a list of [time, value] pairs"
+    return _shown(error["input"]), message[0].lower() + message[1:], "correct the value"
+
+
+def _model_at(where: Where, tag: str) -> type[BaseModel]:
+    """The class of the mapping at `where`."""
+    if len(where) == 2 and where[0] == "signals":
+        return SIGNALS[tag]
+    for part in reversed(where):
+        if part in MODELS:
+            return MODELS[part]
+    return schema.Record
+
+
+def _shown(value: Any) -> str:
+    text = json.dumps(value, default=str, ensure_ascii=False)
+    return text if len(text) <= 60 else text[:57] + "..."

@@ -1,0 +1,199 @@
+"""A sweep: the model's parameters varied, an outcome measured at every point, predictions held against it."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import re
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict
+
+from clinic.case import Case
+from clinic.checks import take
+from clinic.expression import evaluate, names, parse
+from clinic.measure import measure_model, measure_output
+from clinic.predictions import MODEL_NUMBERS
+from clinic.record import Edit, ExpressionSignal, Parameter, PathSignal, Prediction, Record, Rival, Sweep
+from clinic.script import run_python
+from clinic.simulate import compile_model
+from clinic.variant import Variant, apply_edits, variants
+
+
+class Plain(BaseModel):
+    """Frozen data without unknown fields."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class Point(Plain):
+    """One point: the parameters, the outcome, and what each prediction said, by `prediction` or the rival's id."""
+
+    at: dict[str, float]
+    outcome: float | None
+    holds: bool | None
+    predicted: dict[str, float | None]
+
+
+class Agreement(Plain):
+    """How a prediction fared.
+
+    Attributes:
+        judged: How many points were judged.
+        wrong: How many of them it misses by more than `within`, or, for a yes or no, gets wrong.
+        worst: Its largest error over the judged points; None for a yes or no.
+        good_from: The smallest first parameter from which on it is never wrong; None if there is none.
+    """
+
+    judged: int
+    wrong: int
+    worst: float | None
+    good_from: float | None
+
+
+class SweepEvidence(Plain):
+    """All points of a sweep and how its predictions fared.
+
+    Attributes:
+        marks: The parameters of the broken variant and of fixes that lie in the sweep, by variant.
+    """
+
+    points: list[Point]
+    agreement: dict[str, Agreement]
+    marks: dict[str, dict[str, float]]
+
+
+def numbers(parameter: Parameter) -> list[float]:
+    """The parameter's values, increasing."""
+    if parameter.values:
+        return sorted(parameter.values)
+    assert parameter.start is not None
+    assert parameter.stop is not None
+    assert parameter.count is not None
+    spaced = np.geomspace if parameter.scale == "log" else np.linspace
+    return [float(f"{value:.12g}") for value in spaced(parameter.start, parameter.stop, parameter.count)]
+
+
+def grid(sweep: Sweep) -> list[dict[str, float]]:
+    """Every combination of the parameters' values, the last parameter changing fastest."""
+    columns = [numbers(parameter) for parameter in sweep.vary]
+    keys = [parameter.name for parameter in sweep.vary]
+    return [dict(zip(keys, values, strict=True)) for values in itertools.product(*columns)]
+
+
+def substituted(text: str, sweep: Sweep, at: Mapping[str, float]) -> str:
+    """The base text with every parameter's number written in.
+
+    Raises:
+        EditError: If a parameter's `find` does not occur exactly once.
+    """
+    edits = [
+        Edit.model_construct(find=p.find, replace=p.replace.replace("{}", f"{at[p.name]:.12g}")) for p in sweep.vary
+    ]
+    return apply_edits(text, edits)
+
+
+def measure_points(case: Case, sweep: Sweep, points: Sequence[Mapping[str, float]]) -> list[Point]:
+    """The outcome and the predictions at each of the points.
+
+    Raises:
+        EditError, ValueError: If a point's text cannot be made or compiled.
+    """
+    base = next(variant for variant in variants(case) if variant.id == sweep.base)
+    return [_measure(case, sweep, base, dict(at)) for at in points]
+
+
+def summarise(case: Case, sweep: Sweep, points: Sequence[Point]) -> SweepEvidence:
+    """The points with every prediction's agreement and the variants' marks."""
+    predictions: dict[str, Prediction] = {"prediction": sweep.prediction, **{r.id: r for r in sweep.rivals}}
+    return SweepEvidence(
+        points=list(points),
+        agreement={key: agreement(sweep, prediction, key, points) for key, prediction in predictions.items()},
+        marks=marks(case, sweep),
+    )
+
+
+def agreement(
+    sweep: Sweep, prediction: Prediction, key: str, points: Sequence[Point], factor: float = 1.0
+) -> Agreement:
+    """How the prediction, multiplied by `factor`, fares against the points."""
+    first = sweep.vary[0].name
+    low, high = prediction.over or (-math.inf, math.inf)
+    errors: list[tuple[float, float]] = []
+    for point in points:
+        predicted = point.predicted[key]
+        if predicted is None or not low <= point.at[first] <= high:
+            continue
+        predicted *= factor
+        if sweep.holds is None:
+            error = math.inf if point.outcome is None else abs(point.outcome - predicted)
+            errors.append((point.at[first], error / abs(predicted) if prediction.relative and predicted else error))
+        elif abs(point.at[first] / predicted - 1) > prediction.within:
+            yes = point.at[first] < predicted if sweep.side == "below" else point.at[first] > predicted
+            errors.append((point.at[first], 0.0 if yes == point.holds else math.inf))
+    bad = [at for at, error in errors if error > prediction.within]
+    good = sorted({at for at, _ in errors if not bad or at > max(bad)})
+    finite = [error for _, error in errors if math.isfinite(error)]
+    return Agreement(
+        judged=len(errors),
+        wrong=len(bad),
+        worst=max(finite, default=None) if sweep.holds is None else None,
+        good_from=good[0] if good else None,
+    )
+
+
+def marks(case: Case, sweep: Sweep) -> dict[str, dict[str, float]]:
+    """Where the broken variant and the fixes stand, for those that show every parameter."""
+    made = {}
+    for variant in variants(case):
+        if variant.kind == "refuted":
+            continue
+        at = {p.name: value for p in sweep.vary if (value := _mark(p, variant)) is not None}
+        if len(at) == len(sweep.vary):
+            made[variant.id] = at
+    return made
+
+
+def names_read(record: Record, prediction: Prediction) -> tuple[set[str], set[str], set[str]]:
+    """The names a prediction reads: signals, model numbers, and those left over."""
+    read = names(parse(prediction.expr))
+    signals = {n for n in read if isinstance(record.signals.get(n), PathSignal | ExpressionSignal)}
+    return signals, read & MODEL_NUMBERS.keys() - signals, read - signals - MODEL_NUMBERS.keys()
+
+
+def _measure(case: Case, sweep: Sweep, base: Variant, at: dict[str, float]) -> Point:
+    record, text = case.record, substituted(base.text, sweep, at)
+    predictions: dict[str, Prediction | Rival] = {"prediction": sweep.prediction, **{r.id: r for r in sweep.rivals}}
+    needed = {key: names_read(record, prediction) for key, prediction in predictions.items()}
+    signals = {sweep.outcome.signal}.union(*(names for names, _, _ in needed.values()))
+    values: dict[str, float] = {}
+    if record.run is not None:
+        model = compile_model(text)
+        spec = record.run.model_copy(update={"duration": sweep.duration} if sweep.duration else {})
+        _, traces = measure_model(record, model, spec, signals)
+        values = {n: MODEL_NUMBERS[n](model) for n in set().union(*(numbers for _, numbers, _ in needed.values()))}
+    else:
+        traces = measure_output(record, run_python(text, case.texts, name=record.source))
+    values |= {name: take(traces[name], "final") for name in signals} | at
+    outcome = take(traces[sweep.outcome.signal], sweep.outcome.take, sweep.outcome.window)
+    with np.errstate(all="ignore"):
+        predicted = {key: float(evaluate(parse(p.expr), values)) for key, p in predictions.items()}
+    return Point(
+        at=at,
+        outcome=outcome if math.isfinite(outcome) else None,
+        holds=None if sweep.holds is None else _holds(sweep.holds, outcome),
+        predicted={key: value if math.isfinite(value) else None for key, value in predicted.items()},
+    )
+
+
+def _holds(bound: Mapping[str, float], outcome: float) -> bool:
+    return (outcome > bound["above"]) if "above" in bound else (outcome < bound["below"])
+
+
+def _mark(parameter: Parameter, variant: Variant) -> float | None:
+    if variant.id in parameter.marks:
+        return parameter.marks[variant.id]
+    before, after = (re.escape(part) for part in parameter.replace.split("{}"))
+    found = re.findall(before + r"([-+0-9.eE]+)" + after, variant.text)
+    return float(found[0]) if len(found) == 1 else None

@@ -1,0 +1,44 @@
+"""Fixtures that several test modules share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from clinic.cache import Cache
+from clinic.case import Case, load_case
+from clinic.evidence import Evidence
+from clinic.exhibit import evidence_of, exhibits
+
+ROOT = Path(__file__).parent.parent
+SLUGS = sorted(path.name for path in (ROOT / "cases").iterdir() if path.is_dir())
+
+Proven = Callable[[str], tuple[Case, Evidence]]
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """Runs a test that asks for `slug` once for every folder of cases/; a case's tests share a worker."""
+    if "slug" in metafunc.fixturenames:
+        marked = [pytest.param(slug, id=slug, marks=pytest.mark.xdist_group(slug)) for slug in SLUGS]
+        metafunc.parametrize("slug", marked)
+
+
+@pytest.fixture(scope="session")
+def root() -> Path:
+    """The checkout."""
+    return ROOT
+
+
+@pytest.fixture(scope="session")
+def proven() -> Proven:
+    """A case and its evidence by slug, made once."""
+    made: dict[str, tuple[Case, Evidence]] = {}
+
+    def get(slug: str) -> tuple[Case, Evidence]:
+        if slug not in made:
+            case = load_case(ROOT / "cases" / slug)
+            made[slug] = case, evidence_of(exhibits(case, Cache(ROOT / ".cache" / "clinic")))
+        return made[slug]
+
+    return get

@@ -1,0 +1,195 @@
+"""A tiny case, and small models with known answers, for the tests of single modules."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import mujoco
+from clinic.case import Case, load_case
+
+GRAVITY = 9.81
+SLUG = "falling-box"
+
+MODEL = """\
+<mujoco>
+  <option timestep="0.002"/>
+  <worldbody>
+    <camera name="side" pos="0 -2 0.2" xyaxes="1 0 0 0 0 1"/>
+    <geom name="floor" type="plane" size="1 1 0.1" contype="2" conaffinity="2"/>
+    <body name="box" pos="0 0 0.06">
+      <freejoint name="free"/>
+      <geom name="box" type="box" size="0.05 0.05 0.05" mass="1"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+
+RECORD = """\
+number: 1
+title: A box falls through the floor
+model: model.xml
+symptom: It falls to {{ broken.height.final }}.
+diagnosis: There are {{ broken.contacts.max }} contacts.
+cause: The masks share no bit.
+fix: Share a bit.
+lesson: Look at the masks.
+tags: [contact]
+phrases: [box falls through floor]
+run: {duration: 0.4}
+signals:
+  height: {path: "body(box).xpos[2]", unit: m, label: height of the box}
+  contacts: {path: ncon}
+checks:
+  broken:
+    - {signal: contacts, take: max, equals: 0}
+  fixed:
+    - {signal: height, between: [0.045, 0.051]}
+fixes:
+  - id: share-a-bit
+    title: Remove the masks of the floor
+    edits:
+      - {find: ' contype="2" conaffinity="2"', replace: ''}
+refuted:
+  - id: small-step
+    title: Halve the timestep
+    edits:
+      - {find: 'timestep="0.002"', replace: 'timestep="0.001"'}
+    why: It still falls to {{ small-step.height.final }}.
+no_sweep: The masks are not a number.
+film: {}
+picture: {camera: side}
+"""
+
+SCRIPT = """\
+print("first error = 0.25")
+print("error = 0.5")
+"""
+
+SCRIPT_RECORD = """\
+number: 2
+title: A script prints an error
+script: script.py
+symptom: It prints {{ broken.error.final }}.
+diagnosis: Read it.
+cause: It says so.
+fix: Write another number.
+lesson: Read the output.
+tags: [code]
+phrases: [script prints error]
+signals:
+  error: {path: printed(error), unit: m}
+checks:
+  broken:
+    - {signal: error, above: 0.1}
+  fixed:
+    - {signal: error, equals: 0}
+fixes:
+  - id: no-error
+    title: Print no error
+    edits:
+      - {find: '0.5', replace: '0.0'}
+no_sweep: There is nothing to vary.
+picture: {camera: side}
+"""
+
+BALL = """\
+<mujoco>
+  <option timestep="0.001"/>
+  <worldbody>
+    <body name="ball" pos="0 0 1">
+      <freejoint name="free"/>
+      <geom name="ball" size="0.1" mass="2"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+"""A ball in free fall."""
+
+PENDULUM = """\
+<mujoco>
+  <option timestep="0.001"/>
+  <worldbody>
+    <camera name="front" pos="0 -3 0" xyaxes="1 0 0 0 0 1"/>
+    <body name="rod">
+      <joint name="hinge" type="hinge" axis="0 1 0" range="-90 45"/>
+      <geom name="bob" pos="0.5 0 0" size="0.1" mass="2" friction="0.7"/>
+      <site name="tip" pos="0.5 0 0"/>
+    </body>
+  </worldbody>
+  <actuator>
+    <motor name="motor" joint="hinge" gear="3"/>
+  </actuator>
+  <sensor>
+    <jointpos name="angle" joint="hinge"/>
+    <framepos name="where" objtype="site" objname="tip"/>
+  </sensor>
+  <keyframe>
+    <key name="hanging" qpos="1.5707963267948966" ctrl="2"/>
+  </keyframe>
+</mujoco>
+"""
+"""A bob of 2 kg at 0.5 m from a hinge, held horizontal at qpos0: gravity's torque is -m g l about the hinge's axis."""
+
+RESTING = """\
+<mujoco>
+  <worldbody>
+    <geom name="floor" type="plane" size="1 1 0.1" friction="0.3 0.02 0.0003"/>
+    <body name="box" pos="0 0 0.0499">
+      <freejoint/>
+      <geom name="box" type="box" size="0.05 0.05 0.05" mass="3" friction="0.9 0.01 0.0001"/>
+    </body>
+    <body name="other" pos="0 0 1" gravcomp="1">
+      <freejoint/>
+      <geom name="other" size="0.05" mass="1"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+"""A box of 3 kg on a plane, on its four corners, and a weightless ball that touches nothing."""
+
+
+def compiled(xml: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """The model and its data, with everything derived from the start up to date."""
+    model = mujoco.MjModel.from_xml_string(xml)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+def changed(text: str, *changes: tuple[str, str]) -> str:
+    """The text after replacements, each of which must match exactly once."""
+    for old, new in changes:
+        assert text.count(old) == 1, f"{old!r} occurs {text.count(old)} times"
+        text = text.replace(old, new)
+    return text
+
+
+def write_case(
+    root: Path, *changes: tuple[str, str], slug: str = SLUG, record: str = RECORD, model: str = MODEL
+) -> Path:
+    """Writes the tiny case with changes to its record below `root`/cases and gives its folder."""
+    return write_folder(root, slug, {"case.yaml": changed(record, *changes), "model.xml": model})
+
+
+def write_script_case(root: Path, *changes: tuple[str, str], slug: str = "odd-script", script: str = SCRIPT) -> Path:
+    """Writes the tiny case whose bug is in a script."""
+    return write_folder(root, slug, {"case.yaml": changed(SCRIPT_RECORD, *changes), "script.py": script})
+
+
+def write_folder(root: Path, slug: str, files: dict[str, str]) -> Path:
+    """Writes files into `root`/cases/`slug`."""
+    folder = root / "cases" / slug
+    folder.mkdir(parents=True)
+    for name, text in files.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    return folder
+
+
+def tiny_case(root: Path, *changes: tuple[str, str], model: str = MODEL) -> Case:
+    """The tiny case, read."""
+    return load_case(write_case(root, *changes, model=model))
+
+
+def script_case(root: Path, *changes: tuple[str, str], script: str = SCRIPT) -> Case:
+    """The tiny script case, read."""
+    return load_case(write_script_case(root, *changes, script=script))

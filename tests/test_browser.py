@@ -1,0 +1,92 @@
+"""The built site in a real browser: the search finds cases without a network, and folds open."""
+
+from __future__ import annotations
+
+import shutil
+import threading
+from collections.abc import Iterator
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+from test_site import site  # noqa: F401
+
+pytestmark = pytest.mark.xdist_group("site")
+CASE = "cases/box-falls-through-floor/index.html"
+
+
+class Quiet(SimpleHTTPRequestHandler):
+    def log_message(self, *args: object) -> None:
+        """Says nothing."""
+
+
+@pytest.fixture(scope="module")
+def served(site: Path) -> Iterator[str]:  # noqa: F811
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=site))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_port}/"
+    server.shutdown()
+    server.server_close()
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    path = shutil.which("chromium") or shutil.which("google-chrome")
+    assert path, "no Chromium on this system: run `make setup`, or install the package chromium"
+    with sync_playwright() as playwright:
+        made = playwright.chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-gpu"])
+        yield made
+        made.close()
+
+
+@pytest.fixture
+def page(browser: Browser) -> Iterator[Page]:
+    context = browser.new_context()
+    yield context.new_page()
+    context.close()
+
+
+def search(page: Page, query: str) -> list[str]:
+    box = page.locator("input[name=query]")
+    box.click()
+    box.fill(query)
+    results = page.locator(".md-search-result__item h1, .md-search-result__item h2")
+    expect(results.first).to_be_visible()
+    return results.all_text_contents()
+
+
+@pytest.mark.parametrize("scheme", ["http", "file"])
+def test_search_finds_the_case_offline(page: Page, served: str, site: Path, scheme: str) -> None:  # noqa: F811
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    start = served if scheme == "http" else site.as_uri() + "/"
+    page.goto(start + "index.html")
+
+    assert any("falls through the floor" in title for title in search(page, "falls through floor"))
+    assert all(url.startswith((start, "data:", "blob:", "about:")) for url in asked), asked
+
+
+def test_folds_are_closed_and_open_on_a_click(page: Page, served: str) -> None:
+    page.goto(served + CASE)
+    hidden = page.get_by_text("contype 2 conaffinity 2")
+    expect(hidden).to_be_hidden()
+
+    page.get_by_text("Diagnosis", exact=True).click()
+
+    expect(hidden).to_be_visible()
+
+
+def test_a_page_fits_a_phone(page: Page, served: str) -> None:
+    page.set_viewport_size({"width": 360, "height": 800})
+    for address in (CASE, "index.html", "triage.html"):
+        page.goto(served + address)
+        page.evaluate("document.querySelectorAll('details').forEach(fold => fold.open = true)")
+        assert page.evaluate("document.documentElement.scrollWidth") <= 360, address
+
+
+def test_paper_shows_every_fold(page: Page, served: str) -> None:
+    page.goto(served + CASE)
+    page.emulate_media(media="print")
+    expect(page.get_by_text("contype 2 conaffinity 2")).to_be_visible()

@@ -1,0 +1,24 @@
+"""The laws, over every case. The folder is the registry: nothing here lists cases."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from clinic.case import load_cases
+from clinic.laws import LAWS
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_law(slug: str, law: str, proven) -> None:
+    case, evidence = proven(slug)
+
+    complaints = list(LAWS[law](case, evidence))
+
+    assert not complaints, f"case {case.record.number} {slug}:\n" + "\n".join(complaints)
+
+
+def test_every_file_belongs_to_a_case_and_every_relation_resolves(root: Path) -> None:
+    cases = load_cases(root / "cases")
+
+    assert {case.slug for case in cases} == {path.name for path in (root / "cases").iterdir()}

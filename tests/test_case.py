@@ -70,8 +70,8 @@ def test_a_script_is_the_source_of_a_code_case(tmp_path: Path) -> None:
 def test_checks_of_gives_every_check_with_its_place(tmp_path: Path) -> None:
     share = (
         "contacts: {path: ncon}",
-        "contacts: {path: ncon}\n  share: {measure: fraction_of_starts, joint: free, index: 2, offset: [0, 1], count: 2, "
-        "holds: {signal: height, above: 0}}",
+        "contacts: {path: ncon}\n  share: {measure: fraction_of_starts, joint: free, index: 2, offset: [0, 1], "
+        "count: 2, holds: {signal: height, above: 0}}",
     )
     found = {where: check.signal for where, check in checks_of(tiny_case(tmp_path, share).record)}
     assert found == {
@@ -682,17 +682,13 @@ def test_number_used_twice(tmp_path: Path) -> None:
 
 
 def test_see_to_nowhere(tmp_path: Path) -> None:
-    write_case(tmp_path, ("tags: [contact]", "tags: [contact]\nsee: [sliding-bax, falling-box]"))
+    write_case(tmp_path, ("tags: [contact]", "tags: [contact]\nsee: [sliding-bax]"))
     write_case(tmp_path, ("number: 1", "number: 2"), slug="sliding-box")
     assert message_of(lambda: load_cases(tmp_path / "cases")) == says("""
         cases/falling-box/case.yaml:10: see[0]
           found:    sliding-bax, which is no other case
-          expected: a other case: sliding-box
+          expected: another case: sliding-box
           repair:   write sliding-box
-        cases/falling-box/case.yaml:10: see[1]
-          found:    falling-box, which is no other case
-          expected: a other case: sliding-box
-          repair:   correct the name
         """)
 
 
@@ -736,8 +732,8 @@ def test_problems_of_all_cases_are_reported_together(tmp_path: Path) -> None:
             """
             cases/falling-box/case.yaml:13: signals.height.path
               found:    joint(free).qpso, which does not exist
-              expected: a field of joint(free): cdof, cdof_dot, id, name, qLDiagInv, qacc, qacc_smooth, qacc_warmstart, \
-qfrc_actuator, qfrc_applied, qfrc_bias, qfrc_constraint, and 8 more
+              expected: a field of joint(free): cdof, cdof_dot, id, name, plastic, qLDiagInv, qacc, \
+qacc_smooth, qacc_warmstart, qfrc_actuator, qfrc_applied, qfrc_bias, and 8 more
               repair:   write qpos
             """,
         ),
@@ -808,7 +804,7 @@ qfrc_actuator, qfrc_applied, qfrc_bias, qfrc_constraint, and 8 more
             """
             cases/falling-box/case.yaml:11: run.ctrl.motor
               found:    the actuator motor, which the model does not have
-              expected: a actuator: none
+              expected: an actuator: none
               repair:   correct the name
             cases/falling-box/case.yaml:11: run.keyframe
               found:    the key throw, which the model does not have
@@ -838,10 +834,10 @@ qfrc_actuator, qfrc_applied, qfrc_bias, qfrc_constraint, and 8 more
         ),
         wrong(
             "missing-camera",
-            [("camera: side", "camera: sight")],
+            [("camera: side", "camera: sid")],
             """
             cases/falling-box/case.yaml:33: picture.camera
-              found:    sight, which is no camera of the model
+              found:    sid, which is no camera of the model
               expected: a camera: side
               repair:   write side
             """,
@@ -871,8 +867,8 @@ def test_wrong_for_the_model(tmp_path: Path, changes: list[Change], message: str
             [('mass="1"', 'mass="0"')],
             """
             cases/falling-box/model.xml:6:
-              found:    Error: mass and inertia of moving bodies must be larger than mjMINVAL Element name 'box', id 1, \
-line 6
+              found:    Error: mass and inertia of moving bodies must be larger than mjMINVAL Element name 'box', \
+id 1, line 6
               expected: XML that MuJoCo compiles
               repair:   correct the model
             """,
@@ -881,9 +877,9 @@ line 6
             "unclosed-element",
             [("    </body>\n", "")],
             """
-            cases/falling-box/model.xml:9:
-              found:    XML parse error 14: Error=XML_ERROR_MISMATCHED_ELEMENT ErrorID=14 (0xe) Line number=9: XMLElement \
-name=worldbody
+            cases/falling-box/model.xml:6:
+              found:    XML parse error 14: Error=XML_ERROR_MISMATCHED_ELEMENT ErrorID=14 (0xe) Line number=6: \
+XMLElement name=body
               expected: XML that MuJoCo compiles
               repair:   correct the model
             """,
@@ -892,7 +888,7 @@ name=worldbody
 )
 def test_model_that_does_not_compile(tmp_path: Path, changes: list[Change], message: str) -> None:
     case = tiny_case(tmp_path, model=changed(MODEL, *changes))
-    assert message_of(lambda: collect(case)).startswith(message)
+    assert message_of(lambda: collect(case)) == message
 
 
 def test_name_that_an_edit_takes_away(tmp_path: Path) -> None:
@@ -905,7 +901,7 @@ def test_name_that_an_edit_takes_away(tmp_path: Path) -> None:
     )
     assert message_of(lambda: collect(case)) == says("""
         cases/falling-box/case.yaml:13: signals.height.path
-          found:    body(box), which the model does not have after the edits of small-step
+          found:    after the edits of small-step: body(box), which the model does not have
           expected: a body: world, crate
           repair:   correct the name, or name the body in the model
         """)

@@ -44,6 +44,10 @@ def references(page: lxml.html.HtmlElement) -> Iterator[tuple[str, str]]:
                 yield str(element.tag), str(element.get(name))
 
 
+def has_anchor(page: lxml.html.HtmlElement, name: str) -> bool:
+    return bool(page.xpath("//*[@id=$name or @name=$name]", name=name))
+
+
 def test_a_page_for_every_folder_with_its_folds_and_evidence(site: Path, root: Path, pages) -> None:
     slugs = {path.name for path in (root / "cases").iterdir()}
     assert {path.name for path in (site / "cases").iterdir()} == slugs
@@ -68,9 +72,8 @@ def test_every_link_and_asset_resolves(site: Path, pages) -> None:
                 target /= "index.html"
             if not target.is_file():
                 missing.append(f"{path.relative_to(site)}: <{tag}> {address}")
-            elif parts.fragment and target in pages:
-                if not pages[target].xpath("//*[@id=$id or @name=$id]", id=unquote(parts.fragment)):
-                    missing.append(f"{path.relative_to(site)}: no anchor {address}")
+            elif parts.fragment and target in pages and not has_anchor(pages[target], unquote(parts.fragment)):
+                missing.append(f"{path.relative_to(site)}: no anchor {address}")
     assert not missing, "\n".join(missing)
 
 

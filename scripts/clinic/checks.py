@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from clinic.record import Check, Interval, Take
+from clinic.record import Check, Comparison, Interval, Take
 
 TAKES: tuple[Take, ...] = ("final", "first", "min", "max", "mean", "span", "onset")
 
@@ -71,7 +71,7 @@ def judge(check: Check, traces: Mapping[str, Trace]) -> Verdict:
     return Verdict(check, measured, satisfies(check, measured))
 
 
-def satisfies(check: Check, measured: float) -> bool:
+def satisfies(check: Comparison, measured: float) -> bool:
     """Whether a measured number satisfies the check's comparison."""
     if math.isnan(measured):
         return False
@@ -85,7 +85,7 @@ def satisfies(check: Check, measured: float) -> bool:
     return abs(measured - check.equals) <= (check.within or 0.0)
 
 
-def expected(check: Check) -> str:
+def expected(check: Comparison) -> str:
     """The comparison in words, without the unit: `between 0.505 and 0.52`."""
     if check.above is not None:
         return f"above {check.above:g}"

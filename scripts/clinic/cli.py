@@ -15,7 +15,7 @@ from clinic.cache import Cache
 from clinic.case import Case, load_case, load_cases
 from clinic.evidence import Evidence
 from clinic.exhibit import evidence_of, exhibits
-from clinic.laws import complaints
+from clinic.laws import all_complaints
 from clinic.problem import CaseError
 from clinic.prose import quantity
 from clinic.reference import reference
@@ -50,7 +50,7 @@ def check(slug: Annotated[str | None, typer.Argument(help="A case; all when left
     for case in cases:
         evidence = evidence_of(exhibits(case, cache))
         Console().print(_table(case, evidence))
-        failures += complaints(case, evidence)
+        failures += all_complaints(case, evidence)
     for failure in failures:
         print(failure, file=sys.stderr)
     if failures:

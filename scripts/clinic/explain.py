@@ -35,6 +35,7 @@ MODELS: dict[str | int, type[BaseModel]] = {
     "rivals": schema.Rival,
     "sweep": schema.Sweep,
     "film": schema.Film,
+    "alike": schema.Alike,
 }
 PATTERNS = {
     "^[a-z][a-z0-9]*(?:-[a-z0-9]+)*$": "lower-case words joined by hyphens",

@@ -10,9 +10,11 @@ from clinic.checks import expected, judge
 from clinic.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.measure import measure_model, measure_output
 from clinic.prose import quantity
+from clinic.proselaws import quoted, typed
 from clinic.record import Check, Edit, Fix
 from clinic.script import run_python
 from clinic.simulate import compile_model
+from clinic.sweep import agreement
 from clinic.variant import EditError, apply_edits, changed_lines, variants
 
 MAX_CHANGED_LINES = 5
@@ -75,18 +77,64 @@ def warned(case: Case, evidence: Evidence) -> Iterator[str]:
             yield f"{name}: raises {raised}, while `warnings` names {named}; write `warnings: {raised}`"
 
 
+def lasting(case: Case, evidence: Evidence) -> Iterator[str]:
+    """Law 6, first half. A fix still holds after ten times its duration."""
+    for name, robust in evidence.robustness.items():
+        if robust.longer is False:
+            yield f"{name}: no longer holds after ten times the duration; repair it, or say why in `exempt: lasting`"
+
+
+def steady(case: Case, evidence: Evidence) -> Iterator[str]:
+    """Law 6, second half. Small changes of the start, and half the timestep, leave every verdict."""
+    for name, robust in evidence.robustness.items():
+        if robust.same < robust.runs:
+            share = f"{robust.same} of {robust.runs}"
+            yield f"{name}: keeps its verdict in {share} changed runs; widen a bound, or say why in `exempt: steady`"
+
+
+def swept(case: Case, evidence: Evidence) -> Iterator[str]:
+    """The cause is a law: each prediction agrees, moved by 5 % it does not, and rivals miss; or `no_sweep` says why."""
+    record = case.record
+    if bool(record.sweep) == (record.no_sweep is not None):
+        yield "has no `sweep` and no reason in `no_sweep`, or both; give one of the two"
+    for name, sweep in record.sweep.items():
+        found = evidence.sweep[name]
+        own = found.agreement["prediction"]
+        if own.judged == 0 or own.wrong:
+            worst = "" if own.worst is None else f", by {own.worst:.3g} at the worst"
+            yield f"sweep {name}: the prediction misses {own.wrong} of {own.judged} points{worst}; correct its `expr`"
+        for factor in (0.95, 1.05):
+            if not agreement(sweep, sweep.prediction, "prediction", found.points, factor).wrong:
+                yield f"sweep {name}: the prediction times {factor} agrees too; choose points that can tell"
+        for rival in sweep.rivals:
+            if not found.agreement[rival.id].wrong:
+                yield f"sweep {name}: the rival {rival.id} never misses; remove it, or choose points that can tell"
+
+
+def filmed(case: Case, evidence: Evidence) -> Iterator[str]:
+    """A model case has a film, a code case none."""
+    if (case.record.film is None) != (case.record.model is None):
+        yield "a model needs `film`, and a script has none; add or remove it"
+
+
 LAWS: dict[str, Callable[[Case, Evidence], Iterator[str]]] = {
-    law.__name__: law for law in (verdicts, ablation, small_edits, repeatable, warned)
+    law.__name__: law
+    for law in (verdicts, ablation, small_edits, repeatable, warned, quoted, typed, lasting, steady, swept, filmed)
 }
 
 
-def complaints(case: Case, evidence: Evidence) -> list[str]:
+def complaints(case: Case, evidence: Evidence, law: str) -> list[str]:
+    """What a law complains of, after exemptions (law 8): one that is no longer needed is a complaint itself."""
+    found = list(LAWS[law](case, evidence))
+    if law not in case.record.exempt:
+        return found
+    return [] if found else [f"`exempt: {law}` is no longer needed; remove it"]
+
+
+def all_complaints(case: Case, evidence: Evidence) -> list[str]:
     """What every law complains of, each as `case 7 ball-passes-through-shelf: ...`."""
-    return [
-        f"case {case.record.number} {case.slug}: {complaint}"
-        for law in LAWS.values()
-        for complaint in law(case, evidence)
-    ]
+    name = f"case {case.record.number} {case.slug}"
+    return [f"{name}: {complaint}" for law in LAWS for complaint in complaints(case, evidence, law)]
 
 
 def passes(case: Case, edits: tuple[Edit, ...]) -> bool:

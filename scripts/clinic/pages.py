@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -13,9 +14,11 @@ from clinic.cache import Files
 from clinic.case import Case
 from clinic.checks import expected, satisfies
 from clinic.evidence import Evidence, VariantEvidence
+from clinic.lookalike import Matrix
 from clinic.problem import CaseError, Problem
 from clinic.prose import field_errors, fill, markdown, quantity
 from clinic.record import Check
+from clinic.robust import NUDGE, STARTS
 from clinic.variant import diff, remedies, variants
 from clinic.yamlmap import Where
 
@@ -46,7 +49,7 @@ class Card:
     alt: str
 
 
-def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str, Case]) -> str:
+def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str, Case], alike: Matrix | None) -> str:
     """The Markdown of a case's page.
 
     Raises:
@@ -62,14 +65,19 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
         evidence=evidence,
         broken=evidence.variants["broken"],
         fixed=evidence.variants[record.fixes[0].id],
-        description=json.dumps(_first_sentence(fill(record.symptom, evidence)), ensure_ascii=False),
+        description=json.dumps(_opening(fill(record.symptom, evidence)), ensure_ascii=False),
         title=json.dumps(record.title, ensure_ascii=False),
         prose={name: markdown(getattr(record, name), evidence) for name in PROSE},
         whys={remedy.id: markdown(remedy.why, evidence) for remedy in record.refuted},
         diffs={key: diff(case.text, variant.text, record.source) for key, variant in made.items()},
         language="xml" if record.model else "python",
-        pictures=[name for name in ("broken.webp", "fixed.webp") if name in files],
+        files=files,
         summary=_summary(case, evidence),
+        film_alt=f"Film, broken beside {record.fixes[0].id}. {_summary(case, evidence)}",
+        sweeps=[_sweep(case, evidence, name) for name in record.sweep],
+        numerical=_numerical(evidence),
+        steady=_steady(case, evidence),
+        matrix=None if alike is None else _matrix(alike, others),
         table=_table(case, evidence),
         others=[others[slug] for slug in record.see],
     )
@@ -77,7 +85,7 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
 
 def card(case: Case, evidence: Evidence, files: Files) -> Card:
     """The case's card on the home page."""
-    symptom = _first_sentence(fill(case.record.symptom, evidence))
+    symptom = _opening(fill(case.record.symptom, evidence))
     picture = "broken.webp" if "broken.webp" in files else "plot-light.svg"
     return Card(
         case.slug, case.record.number, case.record.title, symptom, picture, f"Case {case.record.number}: {symptom}"
@@ -144,15 +152,90 @@ def _cell(variant: VariantEvidence, checks: list[Check], wanted: list[Check]) ->
     return f"{value} {'✓' if holds else '✗'}"
 
 
+def _sweep(case: Case, evidence: Evidence, name: str) -> dict[str, str]:
+    """A sweep's title, prose, and its figure in words."""
+    sweep, found = case.record.sweep[name], evidence.sweep[name]
+    own = found.agreement["prediction"]
+    if own.worst is None:
+        result = f"{sweep.prediction.label} is right at {own.judged - own.wrong} of {own.judged} points"
+    else:
+        error = f"{100 * own.worst:.2g} %" if sweep.prediction.relative else f"{own.worst:.2g}"
+        result = f"{sweep.prediction.label} is within {error} of the measurement at all {own.judged} points"
+    rivals = [f"; {r.label} is wrong at {found.agreement[r.id].wrong}" for r in sweep.rivals]
+    return {
+        "name": name,
+        "title": sweep.title,
+        "text": markdown(sweep.text, evidence),
+        "alt": f"{sweep.title}: {len(found.points)} points. {result}{''.join(rivals)}.",
+    }
+
+
+def _numerical(evidence: Evidence) -> str:
+    """The answer to *shrink the timestep*, from the runs."""
+    if "broken" not in evidence.robustness:
+        return ""
+    words = {"broken": "as broken as before", "well": "well", "neither": "neither broken in the same way nor well"}
+    half, twentieth = (words[state] for state in evidence.robustness["broken"].shrunk.values())
+    said = f"at half the timestep the broken model is {half}, at a twentieth {twentieth}"
+    states = set(evidence.robustness["broken"].shrunk.values())
+    if states == {"broken"}:
+        return f"No: {said}. The cause is in the model."
+    return f"{'Yes' if 'well' in states else 'In part'}: {said}."
+
+
+def _steady(case: Case, evidence: Evidence) -> str:
+    """How firmly the verdicts stand, in a sentence or two."""
+    if not evidence.robustness:
+        return ""
+    total = sum(robust.runs for robust in evidence.robustness.values())
+    same = sum(robust.same for robust in evidence.robustness.values())
+    said = (
+        f"Each variant was run again from {STARTS} starts changed by up to {quantity(NUDGE, 'm')} or rad in position "
+        f"and as much per second in velocity, with the timestep and with half of it: {same} of {total} runs kept "
+        "their verdict."
+    )
+    if all(robust.longer is not False for robust in evidence.robustness.values()):
+        said += " Every fix still holds after ten times the duration."
+    shaken = [
+        f"`{key}` {robust.same} of {robust.runs}"
+        for key, robust in evidence.robustness.items()
+        if robust.same < robust.runs
+    ]
+    reasons = [case.record.exempt[law] for law in ("steady", "lasting") if law in case.record.exempt]
+    return " ".join([said, *([f"({', '.join(shaken)}.)"] if shaken else []), *reasons])
+
+
+def _matrix(made: Matrix, cases: Mapping[str, Case]) -> dict[str, Any]:
+    """The matrix of look-alikes as a table."""
+    members = [cases[slug] for slug in made.cases]
+    heads = [f"[{case.record.number}. {case.record.title}](../{case.slug}/index.md)" for case in members]
+    rows = []
+    for case, values, holds in zip(members, made.measured, made.holds, strict=True):
+        alike = case.record.alike
+        assert alike is not None
+        cells = [
+            f"{'not measured' if value is None else quantity(value, '', 4)} {'✓' if hold else ''}".strip()
+            for value, hold in zip(values, holds, strict=True)
+        ]
+        rows.append([f"{alike.says}: `{alike.path}` {TAKES[alike.take]} is {expected(alike)}", *cells])
+    return {"heads": heads, "rows": rows}
+
+
 def _field_problems(case: Case, evidence: Evidence) -> Iterable[Problem]:
     texts: dict[Where, str] = {(name,): getattr(case.record, name) for name in PROSE}
+    texts |= {("sweep", name, "text"): sweep.text for name, sweep in case.record.sweep.items()}
     texts |= {(*where, "why"): getattr(remedy, "why", "") for where, _, remedy in remedies(case)}
     for where, text in texts.items():
         for error in field_errors(text, evidence):
             yield case.problem(where, error.found, error.expected, error.repair)
 
 
-def _first_sentence(text: str) -> str:
-    flat = " ".join(text.split())
-    end = flat.find(". ")
-    return flat if end < 0 else flat[: end + 1]
+def _opening(text: str, length: int = 150) -> str:
+    """The first sentences, until they are long enough to say something."""
+    sentences = re.split(r"(?<=[.:;?]) ", " ".join(text.replace("`", "").split()))
+    kept = ""
+    for sentence in sentences:
+        kept = f"{kept} {sentence}".strip()
+        if len(kept) >= length:
+            break
+    return kept

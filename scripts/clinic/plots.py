@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import io
 import math
-from typing import Any, Literal
+from collections.abc import Callable
+from functools import partial
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -13,51 +15,68 @@ from matplotlib.figure import Figure
 
 from clinic.case import Case
 from clinic.evidence import Evidence, VariantEvidence
+from clinic.palette import BROKEN, DASHES, FIXED, GRID, INK, THEMES, Theme
 from clinic.prose import quantity
+from clinic.sweepplot import sweep_plot
 
-Theme = Literal["light", "dark"]
-THEMES: tuple[Theme, ...] = ("light", "dark")
-INK = {"light": "#333a42", "dark": "#d5dae0"}
-GRID = {"light": "#d9dde2", "dark": "#454b54"}
-BROKEN = {"light": "#c2410c", "dark": "#ff9a5c"}
-FIXED = {"light": ("#0b66c3", "#0a7d54", "#7a3fb5"), "dark": ("#6db3ff", "#55d6a3", "#c79bff")}
-DASHES = ("--", "-.", ":")
 SIZE = (4.8, 3.0)
 EXPLODED = 50.0
 
 
 def figures(case: Case, evidence: Evidence) -> dict[str, bytes]:
-    """The case's plot in every theme: `plot-light.svg`, `plot-dark.svg`."""
-    return {f"plot-{theme}.svg": plot(case, evidence, theme) for theme in THEMES}
+    """The case's plots in every theme: `plot-light.svg`, and `sweep-<name>-light.svg` for each sweep."""
+    made = {}
+    for theme in THEMES:
+        made[f"plot-{theme}.svg"] = plot(case, evidence, theme)
+        for name, swept in evidence.sweep.items():
+            sweep = case.record.sweep[name]
+            draw = partial(sweep_plot, sweep=sweep, outcome=axis_label(case, sweep.outcome.signal), swept=swept)
+            made[f"sweep-{name}-{theme}.svg"] = figure(case, theme, draw)
+    return made
+
+
+def axis_label(case: Case, name: str) -> str:
+    """A signal's label with its unit in brackets."""
+    signal = case.record.signals[name]
+    return (signal.label or name) + (f" [{signal.unit}]" if signal.unit else "")
 
 
 def plot(case: Case, evidence: Evidence, theme: Theme) -> bytes:
     """The first signal of the broken variant and of every fix, over time; its final values when none changes."""
-    name, signal = next(iter(case.record.signals.items()))
+    name = next(iter(case.record.signals))
     shown = {key: v for key, v in evidence.variants.items() if v.kind != "refuted"}
-    label = f"{signal.label or name}" + (f" [{signal.unit}]" if signal.unit else "")
+    label = axis_label(case, name)
+
+    def draw(axes: Axes, theme: Theme) -> None:
+        if all(_constant(variant.traces[name].value) for variant in shown.values()):
+            _dots(axes, shown, name, label, theme)
+        else:
+            _lines(axes, shown, name, label, theme)
+
+    return figure(case, theme, draw)
+
+
+def figure(case: Case, theme: Theme, draw: Callable[[Axes, Theme], None]) -> bytes:
+    """What `draw` draws, as SVG in a theme; the same drawing gives the same bytes."""
+    ink, grid = INK[theme], GRID[theme]
     settings: dict[Any, Any] = {
         "svg.hashsalt": case.slug,
         "font.size": 9.5,
-        "axes.edgecolor": GRID[theme],
-        "axes.labelcolor": INK[theme],
-        "text.color": INK[theme],
-        "xtick.color": INK[theme],
-        "ytick.color": INK[theme],
-        "grid.color": GRID[theme],
+        "axes.edgecolor": grid,
+        "axes.labelcolor": ink,
+        "text.color": ink,
+        "xtick.color": ink,
+        "ytick.color": ink,
+        "grid.color": grid,
         "axes.spines.top": False,
         "axes.spines.right": False,
         "axes.axisbelow": True,
     }
     with mpl.rc_context(settings):
-        figure = Figure(figsize=SIZE, layout="constrained")
-        axes = figure.add_subplot()
-        if all(_constant(variant.traces[name].value) for variant in shown.values()):
-            _dots(axes, shown, name, label, theme)
-        else:
-            _lines(axes, shown, name, label, theme)
+        made = Figure(figsize=SIZE, layout="constrained")
+        draw(made.add_subplot(), theme)
         out = io.BytesIO()
-        figure.savefig(out, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
+        made.savefig(out, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
     return out.getvalue()
 
 

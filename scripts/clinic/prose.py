@@ -70,6 +70,8 @@ def resolve(field: str, evidence: Evidence) -> str:
     name, *filters = (part.strip() for part in field.split("|"))
     if name == "engine" and not filters:
         return evidence.engine
+    if name.startswith("sweep."):
+        return _sweep_field(name, filters, evidence)
     variant_id, _, rest = name.partition(".")
     if variant_id not in evidence.variants:
         raise _unknown(name, variant_id, evidence.variants, "variant")
@@ -79,6 +81,28 @@ def resolve(field: str, evidence: Evidence) -> str:
             raise FieldError(f"{{{{ {name} }}}}", "a variant that MuJoCo warned about", "remove the field")
         return variant.messages[0]
     value, unit = _value(name, rest, variant)
+    return _shown(name, value, unit, filters)
+
+
+def _sweep_field(name: str, filters: list[str], evidence: Evidence) -> str:
+    """`sweep.ID.points`, or one of the fields of Agreement for the prediction or, with its id, for a rival."""
+    _, sweep, *rest = name.split(".")
+    if sweep not in evidence.sweep:
+        raise _unknown(name, sweep, evidence.sweep, "sweep")
+    swept = evidence.sweep[sweep]
+    if rest == ["points"]:
+        return _shown(name, len(swept.points), "", filters)
+    which, field = ("prediction", *rest) if len(rest) == 1 else (*rest, "")[:2]
+    if which not in swept.agreement:
+        raise _unknown(name, which, swept.agreement, "prediction of the sweep")
+    value = swept.agreement[which].model_dump().get(field)
+    if value is None:
+        fields = [key for key, known in swept.agreement[which].model_dump().items() if known is not None]
+        raise _unknown(name, field, ["points", *fields], "field of the sweep")
+    return _shown(name, value, "", filters)
+
+
+def _shown(name: str, value: float, unit: str, filters: list[str]) -> str:
     digits = 3
     for conversion in filters:
         if conversion.isdigit():

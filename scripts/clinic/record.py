@@ -48,8 +48,8 @@ class Taken(Strict):
     window: Interval | None = Field(default=None, description="Only samples with t0 <= time <= t1, in s.")
 
 
-class Check(Taken):
-    """One number taken from a signal, compared with a bound."""
+class Comparison(Strict):
+    """A bound for a number."""
 
     above: float | None = Field(default=None, description="Holds when the number is greater.")
     below: float | None = Field(default=None, description="Holds when the number is smaller.")
@@ -58,7 +58,7 @@ class Check(Taken):
     within: float | None = Field(default=None, ge=0, description="The tolerance of `equals`; 0 when absent.")
 
     @model_validator(mode="after")
-    def _one_comparison(self) -> Check:
+    def _one_comparison(self) -> Comparison:
         given = [name for name in ("above", "below", "between", "equals") if getattr(self, name) is not None]
         if len(given) != 1:
             found = " and ".join(given) or "no comparison"
@@ -66,10 +66,23 @@ class Check(Taken):
         if self.within is not None and self.equals is None:
             raise ValueError("within without equals||`within` beside `equals`||add `equals`, or remove `within`")
         for name in ("between", "window"):
-            pair: Interval | None = getattr(self, name)
+            pair: Interval | None = getattr(self, name, None)
             if pair is not None and pair[0] >= pair[1]:
                 raise ValueError(f"{name}: {list(pair)}||a low bound below the high bound||swap the two numbers")
         return self
+
+
+class Check(Taken, Comparison):
+    """One number taken from a signal, compared with a bound."""
+
+
+class Alike(Comparison):
+    """What tells a case from those that look like it: one measurement that holds for this case alone."""
+
+    cases: list[Identifier] = Field(min_length=1, description="Model cases with the same symptom; each names this one.")
+    path: Text = Field(description="A signal path that the models of all of them have.")
+    take: Take = Field(default="final", description="As in a check.")
+    says: Text = Field(description="What it means when it holds, as a short sentence.")
 
 
 class Described(Strict):
@@ -285,6 +298,10 @@ class Record(Strict):
     tags: list[Identifier] = Field(min_length=1, description="Topics: contact, joint, actuator, camera, units, ...")
     phrases: list[Text] = Field(min_length=1, description="What people type into a search engine; feeds the search.")
     see: list[Identifier] = Field(default=[], description="Related cases, by folder name.")
+    alike: Alike | None = Field(default=None, description="What tells this case from those that look like it.")
+    exempt: dict[Literal["lasting", "steady", "typed"], Text] = Field(
+        default={}, description="Laws that this case need not obey, each with the reason."
+    )
     run: RunSpec | None = Field(default=None, description="How to start and drive a model; none for a script.")
     signals: dict[Name, Signal] = Field(min_length=1, description="Named measurements; the first one is plotted.")
     checks: Checks = Field(description="The pair of predicates for every variant.")

@@ -22,6 +22,12 @@ CHAPTERS: dict[str, type[BaseModel]] = {
     "fixes": record.Fix,
     "refuted": record.Refuted,
     "an edit": record.Edit,
+    "film": record.Film,
+    "sweep": record.Sweep,
+    "vary": record.Parameter,
+    "prediction": record.Prediction,
+    "rivals": record.Rival,
+    "alike": record.Alike,
     "picture": record.Picture,
 }
 

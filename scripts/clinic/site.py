@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+from functools import partial
 from pathlib import Path
 
 import mujoco
 
-from clinic.cache import Cache, Files
+from clinic.cache import Cache, Files, key_of
 from clinic.case import RECORD, Case, load_cases
+from clinic.evidence import Evidence
 from clinic.exhibit import all_exhibits, evidence_of
 from clinic.fences import run_fences
-from clinic.laws import verdicts
+from clinic.laws import complaints
+from clinic.lookalike import Matrix, alike_problems, group, matrix, unclear
 from clinic.pages import card, case_page, home_page
 from clinic.problem import CaseError, Problem
 from clinic.reference import reference
@@ -41,15 +45,18 @@ def build(root: Path, cache: Cache | None = None) -> Files:
     """
     cache = cache or Cache(root / ".cache" / "clinic")
     cases = load_cases(root / "cases")
-    exhibits = all_exhibits(cases, cache)
     by_slug = {case.slug: case for case in cases}
+    if problems := list(alike_problems(by_slug)):
+        raise CaseError(problems)
+    exhibits = all_exhibits(cases, cache)
     evidence = {slug: evidence_of(files) for slug, files in exhibits.items()}
-    problems: list[Problem] = []
+    alike = matrices(by_slug, cache)
+    problems = []
     made: Files = {}
     for case in cases:
-        problems += _unproven(case, [*verdicts(case, evidence[case.slug])])
+        problems += _unproven(case, list(proven(case, evidence[case.slug], alike.get(case.slug))))
         try:
-            page = case_page(case, evidence[case.slug], exhibits[case.slug], by_slug)
+            page = case_page(case, evidence[case.slug], exhibits[case.slug], by_slug, alike.get(case.slug))
         except CaseError as error:
             problems += error.problems
             continue
@@ -72,11 +79,35 @@ def build(root: Path, cache: Cache | None = None) -> Files:
     return made
 
 
+def matrices(cases: Mapping[str, Case], cache: Cache) -> dict[str, Matrix]:
+    """The matrix of every case that has look-alikes, by slug."""
+    made = {}
+    for case in cases.values():
+        if case.record.alike is not None:
+            members = group(case, cases)
+            key = key_of("alike", [[m.slug, m.text, m.record.model_dump(mode="json")] for m in members])
+            files = cache.remember(key, partial(_matrix_file, members))
+            made[case.slug] = Matrix.model_validate_json(files["matrix.json"])
+    return made
+
+
+def proven(case: Case, evidence: Evidence, alike: Matrix | None) -> Iterator[str]:
+    """What a build refuses to publish: claims that the runs do not bear out."""
+    for law in ("verdicts", "warned", "lasting", "steady", "swept"):
+        yield from complaints(case, evidence, law)
+    if alike is not None:
+        yield from (f"{cell}; correct `alike`" for cell in unclear(alike))
+
+
 def navigation(root: Path) -> list[dict[str, object]]:
     """The site's navigation as MkDocs takes it: the cases by number, then the pages written by hand."""
     cases = load_cases(root / "cases")
     pages = [{f"{case.record.number}. {case.record.title}": PAGE.format(slug=case.slug)} for case in cases]
     return [{"Home": "index.md"}, {"Triage": "triage.md"}, {"Cases": pages}, {"Add a case": "contributing.md"}]
+
+
+def _matrix_file(members: list[Case]) -> Files:
+    return {"matrix.json": matrix(members).model_dump_json().encode()}
 
 
 def _unproven(case: Case, complaints: list[str]) -> list[Problem]:

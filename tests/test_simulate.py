@@ -1,0 +1,237 @@
+"""Runs, against motions with closed forms."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+from clinic.record import RunSpec
+from clinic.signals import SignalError, parse_path
+from clinic.simulate import (
+    MAX_STEPS,
+    RunError,
+    captured_messages,
+    compile_model,
+    controls,
+    simulate,
+    start,
+    state_at,
+    step_count,
+)
+from helpers import BALL, GRAVITY, PENDULUM
+
+EXPLODING = """\
+<mujoco>
+  <option timestep="0.01"/>
+  <worldbody>
+    <body>
+      <joint name="spring" type="slide" stiffness="1e9"/>
+      <geom size="0.1" mass="0.001"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+"""A spring far beyond the explicit integrator's limit of stability."""
+
+
+def spec(**fields: Any) -> RunSpec:
+    return RunSpec.model_validate({"duration": 0.5, **fields}, strict=False)
+
+
+def run(xml: str, run_spec: RunSpec, **paths: str) -> Any:
+    return simulate(compile_model(xml), run_spec, {name: parse_path(path) for name, path in paths.items()})
+
+
+def test_free_fall_is_sampled_after_every_step() -> None:
+    made = run(BALL, spec(), height="body(ball).xpos[2]", fallen="qpos[2]")
+
+    n = np.arange(1, 501)
+    assert made.steps == 500
+    assert made.traces["fallen"].time == pytest.approx(n * 0.001)
+    # Semi-implicit Euler: after n steps the ball has fallen g h^2 (1 + 2 + ... + n).
+    assert made.traces["fallen"].value == pytest.approx(1 - GRAVITY * 0.001**2 * n * (n + 1) / 2, abs=1e-12)
+    # What is derived from the state, as mj_step leaves it, is that of the step's start.
+    assert made.traces["height"].value[1:] == pytest.approx(made.traces["fallen"].value[:-1], abs=1e-12)
+
+
+def test_two_runs_are_bitwise_equal() -> None:
+    first, second = (run(PENDULUM, spec(), angle="qpos[0]").traces["angle"].value for _ in range(2))
+    assert first.tobytes() == second.tobytes()
+
+
+@pytest.mark.parametrize(
+    ("fields", "position", "velocity"),
+    [
+        pytest.param({}, 0, 0, id="nothing-given"),
+        pytest.param({"keyframe": "hanging"}, math.pi / 2, 0, id="keyframe"),
+        pytest.param({"qpos": {"hinge": 0.3}}, 0.3, 0, id="position"),
+        pytest.param({"qvel": {"hinge": -2}}, 0, -2, id="velocity"),
+        pytest.param({"keyframe": "hanging", "qpos": {"hinge": 0.3}}, 0.3, 0, id="position-after-keyframe"),
+    ],
+)
+def test_start(fields: dict[str, Any], position: float, velocity: float) -> None:
+    data = start(compile_model(PENDULUM), spec(**fields))
+    assert (data.qpos[0], data.qvel[0]) == pytest.approx((position, velocity))
+
+
+def test_nudge_acts_on_the_start() -> None:
+    def nudge(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        data.qpos[2] += model.nq
+
+    assert start(compile_model(BALL), spec(), nudge).qpos[2] == 8
+
+
+@pytest.mark.parametrize(
+    ("control", "expected"),
+    [
+        pytest.param(0.5, [0.5, 0.5, 0.5, 0.5], id="constant"),
+        pytest.param([(0.001, 1.0), (0.003, 3.0)], [1, 1, 2, 3], id="linear-between-constant-outside"),
+        pytest.param([(0.002, 1.0)], [1, 1, 1, 1], id="one-point"),
+    ],
+)
+def test_control_over_time(control: Any, expected: list[float]) -> None:
+    made = run(PENDULUM, spec(duration=0.004, ctrl={"motor": control}), force="actuator(motor).force[0]")
+    assert made.traces["force"].value == pytest.approx(expected)
+
+
+def test_keyframe_brings_its_control() -> None:
+    made = run(PENDULUM, spec(duration=0.001, keyframe="hanging"), force="actuator(motor).force[0]")
+    assert made.traces["force"].value == pytest.approx([2])
+
+
+def test_gear_times_control_is_the_torque_that_holds_the_bob() -> None:
+    holding = run(PENDULUM, spec(ctrl={"motor": -2 * GRAVITY * 0.5 / 3}), angle="qpos[0]")
+    assert np.abs(holding.traces["angle"].value).max() < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("fields", "where", "found", "expected"),
+    [
+        pytest.param(
+            {"keyframe": "hangin"},
+            ("keyframe",),
+            "the key hangin, which the model does not have",
+            "a key: hanging",
+            id="keyframe",
+        ),
+        pytest.param(
+            {"qpos": {"hnge": 1}},
+            ("qpos", "hnge"),
+            "the joint hnge, which the model does not have",
+            "a joint: hinge",
+            id="joint",
+        ),
+        pytest.param(
+            {"ctrl": {"motr": 1}},
+            ("ctrl", "motr"),
+            "the actuator motr, which the model does not have",
+            "an actuator: motor",
+            id="actuator",
+        ),
+        pytest.param(
+            {"ctrl": {"motor": [(1, 0), (1, 2)]}},
+            ("ctrl", "motor"),
+            "times [1.0, 1.0]",
+            "one or more times, each after the one before",
+            id="times-that-do-not-increase",
+        ),
+        pytest.param(
+            {"ctrl": {"motor": []}},
+            ("ctrl", "motor"),
+            "times []",
+            "one or more times, each after the one before",
+            id="no-times",
+        ),
+        pytest.param(
+            {"duration": 1e-5},
+            ("duration",),
+            "1e-05 s at a timestep of 0.001 s",
+            f"1 to {MAX_STEPS} steps",
+            id="less-than-a-step",
+        ),
+    ],
+)
+def test_run_that_cannot_start(fields: dict[str, Any], where: tuple[str, ...], found: str, expected: str) -> None:
+    with pytest.raises(RunError) as caught:
+        run(PENDULUM, spec(**fields))
+    assert (caught.value.where, caught.value.found, caught.value.expected) == (where, found, expected)
+
+
+def test_start_of_a_joint_with_many_numbers_is_refused() -> None:
+    with pytest.raises(RunError, match="a joint with 6 numbers"):
+        start(compile_model(BALL), spec(qvel={"free": 1}))
+
+
+def test_path_that_does_not_fit_is_refused() -> None:
+    with pytest.raises(SignalError):
+        run(BALL, spec(), height="body(box).xpos[2]")
+
+
+@pytest.mark.parametrize(
+    ("timestep", "duration", "steps"),
+    [(0.002, 1.0, 500), (0.003, 1.0, 333), (0.0005, 0.3, 600), (0.1, 0.06, 1)],
+)
+def test_steps_are_duration_over_timestep_rounded(timestep: float, duration: float, steps: int) -> None:
+    model = compile_model(BALL)
+    model.opt.timestep = timestep
+    assert step_count(model, spec(duration=duration)) == steps
+
+
+@pytest.mark.parametrize(("timestep", "duration"), [(1e-5, 100.0), (0.0, 1.0)])
+def test_too_many_steps_are_refused(timestep: float, duration: float) -> None:
+    model = compile_model(BALL)
+    model.opt.timestep = timestep
+    with pytest.raises(RunError):
+        step_count(model, spec(duration=duration))
+
+
+def test_explosion_is_counted_although_the_reset_clears_it_and_ends_after_its_steps(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    made = run(EXPLODING, spec(qvel={"spring": 1}), time="time", count="warning(BADQACC)")
+
+    assert made.steps == len(made.traces["time"].value) == 50
+    assert set(made.warnings) <= {"BADQACC", "BADQVEL", "BADQPOS"}
+    assert made.warnings
+    assert np.any(np.diff(made.traces["time"].value) < 0), "a reset turns time back"
+    assert len(set(made.messages)) == len(made.messages) > 0
+    assert "unstable" in made.messages[0]
+    assert capfd.readouterr() == ("", "")
+
+
+def test_quiet_run_has_no_warnings() -> None:
+    made = run(BALL, spec())
+    assert (made.warnings, made.messages, made.traces) == ({}, (), {})
+
+
+def test_messages_are_captured_only_inside() -> None:
+    with captured_messages() as messages:
+        pass
+    with captured_messages() as others:
+        start(compile_model_unlocked(EXPLODING), spec())
+    assert messages == others == []
+
+
+def compile_model_unlocked(xml: str) -> mujoco.MjModel:
+    return mujoco.MjModel.from_xml_string(xml)
+
+
+def test_compile_error_is_said_by_mujoco() -> None:
+    with pytest.raises(ValueError, match="unrecognized element"):
+        compile_model("<mujoco><worldbdy/></mujoco>")
+
+
+@pytest.mark.parametrize("time", [0.0, 0.1, 0.25])
+def test_state_at_is_the_state_of_the_run_brought_up_to_date(time: float) -> None:
+    data = state_at(compile_model(BALL), spec(), time)
+    n = round(time / 0.001)
+    height = 1 - GRAVITY * 0.001**2 * n * (n + 1) / 2
+    assert data.time == pytest.approx(time)
+    assert data.body("ball").xpos[2] == pytest.approx(height, abs=1e-12)
+
+
+def test_controls_are_by_actuator_number() -> None:
+    assert controls(compile_model(PENDULUM), spec(ctrl={"motor": 2})) == {0: ([0.0], [2.0])}

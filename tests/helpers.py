@@ -6,6 +6,7 @@ from pathlib import Path
 
 import mujoco
 from clinic.case import Case, load_case
+from clinic.evidence import Evidence, VariantEvidence
 
 GRAVITY = 9.81
 SLUG = "falling-box"
@@ -193,3 +194,41 @@ def tiny_case(root: Path, *changes: tuple[str, str], model: str = MODEL) -> Case
 def script_case(root: Path, *changes: tuple[str, str], script: str = SCRIPT) -> Case:
     """The tiny script case, read."""
     return load_case(write_script_case(root, *changes, script=script))
+
+
+def variant_evidence(kind: str = "broken", **values: list[float | None]) -> VariantEvidence:
+    """What a variant showed whose signals had these samples, 1 s apart; `angle_rad` is the signal `angle` in rad."""
+    names = {name: name.partition("_") for name in values}
+    traces = {
+        names[name][0]: {"unit": names[name][2], "time": [float(t) for t in range(1, len(v) + 1)], "value": v}
+        for name, v in values.items()
+    }
+    takes = {}
+    for name, samples in values.items():
+        known = [v for v in samples if v is not None]
+        takes[names[name][0]] = {
+            "final": samples[-1],
+            "max": max(known, default=None),
+            "onset": next((float(t) for t, v in enumerate(samples, 1) if v), None),
+        }
+    return VariantEvidence.model_validate(
+        {
+            "kind": kind,
+            "title": "",
+            "edits": [],
+            "timestep": 1.0,
+            "steps": max(map(len, values.values())),
+            "warnings": {},
+            "messages": [],
+            "output": None,
+            "checks": {"broken": [], "fixed": []},
+            "values": takes,
+            "traces": traces,
+        }
+    )
+
+
+def evidence_of_variants(**variants: VariantEvidence) -> Evidence:
+    """Evidence of these variants; `_` in a name stands for `-`."""
+    named = {name.replace("_", "-"): variant for name, variant in variants.items()}
+    return Evidence(case=SLUG, number=1, engine="4.0.0", snippet=None, variants=named)

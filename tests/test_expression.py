@@ -97,7 +97,7 @@ def test_refused(text: str, expected: str) -> None:
 
 @pytest.mark.parametrize("text", ["__import__('os')", "eval(a)", "square(a)"])
 def test_unknown_function(text: str) -> None:
-    with pytest.raises(ExpressionError, match="^one of the functions abs, sqrt, "):
+    with pytest.raises(ExpressionError, match=r"^one of the functions abs, sqrt, "):
         parse(text)
 
 

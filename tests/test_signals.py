@@ -242,7 +242,7 @@ def test_refused_by_the_pendulum(path: str, found: str, expected: str, repair: s
         pytest.param("body(rod).xpso[0]", "write xpos", id="misspelt"),
         pytest.param("body(rod).__class__", "correct the field", id="private"),
         pytest.param("model.opt.timstep", "write timestep", id="nested"),
-        pytest.param("model.body(rod).xpos[0]", "write ipos", id="field-of-the-data-asked-of-the-model"),
+        pytest.param("model.body(rod).xpos[0]", "write pos", id="field-of-the-data-asked-of-the-model"),
     ],
 )
 def test_missing_field(path: str, repair: str) -> None:

@@ -61,7 +61,7 @@ def test_variants_are_the_broken_one_then_fixes_then_refuted(tmp_path: Path) -> 
 
 def test_edits_that_do_not_match_are_reported_for_all_remedies(tmp_path: Path) -> None:
     case = tiny_case(
-        tmp_path, ('find: \' contype="2"', 'find: \' contype="4"'), ("find: 'timestep=\"0.002\"'", "find: '\"0.05'")
+        tmp_path, ('find: \' contype="2"', 'find: \' contype="4"'), ("find: 'timestep=\"0.002\"'", "find: '\"0.07'")
     )
     with pytest.raises(CaseError) as caught:
         variants(case)

@@ -191,8 +191,8 @@ def _steady(case: Case, evidence: Evidence) -> str:
     same = sum(robust.same for robust in evidence.robustness.values())
     said = (
         f"Each variant was run again from {STARTS} starts changed by up to {quantity(NUDGE, 'm')} or rad in position "
-        f"and as much per second in velocity, with the timestep and with half of it: {same} of {total} runs kept "
-        "their verdict."
+        f"and as much per second in velocity; the broken model and the fixes with half the timestep too: {same} of "
+        f"{total} runs kept their verdict."
     )
     if all(robust.longer is not False for robust in evidence.robustness.values()):
         said += " Every fix still holds after ten times the duration."

@@ -54,4 +54,53 @@ def servo_sag(kp: float, load: float) -> float:
     return angle
 
 
-FUNCTIONS: dict[str, Callable[..., float]] = {"servo_sag": servo_sag}
+def bits(mask: float, other: float) -> float:
+    """The bits that two masks share, as MuJoCo's filter asks for them: `mask & other`."""
+    return float(int(mask) & int(other))
+
+
+def held_share(drop: float, speed: float, room: float, tau: float, h: float, spread: float, count: float) -> float:
+    """The share of start heights from which a falling ball is thrown back by a thin shelf.
+
+    One dimension, semi-implicit Euler, one soft contact; formulas from MuJoCo's manual, *Computation*, with the default
+    `solimp` and a damping ratio of 1. The contact pushes up while the ball's centre is above the shelf's mid-plane.
+
+    Args:
+        drop: Height of the lowest start above the shelf's mid-plane, in m.
+        speed: Vertical speed at the start, in m/s.
+        room: Half the shelf's thickness plus the ball's radius, in m.
+        tau: Time constant of the contact in s; `refsafe` raises it to 2 h.
+        h: Timestep in s.
+        spread: The range of start heights in m.
+        count: How many starts, evenly spaced over the range, both ends included.
+    """
+    held = [thrown_back(drop + spread * k / (count - 1), speed, room, max(tau, 2 * h), h) for k in range(int(count))]
+    return sum(held) / count
+
+
+def thrown_back(height: float, speed: float, room: float, tau: float, h: float) -> bool:
+    """Whether a ball that starts `height` above the mid-plane of a shelf turns before its centre passes it."""
+    damping, stiffness = 2 / (D_MAX * tau), 1 / (D_MAX * tau) ** 2
+    while height > 0:
+        depth, acceleration = room - height, -GRAVITY
+        if depth > 0:
+            d = impedance(depth)
+            reference = stiffness * d * depth - damping * speed
+            acceleration += max(0.0, d * (reference - acceleration))
+        speed += h * acceleration
+        height += h * speed
+        if speed > 0:
+            return True
+    return False
+
+
+def impedance(depth: float) -> float:
+    """MuJoCo's impedance d(r) for the default `solimp`: 0.9 to 0.95 over 1 mm, two parabolas."""
+    x = min(depth / 0.001, 1.0)
+    y = 2 * x * x if x <= 0.5 else 1 - 2 * (1 - x) ** 2
+    return 0.9 + y * (D_MAX - 0.9)
+
+
+D_MAX = 0.95
+GRAVITY = 9.81
+FUNCTIONS: dict[str, Callable[..., float]] = {"servo_sag": servo_sag, "bits": bits, "held_share": held_share}

@@ -264,6 +264,7 @@ class Sweep(Strict):
     title: Text = Field(description="What is varied and what is seen.")
     text: Text = Field(description="Prose under Cause; may hold `{{ sweep.ID.points }}`, `.worst`, `.agreed`, ...")
     base: Identifier = Field(default="broken", description="The variant whose text is varied.")
+    edits: list[Edit] = Field(default=[], description="Applied to the base variant before the parameters are.")
     vary: list[Parameter] = Field(min_length=1, max_length=2, description="One or two parameters.")
     duration: float | None = Field(default=None, gt=0, le=60, description="In s, in place of the run's.")
     outcome: Taken = Field(description="The number measured at every point.")

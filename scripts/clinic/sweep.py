@@ -88,7 +88,7 @@ def substituted(text: str, sweep: Sweep, at: Mapping[str, float]) -> str:
     Raises:
         EditError: If a parameter's `find` does not occur exactly once.
     """
-    edits = [
+    edits = [*sweep.edits] + [
         Edit.model_construct(find=p.find, replace=p.replace.replace("{}", f"{at[p.name]:.12g}")) for p in sweep.vary
     ]
     return apply_edits(text, edits)

@@ -1,6 +1,7 @@
 # make serve   the site with live reload at http://localhost:8000
 # make test    every test; sets everything up by itself
 # make site    builds site/ strictly
+# make bench   how long a build takes, cold and warm, and its parts
 # make lint    style and types
 # make lock    renews requirements.txt
 # make clean   forgets everything built
@@ -14,7 +15,7 @@ export NO_MKDOCS_2_WARNING := 1
 export DISABLE_MKDOCS_2_WARNING := true
 
 .DEFAULT_GOAL := help
-.PHONY: help setup serve site test lint lock clean
+.PHONY: help setup serve site test bench lint lock clean
 
 help:
 	@sed -n 's/^# make/make/p' Makefile
@@ -33,6 +34,9 @@ site: setup
 
 test: setup
 	$(BIN)/pytest -n auto --dist loadgroup
+
+bench: setup
+	$(BIN)/python scripts/bench.py
 
 lint: setup
 	$(BIN)/ruff format --check .

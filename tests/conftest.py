@@ -10,6 +10,7 @@ from clinic.cache import Cache
 from clinic.case import Case, load_case
 from clinic.evidence import Evidence
 from clinic.exhibit import evidence_of, exhibits
+from clinic.site import cache_folder
 
 ROOT = Path(__file__).parent.parent
 SLUGS = sorted(path.name for path in (ROOT / "cases").iterdir() if path.is_dir())
@@ -38,7 +39,7 @@ def proven() -> Proven:
     def get(slug: str) -> tuple[Case, Evidence]:
         if slug not in made:
             case = load_case(ROOT / "cases" / slug)
-            made[slug] = case, evidence_of(exhibits(case, Cache(ROOT / ".cache" / "clinic")))
+            made[slug] = case, evidence_of(exhibits(case, Cache(cache_folder(ROOT))))
         return made[slug]
 
     return get

@@ -20,7 +20,7 @@ from clinic.problem import CaseError
 from clinic.prose import quantity
 from clinic.reference import reference
 from clinic.site import build as build_site
-from clinic.site import project_root
+from clinic.site import cache_folder, project_root
 
 app = typer.Typer(add_completion=False, no_args_is_help=True, help="Broken MuJoCo simulations that prove themselves.")
 
@@ -45,7 +45,7 @@ def check(slug: Annotated[str | None, typer.Argument(help="A case; all when left
     """Run a case and judge it by every law."""
     root = project_root()
     cases = load_cases(root / "cases") if slug is None else [load_case(root / "cases" / slug)]
-    cache = Cache(root / ".cache" / "clinic")
+    cache = Cache(cache_folder(root))
     failures: list[str] = []
     for case in cases:
         evidence = evidence_of(exhibits(case, cache))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any, Literal
 
 import mujoco
@@ -13,10 +14,10 @@ from clinic.case import Case
 from clinic.checks import TAKES, Trace, Verdict, judge, take
 from clinic.examine import examine
 from clinic.measure import measure_model, measure_output
-from clinic.problem import CaseError, Problem
-from clinic.record import Check
+from clinic.problem import CaseError, Problem, listed
+from clinic.record import Check, PathSignal
 from clinic.robust import Robustness
-from clinic.script import ScriptError, run_python
+from clinic.script import Output, ScriptError, run_python
 from clinic.simulate import compile_model
 from clinic.sweep import SweepEvidence
 from clinic.variant import Variant, remedies, variants
@@ -116,6 +117,7 @@ def collect(case: Case) -> Evidence:
             observed[variant.id] = observe(case, variant)
         except ScriptError as error:
             problems.append(_script_problem(case, variant, error))
+    problems += _unprinted(case, observed)
     try:
         snippet = None if case.record.snippet is None else run_snippet(case)
     except ScriptError as error:
@@ -187,6 +189,21 @@ def samples(trace: Trace, unit: str) -> Samples:
 def comparison(check: Check) -> dict[str, float | tuple[float, float]]:
     """The check's comparison as data: `{"below": 0.1}`."""
     return check.model_dump(include={"above", "below", "between", "equals", "within"}, exclude_none=True)
+
+
+def _unprinted(case: Case, observed: dict[str, VariantEvidence]) -> Iterator[Problem]:
+    """Signals of a script that no variant prints, but for those that only a sweep's text prints."""
+    swept = {sweep.outcome.signal for sweep in case.record.sweep.values()}
+    for name, signal in case.record.signals.items():
+        seen = any(variant.values[name]["final"] is not None for variant in observed.values())
+        if isinstance(signal, PathSignal) and case.record.script and observed and not seen and name not in swept:
+            printed = sorted({key for v in observed.values() for key in Output(v.output or "").traces()})
+            yield case.problem(
+                ("signals", name, "path"),
+                f"{signal.path}, which no variant prints",
+                f"printed(...) of: {listed(printed)}",
+                "correct the name, or print `name = value` on a line of its own",
+            )
 
 
 def _script_problem(case: Case, variant: Variant, error: ScriptError) -> Problem:

@@ -41,6 +41,7 @@ class Task:
     """Work for one case: `make` gives files, kept under `key`."""
 
     slug: str
+    kind: str
     key: str
     make: Callable[[], Files]
 
@@ -90,7 +91,7 @@ def measuring_tasks(case: Case) -> Iterator[Task]:
     for name, sweep in case.record.sweep.items():
         points = grid(sweep)
         for k in range(0, len(points), SLICE):
-            yield _task(case, f"sweep {name} {k}", partial(_slice, case, name, k))
+            yield _task(case, "sweeps", partial(_slice, case, name, k), name, k)
     if case.record.run is not None:
         yield _task(case, "robustness", partial(_robustness, case))
     if case.record.film is not None:
@@ -182,9 +183,9 @@ def scene_image(case: Case) -> Image:
     return image(model, data, picture.camera)
 
 
-def _task(case: Case, name: str, make: Callable[[], Files]) -> Task:
+def _task(case: Case, kind: str, make: Callable[[], Files], *part: object) -> Task:
     experiment = case.record.model_dump(mode="json", exclude=PROSE)
-    return Task(case.slug, key_of(name, case.slug, case.record.number, experiment, case.texts), make)
+    return Task(case.slug, kind, key_of(kind, *part, case.slug, case.record.number, experiment, case.texts), make)
 
 
 def _attempt(make: Callable[[], Files]) -> tuple[Files, tuple[Problem, ...], str]:

@@ -50,7 +50,7 @@ def film(case: Case) -> Files:
         list(frames(compile_model(variant.text), record.run, record.film, record.film.camera or record.picture.camera))
         for variant in (broken, fixed)
     ]
-    pictures = [beside(left, right, ("broken", fixed.id)) for left, right in zip(*sides, strict=True)]
+    pictures = [beside(left, right, ("broken", "repaired")) for left, right in zip(*sides, strict=True)]
     moments = np.linspace(0, len(pictures) - 1, STRIP).round().astype(int)
     at = round(min(record.picture.time / filmed(record.film, record.run), 1.0) * (len(pictures) - 1))
     return {

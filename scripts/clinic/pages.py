@@ -175,12 +175,14 @@ def _numerical(evidence: Evidence) -> str:
     if "broken" not in evidence.robustness:
         return ""
     words = {"broken": "as broken as before", "well": "well", "neither": "neither broken in the same way nor well"}
-    half, twentieth = (words[state] for state in evidence.robustness["broken"].shrunk.values())
-    said = f"at half the timestep the broken model is {half}, at a twentieth {twentieth}"
-    states = set(evidence.robustness["broken"].shrunk.values())
-    if states == {"broken"}:
+    half, twentieth = evidence.robustness["broken"].shrunk.values()
+    if half == twentieth:
+        said = f"at half the timestep and at a twentieth of it the broken model is {words[half]}"
+    else:
+        said = f"at half the timestep the broken model is {words[half]}, at a twentieth {words[twentieth]}"
+    if half == twentieth == "broken":
         return f"No: {said}. The cause is in the model."
-    return f"{'Yes' if 'well' in states else 'In part'}: {said}."
+    return f"{'Yes' if 'well' in (half, twentieth) else 'In part'}: {said}."
 
 
 def _steady(case: Case, evidence: Evidence) -> str:
@@ -190,7 +192,7 @@ def _steady(case: Case, evidence: Evidence) -> str:
     total = sum(robust.runs for robust in evidence.robustness.values())
     same = sum(robust.same for robust in evidence.robustness.values())
     said = (
-        f"Each variant was run again from {STARTS} starts changed by up to {quantity(NUDGE, 'm')} or rad in position "
+        f"Each variant was run again from {STARTS} starts changed by up to {quantity(NUDGE, 'm', 1)} or rad in position "
         f"and as much per second in velocity; the broken model and the fixes with half the timestep too: {same} of "
         f"{total} runs kept their verdict."
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from functools import partial
 from pathlib import Path
@@ -37,13 +38,18 @@ def project_root() -> Path:
     raise FileNotFoundError(f"no folder with cases/ and pyproject.toml at or above {here}")
 
 
+def cache_folder(root: Path) -> Path:
+    """Where finished work is kept: CLINIC_CACHE, or `.cache/clinic` in the checkout."""
+    return Path(os.environ.get("CLINIC_CACHE", root / ".cache" / "clinic"))
+
+
 def build(root: Path, cache: Cache | None = None) -> Files:
     """Every generated file of the site, by its path below the documentation folder.
 
     Raises:
         CaseError: With all problems of all cases, and every claim that the runs do not bear out.
     """
-    cache = cache or Cache(root / ".cache" / "clinic")
+    cache = cache or Cache(cache_folder(root))
     cases = load_cases(root / "cases")
     by_slug = {case.slug: case for case in cases}
     if problems := list(alike_problems(by_slug)):

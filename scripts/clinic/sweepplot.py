@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from clinic.palette import BROKEN, DASHES, FIXED, INK, RIVAL, Theme
 from clinic.record import Parameter, Prediction, Sweep
@@ -62,7 +63,8 @@ def _map(axes: Axes, theme: Theme, sweep: Sweep, outcome: str, swept: SweepEvide
             s=26,
             marker="s",
         )
-        axes.figure.colorbar(dots, ax=axes, label=outcome)
+        bar = axes.figure.colorbar(dots, ax=axes)
+        bar.set_label(outcome, fontsize=8.5)
     else:
         for answer, label, fill in ((True, sweep.yes, "full"), (False, sweep.no, "none")):
             chosen = [p for p in swept.points if p.holds is answer]
@@ -120,12 +122,13 @@ def _marks(swept: SweepEvidence, theme: Theme) -> list[tuple[str, dict[str, floa
 
 def _scale(axes: Axes, parameter: Parameter, side: str) -> None:
     label = (parameter.label or parameter.name) + (f" [{parameter.unit}]" if parameter.unit else "")
-    if side == "x":
-        axes.set_xscale(parameter.scale)
-        axes.set_xlabel(label)
-    else:
-        axes.set_yscale(parameter.scale)
-        axes.set_ylabel(label)
+    (axes.set_xlabel if side == "x" else axes.set_ylabel)(label)
+    if parameter.scale == "log":
+        (axes.set_xscale if side == "x" else axes.set_yscale)("log")
+        axis = axes.xaxis if side == "x" else axes.yaxis
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_minor_formatter(NullFormatter())
 
 
 def _value(number: float | None) -> float:

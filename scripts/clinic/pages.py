@@ -192,8 +192,8 @@ def _steady(case: Case, evidence: Evidence) -> str:
     total = sum(robust.runs for robust in evidence.robustness.values())
     same = sum(robust.same for robust in evidence.robustness.values())
     said = (
-        f"Each variant was run again from {STARTS} starts changed by up to {quantity(NUDGE, 'm', 1)} or rad in position "
-        f"and as much per second in velocity; the broken model and the fixes with half the timestep too: {same} of "
+        f"Each variant was run again from {STARTS} starts changed by up to {quantity(NUDGE, 'm', 1)} or rad in "
+        f"position and as much per second in velocity; the broken model and the fixes with half the timestep too: {same} of "
         f"{total} runs kept their verdict."
     )
     if all(robust.longer is not False for robust in evidence.robustness.values()):

@@ -101,9 +101,8 @@ def measuring_tasks(case: Case) -> Iterator[Task]:
 
 def figure_task(case: Case, evidence: Evidence) -> Task:
     """Draws the plots."""
-    return Task(
-        case.slug, key_of("figures", case.slug, evidence.model_dump(mode="json")), partial(figures, case, evidence)
-    )
+    key = key_of("figures", case.slug, evidence.model_dump(mode="json"))
+    return Task(case.slug, "plots", key, partial(figures, case, evidence))
 
 
 def assembled(case: Case, first: Files, rest: Files) -> Evidence:

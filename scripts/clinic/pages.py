@@ -193,8 +193,8 @@ def _steady(case: Case, evidence: Evidence) -> str:
     same = sum(robust.same for robust in evidence.robustness.values())
     said = (
         f"Each variant was run again from {STARTS} starts changed by up to {quantity(NUDGE, 'm', 1)} or rad in "
-        f"position and as much per second in velocity; the broken model and the fixes with half the timestep too: {same} of "
-        f"{total} runs kept their verdict."
+        f"position and as much per second in velocity; the broken model and the fixes with half the timestep too: "
+        f"{same} of {total} runs kept their verdict."
     )
     if all(robust.longer is not False for robust in evidence.robustness.values()):
         said += " Every fix still holds after ten times the duration."

@@ -7,6 +7,7 @@ from pathlib import Path
 import mujoco
 from clinic.case import Case, load_case
 from clinic.evidence import Evidence, VariantEvidence
+from clinic.pages import case_page
 
 GRAVITY = 9.81
 SLUG = "falling-box"
@@ -232,3 +233,8 @@ def evidence_of_variants(**variants: VariantEvidence) -> Evidence:
     """Evidence of these variants; `_` in a name stands for `-`."""
     named = {name.replace("_", "-"): variant for name, variant in variants.items()}
     return Evidence(case=SLUG, number=1, engine="4.0.0", snippet=None, variants=named)
+
+
+def page_of(case: Case, evidence: Evidence, files: dict[str, bytes] | None = None, *others: Case) -> str:
+    """The Markdown of a case's page, with no look-alikes."""
+    return case_page(case, evidence, files or {}, {other.slug: other for other in others}, None)

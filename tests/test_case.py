@@ -11,17 +11,27 @@ import pytest
 from clinic import evidence
 from clinic.case import Case, checks_of, load_case, load_cases
 from clinic.evidence import collect
-from clinic.pages import case_page
-from clinic.problem import CaseError
-from clinic.record import Record
+from clinic.problem import CaseError, listed
+from clinic.record import Check, Record
 from clinic.script import run_python
 from clinic.signals import WARNINGS
-from helpers import MODEL, RECORD, SLUG, changed, script_case, tiny_case, write_case, write_folder, write_script_case
+from helpers import (
+    MODEL,
+    RECORD,
+    SLUG,
+    changed,
+    page_of,
+    script_case,
+    tiny_case,
+    write_case,
+    write_folder,
+    write_script_case,
+)
 
 Change = tuple[str, str]
 EDIT = "{find: ' contype=\"2\" conaffinity=\"2\"', replace: ''}"
-RECORD_FIELDS = ", ".join(Record.model_fields)
-CHECK_FIELDS = "signal, take, window, above, below, between, equals, within"
+RECORD_FIELDS = listed(Record.model_fields, 30)
+CHECK_FIELDS = listed(Check.model_fields, 30)
 
 
 def message_of(act: Callable[[], object]) -> str:
@@ -682,13 +692,17 @@ def test_number_used_twice(tmp_path: Path) -> None:
 
 
 def test_see_to_nowhere(tmp_path: Path) -> None:
-    write_case(tmp_path, ("tags: [contact]", "tags: [contact]\nsee: [sliding-bax]"))
+    write_case(tmp_path, ("tags: [contact]", "tags: [contact]\nsee: [sliding-bax, falling-box]"))
     write_case(tmp_path, ("number: 1", "number: 2"), slug="sliding-box")
     assert message_of(lambda: load_cases(tmp_path / "cases")) == says("""
         cases/falling-box/case.yaml:10: see[0]
-          found:    sliding-bax, which is no other case
-          expected: another case: sliding-box
+          found:    sliding-bax, which is no case
+          expected: a case: sliding-box
           repair:   write sliding-box
+        cases/falling-box/case.yaml:10: see[1]
+          found:    falling-box, this very case
+          expected: a case: sliding-box
+          repair:   remove it
         """)
 
 
@@ -917,7 +931,7 @@ def half_a_second(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("half_a_second")
 def test_script_that_hangs(tmp_path: Path) -> None:
-    case = script_case(tmp_path, script="error = 0.5\nwhile error:\n    pass\n")
+    case = script_case(tmp_path, script="error = 0.5\nprint('error =', error)\nwhile error:\n    pass\n")
     assert message_of(lambda: collect(case)) == says("""
         cases/odd-script/case.yaml:3: script
           found:    script.py: still running after 0.5 s
@@ -984,7 +998,7 @@ def test_samples_that_do_not_pair_up(tmp_path: Path) -> None:
         pytest.param(
             MODEL.replace('"side"', '"top"'),
             says("""
-            cases/odd-script/case.yaml:23: picture.camera
+            cases/odd-script/case.yaml:25: picture.camera
               found:    side, which is no camera of the model
               expected: a camera: top
               repair:   correct it, or name the camera in the model
@@ -1051,7 +1065,7 @@ def test_wrong_scene_of_a_script(tmp_path: Path, scene: str, message: str) -> No
 )
 def test_prose_with_an_unknown_field(tmp_path: Path, field: str, found: str, expected: str, repair: str) -> None:
     case = tiny_case(tmp_path, ("The masks share no bit.", f"It is {{{{ {field} }}}}."))
-    assert message_of(lambda: case_page(case, collect(case), {}, {})) == (
+    assert message_of(lambda: page_of(case, collect(case))) == (
         f"cases/falling-box/case.yaml:6: cause\n  found:    {found}\n  expected: {expected}\n  repair:   {repair}"
     )
 

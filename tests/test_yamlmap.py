@@ -27,6 +27,13 @@ def test_data_is_what_the_text_says() -> None:
     assert data["prose"] == "two\nlines\n"
 
 
+@pytest.mark.parametrize("key", ["on", "no", "1", "2.0", "null", "~", "2024-01-02"])
+def test_keys_are_the_text_that_stands_there(key: str) -> None:
+    data, lines = read_yaml(f"a: 1\nb: {{{key}: 2}}\n")
+    assert data == {"a": 1, "b": {key: 2}}
+    assert lines.at(("b", key)) == 2
+
+
 @pytest.mark.parametrize(
     ("where", "line"),
     [
@@ -71,6 +78,7 @@ def test_dotted(where: Where, text: str) -> None:
         pytest.param("a: 1\n- b\n", 2, "expected <block end>, but found '-'", id="syntax"),
         pytest.param("a: b: c\n", 1, "mapping values are not allowed here", id="colon-in-plain-text"),
         pytest.param("a: 1\n\tb: 2\n", 2, "found character '\\t' that cannot start any token", id="tab"),
+        pytest.param("a: 1\n? [b, c]\n: 2\n", 2, "a key that is no text", id="list-as-a-key"),
         pytest.param("", 1, "no mapping", id="empty"),
         pytest.param("# nothing\n", 1, "no mapping", id="only-a-comment"),
         pytest.param("- a\n- b\n", 1, "no mapping", id="list"),

@@ -14,27 +14,31 @@ from pathlib import Path
 
 Files = dict[str, bytes]
 ENGINES = ("mujoco", "numpy", "matplotlib", "pillow")
+CHECKSUM = hashlib.sha256().digest_size
 EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
 class Cache:
-    """Files kept under `folder`, one archive a key. An archive that does not read back whole is made again."""
+    """Files kept under `folder`, one archive a key, behind its checksum. One that is not whole is made again."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
 
     def path(self, key: str) -> Path:
         """Where the archive of a key lies."""
-        return self.folder / f"{key}.zip"
+        return self.folder / f"{key}.bin"
 
     def get(self, key: str) -> Files | None:
         """The files of a key, or None."""
         try:
-            with zipfile.ZipFile(self.path(key)) as archive:
-                files = {name: archive.read(name) for name in archive.namelist()}
-                return files if archive.comment.decode() == f"{len(files)}" else None
-        except (OSError, zipfile.BadZipFile, ValueError, EOFError, NotImplementedError):
+            whole = self.path(key).read_bytes()
+        except OSError:
             return None
+        checksum, packed = whole[:CHECKSUM], whole[CHECKSUM:]
+        if hashlib.sha256(packed).digest() != checksum:
+            return None
+        with zipfile.ZipFile(io.BytesIO(packed)) as archive:
+            return {name: archive.read(name) for name in archive.namelist()}
 
     def put(self, key: str, files: Files) -> None:
         """Stores files under a key, all or nothing."""
@@ -43,9 +47,8 @@ class Cache:
         with zipfile.ZipFile(packed, "w", zipfile.ZIP_STORED) as archive:
             for name, content in sorted(files.items()):
                 archive.writestr(zipfile.ZipInfo(name, EPOCH), content)
-            archive.comment = f"{len(files)}".encode()
         with tempfile.NamedTemporaryFile(dir=self.folder, suffix=".part", delete=False) as part:
-            part.write(packed.getvalue())
+            part.write(hashlib.sha256(packed.getvalue()).digest() + packed.getvalue())
         os.replace(part.name, self.path(key))
 
     def remember(self, key: str, make: Callable[[], Files]) -> Files:

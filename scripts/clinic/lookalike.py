@@ -83,7 +83,9 @@ def unclear(made: Matrix) -> Iterator[str]:
         for j, holds in enumerate(row):
             if holds != (i == j):
                 state = "holds for" if holds else "does not hold for"
-                yield f"the measurement of {made.cases[i]} {state} {made.cases[j]} ({made.measured[i][j]})"
+                value = made.measured[i][j]
+                seen = "nothing" if value is None else f"{value:.4g}"
+                yield f"the measurement of {made.cases[i]} {state} {made.cases[j]} ({seen})"
 
 
 def _measure(of: Case, on: Case) -> float | None:

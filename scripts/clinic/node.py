@@ -1,0 +1,43 @@
+"""Node: the program, the packages of the checkout, and what it prints when a script fails."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import sys
+from pathlib import Path
+
+ENDING = ".mjs"
+MUJOCO = "@mujoco/mujoco"
+CARET = re.compile(r"^\s*\^+\s*$\n\s*(?P<message>.+?)(?=\n\s+at |\n\(Use |\n\s*\n|\Z)", re.MULTILINE | re.DOTALL)
+
+
+def program() -> str | None:
+    """The Node of the virtual environment, else the one on the path; None if there is neither."""
+    return shutil.which("node", path=str(Path(sys.executable).parent)) or shutil.which("node")
+
+
+def modules() -> Path | None:
+    """The nearest `node_modules` at or above the working directory or this package; None if there is none."""
+    here = Path.cwd()
+    for folder in (here, *here.parents, *Path(__file__).resolve().parents):
+        if (found := folder / "node_modules").is_dir():
+            return found
+    return None
+
+
+def version(package: str) -> str | None:
+    """The version of an installed package; None if it is not installed."""
+    found = modules()
+    described = found / package / "package.json" if found else None
+    if described is None or not described.is_file():
+        return None
+    return str(json.loads(described.read_text(encoding="utf-8"))["version"])
+
+
+def failure(stderr: str, name: str) -> tuple[str, str | None]:
+    """The message of an uncaught error, empty if there is none, and the line of the script `name` it came from."""
+    message = " ".join(match["message"].split()) if (match := CARET.search(stderr)) else ""
+    line = re.search(rf"/{re.escape(name)}:(\d+)", stderr)
+    return re.sub(r" imported from \S+$", "", message), line[1] if line else None

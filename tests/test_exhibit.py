@@ -1,0 +1,139 @@
+"""Exhibits: what a case's page shows, made once."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from clinic import exhibit
+from clinic.cache import Cache
+from clinic.case import Case, load_case
+from clinic.exhibit import (
+    all_exhibits,
+    evidence_of,
+    evidence_task,
+    exhibits,
+    jobs,
+    measuring_tasks,
+    pictures,
+)
+from clinic.problem import CaseError
+from helpers import MODEL, script_case, tiny_case, write_script_case
+from PIL import Image
+
+BROKEN_RECORD = ("body(box).xpos[2]", "body(bix).xpos[2]")
+
+
+@pytest.fixture
+def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Cache:
+    monkeypatch.setenv("CLINIC_JOBS", "1")
+    return Cache(tmp_path / "cache")
+
+
+def without_film(root: Path, *changes: tuple[str, str]) -> Case:
+    return tiny_case(root, ("film: {}\n", ""), *changes)
+
+
+def webp_size(data: bytes) -> tuple[int, int]:
+    with Image.open(io.BytesIO(data)) as image:
+        assert image.format == "WEBP"
+        return image.size
+
+
+def test_exhibits_of_a_model(tmp_path: Path, cache: Cache) -> None:
+    files = exhibits(without_film(tmp_path), cache)
+
+    assert {"evidence.json", "plot-light.svg", "plot-dark.svg", "broken.webp", "fixed.webp"} <= set(files)
+    assert evidence_of(files).variants["broken"].broken
+    assert files["evidence.json"].endswith(b"}\n")
+
+
+def test_exhibits_of_a_script(tmp_path: Path, cache: Cache) -> None:
+    files = exhibits(script_case(tmp_path), cache)
+
+    assert set(files) == {"evidence.json", "plot-light.svg", "plot-dark.svg"}
+    assert evidence_of(files).variants["no-error"].well
+
+
+def test_pictures_show_the_broken_model_and_the_first_fix(tmp_path: Path) -> None:
+    made = pictures(without_film(tmp_path, ("camera: side", "camera: side, time: 0.2")))
+
+    assert {name: webp_size(data) for name, data in made.items()} == {
+        "broken.webp": (480, 360),
+        "fixed.webp": (480, 360),
+    }
+    assert made["broken.webp"] != made["fixed.webp"]
+
+
+def test_picture_of_a_script_is_its_scene_from_keyframe_0(tmp_path: Path) -> None:
+    def picture(name: str, scene: str) -> bytes:
+        folder = write_script_case(
+            tmp_path / name,
+            ("script: script.py", "script: script.py\nfiles: [scene.xml]"),
+            ("camera: side", "camera: side, scene: scene.xml"),
+        )
+        (folder / "scene.xml").write_text(scene, encoding="utf-8")
+        return pictures(load_case(folder))["broken.webp"]
+
+    raised = MODEL.replace("</mujoco>", '<keyframe><key qpos="0 0 0.3 1 0 0 0"/></keyframe></mujoco>')
+    assert webp_size(picture("one", MODEL)) == (480, 360)
+    assert picture("two", raised) == picture("three", MODEL.replace('pos="0 0 0.06"', 'pos="0 0 0.3"'))
+
+
+def test_two_makings_are_equal_to_the_last_byte(tmp_path: Path, cache: Cache) -> None:
+    case = without_film(tmp_path)
+    assert exhibits(case, cache) == exhibits(case, Cache(tmp_path / "another"))
+
+
+def test_nothing_is_run_again_when_only_prose_changes(
+    tmp_path: Path, cache: Cache, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = exhibits(without_film(tmp_path / "before"), cache)
+    monkeypatch.setattr(exhibit, "collect", lambda case: pytest.fail(f"{case.slug} was run again"))
+
+    after = without_film(tmp_path / "after", ("Look at the masks.", "Look twice."), ("A box falls", "The box falls"))
+
+    assert exhibits(after, cache) == before
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        pytest.param(("duration: 0.4", "duration: 0.3"), id="run"),
+        pytest.param(("0.051", "0.052"), id="check"),
+        pytest.param(("'timestep=\"0.001\"'", "'timestep=\"0.0005\"'"), id="edit"),
+    ],
+)
+def test_a_case_is_run_again_when_its_experiment_changes(tmp_path: Path, change: tuple[str, str]) -> None:
+    before, after = without_film(tmp_path / "before"), without_film(tmp_path / "after", change)
+    assert evidence_task(before).key != evidence_task(after).key
+    assert {task.key for task in measuring_tasks(before)}.isdisjoint(task.key for task in measuring_tasks(after))
+
+
+def test_a_case_is_run_again_when_its_model_changes(tmp_path: Path) -> None:
+    before = without_film(tmp_path / "before")
+    after = replace(before, texts={"model.xml": MODEL.replace('mass="1"', 'mass="2"')})
+    assert evidence_task(before).key != evidence_task(after).key
+
+
+def test_all_exhibits_are_by_slug(tmp_path: Path, cache: Cache) -> None:
+    model, script = without_film(tmp_path), script_case(tmp_path)
+    made = all_exhibits([model, script], cache)
+    assert made == {model.slug: exhibits(model, cache), script.slug: exhibits(script, cache)}
+
+
+def test_problems_of_all_cases_are_reported_and_not_remembered(tmp_path: Path, cache: Cache) -> None:
+    model = without_film(tmp_path, BROKEN_RECORD)
+    script = script_case(tmp_path, script="raise SystemExit('no 0.5')\n")
+    for _ in range(2):
+        with pytest.raises(CaseError) as caught:
+            all_exhibits([model, script], cache)
+        assert {problem.file for problem in caught.value.problems} == {model.file, script.file}
+
+
+@pytest.mark.parametrize(("setting", "number"), [("1", 1), ("7", 7)])
+def test_jobs_can_be_set(monkeypatch: pytest.MonkeyPatch, setting: str, number: int) -> None:
+    monkeypatch.setenv("CLINIC_JOBS", setting)
+    assert jobs() == number

@@ -1,0 +1,81 @@
+"""Closed forms against models and numbers with known answers."""
+
+from __future__ import annotations
+
+import math
+
+import mujoco
+import numpy as np
+import pytest
+from clinic.predictions import (
+    bits,
+    held_share,
+    impedance,
+    mass_matrix,
+    omega_max,
+    omega_one_link,
+    servo_sag,
+    thrown_back,
+)
+
+PENDULA = """
+<mujoco>
+  <worldbody>
+    <body>
+      <joint axis="0 1 0" stiffness="8"/>
+      <inertial pos="0 0 0" mass="1" diaginertia="2 2 2"/>
+    </body>
+    <body>
+      <joint axis="0 1 0" stiffness="18"/>
+      <inertial pos="0 0 0" mass="1" diaginertia="2 2 2"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+
+
+def test_uncoupled_springs_have_the_frequencies_of_each() -> None:
+    model = mujoco.MjModel.from_xml_string(PENDULA)
+
+    assert omega_max(model) == pytest.approx(3.0)
+    assert omega_one_link(model) == pytest.approx(3.0)
+    np.testing.assert_allclose(mass_matrix(model), [[2, 0], [0, 2]])
+
+
+def test_the_fast_joint_decides_wherever_it_stands() -> None:
+    model = mujoco.MjModel.from_xml_string(PENDULA.replace('"8"', '"32"'))
+
+    assert omega_max(model) == pytest.approx(4.0)
+    assert omega_one_link(model) == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize("kp", [0.01, 1.0, 4.9, 500.0])
+def test_servo_sag_balances_the_torques(kp: float) -> None:
+    angle = servo_sag(kp, 4.905)
+
+    assert kp * angle == pytest.approx(4.905 * math.cos(angle), rel=1e-12)
+    assert 0 < angle < math.pi / 2
+
+
+def test_bits_are_those_that_both_masks_hold() -> None:
+    assert [bits(mask, 2) for mask in range(5)] == [0, 0, 2, 2, 0]
+
+
+def test_impedance_rises_from_its_first_to_its_second_value_over_a_millimetre() -> None:
+    assert impedance(0.0) == pytest.approx(0.9)
+    assert impedance(0.0005) == pytest.approx(0.925)
+    assert impedance(0.001) == impedance(0.1) == pytest.approx(0.95)
+
+
+def test_a_slow_ball_is_thrown_back_and_a_fast_one_is_not() -> None:
+    assert thrown_back(0.1, -1.0, 0.013, 0.02, 0.002)
+    assert not thrown_back(0.1, -8.0, 0.013, 0.02, 0.002)
+
+
+def test_a_step_longer_than_the_room_misses_some_starts() -> None:
+    assert held_share(0.1, -8, 0.013, 0.002, 0.001, 0.04, 40) == 1.0
+    assert held_share(0.1, -8, 0.013, 0.002, 0.002, 0.04, 40) == pytest.approx(0.013 / (8.1 * 0.002), abs=0.05)
+
+
+def test_a_time_constant_below_two_steps_changes_nothing() -> None:
+    assert held_share(0.1, -8, 0.013, 1e-4, 0.001, 0.04, 40) == held_share(0.1, -8, 0.013, 2e-3, 0.001, 0.04, 40)

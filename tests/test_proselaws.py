@@ -1,0 +1,39 @@
+"""Law 5: numbers in prose come from the runs, quotations from the files."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.evidence import collect
+from clinic.proselaws import quoted, typed
+from helpers import tiny_case
+
+
+def case_with(tmp_path, lesson: str):
+    case = tiny_case(tmp_path, ("lesson: Look at the masks.", f"lesson: |\n  {lesson}"))
+    return case, collect(case)
+
+
+@pytest.mark.parametrize("text", ['It has `contype="2"`.', 'Write `timestep="0.001"`.', "The attribute `contype`."])
+def test_a_quotation_that_stands_in_a_variant(tmp_path, text: str) -> None:
+    assert list(quoted(*case_with(tmp_path, text))) == []
+
+
+def test_a_quotation_that_no_variant_has(tmp_path) -> None:
+    assert list(quoted(*case_with(tmp_path, 'It has `contype="3" conaffinity="2"`.'))) == [
+        'lesson: quotes contype="3", which no variant has; correct the quotation'
+    ]
+
+
+@pytest.mark.parametrize("text", ["It falls 3 m.", "After 20ms it", "turned by 90°", "by 90 degrees", "weighs 3.9 N."])
+def test_a_number_typed_by_hand(tmp_path, text: str) -> None:
+    complaint, *rest = typed(*case_with(tmp_path, text))
+    assert complaint.startswith("lesson: ")
+    assert complaint.endswith("is typed by hand; write a field such as {{ broken.signal.final }}")
+    assert not rest
+
+
+@pytest.mark.parametrize(
+    "text", ["two boxes", "in 3 steps", "`0.5 m`", "$3 m$", "{{ broken.height.final }}", "MuJoCo 4.0 sees"]
+)
+def test_what_no_run_could_have_given(tmp_path, text: str) -> None:
+    assert list(typed(*case_with(tmp_path, text))) == []

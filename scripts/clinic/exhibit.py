@@ -10,19 +10,21 @@ import logging
 import os
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 
 import joblib
 import mujoco
 from pydantic import TypeAdapter
 
+from clinic import node
 from clinic.cache import Cache, Files, key_of
 from clinic.case import Case
 from clinic.evidence import Evidence, collect
 from clinic.film import film, webp
 from clinic.plots import figures
 from clinic.problem import CaseError, Problem
-from clinic.render import Image, RenderError, image
+from clinic.record import RowSignal
+from clinic.render import Image, RenderError, blindness, image
 from clinic.robust import Robustness, robustness
 from clinic.simulate import compile_model, state_at
 from clinic.sweep import Point, grid, measure_points, summarise
@@ -31,6 +33,7 @@ from clinic.variant import Variant, variants
 PROSE = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "tags", "phrases", "see", "no_sweep"}
 SLICE = 60
 EVIDENCE = "evidence.json"
+UNSEEN = "unseen.txt"
 POINTS = TypeAdapter(list[Point])
 ROBUST = TypeAdapter(dict[str, Robustness])
 log = logging.getLogger("mkdocs.clinic")
@@ -133,16 +136,20 @@ def run_tasks(tasks: list[Task], cache: Cache) -> dict[str, Files]:
         done[task.key] = files
         if not (wrong or blind):
             cache.put(task.key, files)
-    for reason in unseen:
-        log.warning("no pictures and no films: %s", reason) if os.environ.get("CI") else log.info(
-            "no films: %s", reason
-        )
+    for reason in sorted(unseen):
+        say_blind(reason)
     if problems:
         raise CaseError(problems)
     merged: dict[str, Files] = {}
     for task in tasks:
         merged.setdefault(task.slug, {}).update(done[task.key])
     return merged
+
+
+@lru_cache
+def say_blind(reason: str) -> None:
+    """Says once that there will be no pictures; a warning in CI, where a strict build then fails."""
+    log.log(logging.WARNING if os.environ.get("CI") else logging.INFO, "no pictures and no films: %s", reason)
 
 
 def jobs() -> int:
@@ -184,12 +191,15 @@ def scene_image(case: Case) -> Image:
 
 def _task(case: Case, kind: str, make: Callable[[], Files], *part: object) -> Task:
     experiment = case.record.model_dump(mode="json", exclude=PROSE)
-    return Task(case.slug, kind, key_of(kind, *part, case.slug, case.record.number, experiment, case.texts), make)
+    engine = [node.version(node.MUJOCO)] if case.record.language == "javascript" else []
+    whole = (*part, *engine, case.slug, case.record.number, experiment, case.texts)
+    return Task(case.slug, kind, key_of(kind, *whole), make)
 
 
 def _attempt(make: Callable[[], Files]) -> tuple[Files, tuple[Problem, ...], str]:
     try:
-        return make(), (), ""
+        files = make()
+        return files, (), files.pop(UNSEEN, b"").decode()
     except CaseError as error:
         return {}, error.problems, ""
     except RenderError as error:
@@ -197,7 +207,8 @@ def _attempt(make: Callable[[], Files]) -> tuple[Files, tuple[Problem, ...], str
 
 
 def _collect(case: Case) -> Files:
-    return {EVIDENCE: collect(case).model_dump_json().encode()}
+    asks = any(isinstance(signal, RowSignal) for signal in case.record.signals.values())
+    return {EVIDENCE: collect(case).model_dump_json().encode(), UNSEEN: blindness().encode() if asks else b""}
 
 
 def _slice(case: Case, name: str, k: int) -> Files:

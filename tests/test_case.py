@@ -13,7 +13,7 @@ from clinic.case import Case, checks_of, load_case, load_cases
 from clinic.evidence import collect
 from clinic.problem import CaseError, listed
 from clinic.record import Check, Record
-from clinic.script import run_python
+from clinic.script import run_script
 from clinic.signals import WARNINGS
 from helpers import (
     MODEL,
@@ -926,7 +926,7 @@ def test_name_that_an_edit_takes_away(tmp_path: Path) -> None:
 
 @pytest.fixture
 def half_a_second(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(evidence, "run_python", functools.partial(run_python, time_limit=0.5))
+    monkeypatch.setattr(evidence, "run_script", functools.partial(run_script, time_limit=0.5))
 
 
 @pytest.mark.usefixtures("half_a_second")

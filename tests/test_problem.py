@@ -37,6 +37,7 @@ def test_error_holds_each_problem_once_sorted_by_file_then_line() -> None:
         pytest.param("titel", "title", id="letters-swapped"),
         pytest.param("title", "title", id="the-word-itself"),
         pytest.param("zzz", None, id="nothing-alike"),
+        pytest.param("camera", None, id="too-little-alike"),
         pytest.param("", None, id="empty"),
     ],
 )

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import subprocess
+import sys
 
 import pytest
 from clinic.script import Output, ScriptError, run_python
@@ -79,6 +81,9 @@ def test_nothing_is_left_of_its_folder() -> None:
 @pytest.mark.parametrize(
     ("code", "found"),
     [
+        pytest.param(
+            "def f():\n    raise KeyError('x')\n\nf()", "KeyError: 'x' (line 2 of script.py)", id="raises-in-a-function"
+        ),
         pytest.param("x = 1\nraise ValueError('too big')", "ValueError: too big (line 2 of script.py)", id="raises"),
         pytest.param(
             "import json\n\njson.loads('x')",
@@ -104,9 +109,10 @@ def test_script_that_does_not_end() -> None:
     assert (caught.value.found, caught.value.repair) == ("still running after 0.2 s", "bound its loops by steps")
 
 
-def test_script_cannot_wait_for_input() -> None:
-    with pytest.raises(ScriptError, match="EOFError"):
-        run_python("input()", {})
+def test_script_has_no_input_even_where_there_is_some() -> None:
+    outer = "from clinic.script import run_python\nprint(run_python('import sys; print(sys.stdin.read())', {}).text)"
+    done = subprocess.run([sys.executable, "-c", outer], input="typed", check=True, capture_output=True, text=True)
+    assert done.stdout.strip() == ""
 
 
 def test_numbers_survive_printing() -> None:

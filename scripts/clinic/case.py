@@ -23,7 +23,8 @@ from pydantic import ValidationError
 
 from clinic.explain import field_problems
 from clinic.expression import ExpressionError, names, parse
-from clinic.problem import CaseError, Problem, closest, listed
+from clinic.predictions import MODEL_NUMBERS
+from clinic.problem import CaseError, Problem, article, closest, listed
 from clinic.record import Check, ExpressionSignal, PathSignal, Record, StartsSignal
 from clinic.signals import WARNINGS
 from clinic.yamlmap import Lines, Where, YamlError, dotted, read_yaml
@@ -115,6 +116,12 @@ def load_cases(root: Path) -> list[Case]:
 
 def _folder_problems(folder: Path) -> Iterator[Problem]:
     place = f"cases/{folder.name}"
+    if not folder.is_dir():
+        known = sorted(path.name for path in folder.parent.iterdir())
+        guess = closest(folder.name, known)
+        repair = f"write {guess}" if guess else "correct the name"
+        yield Problem(place, 1, "", f"no folder {folder.name}", f"the folder of a case: {listed(known, 30)}", repair)
+        return
     if not SLUG.fullmatch(folder.name):
         yield Problem(
             place, 1, "", f"a folder named {folder.name}", "lower-case words joined by hyphens", "rename the folder"
@@ -164,6 +171,10 @@ def _reference_problems(case: Case) -> Iterator[Problem]:
             yield case.problem((*where, "signal"), *_unknown(check.signal, record.signals, "signal"))
     paths = [name for name, signal in record.signals.items() if isinstance(signal, PathSignal)]
     for name, signal in record.signals.items():
+        if isinstance(signal, StartsSignal) and signal.holds.signal in record.signals.keys() - set(paths):
+            yield case.problem(
+                ("signals", name, "holds", "signal"), *_unknown(signal.holds.signal, paths, "path signal")
+            )
         if isinstance(signal, ExpressionSignal):
             try:
                 unknown = sorted(names(parse(signal.expr)) - set(paths))
@@ -172,6 +183,7 @@ def _reference_problems(case: Case) -> Iterator[Problem]:
                 continue
             for word in unknown:
                 yield case.problem(("signals", name, "expr"), *_unknown(word, paths, "path signal"))
+    yield from _sweep_problems(case)
     seen = {"broken"}
     for kind, remedies in (("fixes", record.fixes), ("refuted", record.refuted)):
         for index, remedy in enumerate(remedies):
@@ -185,6 +197,29 @@ def _reference_problems(case: Case) -> Iterator[Problem]:
             yield case.problem(("warnings", index), *_unknown(name, WARNINGS, "MuJoCo warning"))
     if record.picture.scene is not None and record.picture.scene not in case.texts:
         yield case.problem(("picture", "scene"), *_unknown(record.picture.scene, case.texts, "file"))
+
+
+def _sweep_problems(case: Case) -> Iterator[Problem]:
+    record = case.record
+    variants = ["broken", *(remedy.id for remedy in [*record.fixes, *record.refuted])]
+    for name, sweep in record.sweep.items():
+        where: Where = ("sweep", name)
+        if sweep.outcome.signal not in record.signals:
+            yield case.problem((*where, "outcome", "signal"), *_unknown(sweep.outcome.signal, record.signals, "signal"))
+        if sweep.base not in variants:
+            yield case.problem((*where, "base"), *_unknown(sweep.base, variants, "variant"))
+        single = [key for key, s in record.signals.items() if isinstance(s, PathSignal | ExpressionSignal)]
+        known = [*(parameter.name for parameter in sweep.vary), *single, *MODEL_NUMBERS]
+        places: list[tuple[Where, str]] = [(("prediction", "expr"), sweep.prediction.expr)]
+        places += [(("rivals", index, "expr"), rival.expr) for index, rival in enumerate(sweep.rivals)]
+        for place, expr in places:
+            try:
+                unknown = sorted(names(parse(expr)) - set(known))
+            except ExpressionError as error:
+                yield case.problem((*where, *place), expr, str(error), "write plain arithmetic")
+                continue
+            for word in unknown:
+                yield case.problem((*where, *place), *_unknown(word, known, "name that a prediction can read"))
 
 
 def checks_of(record: Record) -> Iterator[tuple[Where, Check]]:
@@ -202,7 +237,7 @@ def _unknown(word: str, known: Iterable[str], kind: str) -> tuple[str, str, str]
     guess = closest(word, known)
     return (
         f"{word}, which is no {kind}",
-        f"a {kind}: {listed(known, 30)}",
+        f"{article(kind)}: {listed(known, 30)}",
         f"write {guess}" if guess else "correct the name",
     )
 
@@ -218,5 +253,9 @@ def _relation_problems(cases: list[Case], slugs: set[str]) -> Iterator[Problem]:
             )
         numbers.setdefault(number, case.slug)
         for index, slug in enumerate(case.record.see):
-            if slug not in slugs or slug == case.slug:
-                yield case.problem(("see", index), *_unknown(slug, sorted(slugs - {case.slug}), "other case"))
+            others = sorted(slugs - {case.slug})
+            if slug == case.slug:
+                expected = f"a case: {listed(others, 30)}"
+                yield case.problem(("see", index), f"{slug}, this very case", expected, "remove it")
+            elif slug not in slugs:
+                yield case.problem(("see", index), *_unknown(slug, others, "case"))

@@ -29,6 +29,9 @@ app = typer.Typer(add_completion=False, no_args_is_help=True, help="Broken MuJoC
 def build(out: Annotated[Path, typer.Option(help="The folder to write; made anew.")]) -> None:
     """Write the pages as real files, beside those written by hand."""
     root = project_root()
+    own = [root / name for name in ("docs", "cases", "scripts", "tests", ".git")]
+    if root.is_relative_to(out.resolve()) or any(out.resolve().is_relative_to(folder) for folder in own):
+        raise typer.BadParameter(f"{out} holds the project's own files and would be deleted; name another folder")
     made = build_site(root)
     if out.exists():
         shutil.rmtree(out)

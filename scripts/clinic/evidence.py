@@ -10,14 +10,15 @@ import mujoco
 import numpy as np
 from pydantic import BaseModel, ConfigDict
 
+from clinic import node
 from clinic.case import Case
 from clinic.checks import TAKES, Trace, Verdict, judge, take
 from clinic.examine import examine
-from clinic.measure import measure_model, measure_output
+from clinic.measure import SampleError, measure_model, measure_output
 from clinic.problem import CaseError, Problem, listed
 from clinic.record import Check, PathSignal
 from clinic.robust import Robustness
-from clinic.script import Output, ScriptError, run_python
+from clinic.script import Output, ScriptError, run_script
 from clinic.simulate import compile_model
 from clinic.sweep import SweepEvidence
 from clinic.variant import Variant, remedies, variants
@@ -89,6 +90,7 @@ class Evidence(Plain):
     Attributes:
         case: The case's slug.
         engine: The version of MuJoCo that ran.
+        package: What it came from: `mujoco` for Python, `@mujoco/mujoco` for WebAssembly.
         snippet: What the diagnosis snippet printed; None without a snippet.
         sweep: The points of every sweep and how its predictions fared.
         robustness: How firmly each variant's verdict stands; empty for a code case.
@@ -97,6 +99,7 @@ class Evidence(Plain):
     case: str
     number: int
     engine: str
+    package: str = "mujoco"
     snippet: str | None
     variants: dict[str, VariantEvidence]
     sweep: dict[str, SweepEvidence] = {}
@@ -110,6 +113,7 @@ def collect(case: Case) -> Evidence:
         CaseError: With every problem that keeps the case from running.
     """
     examine(case)
+    package, version = engine(case)
     observed: dict[str, VariantEvidence] = {}
     problems: list[Problem] = []
     for variant in variants(case):
@@ -117,6 +121,10 @@ def collect(case: Case) -> Evidence:
             observed[variant.id] = observe(case, variant)
         except ScriptError as error:
             problems.append(_script_problem(case, variant, error))
+        except SampleError as error:
+            where = ("signals", error.signal, "expr")
+            expected, repair = "signals with equally many samples", "print each as often as the others"
+            problems.append(case.problem(where, error.found, expected, repair))
     problems += _unprinted(case, observed)
     try:
         snippet = None if case.record.snippet is None else run_snippet(case)
@@ -127,20 +135,37 @@ def collect(case: Case) -> Evidence:
     return Evidence(
         case=case.slug,
         number=case.record.number,
-        engine=mujoco.__version__,
+        engine=version,
+        package=package,
         snippet=snippet,
         variants=observed,
     )
 
 
+def engine(case: Case) -> tuple[str, str]:
+    """The package that brings MuJoCo to the case's source, and its version.
+
+    Raises:
+        CaseError: If the case is in JavaScript and the package, or Node itself, is not installed.
+    """
+    if case.record.language != "javascript":
+        return "mujoco", mujoco.__version__
+    version = node.version(node.MUJOCO)
+    if node.program() is None or version is None:
+        found, repair = node.NO_PROGRAM if node.program() is None else node.NO_PACKAGE
+        raise CaseError([case.problem(("script",), found, f"Node and {node.MUJOCO}, to run it", repair)])
+    return node.MUJOCO, version
+
+
 def run_snippet(case: Case) -> str:
-    """What the diagnosis snippet prints, run beside the case's files.
+    """What the diagnosis snippet prints, run beside the case's files and in the language of its script.
 
     Raises:
         ScriptError: If it does not end well.
     """
     assert case.record.snippet is not None
-    return run_python(case.record.snippet, case.texts, name="snippet.py").text
+    name = "snippet.mjs" if case.record.language == "javascript" else "snippet.py"
+    return run_script(case.record.snippet, case.texts, name=name).text
 
 
 def observe(case: Case, variant: Variant) -> VariantEvidence:
@@ -157,7 +182,7 @@ def observe(case: Case, variant: Variant) -> VariantEvidence:
             "output": None,
         }
     else:
-        output = run_python(variant.text, case.texts, name=record.source)
+        output = run_script(variant.text, case.texts, name=record.source)
         traces = measure_output(record, output)
         details = {"timestep": None, "steps": None, "warnings": {}, "messages": [], "output": output.text}
     return VariantEvidence(

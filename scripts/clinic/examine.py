@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 import mujoco
 
 from clinic.case import Case
-from clinic.problem import CaseError, Problem, closest, listed
+from clinic.problem import CaseError, Problem, article, closest, listed
 from clinic.record import PathSignal, RowSignal, StartsSignal
 from clinic.signals import SignalError, bind, element_names, parse_path
 from clinic.simulate import RunError, compile_model, controls, start, step_count
-from clinic.variant import Variant, remedies, variants
+from clinic.sweep import grid, substituted
+from clinic.variant import EditError, Variant, remedies, variants
 from clinic.yamlmap import Where
 
 
@@ -28,11 +30,60 @@ def examine(case: Case) -> None:
     except CaseError as error:
         raise CaseError([*problems, *error.problems]) from None
     if case.record.run is not None:
-        places = {remedy.id: where for where, _, remedy in remedies(case)}
-        for variant in made:
-            problems += _variant_problems(case, variant, places.get(variant.id, ()))
+        problems += _model_problems(case, made)
+    elif case.record.picture.scene is not None:
+        problems += _scene_problems(case, case.record.picture.scene)
+    if not problems:
+        problems = list(_sweep_problems(case, made))
     if problems:
         raise CaseError(problems)
+
+
+def _sweep_problems(case: Case, made: list[Variant]) -> Iterator[Problem]:
+    """The first and the last point of every sweep, written and compiled."""
+    for name, sweep in case.record.sweep.items():
+        base = next(variant for variant in made if variant.id == sweep.base)
+        for at in (grid(sweep)[0], grid(sweep)[-1]):
+            try:
+                text = substituted(base.text, sweep, at)
+                if case.record.run is not None:
+                    compile_model(text)
+            except EditError as error:
+                k = error.index - len(sweep.edits)
+                place: Where = ("edits", error.index, "find") if k < 0 else ("vary", k, "find")
+                found = f"text that occurs {error.count} times in the text of {base.id}"
+                yield case.problem(("sweep", name, *place), found, "text that occurs exactly once", "correct `find`")
+                break
+            except ValueError as error:
+                found = f"at {at}: {' '.join(str(error).split())}"
+                yield case.problem(("sweep", name, "vary"), found, "XML that MuJoCo compiles", "correct `replace`")
+                break
+
+
+def _model_problems(case: Case, made: list[Variant]) -> list[Problem]:
+    """The broken model's problems, then those that only the edits of a remedy bring."""
+    broken, *others = made
+    problems = list(_variant_problems(case, broken, ()))
+    if any(problem.file != case.file for problem in problems):
+        return problems  # It does not compile.
+    known = {problem.where for problem in problems}
+    places = {remedy.id: where for where, _, remedy in remedies(case)}
+    for variant in others:
+        for problem in _variant_problems(case, variant, places[variant.id]):
+            if problem.where.endswith(".edits"):
+                problems.append(problem)
+            elif problem.where not in known:
+                problems.append(replace(problem, found=f"after the edits of {variant.id}: {problem.found}"))
+    return problems
+
+
+def _scene_problems(case: Case, scene: str) -> Iterator[Problem]:
+    try:
+        model = compile_model(case.texts[scene])
+    except ValueError as error:
+        yield _compile_problem(case, scene, (), str(error))
+        return
+    yield from _named(case, model, ("picture", "camera"), "camera", case.record.picture.camera)
 
 
 def _path_problems(case: Case) -> Iterator[Problem]:
@@ -57,14 +108,14 @@ def _variant_problems(case: Case, variant: Variant, place: Where) -> Iterator[Pr
     try:
         model = compile_model(variant.text)
     except ValueError as error:
-        yield _compile_problem(case, variant, place, str(error))
+        yield _compile_problem(case, record.source, place, str(error))
         return
-    try:
-        data = start(model, record.run)
-        controls(model, record.run, step_count(model, record.run))
-    except RunError as error:
-        yield case.problem(("run", *error.where), error.found, error.expected, error.repair)
-        data = mujoco.MjData(model)
+    for prepare in (start, step_count, lambda m, spec: controls(m, spec, 1)):
+        try:
+            prepare(model, record.run)
+        except RunError as error:
+            yield case.problem(("run", *error.where), error.found, error.expected, error.repair)
+    data = mujoco.MjData(model)
     for name, signal in record.signals.items():
         if isinstance(signal, PathSignal):
             try:
@@ -73,10 +124,17 @@ def _variant_problems(case: Case, variant: Variant, place: Where) -> Iterator[Pr
                 yield case.problem(("signals", name, "path"), error.found, error.expected, error.repair)
         elif isinstance(signal, StartsSignal):
             yield from _named(case, model, ("signals", name, "joint"), "joint", signal.joint)
+            if signal.joint in element_names(model, "joint"):
+                size = len(data.joint(signal.joint).qpos)
+                if signal.index >= size:
+                    found, expected = f"index {signal.index} of {signal.joint}", f"an index below {size}"
+                    yield case.problem(("signals", name, "index"), found, expected, "correct the index")
         elif isinstance(signal, RowSignal):
             yield from _named(case, model, ("signals", name, "camera"), "camera", signal.camera)
             yield from _named(case, model, ("signals", name, "geom"), "geom", signal.geom)
     yield from _named(case, model, ("picture", "camera"), "camera", record.picture.camera)
+    if record.film is not None and record.film.camera is not None:
+        yield from _named(case, model, ("film", "camera"), "camera", record.film.camera)
 
 
 def _named(case: Case, model: mujoco.MjModel, where: Where, kind: str, name: str) -> Iterator[Problem]:
@@ -86,15 +144,15 @@ def _named(case: Case, model: mujoco.MjModel, where: Where, kind: str, name: str
         yield case.problem(
             where,
             f"{name}, which is no {kind} of the model",
-            f"a {kind}: {listed(known)}",
+            f"{article(kind)}: {listed(known)}",
             f"write {guess}" if guess else f"correct it, or name the {kind} in the model",
         )
 
 
-def _compile_problem(case: Case, variant: Variant, place: Where, message: str) -> Problem:
+def _compile_problem(case: Case, name: str, place: Where, message: str) -> Problem:
     expected, said = "XML that MuJoCo compiles", " ".join(message.split())
     if place:
         return case.problem((*place, "edits"), f"after these edits: {said}", expected, "correct `replace`")
     line = re.search(r"line(?: number)?[ =](\d+)", message, re.IGNORECASE)
-    file = f"cases/{case.slug}/{case.record.source}"
+    file = f"cases/{case.slug}/{name}"
     return Problem(file, int(line[1]) if line else 1, "", said, expected, "correct the model")

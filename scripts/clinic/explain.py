@@ -35,6 +35,7 @@ MODELS: dict[str | int, type[BaseModel]] = {
     "rivals": schema.Rival,
     "sweep": schema.Sweep,
     "film": schema.Film,
+    "holds in a sweep": schema.Side,
     "alike": schema.Alike,
 }
 PATTERNS = {
@@ -49,7 +50,7 @@ def field_problems(file: str, lines: Lines, errors: Sequence[ErrorDetails], data
     seen: set[Where] = set()
     for error in errors:
         where, tag = _where(error["loc"], data)
-        if error["type"] == "missing":
+        if error["type"] == "missing" and isinstance(error["loc"][-1], str):
             where = (*where, error["loc"][-1])
         if where in seen:
             continue
@@ -62,9 +63,11 @@ def _where(loc: Where, data: Any) -> tuple[Where, str]:
     """The part of pydantic's location that stands in the file, and the last part that does not."""
     where: Where = ()
     tag = ""
-    for part in loc:
-        if (isinstance(data, dict) and part in data) or (isinstance(data, list) and isinstance(part, int)):
-            data, where = data[part], (*where, part)  # type: ignore[index]
+    for position, part in enumerate(loc):
+        union = loc[0] == "signals" and position == 2  # pydantic's tag for the kind of signal; no file holds it
+        known = isinstance(data, dict) and part in data
+        if not union and (known or (isinstance(data, list) and isinstance(part, int) and part < len(data))):
+            data, where = data[part], (*where, part)
         else:
             tag = str(part)
     return where, tag
@@ -81,6 +84,8 @@ def _explained(error: ErrorDetails, where: Where, tag: str) -> tuple[str, str, s
             guess = closest(str(where[-1]), known)
             repair = f"write `{guess}`" if guess else "remove the key"
             return f"the unknown key `{where[-1]}`", f"one of {listed(known, 30)}", repair
+        case "missing" if isinstance(error["loc"][-1], int):
+            return _shown(error["input"]), "two numbers", "correct the value"
         case "missing":
             return "nothing", f"the field `{where[-1]}`", f"add `{where[-1]}:`"
         case "union_tag_not_found" | "union_tag_invalid":

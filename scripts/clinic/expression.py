@@ -6,6 +6,7 @@ expression := + - * / ** , unary -, parentheses, numbers, names, pi, and the fun
 from __future__ import annotations
 
 import ast
+import inspect
 import operator
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -61,8 +62,8 @@ def parse(text: str) -> ast.expr:
 
 def names(tree: ast.expr) -> set[str]:
     """The names the expression reads."""
-    called = {node.func.id for node in ast.walk(tree) if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)}
-    return {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)} - called - {"pi"}
+    called = {id(node.func) for node in ast.walk(tree) if isinstance(node, ast.Call)}
+    return {node.id for node in ast.walk(tree) if isinstance(node, ast.Name) and id(node) not in called} - {"pi"}
 
 
 def evaluate(tree: ast.expr, values: Mapping[str, Value]) -> Value:
@@ -94,8 +95,15 @@ def _allow(node: ast.AST) -> None:
             return
         case ast.operator() if type(node) in BINARY:
             return
-        case ast.Call(func=ast.Name(id=name), keywords=[], args=[_, *_]):
+        case ast.Call(func=ast.Name(id=name), keywords=[], args=[_, *_] as args):
             if name in FUNCTIONS:
-                return
+                wanted = _arity(FUNCTIONS[name])
+                if len(args) == wanted:
+                    return
+                raise ExpressionError(f"{name} with {wanted} argument{'s' if wanted > 1 else ''}")
             raise ExpressionError(f"one of the functions {', '.join(FUNCTIONS)}")
     raise ExpressionError("numbers, names, + - * / **, parentheses and functions")
+
+
+def _arity(function: Callable[..., Any]) -> int:
+    return function.nin if isinstance(function, np.ufunc) else len(inspect.signature(function).parameters)

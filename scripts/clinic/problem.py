@@ -51,6 +51,11 @@ def closest(word: str, known: Iterable[str]) -> str | None:
     return matches[0] if matches else None
 
 
+def article(noun: str) -> str:
+    """The noun with `a` or `an`."""
+    return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
+
+
 def listed(names: Iterable[str], limit: int = 8) -> str:
     """`a, b, c`, cut after `limit` names; `none` when there are none."""
     names = list(names)

@@ -105,7 +105,7 @@ def _sweep_field(name: str, filters: list[str], evidence: Evidence) -> str:
 def _shown(name: str, value: float, unit: str, filters: list[str]) -> str:
     digits = 3
     for conversion in filters:
-        if conversion.isdigit():
+        if re.fullmatch(r"[1-9][0-9]?", conversion):
             digits = int(conversion)
         elif conversion in CONVERSIONS and CONVERSIONS[conversion][0] == unit:
             _, factor, unit = CONVERSIONS[conversion]
@@ -163,7 +163,8 @@ def _value(name: str, rest: str, variant: VariantEvidence) -> tuple[float, str]:
         return (variant.timestep if rest == "timestep" else variant.timestep * variant.steps), "s"
     signal, _, which = rest.partition(".")
     if signal not in variant.values:
-        raise _unknown(name, signal, [*variant.values, "timestep", "duration", "warning"], "signal")
+        more = ["timestep", "duration", "warning"] if variant.timestep is not None else []
+        raise _unknown(name, signal, [*variant.values, *more], "signal")
     if which not in variant.values[signal]:
         raise _unknown(name, which, variant.values[signal], "take")
     value = variant.values[signal][which]

@@ -107,7 +107,7 @@ class ExpressionSignal(Described):
 class StartsSignal(Described):
     """The share of start positions, 0 to 1, from which a check holds."""
 
-    measure: Literal["fraction_of_starts"]
+    measure: Literal["fraction_of_starts"] = Field(description="The kind of measurement.")
     joint: Text = Field(description="The joint whose start position is varied.")
     index: int = Field(default=0, ge=0, description="Which of the joint's qpos entries is varied.")
     offset: Interval = Field(description="Offsets added to the start position, from and to, in the unit of qpos.")
@@ -118,7 +118,7 @@ class StartsSignal(Described):
 class RowSignal(Described):
     """Where a geom stands in a camera's image: the mean row of its pixels, 0 the top edge, 1 the bottom."""
 
-    measure: Literal["image_row"]
+    measure: Literal["image_row"] = Field(description="The kind of measurement.")
     camera: Text = Field(description="The camera that renders the image.")
     geom: Text = Field(description="The geom whose visible pixels are averaged.")
 
@@ -235,6 +235,19 @@ class Parameter(Strict):
         return self
 
 
+class Side(Strict):
+    """One side of a bound."""
+
+    above: float | None = Field(default=None, description="Yes when the number is greater.")
+    below: float | None = Field(default=None, description="Yes when the number is smaller.")
+
+    @model_validator(mode="after")
+    def _one_side(self) -> Side:
+        if (self.above is None) == (self.below is None):
+            raise ValueError("no bound, or two||one of above, below||keep one of the two")
+        return self
+
+
 class Prediction(Strict):
     """A closed form for the outcome of a sweep."""
 
@@ -268,7 +281,7 @@ class Sweep(Strict):
     vary: list[Parameter] = Field(min_length=1, max_length=2, description="One or two parameters.")
     duration: float | None = Field(default=None, gt=0, le=60, description="In s, in place of the run's.")
     outcome: Taken = Field(description="The number measured at every point.")
-    holds: dict[str, float] | None = Field(
+    holds: Side | None = Field(
         default=None, description="Makes the outcome a yes or no: whether the number is `above` or `below` this."
     )
     yes: str = Field(default="", description="What a yes means, for the legend.")
@@ -286,12 +299,15 @@ class Record(Strict):
     number: int = Field(ge=1, description="Unique; readers say *case 7*.")
     title: Text = Field(max_length=90, description="The symptom as a sentence, without a full stop.")
     model: FileName | None = Field(default=None, description="The broken model. Exactly one of `model`, `script`.")
-    script: FileName | None = Field(default=None, description="The broken script, for bugs that live in code.")
+    script: FileName | None = Field(
+        default=None, description="The broken script, for bugs that live in code: Python, or for Node `.mjs`."
+    )
     files: list[FileName] = Field(default=[], description="Further files of the folder that the script reads.")
     symptom: Text = Field(description="What is seen, before anything is known. The only field shown unfolded.")
     diagnosis: Text = Field(description="What to measure, and what it says.")
     snippet: str | None = Field(
-        default=None, description="Python run in the case's folder; it and what it prints stand under Diagnosis."
+        default=None,
+        description="Code run in the case's folder, in the language of the script; printed under Diagnosis.",
     )
     cause: Text = Field(description="Why it happens.")
     fix: Text = Field(description="How to repair it.")
@@ -326,7 +342,14 @@ class Record(Strict):
                 ("model without run", "add `run: {duration: 1}`") if self.model else ("script with run", "remove `run`")
             )
             raise ValueError(f"{found}||`run` beside `model`, and only there||{repair}")
+        if self.script is not None and not self.script.endswith((".py", ".mjs")):
+            raise ValueError(f"{self.script}||a script in Python, .py, or for Node, .mjs||rename the script")
         return self
+
+    @property
+    def language(self) -> Literal["python", "javascript"]:
+        """The language of the script and of the snippet."""
+        return "javascript" if self.source.endswith(".mjs") else "python"
 
     @property
     def source(self) -> str:

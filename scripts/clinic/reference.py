@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import inspect
-import re
+import types
+import typing
 from collections.abc import Iterator
+from typing import Any
 
 from pydantic import BaseModel
 
@@ -32,27 +34,39 @@ CHAPTERS: dict[str, type[BaseModel]] = {
 }
 
 
+WORDS: dict[object, str] = {str: "text", int: "whole number", float: "number", bool: "true or false"}
+
+
 def reference() -> str:
     """Every field of the record with its type and meaning, and the signal paths, as Markdown."""
     parts = [line for title, model in CHAPTERS.items() for line in _chapter(title, model)]
     paths = inspect.getdoc(signals) or ""
-    return "\n".join([*parts, "### Signal paths", "", paths.partition("\n\n")[2].replace("A path is", "A path is", 1)])
+    return "\n".join([*parts, "### Signal paths", "", paths.partition("\n\n")[2]])
 
 
 def _chapter(title: str, model: type[BaseModel]) -> Iterator[str]:
     yield from (f"### {title}", "", inspect.getdoc(model) or "", "", "| field | type | meaning |", "|---|---|---|")
     for name, field in model.model_fields.items():
-        kind = re.sub(r"clinic\.record\.|typing\.", "", _type(field.annotation))
         needed = "**required.** " if field.is_required() else ""
-        yield f"| `{name}` | {kind} | {needed}{field.description or ''} |"
+        meaning = (field.description or "").replace("|", "\\|")
+        yield f"| `{name}` | {_type(field.annotation)} | {needed}{meaning} |"
     yield ""
 
 
-def _type(annotation: object) -> str:
-    text = (
-        getattr(annotation, "__name__", "")
-        if isinstance(annotation, type) and not hasattr(annotation, "__args__")
-        else ""
-    )
-    text = text or re.sub(r"Annotated\[(\w+), .*?\]\)?", r"\1", str(annotation))
-    return text.replace("|", "or")
+def _type(annotation: Any) -> str:
+    """The type in words."""
+    parts = [_type(part) for part in typing.get_args(annotation) if part is not type(None)]
+    match typing.get_origin(annotation):
+        case typing.Annotated:
+            return parts[0]
+        case typing.Union | types.UnionType:
+            return " or ".join(parts)
+        case typing.Literal:
+            return ", ".join(f"`{value}`" for value in typing.get_args(annotation))
+        case builtin if builtin is list:
+            return f"list of {parts[0]}"
+        case builtin if builtin is tuple:
+            return f"[{', '.join(parts)}]"
+        case builtin if builtin is dict:
+            return f"mapping of {parts[0]} to {parts[1]}"
+    return WORDS.get(annotation, getattr(annotation, "__name__", ""))

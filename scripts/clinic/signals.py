@@ -28,7 +28,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from clinic.problem import closest, listed
+from clinic.problem import article, closest, listed
 
 Reader = Callable[[], float]
 
@@ -37,8 +37,8 @@ WARNINGS = [name.removeprefix("mjWARN_") for name in mujoco.mjtWarning.__members
 CONTACT = ("friction", "dist", "pos", "frame", "includemargin", "dim", "force", "count")
 PATH = re.compile(
     r"""(?P<model>model\.)?
-        (?:(?P<kind>[a-z]+)\((?P<name>[^()]*)\))?
-        \.?(?P<field>[A-Za-z_][A-Za-z_.]*)?
+        (?:(?P<kind>[a-z]+)\((?P<name>[^()]*)\)(?:\.(?=\w)|(?=\[|$)))?
+        (?P<field>[A-Za-z_][A-Za-z0-9_.]*)?
         (?P<index>(?:\[-?\d+\])*)""",
     re.VERBOSE,
 )
@@ -122,7 +122,7 @@ def bind(path: Path, model: mujoco.MjModel, data: mujoco.MjData) -> Reader:
         guess = closest(path.name, known)
         raise SignalError(
             f"{path.kind}({path.name}), which the model does not have",
-            f"a {path.kind}: {listed(known)}",
+            f"{article(path.kind)}: {listed(known)}",
             f"write {path.kind}({guess})" if guess else f"correct the name, or name the {path.kind} in the model",
         )
     return _bind_field(path, getattr(owner, path.kind)(path.name), f"{path.kind}({path.name})")

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clinic.checks import Trace
-from clinic.problem import closest, listed
+from clinic.problem import article, closest, listed
 from clinic.record import RunSpec
 from clinic.signals import Path, bind, element_names
 
@@ -195,6 +195,6 @@ def _require(model: mujoco.MjModel, kind: str, name: str, where: tuple[str, ...]
         raise RunError(
             where,
             f"the {kind} {name}, which the model does not have",
-            f"a {kind}: {listed(known)}",
+            f"{article(kind)}: {listed(known)}",
             f"write {guess}" if guess else "correct the name",
         )

@@ -15,8 +15,8 @@ from clinic.checks import take
 from clinic.expression import evaluate, names, parse
 from clinic.measure import measure_model, measure_output
 from clinic.predictions import MODEL_NUMBERS
-from clinic.record import Edit, ExpressionSignal, Parameter, PathSignal, Prediction, Record, Rival, Sweep
-from clinic.script import run_python
+from clinic.record import Edit, ExpressionSignal, Parameter, PathSignal, Prediction, Record, Rival, Side, Sweep
+from clinic.script import run_script
 from clinic.simulate import compile_model
 from clinic.variant import Variant, apply_edits, variants
 
@@ -174,7 +174,7 @@ def _measure(case: Case, sweep: Sweep, base: Variant, at: dict[str, float]) -> P
         _, traces = measure_model(record, model, spec, signals)
         values = {n: MODEL_NUMBERS[n](model) for n in set().union(*(numbers for _, numbers, _ in needed.values()))}
     else:
-        traces = measure_output(record, run_python(text, case.texts, name=record.source))
+        traces = measure_output(record, run_script(text, case.texts, name=record.source))
     values |= {name: take(traces[name], "final") for name in signals} | at
     outcome = take(traces[sweep.outcome.signal], sweep.outcome.take, sweep.outcome.window)
     with np.errstate(all="ignore"):
@@ -187,8 +187,11 @@ def _measure(case: Case, sweep: Sweep, base: Variant, at: dict[str, float]) -> P
     )
 
 
-def _holds(bound: Mapping[str, float], outcome: float) -> bool:
-    return (outcome > bound["above"]) if "above" in bound else (outcome < bound["below"])
+def _holds(side: Side, outcome: float) -> bool:
+    if side.above is not None:
+        return outcome > side.above
+    assert side.below is not None
+    return outcome < side.below
 
 
 def _mark(parameter: Parameter, variant: Variant) -> float | None:

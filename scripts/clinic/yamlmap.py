@@ -33,6 +33,16 @@ class Lines:
         return self.by_path.get(where, 1)
 
 
+class TextKeys(yaml.SafeLoader):
+    """Reads every key as the text that stands there: `on` is not True."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        """The mapping, its keys being text."""
+        for key, _ in node.value:
+            key.tag = "tag:yaml.org,2002:str"
+        return super().construct_mapping(node, deep)
+
+
 def dotted(where: Where) -> str:
     """`("fixes", 0, "id")` as `fixes[0].id`."""
     text = ""
@@ -58,7 +68,7 @@ def read_yaml(text: str) -> tuple[Any, Lines]:
             raise YamlError(1, "no mapping", "`field: value` lines", "start with `number:` and `title:`")
         by_path: dict[Where, int] = {}
         _walk(node, (), by_path)
-        return yaml.safe_load(text), Lines(by_path)
+        return yaml.load(text, Loader=TextKeys), Lines(by_path)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         raise YamlError(
@@ -77,6 +87,10 @@ def _walk(node: yaml.Node, where: Where, by_path: dict[Where, int]) -> None:
     by_path.setdefault(where, _line(node.start_mark))
     if isinstance(node, yaml.MappingNode):
         for key, value in node.value:
+            if not isinstance(key, yaml.ScalarNode):
+                raise YamlError(
+                    _line(key.start_mark), "a key that is no text", "`field: value` lines", "write one word"
+                )
             path = (*where, key.value)
             if path in by_path:
                 raise YamlError(

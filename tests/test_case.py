@@ -212,7 +212,7 @@ def test_accepted(tmp_path: Path, change: Change) -> None:
             """
             cases/falling-box/case.yaml:1: number
               found:    "one"
-              expected: input should be a valid integer
+              expected: a whole number
               repair:   correct the value
             """,
         ),
@@ -222,8 +222,8 @@ def test_accepted(tmp_path: Path, change: Change) -> None:
             """
             cases/falling-box/case.yaml:17: checks.broken[0].equals
               found:    "0"
-              expected: input should be a valid number
-              repair:   correct the value
+              expected: a number
+              repair:   write it without quotes
             """,
         ),
         wrong(
@@ -231,9 +231,9 @@ def test_accepted(tmp_path: Path, change: Change) -> None:
             [("lesson: Look at the masks.", "lesson:")],
             """
             cases/falling-box/case.yaml:8: lesson
-              found:    null
-              expected: input should be a valid string
-              repair:   correct the value
+              found:    nothing
+              expected: a value
+              repair:   write one, or remove the key
             """,
         ),
         wrong(
@@ -242,7 +242,7 @@ def test_accepted(tmp_path: Path, change: Change) -> None:
             """
             cases/falling-box/case.yaml:9: tags
               found:    "contact"
-              expected: input should be a valid array
+              expected: a list
               repair:   correct the value
             """,
         ),
@@ -262,7 +262,7 @@ def test_accepted(tmp_path: Path, change: Change) -> None:
             """
             cases/falling-box/case.yaml:11: run.duration
               found:    0
-              expected: input should be greater than 0
+              expected: a number greater than 0
               repair:   correct the value
             """,
         ),
@@ -332,7 +332,7 @@ def test_accepted(tmp_path: Path, change: Change) -> None:
             """
             cases/falling-box/case.yaml:17: checks.broken[0].take
               found:    "maximum"
-              expected: input should be 'final', 'first', 'min', 'max', 'mean', 'span' or 'onset'
+              expected: 'final', 'first', 'min', 'max', 'mean', 'span' or 'onset'
               repair:   correct the value
             """,
         ),
@@ -392,7 +392,7 @@ def test_accepted(tmp_path: Path, change: Change) -> None:
             """
             cases/falling-box/case.yaml:24: fixes[0].edits[0].find
               found:    ""
-              expected: string should have at least 1 character
+              expected: text that is not empty
               repair:   correct the value
             """,
         ),
@@ -412,7 +412,7 @@ def test_accepted(tmp_path: Path, change: Change) -> None:
             """
             cases/falling-box/case.yaml:23: fixes[0].edits
               found:    []
-              expected: list should have at least 1 item after validation, not 0
+              expected: 1 or more items
               repair:   correct the value
             """,
         ),
@@ -475,11 +475,11 @@ def test_several_mistakes_are_reported_together_sorted_by_line(tmp_path: Path) -
     assert message_of(lambda: load_case(folder)) == says("""
         cases/falling-box/case.yaml:1: number
           found:    0
-          expected: input should be greater than or equal to 1
+          expected: a number of 1 or more
           repair:   correct the value
         cases/falling-box/case.yaml:9: tags
           found:    []
-          expected: list should have at least 1 item after validation, not 0
+          expected: 1 or more items
           repair:   correct the value
         cases/falling-box/case.yaml:19: checks.fixed[0]
           found:    between: [1.0, 0.0]

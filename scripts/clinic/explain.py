@@ -35,8 +35,24 @@ MODELS: dict[str | int, type[BaseModel]] = {
     "rivals": schema.Rival,
     "sweep": schema.Sweep,
     "film": schema.Film,
-    "holds in a sweep": schema.Side,
     "alike": schema.Alike,
+}
+EXPECTED = {
+    "int_type": "a whole number",
+    "int_from_float": "a whole number",
+    "float_type": "a number",
+    "string_type": "text",
+    "list_type": "a list",
+    "dict_type": "a mapping",
+    "model_type": "a mapping",
+    "model_attributes_type": "a mapping",
+    "too_short": "{min_length} or more items",
+    "too_long": "{max_length} items at most",
+    "string_too_short": "text that is not empty",
+    "greater_than": "a number greater than {gt:g}",
+    "greater_than_equal": "a number of {ge:g} or more",
+    "less_than_equal": "a number of {le:g} at most",
+    "literal_error": "{expected}",
 }
 PATTERNS = {
     "^[a-z][a-z0-9]*(?:-[a-z0-9]+)*$": "lower-case words joined by hyphens",
@@ -96,15 +112,22 @@ def _explained(error: ErrorDetails, where: Where, tag: str) -> tuple[str, str, s
             )
         case "string_pattern_mismatch":
             return _shown(error["input"]), PATTERNS[error["ctx"]["pattern"]], "rename it"
+    if error["input"] is None:
+        return "nothing", "a value", "write one, or remove the key"
     if where[:2] == ("run", "ctrl"):
-        message = "a number, or a list of [time, value] pairs"
-    return _shown(error["input"]), message[0].lower() + message[1:], "correct the value"
+        expected = "a number, or a list of [time, value] pairs"
+    else:
+        expected = EXPECTED.get(error["type"], message[0].lower() + message[1:]).format(**error.get("ctx", {}))
+    unquote = error["type"] in ("int_type", "float_type") and str(error["input"]).replace(".", "", 1).isdigit()
+    return _shown(error["input"]), expected, "write it without quotes" if unquote else "correct the value"
 
 
 def _model_at(where: Where, tag: str) -> type[BaseModel]:
     """The class of the mapping at `where`."""
     if len(where) == 2 and where[0] == "signals":
         return SIGNALS[tag]
+    if where[:1] == ("sweep",) and where[-1] == "holds":
+        return schema.Side
     for part in reversed(where):
         if part in MODELS:
             return MODELS[part]

@@ -26,6 +26,7 @@ CHAPTERS: dict[str, type[BaseModel]] = {
     "an edit": record.Edit,
     "film": record.Film,
     "sweep": record.Sweep,
+    "holds in a sweep": record.Side,
     "vary": record.Parameter,
     "prediction": record.Prediction,
     "rivals": record.Rival,

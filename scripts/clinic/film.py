@@ -26,6 +26,7 @@ from clinic.variant import variants
 WIDTH, HEIGHT, FPS = 320, 240, 20
 MAX_FRAMES = 160
 STRIP = 4
+STILL = 1e-4
 FLAGS = {
     "contact_points": mujoco.mjtVisFlag.mjVIS_CONTACTPOINT,
     "contact_forces": mujoco.mjtVisFlag.mjVIS_CONTACTFORCE,
@@ -68,6 +69,8 @@ def filmed(spec: Film, run: RunSpec) -> float:
 def frames(model: mujoco.MjModel, run: RunSpec, spec: Film, camera: str) -> Iterator[tuple[Image, str]]:
     """The images of a run, shape (HEIGHT, WIDTH, 3), each with the text of its clock.
 
+    A state that has moved by less than STILL, in m or rad, is not drawn anew.
+
     From the first warning of a diverging run on, the last image before it stays: a state that is reset every few
     steps would flash.
     """
@@ -79,7 +82,7 @@ def frames(model: mujoco.MjModel, run: RunSpec, spec: Film, camera: str) -> Iter
             option.flags[FLAGS[name]] = True
     if "body_frames" in spec.overlays:
         option.frame = mujoco.mjtFrame.mjFRAME_BODY
-    made, image, halted = 0, None, ""
+    made, image, halted, drawn = 0, None, "", data.qpos.copy()
     with captured_messages(), renderer(model, WIDTH, HEIGHT) as draw:
         mujoco.mj_forward(model, data)
         for k in range(count):
@@ -89,9 +92,9 @@ def frames(model: mujoco.MjModel, run: RunSpec, spec: Film, camera: str) -> Iter
                 made += 1
                 if any(warning.number for warning in data.warning):
                     halted = f"reset at {number(made * model.opt.timestep, 2)} s"
-            if image is None or not halted:
+            if image is None or (not halted and np.max(np.abs(data.qpos - drawn), initial=0) > STILL):
                 draw.update_scene(data, camera, option)
-                image = draw.render().copy()
+                image, drawn = draw.render().copy(), data.qpos.copy()
             yield image, halted or f"{time:.2f} s"
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 WIDTH, HEIGHT = 480, 360
-SHADOW_SIZE = 1024
+SHADOW_SIZE = 512
 Image = NDArray[np.uint8]
 
 

@@ -19,7 +19,7 @@ fi
 
 # OpenGL draws the pictures, Chromium runs the browser tests. Both come from the system.
 missing=()
-ldconfig -p 2>/dev/null | grep -q 'libEGL\.so\.1' || missing+=(libegl1 libgl1)
+"$python" -c 'import ctypes; ctypes.CDLL("libEGL.so.1")' 2>/dev/null || missing+=(libegl1 libgl1)
 command -v chromium >/dev/null || command -v google-chrome >/dev/null || missing+=(chromium)
 if [ ${#missing[@]} -gt 0 ]; then
   install="apt-get update -qq && apt-get install -y -qq --no-install-recommends ${missing[*]}"
@@ -44,6 +44,10 @@ say "installing the locked Python packages into $venv"
 
 say "installing the locked browser parts into node_modules"
 if ! PATH="$PWD/$venv/bin:$PATH" npm ci --silent --no-audit --no-fund; then
-  say "the browser parts could not be installed; without them the built site cannot be searched when opened as files"
+  say "the browser parts could not be installed; without them the built site has no playground, and no search when opened as files"
   [ -z "${CI:-}" ] || exit 1
 fi
+
+say "installing the engine of the browser parts as a Python package into $venv/parity"
+"$venv/bin/python" -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps --upgrade \
+  --target "$venv/parity" -r requirements-parity.txt

@@ -19,7 +19,8 @@ sweep:
       - {name: g, find: '<option timestep="0.002"/>', replace: '<option timestep="0.002" gravity="0 0 -{}"/>',
          values: [1, 2, 4, 8], unit: m/s²}
     outcome: {signal: height}
-    prediction: {label: "semi-implicit Euler, one step behind", expr: 0.06 - g * 0.4 * 0.398 / 2, within: 1.0e-9, relative: false}
+    prediction:
+      {label: "semi-implicit, a step behind", expr: 0.06 - g * 0.4 * 0.398 / 2, within: 1.0e-9, relative: false}
     rivals:
       - {id: textbook, label: half g t squared, expr: 0.06 - g * 0.4 ** 2 / 2, within: 0.005, relative: false}
 """

@@ -51,7 +51,7 @@ def page(browser: Browser) -> Iterator[Page]:
 def search(page: Page, query: str) -> list[str]:
     box = page.locator("input[name=query]")
     box.click()
-    box.fill(query)
+    box.press_sequentially(query)
     results = page.locator(".md-search-result__item h1, .md-search-result__item h2")
     expect(results.first).to_be_visible()
     return results.all_text_contents()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -85,13 +85,13 @@ def satisfies(check: Comparison, measured: float) -> bool:
     return abs(measured - check.equals) <= (check.within or 0.0)
 
 
-def expected(check: Comparison) -> str:
+def expected(check: Comparison, show: Callable[[float], str] = "{:g}".format) -> str:
     """The comparison in words, without the unit: `between 0.505 and 0.52`."""
     if check.above is not None:
-        return f"above {check.above:g}"
+        return f"above {show(check.above)}"
     if check.below is not None:
-        return f"below {check.below:g}"
+        return f"below {show(check.below)}"
     if check.between is not None:
-        return f"between {check.between[0]:g} and {check.between[1]:g}"
+        return f"between {show(check.between[0])} and {show(check.between[1])}"
     assert check.equals is not None
-    return f"{check.equals:g}" + (f" ± {check.within:g}" if check.within else " exactly")
+    return show(check.equals) + (f" ± {show(check.within)}" if check.within else " exactly")

@@ -10,13 +10,14 @@ from typing import Any
 
 import jinja2
 
+from clinic import manual
 from clinic.cache import Files
 from clinic.case import Case
 from clinic.checks import expected, satisfies
 from clinic.evidence import Evidence, VariantEvidence
 from clinic.lookalike import Matrix
 from clinic.problem import CaseError, Problem
-from clinic.prose import field_errors, fill, markdown, quantity
+from clinic.prose import field_errors, fill, markdown, number, plain, quantity
 from clinic.record import Check
 from clinic.robust import NUDGE, STARTS
 from clinic.variant import diff, remedies, variants
@@ -35,6 +36,7 @@ TAKES = {
     "span": "span",
     "onset": "first differs from zero at",
 }
+PRINTED = {"final": "last printed", "first": "first printed"}
 
 
 @dataclass(frozen=True)
@@ -78,6 +80,7 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
         steady=_steady(case, evidence),
         matrix=None if alike is None else _matrix(alike, others),
         table=_table(case, evidence),
+        manual=[(manual.title(page), manual.address(page)) for page in record.manual],
         others=[others[slug] for slug in record.see],
     )
 
@@ -116,7 +119,8 @@ def _table(case: Case, evidence: Evidence) -> dict[str, Any]:
             columns.setdefault((check.signal, check.take, check.window), {"broken": [], "fixed": []})[kind].append(
                 check
             )
-    heads = [_head(record.signals[str(signal)], str(signal), str(take), window) for signal, take, window in columns]
+    script = record.script is not None
+    heads = [_head(record.signals[str(name)], str(name), str(take), span, script) for name, take, span in columns]
 
     def meaning(kind: str) -> list[str]:
         return ["; ".join(_expected(check, case) for check in column[kind]) for column in columns.values()]
@@ -128,15 +132,16 @@ def _table(case: Case, evidence: Evidence) -> dict[str, Any]:
     return {"heads": heads, "broken": meaning("broken"), "fixed": meaning("fixed"), "rows": rows}
 
 
-def _head(signal: Any, name: str, take: str, window: Any) -> str:
-    words = TAKES[take] if not hasattr(signal, "measure") else ""
+def _head(signal: Any, name: str, take: str, window: Any, script: bool) -> str:
+    words = PRINTED.get(take, TAKES[take]) if script else TAKES[take]
+    words = "" if hasattr(signal, "measure") else words
     span = f", {window[0]:g} to {window[1]:g} s" if window else ""
     return f"{signal.label or name}" + (f", {words}" if words else "") + span
 
 
 def _expected(check: Check, case: Case) -> str:
     unit = "s" if check.take == "onset" else case.record.signals[check.signal].unit
-    return f"{expected(check)} {unit}".strip()
+    return f"{expected(check, plain)} {unit}".strip()
 
 
 def _cell(variant: VariantEvidence, checks: list[Check], wanted: list[Check]) -> str:
@@ -158,7 +163,8 @@ def _sweep(case: Case, evidence: Evidence, name: str) -> dict[str, str]:
     if own.worst is None:
         result = f"{sweep.prediction.label} is right at {own.judged - own.wrong} of {own.judged} points"
     else:
-        error = f"{100 * own.worst:.2g} %" if sweep.prediction.relative else f"{own.worst:.2g}"
+        relative = sweep.prediction.relative
+        error = quantity(100 * own.worst, "%", 2) if relative else number(own.worst, 2)
         result = f"{sweep.prediction.label} is within {error} of the measurement at all {own.judged} points"
     rivals = [f"; {r.label} is wrong at {found.agreement[r.id].wrong}" for r in sweep.rivals]
     return {
@@ -218,7 +224,7 @@ def _matrix(made: Matrix, cases: Mapping[str, Case]) -> dict[str, Any]:
             f"{'not measured' if value is None else quantity(value, '', 4)} {'✓' if hold else ''}".strip()
             for value, hold in zip(values, holds, strict=True)
         ]
-        rows.append([f"{alike.says}: `{alike.path}` {TAKES[alike.take]} is {expected(alike)}", *cells])
+        rows.append([f"{alike.says}: `{alike.path}` {TAKES[alike.take]} is {expected(alike, plain)}", *cells])
     return {"heads": heads, "rows": rows}
 
 
@@ -233,7 +239,7 @@ def _field_problems(case: Case, evidence: Evidence) -> Iterable[Problem]:
 
 def _opening(text: str, length: int = 150) -> str:
     """The first sentences, until they are long enough to say something."""
-    sentences = re.split(r"(?<=[.:;?]) ", " ".join(text.replace("`", "").split()))
+    sentences = re.split(r"(?<=[.?!]) ", " ".join(text.replace("`", "").split()))
     kept = ""
     for sentence in sentences:
         kept = f"{kept} {sentence}".strip()

@@ -124,6 +124,13 @@ def quantity(value: float, unit: str, digits: int = 3) -> str:
     return number(value, digits) + space + unit.replace(" ", "\u00a0")
 
 
+def plain(value: float) -> str:
+    """The number as it was written in a record, with a real minus and powers of ten: `8 × 10⁻⁶`."""
+    mantissa, _, exponent = f"{value:g}".partition("e")
+    power = f"\u00a0×\u00a010{str(int(exponent)).translate(SUPERSCRIPT)}" if exponent else ""
+    return mantissa.replace("-", "\u2212") + power
+
+
 def number(value: float, digits: int = 3) -> str:
     """The number with significant digits; whole numbers below 100,000 as they are."""
     if value == int(value) and abs(value) < 1e5:

@@ -3,7 +3,7 @@
 # make site    builds site/ strictly
 # make bench   how long a build takes, cold and warm, and its parts
 # make lint    style and types
-# make lock    renews requirements.txt
+# make lock    renews requirements.txt and requirements-parity.txt
 # make clean   forgets everything built
 
 SHELL := /bin/bash
@@ -22,7 +22,7 @@ help:
 
 setup: $(VENV)/.ready
 
-$(VENV)/.ready: requirements.txt pyproject.toml package-lock.json scripts/setup.sh
+$(VENV)/.ready: requirements.txt requirements-parity.txt pyproject.toml package-lock.json scripts/setup.sh
 	@bash scripts/setup.sh $(VENV)
 	@touch $@
 
@@ -42,10 +42,14 @@ lint: setup
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
+	PATH="$(CURDIR)/$(BIN):$$PATH" npx --no-install tsc -p docs/playground/jsconfig.json
 
 lock: setup
 	$(BIN)/uv pip compile pyproject.toml --extra dev --universal --python-version 3.11 --generate-hashes \
 	  --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" --upgrade --quiet --output-file requirements.txt
+	sed -n 's/.*"@mujoco\/mujoco": "\(.*\)".*/mujoco==\1/p' package.json | $(BIN)/uv pip compile - --universal --python-version 3.11 \
+	  --no-deps --generate-hashes --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" \
+	  --upgrade --quiet --output-file requirements-parity.txt
 
 clean:
 	rm -rf site .cache node_modules $(VENV)

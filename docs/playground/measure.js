@@ -103,15 +103,15 @@ function computed(expr, traces) {
  * @returns {Generator<undefined, number>}
  */
 function* fractionOfStarts(mujoco, model, record, signal) {
-  requireId(mujoco, model, "joint", signal.joint);
+  const address = model.jnt_qposadr[requireId(mujoco, model, "joint", signal.joint)] + signal.index;
   const paths = pathSignals(record, [signal.holds.signal]);
   const [from, to] = signal.offset;
   let held = 0;
   for (let k = 0; k < signal.count; k++) {
     const offset = k === signal.count - 1 ? to : k * ((to - from) / (signal.count - 1)) + from;
     /** @type {Nudge} */
-    const nudge = (_, __, data) => {
-      data.jnt(signal.joint).qpos[signal.index] += offset;
+    const nudge = (data) => {
+      data.qpos[address] += offset;
     };
     const { traces } = yield* simulate(mujoco, model, record.run, paths, nudge);
     held += Number(judge(signal.holds, traces).holds);

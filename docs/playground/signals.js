@@ -1,7 +1,7 @@
 // Signals: paths into MuJoCo's named access, parsed and bound to a model, never evaluated as code.
 // The paths are those of scripts/clinic/signals.py.
 
-/** @import {MainModule, MjData, MjModel} from "@mujoco/mujoco" */
+/** @import {DoubleBuffer, MainModule, MjData, MjModel} from "@mujoco/mujoco" */
 /** @import {PathSignal} from "./record.js" */
 
 /**
@@ -60,10 +60,11 @@ export function parsePath(text) {
  * @param {MainModule} mujoco
  * @param {MjModel} model
  * @param {MjData} data
+ * @param {{delete: () => void}[]} held receives what has to be freed when the reader is no longer used
  * @returns {() => number}
  * @throws {SignalError} if the model has no such element, field or index
  */
-export function bind(signal, mujoco, model, data) {
+export function bind(signal, mujoco, model, data, held) {
   const path = parsePath(signal.path);
   if (path.kind === "warning") return bindWarning(path, mujoco, data);
   if (path.kind === "contact") return bindContact(path, mujoco, model, data);
@@ -72,7 +73,9 @@ export function bind(signal, mujoco, model, data) {
   if (path.kind === "") return bindField(path, owner, signal.columns);
   const kind = /** @type {Kind} */ (path.kind);
   requireId(mujoco, model, kind, path.name);
-  return bindField(path, owner[KINDS[kind][0]](path.name), []);
+  const element = owner[KINDS[kind][0]](path.name);
+  held.push(element);
+  return bindField(path, element, []);
 }
 
 /**
@@ -138,7 +141,19 @@ function bindWarning(path, mujoco, data) {
   const kinds = /** @type {Record<string, {value: number}>} */ (/** @type {unknown} */ (mujoco.mjtWarning));
   const kind = kinds[`mjWARN_${path.name}`];
   if (!kind) throw new SignalError(`MuJoCo has no warning ${path.name}`);
-  return () => data.warning.get(kind.value)?.number ?? NaN;
+  return () => warningStat(data, kind.value).number;
+}
+
+/**
+ * A warning's counter.
+ * @param {MjData} data
+ * @param {number} id
+ */
+export function warningStat(data, id) {
+  const stat = /** @type {any} */ (data.warning.get(id)); // a copy; the list itself is not, and freeing it aborts
+  const { number, lastinfo } = stat;
+  stat.delete();
+  return { number, lastinfo };
 }
 
 /**
@@ -150,7 +165,7 @@ function bindWarning(path, mujoco, data) {
 function bindContact(path, mujoco, model, data) {
   const at = path.index[0] ?? 0;
   const pair = path.name === "*" ? null : path.name.split(",").map((name) => requireId(mujoco, model, "geom", name.trim()));
-  const force = path.field === "force" ? new mujoco.DoubleBuffer(6) : null;
+  const force = path.field === "force" ? forceBuffer(mujoco) : null;
   return () => {
     let [count, largest] = [0, NaN];
     if (data.ncon > 0) {
@@ -171,4 +186,14 @@ function bindContact(path, mujoco, model, data) {
     }
     return path.field === "count" ? count : largest;
   };
+}
+
+/** @type {WeakMap<MainModule, DoubleBuffer>} */
+const buffers = new WeakMap();
+
+/** @param {MainModule} mujoco */
+function forceBuffer(mujoco) {
+  const buffer = buffers.get(mujoco) ?? new mujoco.DoubleBuffer(6);
+  buffers.set(mujoco, buffer);
+  return buffer;
 }

@@ -1,6 +1,6 @@
 // A run: a model stepped for a fixed number of steps, its signals read after every step.
 
-import { bind, requireId } from "./signals.js";
+import { bind, requireId, warningStat } from "./signals.js";
 
 /** @import {MainModule, MjData, MjModel} from "@mujoco/mujoco" */
 /** @import {Trace} from "./checks.js" */
@@ -8,6 +8,7 @@ import { bind, requireId } from "./signals.js";
 
 export const MAX_STEPS = 2_000_000;
 const STEPS_A_TURN = 100;
+const STEPS_A_LOOK = 10; // at MuJoCo's warnings: a counter stays until another warning resets the state
 
 /** A run that cannot start. */
 export class RunError extends Error {}
@@ -21,7 +22,7 @@ export class RunError extends Error {}
  *
  * @typedef {{id: number, at: (moment: number) => number}[]} Drive the control of each driven actuator by time in s
  *
- * @typedef {(mujoco: MainModule, model: MjModel, data: MjData) => void} Nudge
+ * @typedef {(data: MjData) => void} Nudge
  */
 
 /**
@@ -41,10 +42,12 @@ export function* simulate(mujoco, model, spec, paths, nudge) {
   const timestep = model.opt.timestep;
   const steps = stepCount(model, spec);
   const data = start(mujoco, model, spec);
+  /** @type {{delete: () => void}[]} */
+  const held = [data];
   try {
-    nudge?.(mujoco, model, data);
+    nudge?.(data);
     const names = Object.keys(paths);
-    const readers = names.map((name) => bind(paths[name], mujoco, model, data));
+    const readers = names.map((name) => bind(paths[name], mujoco, model, data, held));
     const drive = controls(mujoco, model, spec);
     const time = Float64Array.from({ length: steps }, (_, i) => (i + 1) * timestep);
     const values = readers.map(() => new Float64Array(steps));
@@ -53,13 +56,15 @@ export function* simulate(mujoco, model, spec, paths, nudge) {
     for (let i = 0; i < steps; i++) {
       step(mujoco, model, data, drive, i);
       for (let k = 0; k < readers.length; k++) values[k][i] = readers[k]();
-      for (const { name, number } of raised(mujoco, data)) warnings[name] = Math.max(warnings[name] ?? 0, number);
+      if (i % STEPS_A_LOOK === 0 || i === steps - 1) {
+        for (const { name, number } of raised(mujoco, data)) warnings[name] = Math.max(warnings[name] ?? 0, number);
+      }
       if ((i + 1) % STEPS_A_TURN === 0) yield;
     }
     const traces = Object.fromEntries(names.map((name, k) => [name, { time, value: values[k] }]));
     return { timestep, steps, traces, warnings };
   } finally {
-    data.delete();
+    for (const handle of held.reverse()) handle.delete();
   }
 }
 
@@ -72,12 +77,12 @@ export function* simulate(mujoco, model, spec, paths, nudge) {
  */
 export function start(mujoco, model, spec) {
   const keyframe = spec.keyframe === null ? -1 : requireId(mujoco, model, "key", spec.keyframe);
-  const joints = [...Object.keys(spec.qpos), ...Object.keys(spec.qvel)];
-  for (const name of joints) requireId(mujoco, model, "joint", name);
+  const joint = (/** @type {string} */ name) => requireId(mujoco, model, "joint", name);
+  [...Object.keys(spec.qpos), ...Object.keys(spec.qvel)].forEach(joint);
   const data = new mujoco.MjData(model);
   if (keyframe >= 0) mujoco.mj_resetDataKeyframe(model, data, keyframe);
-  for (const [name, value] of Object.entries(spec.qpos)) data.jnt(name).qpos[0] = value;
-  for (const [name, value] of Object.entries(spec.qvel)) data.jnt(name).qvel[0] = value;
+  for (const [name, value] of Object.entries(spec.qpos)) data.qpos[model.jnt_qposadr[joint(name)]] = value;
+  for (const [name, value] of Object.entries(spec.qvel)) data.qvel[model.jnt_dofadr[joint(name)]] = value;
   return data;
 }
 
@@ -135,13 +140,12 @@ export function controls(mujoco, model, spec) {
  * @returns {{name: string, number: number, info: number, id: number}[]}
  */
 export function raised(mujoco, data) {
-  const found = [];
-  const all = data.warning; // freeing it would abort the module
-  for (const { name, id } of warningNames(mujoco)) {
-    const stat = /** @type {any} */ (all.get(id));
-    if (stat.number > 0) found.push({ name, id, number: stat.number, info: stat.lastinfo });
-  }
-  return found;
+  return warningNames(mujoco)
+    .map(({ name, id }) => {
+      const { number, lastinfo } = warningStat(data, id);
+      return { name, id, number, info: lastinfo };
+    })
+    .filter(({ number }) => number > 0);
 }
 
 /** @type {{name: string, id: number}[]} */

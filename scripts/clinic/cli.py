@@ -21,6 +21,7 @@ from clinic.prose import quantity
 from clinic.reference import reference
 from clinic.site import build as build_site
 from clinic.site import cache_folder, project_root
+from clinic.triage.child import reports
 
 app = typer.Typer(add_completion=False, no_args_is_help=True, help="Broken MuJoCo simulations that prove themselves.")
 
@@ -64,6 +65,13 @@ def check(slug: Annotated[str | None, typer.Argument(help="A case; all when left
 def print_reference() -> None:
     """Print the record's reference as Markdown."""
     print(reference())
+
+
+@app.command()
+def triage(path: Annotated[Path, typer.Argument(help="A case's folder, or any MJCF or URDF file.")]) -> None:
+    """Run the six steps of triage on a model and print what each saw."""
+    for said in reports(path):
+        print(said, flush=True)
 
 
 def _table(case: Case, evidence: Evidence) -> Table:

@@ -30,7 +30,8 @@ from clinic.simulate import compile_model, state_at
 from clinic.sweep import Point, grid, measure_points, summarise
 from clinic.variant import Variant, variants
 
-PROSE = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "tags", "phrases", "see", "no_sweep"}
+PROSE = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "no_sweep"}
+PROSE |= {"tags", "phrases", "looks", "manual", "see"}
 SLICE = 60
 EVIDENCE = "evidence.json"
 UNSEEN = "unseen.txt"

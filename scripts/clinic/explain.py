@@ -58,6 +58,7 @@ PATTERNS = {
     "^[a-z][a-z0-9]*(?:-[a-z0-9]+)*$": "lower-case words joined by hyphens",
     "^[a-z][a-z0-9_]*$": "a lower-case word; underscores allowed",
     "^[A-Za-z0-9_-]+\\.[a-z]+$": "a plain file name with an ending",
+    "^[A-Za-z0-9_/]+\\.html(?:#[a-z0-9-]+)?$": "a page of the manual, as XMLreference.html#body-geom-contype",
 }
 
 

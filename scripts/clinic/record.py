@@ -14,6 +14,18 @@ Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
 Text = Annotated[str, Field(min_length=1)]
 FileName = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]+\.[a-z]+$")]
 Interval = tuple[float, float]
+Look = Literal[
+    "nothing-moves",
+    "moves-wrong",
+    "passes-through",
+    "explodes",
+    "oscillates",
+    "sags",
+    "picture-wrong",
+    "numbers-wrong",
+    "worked-yesterday",
+]
+ManualPage = Annotated[str, Field(pattern=r"^[A-Za-z0-9_/]+\.html(?:#[a-z0-9-]+)?$")]
 Take = Literal["final", "first", "min", "max", "mean", "span", "onset"]
 
 
@@ -314,6 +326,13 @@ class Record(Strict):
     lesson: Text = Field(description="What to remember.")
     tags: list[Identifier] = Field(min_length=1, description="Topics: contact, joint, actuator, camera, units, ...")
     phrases: list[Text] = Field(min_length=1, description="What people type into a search engine; feeds the search.")
+    looks: list[Look] = Field(
+        default=[], description="Where *Find your symptom* puts the case; found by the words of `phrases` when absent."
+    )
+    manual: list[ManualPage] = Field(
+        default=[],
+        description="Sections of MuJoCo's manual, as `XMLreference.html#body-geom-contype`; linked in the page's foot.",
+    )
     see: list[Identifier] = Field(default=[], description="Related cases, by folder name.")
     alike: Alike | None = Field(default=None, description="What tells this case from those that look like it.")
     exempt: dict[Literal["lasting", "steady", "typed"], Text] = Field(

@@ -9,18 +9,27 @@ from pathlib import Path
 
 import mujoco
 
+from clinic import browser
 from clinic.cache import Cache, Files, key_of
 from clinic.case import RECORD, Case, load_cases
 from clinic.evidence import Evidence
-from clinic.exhibit import all_exhibits, evidence_of
+from clinic.exhibit import all_exhibits, evidence_of, run_tasks
 from clinic.fences import run_fences
 from clinic.laws import complaints
 from clinic.lookalike import Matrix, alike_problems, group, matrix, unclear
+from clinic.manual import manual_problems
+from clinic.messages import heard, load_messages, messages_page
 from clinic.pages import card, case_page, home_page
+from clinic.playground import FILE as PLAYGROUND
+from clinic.playground import playground
 from clinic.problem import CaseError, Problem
 from clinic.reference import reference
+from clinic.symptoms import symptom_problems, symptoms_page
+from clinic.triage.table import MARK as TRIAGE_MARK
+from clinic.triage.table import screening_tasks, table
 
 PAGE = "cases/{slug}/index.md"
+QUIET = "---\nsearch:\n  boost: 0.3\n---\n\n"
 REFERENCE_MARK = "Print it with `clinic reference`."
 BROWSER_PARTS = {"javascripts/iframe-worker.js": "node_modules/iframe-worker/shim/index.js"}
 
@@ -57,8 +66,12 @@ def build(root: Path, cache: Cache | None = None) -> Files:
     exhibits = all_exhibits(cases, cache)
     evidence = {slug: evidence_of(files) for slug, files in exhibits.items()}
     alike = matrices(by_slug, cache)
-    problems = []
-    made: Files = {}
+    problems = [p for case in cases for p in manual_problems(case)] + list(symptom_problems(cases))
+    made: Files = browser.parts(root)
+    if browser.has_playground(made):
+        for case in cases:
+            if case.record.model is not None:
+                exhibits[case.slug][PLAYGROUND] = playground(case, mujoco.__version__, cases)
     for case in cases:
         problems += _unproven(case, list(proven(case, evidence[case.slug], alike.get(case.slug))))
         try:
@@ -75,10 +88,15 @@ def build(root: Path, cache: Cache | None = None) -> Files:
         raise CaseError(problems)
     cards = [card(case, evidence[case.slug], exhibits[case.slug]) for case in cases]
     made["index.md"] = home_page(cards, mujoco.__version__).encode()
-    triage = (root / "docs" / "triage.md").read_text(encoding="utf-8")
+    made["symptoms.md"] = symptoms_page(cases, {card.slug: card for card in cards}).encode()
+    messages = load_messages()
+    made["messages.md"] = messages_page(messages, heard(messages, cache), by_slug).encode()
+    screenings = run_tasks(list(screening_tasks(cases)), cache)
+    made |= {f"cases/{slug}/{name}": text for slug, files in screenings.items() for name, text in files.items()}
+    triage = (root / "docs" / "triage.md").read_text(encoding="utf-8").replace(TRIAGE_MARK, table(cases, screenings))
     made["triage.md"] = run_fences("docs/triage.md", triage, by_slug, cache).encode()
     contributing = (root / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    made["contributing.md"] = contributing.replace(REFERENCE_MARK, reference()).encode()
+    made["contributing.md"] = (QUIET + contributing.replace(REFERENCE_MARK, reference())).encode()
     for path, source in BROWSER_PARTS.items():
         if (root / source).is_file():
             made[path] = (root / source).read_bytes()
@@ -109,7 +127,15 @@ def navigation(root: Path) -> list[dict[str, object]]:
     """The site's navigation as MkDocs takes it: the cases by number, then the pages written by hand."""
     cases = load_cases(root / "cases")
     pages = [{f"{case.record.number}. {case.record.title}": PAGE.format(slug=case.slug)} for case in cases]
-    return [{"Home": "index.md"}, {"Triage": "triage.md"}, {"Cases": pages}, {"Add a case": "contributing.md"}]
+    return [
+        {"Home": "index.md"},
+        {"Find your symptom": "symptoms.md"},
+        {"What MuJoCo says": "messages.md"},
+        {"Triage": "triage.md"},
+        {"Cases": pages},
+        {"By thing": "tags.md"},
+        {"Add a case": "contributing.md"},
+    ]
 
 
 def _matrix_file(members: list[Case]) -> Files:

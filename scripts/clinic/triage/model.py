@@ -12,20 +12,14 @@ from collections.abc import Callable, Iterator
 import mujoco
 import numpy as np
 
-from clinic.triage_run import Array, Subject
-from clinic.triage_text import shown
-from clinic.triage_watch import Trial
+from clinic.triage.run import Subject
+from clinic.triage.stiffness import HINGE, SLIDE, inertia, kp, omega_max, servos
+from clinic.triage.text import counted, shown
+from clinic.triage.watch import Trial
 
 Seen = Iterator[tuple[str, str]]
 Rule = Callable[[Subject], Seen]
-HINGE, SLIDE, BALL, FREE = (
-    mujoco.mjtJoint.mjJNT_HINGE,
-    mujoco.mjtJoint.mjJNT_SLIDE,
-    mujoco.mjtJoint.mjJNT_BALL,
-    mujoco.mjtJoint.mjJNT_FREE,
-)
-DENSE = 300
-"""Degrees of freedom up to which eigenvalues are computed."""
+BALL = int(mujoco.mjtJoint.mjJNT_BALL)
 LIMITS = {"mjINT_EULER": 2.0, "mjINT_IMPLICIT": 2.0, "mjINT_IMPLICITFAST": 2.0, "mjINT_RK4": 2.83}
 """The longest stable step times omega, by integrator."""
 
@@ -77,13 +71,13 @@ def gains(s: Subject) -> Seen:
             yield s.called("actuator", i), "gain 0: no control moves anything"
         elif not m.actuator_gear[i].any():
             yield s.called("actuator", i), "gear 0: no control moves anything"
-        elif _kp(m, i) == 1:
+        elif kp(m, i) == 1:
             yield s.called("actuator", i), "kp is 1, the default"
 
 
 def weak_servos(s: Subject) -> Seen:
     """Gravity at the start pulls a position servo more than 0.2 rad or 0.05 m off its target (load/kp)."""
-    for i, dof, stiffness in _servos(s):
+    for i, dof, stiffness in servos(s):
         hinge = s.model.jnt_type[s.model.dof_jntid[dof]] == HINGE
         sag = abs(s.data.qfrc_bias[dof] - s.data.qfrc_gravcomp[dof]) / stiffness
         if sag > (0.2 if hinge else 0.05):
@@ -93,26 +87,26 @@ def weak_servos(s: Subject) -> Seen:
 
 def undamped(s: Subject) -> Seen:
     """A position servo or a spring acts on a joint with a damping ratio below 0.02."""
-    m, inertia = s.model, _inertia(s)
+    m, inertias = s.model, inertia(s)
     stiffness, damping = np.array(m.jnt_stiffness[m.dof_jntid]).astype(float), np.array(m.dof_damping).astype(float)
     springs = {int(dof) for dof in np.flatnonzero(stiffness)}
-    servos = {}
-    for i, dof, k in _servos(s):
+    held = {}
+    for i, dof, k in servos(s):
         stiffness[dof] += k
         damping[dof] -= m.actuator_biasprm[i, 2] * m.actuator_gear[i, 0] ** 2
-        servos[dof] = i
-    for dof in sorted(springs | servos.keys()):
-        if inertia[dof] > 0 and stiffness[dof] > 0:
-            ratio = damping[dof] / (2 * math.sqrt(stiffness[dof] * inertia[dof]))
+        held[dof] = i
+    for dof in sorted(springs | held.keys()):
+        if inertias[dof] > 0 and stiffness[dof] > 0:
+            ratio = damping[dof] / (2 * math.sqrt(stiffness[dof] * inertias[dof]))
             if ratio < 0.02:
-                kind, element = ("actuator", servos[dof]) if dof in servos else ("joint", int(m.dof_jntid[dof]))
+                kind, element = ("actuator", held[dof]) if dof in held else ("joint", int(m.dof_jntid[dof]))
                 yield s.called(kind, element), f"damping ratio {shown(ratio, '')}: nothing ends its oscillation"
 
 
 def masses(s: Subject) -> Seen:
     """A moving body is 10,000 times lighter than the heaviest, weighs over 10 t, or has inertia below 1e-9 kg m²."""
     m = s.model
-    moving = np.flatnonzero(m.body_treeid >= 0)
+    moving = [int(b) for b in np.flatnonzero(m.body_treeid >= 0)]
     heaviest = max((m.body_mass[b] for b in moving), default=0.0)
     for b in moving:
         if m.body_mass[b] > 1e4:
@@ -124,10 +118,14 @@ def masses(s: Subject) -> Seen:
 
 
 def lengths(s: Subject) -> Seen:
-    """The whole scene measures less than 10 mm or more than 1 km, as scenes in a wrong unit do."""
-    extent = float(s.model.stat.extent)
-    if s.model.ngeom and (extent < 0.01 or extent > 1000):
-        yield "scene", f"extent {shown(extent, 'm')}"
+    """All geoms together fit into 10 mm or reach over 1 km, as those of scenes in a wrong unit do; planes left out."""
+    bounded = s.model.geom_rbound > 0
+    if bounded.any():
+        radii = s.model.geom_rbound[bounded, None]
+        centres = s.data.geom_xpos[bounded]
+        size = float(((centres + radii).max(axis=0) - (centres - radii).min(axis=0)).max())
+        if size < 0.01 or size > 1000:
+            yield "scene", f"is {shown(size, 'm')} long"
 
 
 def gravity(s: Subject) -> Seen:
@@ -146,14 +144,14 @@ def switches(s: Subject) -> Seen:
 
 
 def time_steps(s: Subject) -> Seen:
-    """The timestep is not positive, or above half the longest stable step of the springs and servos, 2/omega_max."""
+    """The timestep is not positive, or above 80 % of the longest that springs and servos allow, 2/omega_max."""
     h = s.model.opt.timestep
     if h <= 0:
         yield "option", f"timestep {shown(h, 's')}: time does not go on"
         return
     name = mujoco.mjtIntegrator(s.model.opt.integrator).name
     omega = omega_max(s)
-    if name in LIMITS and omega * h > LIMITS[name] / 2:
+    if name in LIMITS and omega * h > 0.8 * LIMITS[name]:
         longest = LIMITS[name] / omega
         yield (
             "option",
@@ -164,7 +162,7 @@ def time_steps(s: Subject) -> Seen:
 def time_constants(s: Subject) -> Seen:
     """A geom's contact time constant, solref[0], is shorter than two timesteps."""
     h = s.model.opt.timestep
-    for i in range(s.model.ngeom):
+    for i in range(0 if _switched_off(s.model) else s.model.ngeom):
         if 0 < s.model.geom_solref[i, 0] < 2 * h * (1 - 1e-9) and (
             s.model.geom_contype[i] or s.model.geom_conaffinity[i]
         ):
@@ -177,30 +175,29 @@ def time_constants(s: Subject) -> Seen:
 def lonely(s: Subject) -> Seen:
     """A geom has contact masks, and there are moving geoms, but its masks match none that could meet it."""
     m = s.model
-    able = [i for i in range(m.ngeom) if m.geom_contype[i] or m.geom_conaffinity[i]]
+    able = [i for i in range(m.ngeom) if (m.geom_contype[i] or m.geom_conaffinity[i]) and not _switched_off(m)]
     named = set(map(int, [*m.pair_geom1, *m.pair_geom2]))
     for i in able:
         others = [j for j in able if m.geom_bodyid[i] != m.geom_bodyid[j] and _moves(m, i, j)]
         if others and i not in named and not any(_masks_match(m, i, j) for j in others):
             masks = f"contype {m.geom_contype[i]} conaffinity {m.geom_conaffinity[i]}"
-            yield s.called("geom", i), f"{masks}: collides with none of {len(others)} geoms"
+            yield s.called("geom", i), f"{masks}: collides with no other of {counted(len(others), 'geom')}"
 
 
 def priorities(s: Subject) -> Seen:
     """Geoms of unequal priority can meet, and the one that decides has less than half the other's friction."""
     m = s.model
-    high = [i for i in range(m.ngeom) if m.geom_priority[i] > m.geom_priority.min()]
-    for i in high:
-        for j in range(m.ngeom):
-            lower = m.geom_priority[j] < m.geom_priority[i]
-            weaker = m.geom_friction[i, 0] < 0.5 * m.geom_friction[j, 0]
-            if lower and weaker and m.geom_bodyid[i] != m.geom_bodyid[j] and _moves(m, i, j) and _masks_match(m, i, j):
-                mine, yours = shown(m.geom_friction[i, 0], ""), shown(m.geom_friction[j, 0], "")
-                yield (
-                    s.called("geom", i),
-                    f"priority {m.geom_priority[i]} sets friction {mine} against {s.called('geom', j)} with {yours}",
-                )
-                break
+    for i in range(m.ngeom):
+        others = [
+            j
+            for j in np.flatnonzero(m.geom_priority < m.geom_priority[i]).tolist()
+            if m.geom_bodyid[i] != m.geom_bodyid[j] and _moves(m, i, j) and _masks_match(m, i, j)
+        ]
+        roughest = max(others, key=lambda j: float(m.geom_friction[j, 0]), default=i)
+        mine, yours = float(m.geom_friction[i, 0]), float(m.geom_friction[roughest, 0])
+        if mine < 0.5 * yours:
+            sets = f"priority {m.geom_priority[i]} sets friction {shown(mine, '')}"
+            yield s.called("geom", i), f"{sets} against {shown(yours, '')} of {s.called('geom', roughest)}"
 
 
 def frictions(s: Subject) -> Seen:
@@ -213,22 +210,26 @@ def frictions(s: Subject) -> Seen:
 
 
 def quaternions(s: Subject) -> Seen:
-    """A quaternion in the file is not of unit length, or is a half turn that would be a plain yaw with w written last."""
-    for kind, elements in (("body", s.spec.bodies), ("geom", s.spec.geoms), ("site", s.spec.sites)):
+    """A quaternion in the file is not of unit length (0 and ±1 aside), or a body placed in the world has a half turn
+    about a slanted axis that would be a turn about z with w written last.
+    """
+    world = {element.name for element in [*s.spec.worldbody.bodies, *s.spec.worldbody.geoms] if element.name}
+    for kind, elements in (("body", s.spec.bodies[1:]), ("geom", s.spec.geoms), ("site", s.spec.sites)):
         for element in elements:
             q = np.asarray(element.quat, dtype=float)
             if not np.isfinite(q).all() or element.alt.type != mujoco.mjtOrientation.mjORIENTATION_QUAT:
                 continue
             name, text = f"{kind} {element.name}".strip(), " ".join(f"{v:.6g}" for v in q)
-            if abs(np.linalg.norm(q) - 1) > 1e-2:
-                yield name, f"quat {text} has length {shown(float(np.linalg.norm(q)), '')}"
-            elif abs(q[0]) < 1e-6 and abs(q[1]) < 1e-6 and min(abs(q[2]), abs(q[3])) > 1e-3:
-                turn = math.degrees(2 * math.atan2(q[2], q[3]))
+            length = float(np.linalg.norm(q))
+            if abs(length - 1) > 1e-2 and not np.isin(np.abs(q), (0, 1)).all():
+                yield name, f"quat {text} has length {shown(length, '')}"
+            elif element.name in world and abs(q[:2]).max() < 1e-6 and abs(q[2:]).min() > 1e-3:
+                turn = math.degrees(math.remainder(2 * math.atan2(q[2], q[3]), 2 * math.pi))
                 yield name, f"quat {text} is a half turn about a slanted axis; w last it is {turn:.0f}° about z"
 
 
 def visual_mass(s: Subject) -> Seen:
-    """A geom that collides with nothing has mass, on a moving body whose inertia comes from its geoms, some colliding."""
+    """A geom that collides with nothing has mass, on a moving body that takes its inertia from its geoms."""
     low, high = s.spec.compiler.inertiagrouprange
     for body in s.spec.bodies[1:]:
         if body.explicitinertial or s.model.body_treeid[body.id] < 0:
@@ -243,10 +244,9 @@ def visual_mass(s: Subject) -> Seen:
 
 def keyframes(s: Subject) -> Seen:
     """A keyframe in the file gives some of the model's positions; the rest is filled from the defaults."""
-    for key in s.spec.keys:
-        given = len(key.qpos)
+    for name, given in s.given.items():
         if 0 < given < s.model.nq:
-            yield f"key {key.name}", f"qpos gives {given} of {s.model.nq} numbers"
+            yield f"key {name}", f"qpos gives {given} of {s.model.nq} numbers"
 
 
 RULES: tuple[Rule, ...] = (
@@ -259,73 +259,25 @@ def look(trial: Trial) -> tuple[str, list[tuple[str, str, str]]]:
     """Applies every rule to the compiled model."""
     s, m = trial.subject, trial.subject.model
     found = [(rule.__name__, element, text) for rule in RULES for element, text in rule(s)]
-    return (
-        f"{m.nbody - 1} bodies, {m.njnt} joints, {m.nu} actuators, timestep {shown(1e3 * m.opt.timestep, 'ms')}",
-        found,
-    )
+    sizes = [counted(m.nbody - 1, "body", "bodies"), counted(m.njnt, "joint"), counted(m.nu, "actuator")]
+    return f"{', '.join(sizes)}, timestep {shown(1e3 * m.opt.timestep, 'ms')}", found
 
 
 def line_of(message: str) -> int:
     """The line that a message of MuJoCo's names, or 1."""
-    match = re.search(r"line(?: number)?[ =](\d+)", message, re.IGNORECASE)
-    return max(1, int(match[1])) if match else 1
-
-
-def omega_max(s: Subject) -> float:
-    """The highest natural frequency of the springs and servos at the start, in rad/s; 0 without any."""
-    m = s.model
-    if not 0 < m.nv <= DENSE:
-        return 0.0
-    stiffness = np.diag(m.jnt_stiffness[m.dof_jntid].astype(float))
-    for _, row, k in _rows(s):
-        stiffness += k * np.outer(row, row)
-    if not stiffness.any():
-        return 0.0
-    inertia = np.zeros((m.nv, m.nv))
-    mujoco.mj_fullM(m, s.data, inertia)
-    with np.errstate(all="ignore"):
-        squares = np.linalg.eigvals(np.linalg.solve(inertia, stiffness)).real
-    return math.sqrt(max(0.0, float(squares.max()))) if np.isfinite(squares).all() else 0.0
-
-
-def _kp(m: mujoco.MjModel, i: int) -> float:
-    """The stiffness of an actuator that is a position servo, else 0."""
-    affine = m.actuator_biastype[i] == mujoco.mjtBias.mjBIAS_AFFINE
-    return float(-m.actuator_biasprm[i, 1]) if affine and m.actuator_outnum[i] == 1 else 0.0
-
-
-def _rows(s: Subject) -> Iterator[tuple[int, Array, float]]:
-    """Every position servo with its moment arms, shape (nv,), and its stiffness."""
-    for i in range(s.model.nu):
-        if (kp := _kp(s.model, i)) > 0:
-            out = s.model.actuator_outadr[i]
-            begin, count = s.data.moment_rowadr[out], s.data.moment_rownnz[out]
-            row = np.zeros(s.model.nv)
-            row[s.data.moment_colind[begin : begin + count]] = s.data.actuator_moment[begin : begin + count]
-            yield i, row, kp
-
-
-def _servos(s: Subject) -> Iterator[tuple[int, int, float]]:
-    """Every position servo that acts on one hinge or slide: actuator, degree of freedom, stiffness at it."""
-    for i, row, kp in _rows(s):
-        dofs = np.flatnonzero(row)
-        if len(dofs) == 1 and s.model.jnt_type[s.model.dof_jntid[dofs[0]]] in (HINGE, SLIDE):
-            yield i, int(dofs[0]), kp * float(row[dofs[0]]) ** 2
-
-
-def _inertia(s: Subject) -> Array:
-    """The diagonal of the inertia matrix at the start, shape (nv,)."""
-    m = s.model
-    if not 0 < m.nv <= DENSE:
-        return np.zeros(m.nv)
-    full = np.zeros((m.nv, m.nv))
-    mujoco.mj_fullM(m, s.data, full)
-    return np.diag(full).copy()
+    match = re.search(r"Element\b.*\bline (\d+)|Line number=(\d+)", message)
+    return max(1, int(match[1] or match[2])) if match else 1
 
 
 def _moves(m: mujoco.MjModel, i: int, j: int) -> bool:
     """Whether two geoms can move against each other."""
     return bool(m.body_treeid[m.geom_bodyid[i]] >= 0 or m.body_treeid[m.geom_bodyid[j]] >= 0)
+
+
+def _switched_off(m: mujoco.MjModel) -> bool:
+    """Whether contacts are switched off by a flag."""
+    flags = mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
+    return bool(m.opt.disableflags & flags)
 
 
 def _masks_match(m: mujoco.MjModel, i: int, j: int) -> bool:

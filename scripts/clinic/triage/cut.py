@@ -9,8 +9,8 @@ import numpy as np
 
 from clinic.record import RunSpec
 from clinic.simulate import captured_messages
-from clinic.triage_run import Recording, Subject, record
-from clinic.triage_watch import Trial, Watch
+from clinic.triage.run import Recording, Subject, record
+from clinic.triage.watch import Trial, Watch
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,14 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from clinic.triage_run import Array, Budget, Recording, Subject, record
+from clinic.triage.run import Array, Budget, Recording, Subject, gap, record, scale
 
 WATCHED = 0.25
 """The share of the budget that the watched run may take."""
+CHAOS = 0.15
+NUDGE = 1e-9
+"""How far every velocity is changed to see whether a motion is chaotic, in rad/s or m/s."""
+ONE_STAGE = tuple(int(getattr(mujoco.mjtIntegrator, f"mjINT_{name}")) for name in ("EULER", "IMPLICIT", "IMPLICITFAST"))
 MAX_PAIRS = 10_000
 MAX_UNMATCHED, MOMENTS = 200, 20
 """How many pairs of geoms with masks that do not match are measured, at how many moments."""
@@ -58,6 +62,7 @@ class Watch:
         self._roots = np.asarray(model.tree_bodyadr, dtype=int)
         self._steps = 0
         self._timestep = model.opt.timestep
+        self._one_stage = model.opt.integrator in ONE_STAGE
 
     def __call__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         """Reads the data after a step; positions, forces and energies are those of the step's start."""
@@ -88,10 +93,11 @@ class Watch:
 
     @property
     def supplied(self) -> Array:
-        """Shape (steps,)."""
+        """Shape (steps,). A one-stage integrator applies the force of a step's start over the whole step."""
         with np.errstate(all="ignore"):
             gains = [
-                self._timestep * float((one[0] + two[0]) @ (one[1] + two[1])) / 4 for one, two in pairwise(self._powers)
+                self._timestep * float((one[0] if self._one_stage else (one[0] + two[0]) / 2) @ (one[1] + two[1])) / 2
+                for one, two in pairwise(self._powers)
             ]
         return np.cumsum([0.0, *gains])
 
@@ -137,6 +143,17 @@ class Trial:
         watch = Watch(model, subject.data, subject.steps)
         return record(subject, model, self.budget.part(WATCHED), watch=watch), watch
 
+    @cached_property
+    def chaos(self) -> float:
+        """How far the motion changes with every start velocity changed by NUDGE, as a share of the scene's scale."""
+        subject, (base, _) = self.subject, self.base
+
+        def nudge(_: mujoco.MjModel, data: mujoco.MjData) -> None:
+            data.qvel[:] += NUDGE
+
+        again = record(subject, subject.model, self.budget.part(CHAOS), nudge=nudge)
+        return gap(base, again) / scale(subject, base)
+
 
 def unmatched(model: mujoco.MjModel) -> Iterator[tuple[int, int]]:
     """Pairs of geoms that have contact masks and could meet, but whose masks do not match.
@@ -161,4 +178,5 @@ def unmatched(model: mujoco.MjModel) -> Iterator[tuple[int, int]]:
 
 def _routed(model: mujoco.MjModel) -> NDArray[np.bool_]:
     """For each degree of freedom, whether gravity compensation is applied as an actuator force."""
-    return np.asarray(model.jnt_actgravcomp, dtype=bool)[model.dof_jntid]
+    routed: NDArray[np.bool_] = np.asarray(model.jnt_actgravcomp, dtype=bool)[model.dof_jntid]
+    return routed

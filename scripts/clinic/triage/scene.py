@@ -8,11 +8,15 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from clinic.triage_model import HINGE, Seen
-from clinic.triage_run import Recording, Subject
-from clinic.triage_text import shown
-from clinic.triage_watch import Trial, Watch
+from clinic.triage.model import Seen
+from clinic.triage.run import Recording, Subject
+from clinic.triage.stiffness import HINGE
+from clinic.triage.text import counted, shown
+from clinic.triage.watch import Trial, Watch
 
+FLAT = (int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_HFIELD))
+ROUND = (int(mujoco.mjtGeom.mjGEOM_SPHERE), int(mujoco.mjtGeom.mjGEOM_CAPSULE))
+CYLINDER = int(mujoco.mjtGeom.mjGEOM_CYLINDER)
 Rule = Callable[[Subject, Recording, Watch], Seen]
 
 
@@ -54,14 +58,19 @@ def deep_start(s: Subject, run: Recording, watch: Watch) -> Seen:
 
 
 def deep(s: Subject, run: Recording, watch: Watch) -> Seen:
-    """Two geoms press into each other by more than half of the thinner one's smallest half-size."""
+    """Two geoms press into each other by more than half of the thinner one's smallest half-size, and start apart."""
+    begun = {name for name, _ in deep_start(s, run, watch)}
     for (one, two), touch in watch.touched.items():
-        if min(one, two) >= 0 and touch.deepest > 0.5 * _thickness(s.model, one, two):
+        if (
+            _couple(s, one, two) not in begun
+            and min(one, two) >= 0
+            and touch.deepest > 0.5 * _thickness(s.model, one, two)
+        ):
             yield _couple(s, one, two), f"up to {shown(1e3 * touch.deepest, 'mm')} inside each other"
 
 
 def leaps(s: Subject, run: Recording, watch: Watch) -> Seen:
-    """A colliding geom goes farther in one step than its own smallest half-size and the thinnest fixed geom's together."""
+    """A colliding geom goes farther in a step than its smallest half-size and the thinnest fixed geom's together."""
     m = s.model
     fixed = [
         i for i in range(m.ngeom) if m.body_treeid[m.geom_bodyid[i]] < 0 and _collides(m, i) and _size(m, i) < np.inf
@@ -77,9 +86,10 @@ def leaps(s: Subject, run: Recording, watch: Watch) -> Seen:
 
 
 def ghosts(s: Subject, run: Recording, watch: Watch) -> Seen:
-    """Two geoms that both have contact masks, which do not match, overlap at one of 20 moments of the run."""
+    """Two geoms that both have contact masks, which do not match, come to overlap (looked for at 20 moments)."""
     for (one, two), since in watch.overlaps.items():
-        yield _couple(s, one, two), f"overlap at {shown(since, 's')} without a contact"
+        if since > 0:
+            yield _couple(s, one, two), f"overlap from {shown(since, 's')} on without a contact"
 
 
 RULES: tuple[Rule, ...] = (cameras, axes, deep_start, deep, leaps, ghosts)
@@ -90,8 +100,11 @@ def look(trial: Trial) -> tuple[str, list[tuple[str, str, str]]]:
     s = trial.subject
     run, watch = trial.base
     found = [(rule.__name__, *seen) for rule in RULES for seen in dict(rule(s, run, watch)).items()]
-    contacts = len(watch.touched)
-    return f"{s.data.ncon} contacts at the start, {contacts} pairs touch in {shown(run.time, 's')}", found
+    pairs = counted(len(watch.touched), "pair")
+    return (
+        f"{counted(s.data.ncon, 'contact')} at the start, {pairs} of geoms in contact within {shown(run.time, 's')}",
+        found,
+    )
 
 
 def _up(s: Subject) -> NDArray[np.float64] | None:
@@ -118,12 +131,12 @@ def _collides(m: mujoco.MjModel, i: int) -> bool:
 
 def _size(m: mujoco.MjModel, i: int) -> float:
     """A geom's smallest half-size in m; infinite for planes and height fields, which have no thickness."""
-    kind = m.geom_type[i]
-    if kind in (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD):
+    kind = int(m.geom_type[i])
+    if kind in FLAT:
         return np.inf
-    if kind in (mujoco.mjtGeom.mjGEOM_SPHERE, mujoco.mjtGeom.mjGEOM_CAPSULE):
+    if kind in ROUND:
         return float(m.geom_size[i, 0])
-    count = 2 if kind == mujoco.mjtGeom.mjGEOM_CYLINDER else 3
+    count = 2 if kind == CYLINDER else 3
     return float(m.geom_size[i, :count].min()) or float(m.geom_rbound[i])
 
 

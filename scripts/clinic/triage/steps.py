@@ -6,24 +6,28 @@ observation lists what the rules found. Nothing found is an answer too.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import mujoco
+import numpy as np
 from pydantic import BaseModel, ConfigDict
 
-from clinic import triage_model, triage_motion, triage_reduce, triage_scene
 from clinic.case import RECORD, Case, load_case
 from clinic.problem import CaseError, Problem
 from clinic.record import RunSpec
 from clinic.simulate import RunError, captured_messages
-from clinic.triage_run import Budget, Subject
-from clinic.triage_watch import Trial
+from clinic.triage import model as compiled
+from clinic.triage import motion, reduce, scene
+from clinic.triage.run import Budget, Subject
+from clinic.triage.watch import Trial
 
-SECONDS = 8.0
+SECONDS = 7.0
 DURATION = 2.0
 MAX_STEPS = 4000
 SHOWN = 4
+FIRST = "the first keyframe"
 
 
 class Finding(BaseModel):
@@ -43,6 +47,7 @@ class Observation(BaseModel):
 
     step: str
     said: str
+    taken: bool = True
     findings: list[Finding] = []
 
     @property
@@ -53,12 +58,12 @@ class Observation(BaseModel):
 
 Look = Callable[[Trial], tuple[str, list[tuple[str, str, str]]]]
 STEPS: dict[str, tuple[str, Look]] = {
-    "warnings": ("MuJoCo's warnings", triage_motion.warnings),
-    "model": ("the model as compiled", triage_model.look),
-    "overlays": ("the scene with overlays", triage_scene.look),
-    "conservation": ("conservation", triage_motion.conservation),
-    "timestep": ("half the timestep", triage_motion.halved),
-    "reduce": ("a reduced scene", triage_reduce.look),
+    "warnings": ("MuJoCo's warnings", motion.warnings),
+    "model": ("the model as compiled", compiled.look),
+    "overlays": ("the scene with overlays", scene.look),
+    "conservation": ("conservation", motion.conservation),
+    "timestep": ("half the timestep", motion.halved),
+    "reduce": ("a reduced scene", reduce.look),
 }
 
 
@@ -67,14 +72,15 @@ def triage(subject: Subject, budget: Budget | None = None) -> Iterator[Observati
     trial = Trial(subject, budget or Budget())
     for step, (_, look) in STEPS.items():
         if trial.budget.left <= 0:
-            yield Observation(step=step, said="not taken: the time allowed was used up")
+            yield Observation(step=step, taken=False, said="the time allowed was used up")
             continue
         try:
-            said, found = look(trial)
+            with np.errstate(all="ignore"):
+                said, found = look(trial)
         except RunError as error:
-            yield Observation(step=step, said=f"not taken: {error.found}")
+            yield Observation(step=step, taken=False, said=error.found)
         except (ValueError, ArithmeticError, mujoco.FatalError, mujoco.UnexpectedError) as error:
-            yield Observation(step=step, said=f"not taken: {_first_line(error)}")
+            yield Observation(step=step, taken=False, said=_first_line(error))
         else:
             findings = [Finding(rule=rule, element=element, text=text) for rule, element, text in found]
             yield Observation(step=step, said=said, findings=findings)
@@ -83,9 +89,8 @@ def triage(subject: Subject, budget: Budget | None = None) -> Iterator[Observati
 def subject_of_case(case: Case, text: str | None = None) -> Subject:
     """A model case's broken model, or another text of it, run as the record says."""
     assert case.record.run is not None
-    with captured_messages():
-        spec = mujoco.MjSpec.from_string(case.text if text is None else text)
-        return Subject(f"{case.record.number}. {case.record.title}", spec, spec.compile(), case.record.run)
+    name = f"{case.record.number}. {case.record.title}"
+    return _compiled(name, lambda: mujoco.MjSpec.from_string(case.text if text is None else text), case.record.run)
 
 
 def subject_of(path: Path) -> Subject:
@@ -96,7 +101,7 @@ def subject_of(path: Path) -> Subject:
     Raises:
         CaseError: If it is a case in code, or cannot be read or compiled.
     """
-    if path.is_dir() or path.name == RECORD:
+    if (path / RECORD).is_file() or path.name == RECORD:
         case = load_case(path if path.is_dir() else path.parent)
         if case.record.model is None:
             raise CaseError(
@@ -106,27 +111,19 @@ def subject_of(path: Path) -> Subject:
     if not path.is_file():
         raise _problem(path, 1, "no such file", "an MJCF or URDF file, or a case's folder", "correct the path")
     try:
-        with captured_messages():
-            spec = mujoco.MjSpec.from_file(str(path))
-            model = spec.compile()
+        return _compiled(path.name, lambda: mujoco.MjSpec.from_file(str(path)))
     except (ValueError, mujoco.FatalError, mujoco.UnexpectedError, UnicodeError) as error:
         said = " ".join(str(error).split())
-        raise _problem(
-            path, triage_model.line_of(said), said, "XML that MuJoCo compiles", "see *What MuJoCo says*"
-        ) from None
-    timestep = model.opt.timestep
-    duration = min(DURATION, MAX_STEPS * timestep) if timestep > 0 else DURATION
-    keyframe = None
-    if model.nkey:
-        keyframe = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_KEY, 0)
-    return Subject(path.name, spec, model, RunSpec(duration=duration, keyframe=keyframe or None))
+        line = compiled.line_of(said)
+        raise _problem(path, line, said, "XML that MuJoCo compiles", "see *What MuJoCo says*") from None
 
 
 def report(observation: Observation) -> str:
     """An observation as text: a line that says what was looked at, then what was found."""
     number = list(STEPS).index(observation.step) + 1
     title = STEPS[observation.step][0]
-    lines = [f"{number}. {title}: {'saw something' if observation.saw else 'nothing unusual'} ({observation.said})"]
+    result = "saw something" if observation.saw else "nothing unusual" if observation.taken else "not taken"
+    lines = [f"{number}. {title}: {result} ({observation.said})"]
     by_rule: dict[str, list[Finding]] = {}
     for finding in observation.findings:
         by_rule.setdefault(finding.rule, []).append(finding)
@@ -135,6 +132,22 @@ def report(observation: Observation) -> str:
         if len(findings) > SHOWN:
             lines.append(f"   - ... and {len(findings) - SHOWN} more of the same kind")
     return "\n".join(lines)
+
+
+def _compiled(name: str, read: Callable[[], mujoco.MjSpec], run: RunSpec | None = None) -> Subject:
+    """The model read and compiled. Without a run: DURATION from the first keyframe, with that keyframe's controls."""
+    with captured_messages() as messages, warnings.catch_warnings(record=True) as raised:
+        warnings.simplefilter("always")
+        spec = read()
+        if spec.keys and not spec.keys[0].name:
+            spec.keys[0].name = FIRST
+        given = {key.name: len(key.qpos) for key in spec.keys}
+        model = spec.compile()
+    if run is None:
+        duration = min(DURATION, MAX_STEPS * model.opt.timestep) if model.opt.timestep > 0 else DURATION
+        run = RunSpec(duration=duration, keyframe=next(iter(given), None))
+    notes = tuple(dict.fromkeys([*(str(warning.message) for warning in raised), *messages]))
+    return Subject(name, spec, model, run, notes, given)
 
 
 def _problem(path: Path, line: int, found: str, expected: str, repair: str) -> CaseError:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -53,12 +53,16 @@ class Subject:
         spec: The model before compilation, as it was read.
         model: The model, compiled.
         run: How it is started and driven, and for how long.
+        notes: What the compiler warned of.
+        given: How many positions each keyframe gives in the file; the compiled model has them all.
     """
 
     name: str
     spec: mujoco.MjSpec
     model: mujoco.MjModel
     run: RunSpec
+    notes: tuple[str, ...] = ()
+    given: Mapping[str, int] = field(default_factory=dict)
 
     @cached_property
     def data(self) -> mujoco.MjData:
@@ -151,29 +155,27 @@ def record(
     with captured_messages() as messages:
         data = start(model, subject.run, nudge)
         drive = controls(model, subject.run, made.planned)
-        for begin, end in _chunks(made.planned, stride * finer):
+        together = 1
+        while made.steps < made.planned and made.finite and budget.left > 0:
+            ahead = stride * finer - made.steps % (stride * finer)
+            end = made.steps + min(together, ahead, made.planned - made.steps)
             before = data.time
             if watch is None:
-                _advance(model, data, drive, begin, end)
+                _advance(model, data, drive, made.steps, end)
+                together *= 2
             else:
-                for i in range(begin, end):
-                    time_before = data.time
-                    step(model, data, drive, i)
-                    made.resets += data.time <= time_before
-                    watch(model, data)
-            np.maximum(counts, data.warning.number, out=counts)
+                step(model, data, drive, made.steps)
+                watch(model, data)
             made.steps = end
-            made.finite &= bool(np.isfinite(data.qpos).all() and np.isfinite(data.qvel).all())
-            made.resets += watch is None and data.time <= before
-            if not made.finite:
-                break
-            mujoco.mj_kinematics(model, data)
-            points.append(np.concatenate([data.xpos, data.geom_xpos]))
-            if budget.left <= 0:
-                break
+            made.resets += data.time <= before
+            np.maximum(counts, data.warning.number, out=counts)
+            made.finite = bool(np.isfinite(data.qpos).all() and np.isfinite(data.qvel).all())
+            if made.finite and made.steps % (stride * finer) == 0:
+                mujoco.mj_kinematics(model, data)
+                points.append(np.concatenate([data.xpos, data.geom_xpos]))
     made.warnings = {mujoco.mjtWarning(k).name.removeprefix("mjWARN_"): int(n) for k, n in enumerate(counts) if n}
     made.messages = tuple(dict.fromkeys(messages))
-    made.points = np.array(points).reshape(len(points), -1, 3)
+    made.points = np.array(points).reshape(len(points), model.nbody + model.ngeom, 3)
     return made
 
 
@@ -184,17 +186,17 @@ def apart(one: Recording, other: Recording) -> Array:
         return np.asarray(np.linalg.norm(one.points[:n] - other.points[:n], axis=2))
 
 
+def gap(one: Recording, other: Recording) -> float:
+    """The largest distance between two recordings, in m; infinite where a number is no longer finite."""
+    return float(np.nan_to_num(apart(one, other), nan=np.inf).max(initial=0.0))
+
+
 def scale(subject: Subject, recording: Recording) -> float:
     """What a change is compared with, in m: the scene's extent, or the longest way a point went if that is more."""
     with np.errstate(over="ignore", invalid="ignore"):
         way = np.linalg.norm(recording.points - recording.points[:1], axis=2) if recording.points.size else np.zeros(1)
     way = way[np.isfinite(way)]
     return max(float(subject.model.stat.extent), float(way.max(initial=0.0)))
-
-
-def _chunks(total: int, length: int) -> Iterator[tuple[int, int]]:
-    for begin in range(0, total, length):
-        yield begin, min(begin + length, total)
 
 
 def _advance(model: mujoco.MjModel, data: mujoco.MjData, drive: Drive, begin: int, end: int) -> None:

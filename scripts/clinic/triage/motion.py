@@ -7,17 +7,16 @@ import copy
 import mujoco
 import numpy as np
 
-from clinic.triage_run import Array, Recording, Subject, apart, record, scale
-from clinic.triage_text import shown
-from clinic.triage_watch import Trial, Watch
+from clinic.triage.run import Array, Recording, Subject, gap, record, scale
+from clinic.triage.text import shown
+from clinic.triage.watch import NUDGE, Trial, Watch
 
 Look = tuple[str, list[tuple[str, str, str]]]
 FAST = 1000.0
 """A degree of freedom faster than this, in rad/s or m/s, is unusual."""
 SHARE = 0.05
 """A drift of more than this share is unusual."""
-NUDGE = 1e-9
-"""How far every velocity is changed to see whether a motion is chaotic, in rad/s or m/s."""
+FREE = int(mujoco.mjtJoint.mjJNT_FREE)
 FREED = ("CONSTRAINT", "DAMPER", "ACTUATION")
 
 
@@ -25,10 +24,8 @@ def warnings(trial: Trial) -> Look:
     """What MuJoCo warns of, how often time goes back, and whether numbers stay finite and moderate."""
     s = trial.subject
     run, watch = trial.base
-    found = [
-        ("warned", name, next((t for t in run.messages), f"raised {count} times"))
-        for name, count in run.warnings.items()
-    ]
+    found = [("warned", name, _message(name, run.messages)) for name in run.warnings]
+    found += [("compiler", "model", note) for note in s.notes]
     if run.resets:
         found.append(("reset", "data.time", f"goes back on {run.resets} of {run.steps} steps: the state is reset"))
     if not run.finite:
@@ -40,21 +37,27 @@ def warnings(trial: Trial) -> Look:
 
 
 def conservation(trial: Trial) -> Look:
-    """Whether energy appears in the run as it is, drifts with all that may take it away removed, or momentum changes."""
+    """Whether energy appears in the run, drifts where nothing takes it away, or a free momentum changes."""
     s = trial.subject
-    run, watch = trial.base
+    _, watch = trial.base
     if s.model.nv == 0:
         return "nothing moves", []
     found, said = [], []
-    gained = gain(watch)
+    gained = gain(s, watch)
     if gained is not None:
-        said.append("energy never exceeds what was put in" if gained <= SHARE else "energy appears")
+        said.append("energy appears" if gained > SHARE else "no energy appears")
         if gained > SHARE:
-            found.append(("gain", "energy", f"{100 * gained:.0f} % more than actuators put in"))
+            found.append(("gain", "energy", f"{100 * gained:.0f} % of the energy in play was put in by no actuator"))
     drifted = drift(trial)
     if drifted is not None:
-        said.append(f"freed of contacts, limits, dampers and actuators it drifts by {shown(100 * drifted, '%', 2)}")
-        if not drifted <= SHARE:
+        said.append(
+            f"it drifts by {shown(100 * drifted, '%', 2)} without contacts, dampers and actuators"
+            if np.isfinite(drifted)
+            else "without contacts, dampers and actuators the motion explodes"
+        )
+        if not np.isfinite(drifted):
+            found.append(("explodes", "energy", "grows beyond all bounds where it should stay"))
+        elif drifted > SHARE:
             found.append(("drift", "energy", f"drifts by {shown(100 * drifted, '%', 2)} where it should stay"))
     for tree, share in flying(s, watch):
         if share > SHARE:
@@ -67,11 +70,12 @@ def halved(trial: Trial) -> Look:
     """Whether the outcome changes with half the timestep, or a twentieth of it."""
     s, (base, _) = trial.subject, trial.base
     found, said = [], []
+    if len(base.points) < 2:
+        return "too few steps to compare", []
     size = scale(s, base)
-    wild = _run(trial, 1, nudge=True)
-    chaos = _gap(base, wild) / size
+    chaos = trial.chaos
     for finer, name in ((2, "half"), (20, "a twentieth")):
-        run = _run(trial, finer)
+        run = _finer(trial, finer)
         if not run.points.size:
             continue
         if run.warnings.keys() != base.warnings.keys() or run.finite != base.finite:
@@ -80,22 +84,27 @@ def halved(trial: Trial) -> Look:
                 (name, "warnings", f"at {name} of the timestep: {now}, before: {', '.join(base.warnings) or 'none'}")
             )
             continue
-        gap = _gap(base, run) / size
-        if gap > SHARE and chaos < 0.5 * gap:
-            found.append((name, "motion", f"at {name} of the timestep up to {shown(gap * size, 'm')} elsewhere"))
-        said.append(f"{name}: {shown(100 * gap, '%', 2)} of {shown(size, 'm')}")
+        share = gap(base, run) / size
+        if share > SHARE and chaos < 0.5 * share:
+            found.append((name, "motion", f"at {name} of the timestep up to {shown(share * size, 'm')} elsewhere"))
+        part = "" if len(run.points) >= len(base.points) else f" in the first {shown(run.time, 's')}"
+        said.append(f"{name}: {shown(100 * share, '%', 2)} of {shown(size, 'm')}{part}")
     if chaos > SHARE:
         said.append(f"chaotic: a change of {NUDGE:g} at the start gives {shown(100 * chaos, '%', 2)}")
     return "; ".join(said) or "not enough time for it", found
 
 
-def gain(watch: Watch) -> float | None:
-    """The energy that nobody supplied, as a share of the energy in play; None where there is none in play."""
+def gain(s: Subject, watch: Watch) -> float | None:
+    """The energy that nobody supplied, as a share of the energy in play; None where there is none in play.
+
+    In play is at least what lifts the whole model by a thousandth of the scene's extent.
+    """
     energies = watch.energies
     if len(energies) < 2 or not np.isfinite(energies).all():
         return None
     total = energies.sum(axis=1)
-    play = float(energies[:, 1].max() + np.ptp(energies[:, 0]))
+    weight = float(s.model.body_subtreemass[0] * np.linalg.norm(s.model.opt.gravity))
+    play = max(float(energies[:, 1].max() + np.ptp(energies[:, 0])), 1e-3 * s.model.stat.extent * weight)
     with np.errstate(all="ignore"):
         surplus = float(np.max(total - total[0] - watch.supplied))
     return surplus / play if play > 1e-9 and np.isfinite(surplus) else None
@@ -126,7 +135,7 @@ def drift(trial: Trial) -> float | None:
 
 
 def flying(s: Subject, watch: Watch) -> list[tuple[int, float]]:
-    """Each tree on a free joint that never touched anything, and how far its momentum is from a free fall's, as a share."""
+    """Each tree on a free joint that touched nothing, and how far its momentum is from a free fall's, as a share."""
     m = s.model
     if (
         m.neq
@@ -143,7 +152,7 @@ def flying(s: Subject, watch: Watch) -> list[tuple[int, float]]:
     times = np.arange(len(watch.momenta)) * m.opt.timestep
     for tree in range(m.ntree):
         body = int(m.tree_bodyadr[tree])
-        free = m.body_jntnum[body] == 1 and m.jnt_type[m.body_jntadr[body]] == mujoco.mjtJoint.mjJNT_FREE
+        free = m.body_jntnum[body] == 1 and m.jnt_type[m.body_jntadr[body]] == FREE
         if free and tree not in touched:
             momentum = watch.momenta[:, tree]
             fall = momentum[0] + m.body_subtreemass[body] * times[:, None] * m.opt.gravity
@@ -153,20 +162,16 @@ def flying(s: Subject, watch: Watch) -> list[tuple[int, float]]:
     return made
 
 
-def _run(trial: Trial, finer: int, nudge: bool = False) -> Recording:
+def _finer(trial: Trial, finer: int) -> Recording:
     model = copy.copy(trial.subject.model)
     model.opt.timestep /= finer
-
-    def shake(_: mujoco.MjModel, data: mujoco.MjData) -> None:
-        data.qvel[:] += NUDGE
-
-    return record(trial.subject, model, trial.budget.part(0.3), finer, nudge=shake if nudge else None)
+    return record(trial.subject, model, trial.budget.part(0.3), finer)
 
 
-def _gap(one: Recording, other: Recording) -> float:
-    """The largest distance between the two recordings, in m."""
-    gaps = apart(one, other)
-    return float(np.nan_to_num(gaps, nan=np.inf).max(initial=0.0))
+def _message(name: str, messages: tuple[str, ...]) -> str:
+    """What MuJoCo printed for a warning."""
+    words = mujoco.mju_warningText(getattr(mujoco.mjtWarning, f"mjWARN_{name}"), 7).partition("7")[0]
+    return next((message for message in messages if message.startswith(words)), "raised")
 
 
 def _covered(what: str, run: Recording) -> str:

@@ -1,0 +1,21 @@
+// Which cases have been solved, kept in this browser. The loader reads the same key.
+
+const KEY = "mujoco-clinic";
+
+/** @returns {string[]} */
+export function solved() {
+  try {
+    return JSON.parse(localStorage.getItem(KEY) ?? "[]");
+  } catch {
+    return [];
+  }
+}
+
+/** @param {string} slug */
+export function solve(slug) {
+  try {
+    localStorage.setItem(KEY, JSON.stringify([...new Set([...solved(), slug])]));
+  } catch {
+    // storage may be switched off: then nothing is kept
+  }
+}

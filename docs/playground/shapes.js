@@ -1,0 +1,59 @@
+// The geometries that instances are made of: unit shapes about the z axis, and the model's meshes and height fields.
+
+import * as THREE from "three";
+
+/** @import {Assets, Shape} from "./assets.js" */
+
+const ROUND = 24; // segments about an axis
+const HEAD = { share: 0.4, width: 1.75 }; // an arrow's head: its part of the length, its width for the shaft's
+
+/**
+ * @param {Assets} assets
+ * @returns {Map<string, THREE.BufferGeometry>}
+ */
+export function shapes({ meshes, hulls, fields }) {
+  const alongZ = (/** @type {THREE.BufferGeometry} */ made) => made.rotateX(Math.PI / 2);
+  const made = new Map([
+    ["plane", new THREE.PlaneGeometry(2, 2)],
+    ["box", new THREE.BoxGeometry(2, 2, 2)],
+    ["sphere", alongZ(new THREE.SphereGeometry(1, ROUND, ROUND / 2))],
+    ["cap", alongZ(new THREE.SphereGeometry(1, ROUND, ROUND / 4, 0, 2 * Math.PI, 0, Math.PI / 2))],
+    ["tube", alongZ(new THREE.CylinderGeometry(1, 1, 2, ROUND, 1, true))],
+    ["cylinder", alongZ(new THREE.CylinderGeometry(1, 1, 2, ROUND))],
+    ["cone", alongZ(new THREE.ConeGeometry(1, 2, ROUND))],
+  ]);
+  meshes.forEach((shape, i) => made.set(`mesh-${i}`, geometry(shape)));
+  hulls.forEach((shape, i) => shape && made.set(`hull-${i}`, geometry(shape)));
+  fields.forEach((shape, i) => made.set(`field-${i}`, geometry(shape)));
+  return made;
+}
+
+/**
+ * The parts of an arrow that starts at the geom's centre and points along its z axis. MuJoCo gives twice its length.
+ * @param {number} radius
+ * @param {number} size
+ * @param {boolean} both whether it has a head at each end
+ * @returns {{shape: string, scale: number[], lift: number}[]}
+ */
+export function arrow(radius, size, both) {
+  const length = size / 2;
+  const head = Math.min(HEAD.share * length, 4 * radius);
+  const wide = HEAD.width * radius;
+  const from = both ? head : 0;
+  const shaft = (length - head - from) / 2;
+  const parts = [
+    { shape: "cylinder", scale: [radius, radius, shaft], lift: from + shaft },
+    { shape: "cone", scale: [wide, wide, head / 2], lift: length - head / 2 },
+  ];
+  return both ? [...parts, { shape: "cone", scale: [wide, -wide, -head / 2], lift: head / 2 }] : parts;
+}
+
+/** @param {Shape} shape with flat faces */
+function geometry({ vertices, faces }) {
+  const positions = new Float32Array(3 * faces.length);
+  faces.forEach((vertex, i) => positions.set(vertices.subarray(3 * vertex, 3 * vertex + 3), 3 * i));
+  const made = new THREE.BufferGeometry();
+  made.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  made.computeVertexNormals();
+  return made;
+}

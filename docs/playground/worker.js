@@ -1,0 +1,152 @@
+// The engine in a worker: compiles, runs and judges models. Every message carries a generation, and so does its answer.
+
+import loadMujoco from "@mujoco/mujoco";
+import { assets } from "./assets.js";
+import { Live } from "./live.js";
+import { examine } from "./measure.js";
+
+/** @import {MainModule} from "@mujoco/mujoco" */
+/** @import {Playground} from "./record.js" */
+
+const TURN = 25; // ms of judging between two looks at the messages
+const MAX_STEPS_A_TURN = 1000;
+
+/** @type {Promise<MainModule>} */
+let booted;
+/** @type {Playground} */
+let record;
+/** @type {Live | null} */
+let live = null;
+let failures = 0;
+let judging = 0;
+
+/** @type {Record<string, (mujoco: MainModule, message: any) => object | null | Promise<object | null>>} */
+const HANDLERS = {
+  /** Starts the engine. */
+  boot: (mujoco) => ({ type: "booted", version: mujoco.mj_versionString() }),
+
+  /** Compiles a text; the model before it stays if that fails. */
+  open: (mujoco, { text }) => {
+    const made = compiled(() => new Live(mujoco, text, record));
+    if ("message" in made) return { type: "refused", ...made };
+    live?.delete();
+    live = made;
+    return { type: "opened", assets: assets(mujoco, live.model, live.scene), missing: live.missing };
+  },
+
+  reset: () => {
+    live?.restart();
+    return null;
+  },
+
+  /** Moves on and gives what is to be drawn. */
+  frame: (_, { seconds, steps, overlays, camera }) => {
+    if (!live) return { type: "frame", frame: null };
+    return { type: "frame", frame: live.frame(overlays, camera, live.advance(seconds, steps)) };
+  },
+
+  grab: (_, { origin, direction }) => ({ type: "grabbed", held: live?.grab(origin, direction) ?? null }),
+
+  hold: (_, { body }) => ({ type: "grabbed", held: live?.hold(body) ?? null }),
+
+  drag: (_, { point }) => {
+    live?.drag(point);
+    return null;
+  },
+
+  release: () => {
+    live?.release();
+    return null;
+  },
+
+  /** Judges a text with a fresh model and fresh data, in turns. */
+  check: async (mujoco, { text, generation }) => {
+    const id = ++judging;
+    const model = compiled(() => mujoco.MjModel.from_xml_string(text));
+    if ("message" in model) return { type: "refused", checking: true, ...model };
+    const work = examine(mujoco, model, record);
+    try {
+      for (let turn = 1; ; turn++) {
+        const end = performance.now() + TURN;
+        for (let i = 0; i < MAX_STEPS_A_TURN && performance.now() < end; i++) {
+          const { done, value } = work.next();
+          if (done) return { type: "judged", judgement: value };
+        }
+        postMessage({ type: "judging", generation, turn });
+        await new Promise((resolve) => setTimeout(resolve));
+        if (id !== judging) return { type: "stopped" };
+      }
+    } catch (error) {
+      if (fatal(error)) throw error;
+      return { type: "unjudged", message: said(error) };
+    } finally {
+      work.return(/** @type {any} */ (undefined));
+      model.delete();
+    }
+  },
+
+  /** Ends a judgement that is under way. */
+  stop: () => {
+    judging += 1;
+    return null;
+  },
+};
+
+self.onmessage = async ({ data: message }) => {
+  const { type, generation } = message;
+  try {
+    if (type === "boot") {
+      record = message.record;
+      booted = boot(message.wasm);
+    }
+    const answer = await HANDLERS[type](await booted, message);
+    if (answer) postMessage({ ...answer, generation, failures }, { transfer: transfers(answer) });
+  } catch (error) {
+    postMessage({ type: "dead", generation, message: said(error) });
+  }
+};
+
+/** @param {string} url of the gzipped module; some servers inflate it on the way */
+async function boot(url) {
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`the engine could not be loaded (${response.status})`);
+  let bytes = await response.arrayBuffer();
+  const [first, second] = new Uint8Array(bytes, 0, 2);
+  if (first === 0x1f && second === 0x8b) {
+    bytes = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  }
+  return loadMujoco({ wasmBinary: bytes, print: () => {}, printErr: () => {} });
+}
+
+/**
+ * @template T
+ * @param {() => T} compile
+ * @returns {T | {message: string, line: number | null}}
+ */
+function compiled(compile) {
+  try {
+    return compile();
+  } catch (error) {
+    failures += 1;
+    if (fatal(error)) throw error;
+    const message = said(error);
+    const line = /line(?: number)?[ =](\d+)/i.exec(message);
+    return { message, line: line && Number(line[1]) };
+  }
+}
+
+/** Whether the module cannot be trusted any longer. @param {unknown} error */
+function fatal(error) {
+  return error instanceof WebAssembly.RuntimeError || error instanceof RangeError || /Aborted|stack/.test(said(error));
+}
+
+/** @param {unknown} error */
+function said(error) {
+  const message = error instanceof Error ? error.message : "";
+  return message.replace(/^MuJoCo Error: (Loading error: )?/, "").trim() || "MuJoCo refused it without saying why";
+}
+
+/** @param {any} answer */
+function transfers(answer) {
+  return answer.frame ? [answer.frame.geoms.buffer] : [];
+}

@@ -1,0 +1,48 @@
+"""Runs every variant of the cases named as arguments in this process's MuJoCo; prints what was measured as JSON.
+
+Each argument is a playground file. Images are left out: drawing them is not the engine's work.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from pathlib import Path
+from typing import Any
+
+import mujoco
+from clinic.case import load_case
+from clinic.checks import Verdict, judge
+from clinic.measure import measure_model
+from clinic.record import Edit, RowSignal
+from clinic.simulate import compile_model
+from clinic.variant import apply_edits
+
+
+def plain(verdict: Verdict) -> dict[str, Any]:
+    value = verdict.measured
+    return {"measured": value if math.isfinite(value) else None, "holds": verdict.holds}
+
+
+def measured(root: Path, playground: dict[str, Any]) -> dict[str, Any]:
+    record = load_case(root / "cases" / playground["case"]).record
+    assert record.run is not None
+    remedies = [{"id": "broken", "edits": []}, *playground["fixes"], *playground["refuted"]]
+    wanted = [name for name, signal in record.signals.items() if not isinstance(signal, RowSignal)]
+    found = {}
+    for remedy in remedies:
+        text = apply_edits(playground["text"], [Edit(**edit) for edit in remedy["edits"]])
+        run, traces = measure_model(record, compile_model(text), record.run, wanted)
+        found[remedy["id"]] = {"warnings": run.warnings} | {
+            kind: [plain(judge(check, traces)) if check.signal in traces else None for check in checks]
+            for kind, checks in (("broken", record.checks.broken), ("fixed", record.checks.fixed))
+        }
+    return found
+
+
+if __name__ == "__main__":
+    root, *files = map(Path, sys.argv[1:])
+    records = [json.loads(file.read_text(encoding="utf-8")) for file in files]
+    cases = {record["case"]: measured(root, record) for record in records}
+    print(json.dumps({"engine": mujoco.__version__, "cases": cases}))

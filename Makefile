@@ -33,6 +33,7 @@ site: setup
 	$(BIN)/mkdocs build --strict
 
 test: setup
+	-@$(BIN)/clinic build --out .cache/pages >/dev/null  # every run that the tests read, made once
 	$(BIN)/pytest -n auto --dist loadgroup
 
 bench: setup

@@ -77,7 +77,7 @@ def test_the_page_says_what_was_heard(tmp_path: Path, said: dict[str, str]) -> N
         ("xml: <mujoco/", "wxl: <mujoco/", "odd-text.wxl"),
         ("  says:", "  python: x\n  says:", "xml and python instead of exactly one of"),
         ("  says:", "  warning: BADNEWS\n  says:", "BADNEWS is no MuJoCo warning"),
-        ("odd-text:", "Odd text:", "match pattern"),
+        ("odd-text:", "Odd text:", "pattern"),
         ("  meaning: It", "  meaning: [It", "found"),
     ],
 )

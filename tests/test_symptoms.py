@@ -30,6 +30,12 @@ def test_a_case_that_nobody_would_find_is_a_problem(tmp_path: Path) -> None:
     assert problem.repair == "add `looks: [...]`"
 
 
+def test_a_case_that_nobody_would_find_stands_at_the_end(tmp_path: Path) -> None:
+    case = tiny_case(tmp_path, (PHRASES, "phrases: [something odd]"))
+    page = symptoms_page([case], {case.slug: Card(case.slug, 1, case.record.title, "It falls.", "", "")})
+    assert "falls through the floor" in page.partition("## Something else")[2]
+
+
 def test_a_look_that_does_not_exist_is_a_problem(tmp_path: Path) -> None:
     with pytest.raises(Exception, match="looks"):
         tiny_case(tmp_path, (PHRASES, f"{PHRASES}\nlooks: [smells]"))

@@ -24,7 +24,7 @@ from clinic.playground import FILE as PLAYGROUND
 from clinic.playground import playground
 from clinic.problem import CaseError, Problem
 from clinic.reference import reference
-from clinic.symptoms import symptom_problems, symptoms_page
+from clinic.symptoms import symptoms_page
 from clinic.triage.table import MARK as TRIAGE_MARK
 from clinic.triage.table import screening_tasks, table
 
@@ -66,7 +66,7 @@ def build(root: Path, cache: Cache | None = None) -> Files:
     exhibits = all_exhibits(cases, cache)
     evidence = {slug: evidence_of(files) for slug, files in exhibits.items()}
     alike = matrices(by_slug, cache)
-    problems = [p for case in cases for p in manual_problems(case)] + list(symptom_problems(cases))
+    problems = [p for case in cases for p in manual_problems(case)]
     made: Files = browser.parts(root)
     if browser.has_playground(made):
         for case in cases:

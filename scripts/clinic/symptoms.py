@@ -1,7 +1,8 @@
 """Finding a case by its symptom: nine things that readers say, and the cases that belong to each.
 
 A case's `looks` name where it belongs. Without them its `phrases` do: a phrase that holds one of a look's words
-puts the case there, so that a new case finds its place by itself.
+puts the case there, so that a new case finds its place by itself. A case without a place stands at the page's end,
+and a law reports it.
 """
 
 from __future__ import annotations
@@ -36,13 +37,14 @@ HEADINGS: dict[Look, Heading] = {
         "Nothing moves",
         "Print the forces: `data.qfrc_actuator`, `data.qfrc_bias`, `data.qfrc_constraint`. All zero: nothing acts. "
         "Two that cancel: something holds.",
-        "does not move|does not fall|not swing|no effect on|not affect|stuck|will not|stays horizontal|stays on|"
+        "does not move|not moving|frozen|ignores|"
+        "does not fall|not swing|no effect on|not affect|stuck|will not|stays horizontal|stays on|"
         "stops changing",
     ),
     "moves-wrong": Heading(
         "It moves, or lies, where it should not",
         "Draw the frames of bodies and axes of joints, or print `data.xmat` and `data.xaxis` before the first step.",
-        "wrong orientation|tipped|wrong axis|rotated|wrong direction|falls down|rolls|tumbles",
+        "wrong orientation|tipped|flips|spins|wrong axis|rotated|wrong direction|falls down|rolls|tumbles",
     ),
     "passes-through": Heading(
         "It passes through",
@@ -72,7 +74,8 @@ HEADINGS: dict[Look, Heading] = {
     "numbers-wrong": Heading(
         "The numbers are wrong",
         "Compute one of them in a second way, by name, in the same step, right after `mj_forward`.",
-        "index|qpos order|not updated|lags|wrong after|zero after|position wrong|off by one|reads|error is|error zero|"
+        "index|wrong value|wrong number|observation|"
+        "qpos order|not updated|lags|wrong after|zero after|position wrong|off by one|reads|error is|error zero|"
         "stale",
     ),
     "worked-yesterday": Heading(
@@ -110,4 +113,5 @@ def symptoms_page(cases: Sequence[Case], cards: Mapping[str, Card]) -> str:
         (look, heading, [cards[case.slug] for case in cases if look in looks_of(case)])
         for look, heading in HEADINGS.items()
     ]
-    return TEMPLATES.get_template("symptoms.md.j2").render(groups=groups)
+    others = [cards[case.slug] for case in cases if not looks_of(case)]
+    return TEMPLATES.get_template("symptoms.md.j2").render(groups=groups, others=others)

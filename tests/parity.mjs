@@ -2,10 +2,13 @@
 
 import { readFileSync } from "node:fs";
 import loadMujoco from "@mujoco/mujoco";
-import { examine, finish } from "../docs/playground/measure.js";
+import { take } from "../docs/playground/checks.js";
+import { examine, finish, measure } from "../docs/playground/measure.js";
 import { applyEdits } from "../docs/playground/variant.js";
 
+const TAKES = /** @type {const} */ (["final", "first", "min", "max", "mean", "span", "onset"]);
 const mujoco = await loadMujoco();
+const plain = (/** @type {number} */ value) => (Number.isFinite(value) ? value : null);
 /** @type {Record<string, Record<string, object>>} */
 const found = {};
 for (const file of process.argv.slice(2)) {
@@ -15,10 +18,13 @@ for (const file of process.argv.slice(2)) {
   for (const { id, edits } of remedies) {
     const model = mujoco.MjModel.from_xml_string(applyEdits(record.text, edits));
     const { broken, fixed, warnings, well } = finish(examine(mujoco, model, record));
+    const read = Object.keys(record.signals).filter((name) => !("measure" in record.signals[name]));
+    const { traces } = finish(measure(mujoco, model, record, new Set(read)));
     model.delete();
-    const plain = (/** @type {import("../docs/playground/checks.js").Verdict[]} */ verdicts) =>
-      verdicts.map(({ measured, holds }) => ({ measured: Number.isFinite(measured) ? measured : null, holds }));
-    found[record.case][id] = { broken: plain(broken), fixed: plain(fixed), warnings, well };
+    const values = read.map((name) => [name, TAKES.map((which) => plain(take(traces[name], which)))]);
+    const judged = (/** @type {import("../docs/playground/checks.js").Verdict[]} */ verdicts) =>
+      verdicts.map(({ measured, holds }) => ({ measured: plain(measured), holds }));
+    found[record.case][id] = { broken: judged(broken), fixed: judged(fixed), values: Object.fromEntries(values), warnings, well };
   }
 }
 console.log(JSON.stringify({ engine: mujoco.mj_versionString(), cases: found }));

@@ -13,16 +13,19 @@ from typing import Any
 
 import mujoco
 from clinic.case import load_case
-from clinic.checks import Verdict, judge
+from clinic.checks import TAKES, Verdict, judge, take
 from clinic.measure import measure_model
-from clinic.record import Edit, RowSignal
+from clinic.record import Edit, RowSignal, StartsSignal
 from clinic.simulate import compile_model
 from clinic.variant import apply_edits
 
 
-def plain(verdict: Verdict) -> dict[str, Any]:
-    value = verdict.measured
-    return {"measured": value if math.isfinite(value) else None, "holds": verdict.holds}
+def plain(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def judged(verdict: Verdict) -> dict[str, Any]:
+    return {"measured": plain(verdict.measured), "holds": verdict.holds}
 
 
 def measured(root: Path, playground: dict[str, Any]) -> dict[str, Any]:
@@ -34,8 +37,10 @@ def measured(root: Path, playground: dict[str, Any]) -> dict[str, Any]:
     for remedy in remedies:
         text = apply_edits(playground["text"], [Edit(**edit) for edit in remedy["edits"]])
         run, traces = measure_model(record, compile_model(text), record.run, wanted)
-        found[remedy["id"]] = {"warnings": run.warnings} | {
-            kind: [plain(judge(check, traces)) if check.signal in traces else None for check in checks]
+        read = [name for name in traces if not isinstance(record.signals[name], StartsSignal)]
+        values = {name: [plain(take(traces[name], which)) for which in TAKES] for name in read}
+        found[remedy["id"]] = {"warnings": run.warnings, "values": values} | {
+            kind: [judged(judge(check, traces)) if check.signal in traces else None for check in checks]
             for kind, checks in (("broken", record.checks.broken), ("fixed", record.checks.fixed))
         }
     return found

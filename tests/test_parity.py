@@ -12,7 +12,7 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
-from clinic.browser import node
+from clinic.bundle import node
 from clinic.case import Case, load_cases
 from clinic.expression import evaluate, parse
 from clinic.playground import playground
@@ -128,6 +128,12 @@ def test_every_number_is_that_of_the_same_engine_in_python(browser: dict[str, An
                     compared += 1
                     if a["holds"] != b["holds"] or not (close or here["warnings"]):
                         wrong.append(f"{slug} {name} {kind}: {a} in Python, {b} in the browser")
+            assert here["values"].keys() == there["values"].keys(), f"{slug} {name}"
+            for signal, values in here["values"].items():
+                if not here["warnings"] and values != [near(value) for value in there["values"][signal]]:
+                    wrong.append(
+                        f"{slug} {name} {signal}: {values} in Python, {there['values'][signal]} in the browser"
+                    )
     assert not wrong, "\n".join(wrong)
     assert compared > len(twin["cases"])
 

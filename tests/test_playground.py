@@ -1,14 +1,17 @@
-"""The playground in a real browser, on the built site."""
+"""What the playground is given, and the playground in a real browser, on the built site."""
 
 from __future__ import annotations
 
 import gzip
+import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from clinic.playground import playground
+from helpers import tiny_case
 from playwright.sync_api import Browser, BrowserContext, Page, expect
 from test_browser import browser, page, served  # noqa: F401
 from test_site import site  # noqa: F401
@@ -82,6 +85,22 @@ def axe(page: Page) -> list[Any]:  # noqa: F811
         for finding in found
         if finding["impact"] in ("serious", "critical")
     ]
+
+
+def test_the_file_holds_what_the_browser_needs(tmp_path: Path) -> None:
+    spin = ("  contacts: {path: ncon}\n", "  contacts: {path: ncon}\n  spin: {path: 'cvel[1][2]', unit: rad/s}\n")
+    case = tiny_case(tmp_path, spin, ("picture: {camera: side}", "picture: {camera: side}\nwarnings: [BADQACC]"))
+
+    made = json.loads(playground(case, "4.0.0", [case]))
+
+    assert made["text"] == case.text
+    assert made["signals"]["spin"] == {"path": "cvel[1][2]", "unit": "rad/s", "label": "spin", "columns": [6]}
+    assert made["signals"]["contacts"]["columns"] == []
+    assert made["checks"]["fixed"] == [{"signal": "height", "take": "final", "between": [0.045, 0.051]}]
+    assert made["explained"] == {
+        "BADQACC": [{"href": "../falling-box/index.html", "title": "1. A box falls through the floor"}]
+    }
+    assert made["hints"][0]["text"] == "height of the box, at the end: between 0.045 and 0.051 m"
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -272,7 +291,7 @@ def test_overlays_are_off_until_asked_for(page: Page, served: str) -> None:  # n
     boxes = page.get_by_role("group", name="Overlays").get_by_role("checkbox")
     assert not any(box.is_checked() for box in boxes.all())
 
-    page.get_by_role("button", name="Show what tells").click()
+    page.get_by_role("button", name="Show what matters").click()
 
     assert [box.is_checked() for box in boxes.all()].count(True) == 2
 

@@ -8,7 +8,8 @@ const MAX_SIDE = 200; // of a height field, in drawn points
  * @typedef {{vertices: Float32Array, faces: Int32Array}} Shape
  * @typedef {{width: number, height: number, rgba: Uint8Array<ArrayBuffer>}} Texture
  * @typedef {{texture: number, repeat: number[]}} Material
- * @typedef {{pos: number[], dir: number[], ambient: number[], diffuse: number[], directional: boolean, head: boolean}} Light
+ * @typedef {{pos: number[], dir: number[], ambient: number[], diffuse: number[], cutoff: number, exponent: number,
+ *   directional: boolean, head: boolean}} Light
  *
  * @typedef {object} Assets
  * @property {Shape[]} meshes
@@ -146,9 +147,10 @@ function lights(mujoco, scene) {
     const light = /** @type {any} */ (all.get(i));
     const [pos, dir, ambient, diffuse] = [light.pos, light.dir, light.ambient, light.diffuse].map((numbers) => Array.from(numbers));
     const directional = light.type === mujoco.mjtLightType.mjLIGHT_DIRECTIONAL.value;
+    const { cutoff, exponent } = light;
     const head = Boolean(light.headlight);
     light.delete();
-    return { pos, dir, ambient, diffuse, directional, head };
+    return { pos, dir, ambient, diffuse, cutoff, exponent, directional, head };
   });
   all.delete();
   return made;

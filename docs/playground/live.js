@@ -259,7 +259,8 @@ export class Live {
     try {
       return work();
     } catch (error) {
-      this.missing.push(error instanceof Error ? error.message : String(error));
+      const said = error instanceof Error ? error.message : String(error);
+      if (!this.missing.includes(said)) this.missing.push(said);
       return null;
     }
   }

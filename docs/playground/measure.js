@@ -48,7 +48,7 @@ export function* examine(mujoco, model, record) {
  * @param {Set<string>} wanted
  * @returns {Generator<undefined, {run: Run, traces: Record<string, Trace>}>}
  */
-function* measure(mujoco, model, record, wanted) {
+export function* measure(mujoco, model, record, wanted) {
   const run = yield* simulate(mujoco, model, record.run, pathSignals(record, wanted));
   const traces = { ...run.traces };
   for (const name of wanted) {

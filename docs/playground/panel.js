@@ -67,7 +67,7 @@ export function panel(record, act) {
   const run = button("Run", act.toggle, { class: "pg-run" });
   const speeds = SPEEDS.includes(record.speed) ? SPEEDS : [...SPEEDS, record.speed].sort((a, b) => a - b);
   const speed = choice("Speed", speeds.map((x) => [String(x), `× ${x}`]), String(record.speed), (value) => act.speed(Number(value)));
-  const time = group("Time", run, button("Step", act.step), button("Reset", act.reset), speed.whole);
+  const time = group("Time", run, button("Step", act.step), button("Reset", act.reset), speed.whole, ...overlays.telling);
   const view = group(
     "View",
     button("←", () => act.turn(-TURN, 0), { "aria-label": "Turn the view left" }),
@@ -125,12 +125,12 @@ function signalChoice(record, act) {
 function overlayBoxes(record, act) {
   const boxes = Object.entries(OVERLAYS).map(([name, label]) => ({ name, ...tickbox(label, act.redraw) }));
   const chosen = () => boxes.filter(({ box }) => box.checked).map(({ name }) => name);
-  const tell = button("Show what tells", () => {
+  const tell = button("Show what matters", () => {
     for (const { name, box } of boxes) box.checked = record.telling.includes(name);
     act.redraw();
   });
   const telling = record.telling.length > 0 ? [tell] : [];
-  return { whole: group("Overlays", ...boxes.map(({ whole }) => whole), ...telling), chosen };
+  return { whole: group("Overlays", ...boxes.map(({ whole }) => whole)), telling, chosen };
 }
 
 /**

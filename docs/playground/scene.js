@@ -4,8 +4,9 @@ import * as THREE from "three";
 import { Eye } from "./camera.js";
 import { GEOM } from "./live.js";
 import { arrow, shapes } from "./shapes.js";
+import { dataTexture, Lights, sky } from "./surface.js";
 
-/** @import {Assets, Texture} from "./assets.js" */
+/** @import {Assets} from "./assets.js" */
 /** @import {Frame} from "./live.js" */
 
 /** Numbers of mjtGeom. */
@@ -14,8 +15,9 @@ const TYPE = {
   ARROW: 100, ARROW1: 101, ARROW2: 102, LINE: 103, LINEBOX: 104, TRIANGLE: 108,
 }; // prettier-ignore
 const FAR = 100; // half the side of an infinite plane, in m
-const MAX_PIXEL_RATIO = 1.5;
-const MAX_LIGHTS = 5;
+const RATIO = { most: 1.5, least: 0.5, less: 0.8 }; // pixels a CSS pixel, and by how much fewer where frames come late
+const LATE = { frames: 15, interval: 34, pause: 500 }; // ms between frames, on average over so many; longer is a pause
+const SOFTWARE = /swiftshader|llvmpipe|software|basic render/i;
 
 /**
  * Instances of one shape in one material.
@@ -29,8 +31,10 @@ export class Scene {
    * @throws {Error} if there is no WebGL
    */
   constructor(canvas) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, powerPreference: "low-power" });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MAX_PIXEL_RATIO));
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !drawsInSoftware(), powerPreference: "low-power" });
+    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // colours go out as they came in
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, RATIO.most));
+    this.renderer.setClearColor(new THREE.Color(0.2, 0.25, 0.3));
     this.root = new THREE.Scene();
     this.eye = new Eye();
     /** @type {Map<string, Bucket>} */
@@ -39,9 +43,10 @@ export class Scene {
     this.shapes = new Map();
     /** @type {(THREE.Texture | null)[]} */
     this.textures = [];
-    /** @type {THREE.DirectionalLight | null} */
-    this.headlight = null;
+    this.lights = new Lights();
     this.draws = 0;
+    /** @type {number[]} when the last frames were drawn, in ms */
+    this.times = [];
   }
 
   /**
@@ -53,28 +58,9 @@ export class Scene {
     this.assets = assets;
     this.shapes = shapes(assets);
     this.textures = assets.textures.map((made) => made && dataTexture(made));
-    this.root.background = assets.sky ? skybox(assets.sky) : new THREE.Color(0.2, 0.25, 0.3);
-    this.root.backgroundRotation.set(Math.PI / 2, 0, 0);
-    this.lights(assets);
+    if (assets.sky) this.root.add(sky(assets.sky));
+    this.lights.load(assets.lights);
     this.eye.fit(assets);
-  }
-
-  /** @param {Assets} assets */
-  lights({ lights, size }) {
-    this.headlight = null;
-    const ambient = new THREE.AmbientLight(0, Math.PI);
-    this.root.add(ambient);
-    for (const light of lights.slice(0, MAX_LIGHTS)) {
-      ambient.color.add(colour(light.ambient));
-      const made =
-        light.directional || light.head
-          ? new THREE.DirectionalLight(colour(light.diffuse), Math.PI)
-          : new THREE.SpotLight(colour(light.diffuse), Math.PI, 0, Math.PI / 4, 0.5, 0);
-      made.position.fromArray(light.pos);
-      made.target.position.fromArray(light.pos).addScaledVector(new THREE.Vector3(...light.dir), size.extent);
-      this.root.add(made, made.target);
-      if (light.head) this.headlight = /** @type {THREE.DirectionalLight} */ (made);
-    }
   }
 
   /**
@@ -92,11 +78,24 @@ export class Scene {
       if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
     }
     this.render();
+    this.pace();
+  }
+
+  /** Draws fewer pixels where frames come late. */
+  pace() {
+    const now = performance.now();
+    if (now - (this.times.at(-1) ?? now) > LATE.pause) this.times = [];
+    this.times.push(now);
+    if (this.times.length <= LATE.frames) return;
+    const interval = (this.times[LATE.frames] - this.times[0]) / LATE.frames;
+    this.times = [];
+    const ratio = this.renderer.getPixelRatio();
+    if (interval > LATE.interval && ratio > RATIO.least) this.renderer.setPixelRatio(Math.max(RATIO.least, RATIO.less * ratio));
   }
 
   /** Draws again what was drawn last, from where the eye is now. */
   render() {
-    const { canvas } = { canvas: this.renderer.domElement };
+    const canvas = this.renderer.domElement;
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
     if (width === 0 || height === 0) return;
     const size = this.renderer.getSize(new THREE.Vector2());
@@ -106,10 +105,7 @@ export class Scene {
       camera.aspect = width / height;
       camera.updateProjectionMatrix();
     }
-    if (this.headlight) {
-      this.headlight.position.copy(camera.position);
-      this.headlight.target.position.copy(camera.position).add(this.eye.ahead());
-    }
+    this.lights.face(this.eye.ahead());
     this.renderer.render(this.root, camera);
     this.draws += 1;
   }
@@ -170,8 +166,11 @@ export class Scene {
         return put(`field-${geom[GEOM.DATA]}`, [1, 1, 1]);
       case TYPE.ARROW:
       case TYPE.ARROW1:
+        return arrow(x, z, type === TYPE.ARROW).forEach(({ shape, scale, lift }) => put(shape, scale, lift));
       case TYPE.ARROW2:
-        return arrow(x, z, type === TYPE.ARROW2).forEach(({ shape, scale, lift }) => put(shape, scale, lift));
+        put("cylinder", [x, x, z / 2 - x]);
+        put("cone", [x, x, x / 2], (z - x) / 2);
+        return put("cone", [x, -x, -x / 2], (x - z) / 2);
       case TYPE.LINE:
         return put("tube", [0.0015 * this.extent, 0.0015 * this.extent, z / 2], z / 2);
     }
@@ -203,7 +202,7 @@ export class Scene {
       0, 0, 0, 1,
     ); // prettier-ignore
     bucket.mesh.setMatrixAt(bucket.count, matrix);
-    bucket.mesh.setColorAt(bucket.count, tint.setRGB(r, g, b, THREE.SRGBColorSpace));
+    bucket.mesh.setColorAt(bucket.count, tint.setRGB(r, g, b));
     bucket.count += 1;
   }
 
@@ -218,16 +217,14 @@ export class Scene {
    */
   bucket(shape, geometry, geom, alpha, scale) {
     const opacity = Math.round(alpha * 20) / 20;
-    const texture = shape === "plane" ? this.texture(geom[GEOM.MATERIAL], Boolean(geom[GEOM.UNIFORM]), scale) : null;
-    const key = `${shape} ${opacity} ${texture ? `${geom[GEOM.MATERIAL]} ${scale}` : ""}`;
+    const { map, repeat } = this.texture(shape === "plane" ? geom[GEOM.MATERIAL] : -1, Boolean(geom[GEOM.UNIFORM]), scale);
+    const key = `${shape} ${opacity} ${map ? `${geom[GEOM.MATERIAL]} ${repeat}` : ""}`;
     const found = this.buckets.get(key);
     if (found && found.count < found.mesh.instanceMatrix.count) return found;
-    const material =
-      found?.mesh.material ??
-      new THREE.MeshLambertMaterial({ map: texture, opacity, transparent: opacity < 1, side: side(shape), depthWrite: opacity === 1 });
+    const material = found?.mesh.material ?? this.lights.surface({ opacity, twoSided: twoSided(shape), map, repeat });
     const mesh = new THREE.InstancedMesh(geometry, material, found ? 2 * found.count : 4);
     mesh.frustumCulled = false;
-    mesh.renderOrder = opacity < 1 ? 1 : 0;
+    mesh.renderOrder = opacity < 1 ? 2 : 0;
     if (found) {
       for (let i = 0; i < found.count; i++) {
         found.mesh.getMatrixAt(i, matrix);
@@ -248,27 +245,23 @@ export class Scene {
    * @param {number} id of the material
    * @param {boolean} uniform whether the texture repeats by the metre rather than by the object
    * @param {number[]} scale half sides of the plane, in m
+   * @returns {{map: THREE.Texture | null, repeat: [number, number]}}
    */
   texture(id, uniform, scale) {
     const material = this.assets?.materials[id];
-    const source = material && this.textures[material.texture];
-    if (!material || !source) return null;
-    const made = source.clone();
-    const [u, v] = material.repeat;
-    made.repeat.set(u * (uniform ? scale[0] : 1), v * (uniform ? scale[1] : 1));
-    return made;
+    const map = (material && this.textures[material.texture]) ?? null;
+    const [u, v] = material?.repeat ?? [1, 1];
+    return { map, repeat: [u * (uniform ? scale[0] : 1), v * (uniform ? scale[1] : 1)] };
   }
 
   clear() {
-    for (const { mesh } of this.buckets.values()) {
-      const material = /** @type {THREE.MeshLambertMaterial} */ (mesh.material);
-      material.map?.dispose();
-      material.dispose();
-      mesh.dispose();
-    }
+    for (const { mesh } of this.buckets.values()) mesh.dispose();
+    this.root.traverse((part) => {
+      if (part instanceof THREE.Mesh) part.material.dispose();
+      if (part instanceof THREE.Mesh) part.geometry.dispose();
+    });
     for (const geometry of this.shapes.values()) geometry.dispose();
     for (const texture of this.textures) texture?.dispose();
-    if (this.root.background instanceof THREE.Texture) this.root.background.dispose();
     this.buckets.clear();
     this.root.clear();
   }
@@ -284,42 +277,16 @@ export class Scene {
 const matrix = new THREE.Matrix4();
 const tint = new THREE.Color();
 
-/** @param {number[]} rgb */
-function colour([r, g, b]) {
-  return new THREE.Color(r, g, b);
-}
-
 /** @param {string} shape */
-function side(shape) {
-  return shape === "cap" || shape.startsWith("mesh") ? THREE.DoubleSide : THREE.FrontSide;
+function twoSided(shape) {
+  return shape === "cap" || shape === "tube" || /^(mesh|field)/.test(shape);
 }
 
-/** @param {Texture} texture */
-function dataTexture({ rgba, width, height }) {
-  const made = new THREE.DataTexture(rgba, width, height);
-  made.wrapS = made.wrapT = THREE.RepeatWrapping;
-  made.colorSpace = THREE.SRGBColorSpace;
-  made.magFilter = THREE.LinearFilter;
-  made.minFilter = THREE.LinearMipmapLinearFilter;
-  made.generateMipmaps = true;
-  made.anisotropy = 4;
-  made.needsUpdate = true;
-  return made;
-}
-
-/**
- * Six square faces in a column, right, left, up, down, front, back.
- * @param {Texture} texture
- */
-function skybox({ rgba, width }) {
-  const bytes = 4 * width * width;
-  const faces = Array.from({ length: 6 }, (_, k) => {
-    const face = new THREE.DataTexture(rgba.slice(k * bytes, (k + 1) * bytes), width, width);
-    face.needsUpdate = true;
-    return face;
-  });
-  const cube = new THREE.CubeTexture(faces);
-  cube.colorSpace = THREE.SRGBColorSpace;
-  cube.needsUpdate = true;
-  return cube;
+/** Whether this machine has no graphics card to smooth edges with. */
+function drawsInSoftware() {
+  const context = document.createElement("canvas").getContext("webgl2");
+  const info = context?.getExtension("WEBGL_debug_renderer_info");
+  const name = context && info ? String(context.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+  context?.getExtension("WEBGL_lose_context")?.loseContext();
+  return SOFTWARE.test(name);
 }

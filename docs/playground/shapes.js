@@ -5,7 +5,7 @@ import * as THREE from "three";
 /** @import {Assets, Shape} from "./assets.js" */
 
 const ROUND = 24; // segments about an axis
-const HEAD = { share: 0.4, width: 1.75 }; // an arrow's head: its part of the length, its width for the shaft's
+const HEAD_WIDTH = 1.75; // of an arrow, in widths of its shaft
 
 /**
  * @param {Assets} assets
@@ -14,7 +14,7 @@ const HEAD = { share: 0.4, width: 1.75 }; // an arrow's head: its part of the le
 export function shapes({ meshes, hulls, fields }) {
   const alongZ = (/** @type {THREE.BufferGeometry} */ made) => made.rotateX(Math.PI / 2);
   const made = new Map([
-    ["plane", new THREE.PlaneGeometry(2, 2)],
+    ["plane", new THREE.PlaneGeometry(2, 2, 12, 12)],
     ["box", new THREE.BoxGeometry(2, 2, 2)],
     ["sphere", alongZ(new THREE.SphereGeometry(1, ROUND, ROUND / 2))],
     ["cap", alongZ(new THREE.SphereGeometry(1, ROUND, ROUND / 4, 0, 2 * Math.PI, 0, Math.PI / 2))],
@@ -29,23 +29,21 @@ export function shapes({ meshes, hulls, fields }) {
 }
 
 /**
- * The parts of an arrow that starts at the geom's centre and points along its z axis. MuJoCo gives twice its length.
+ * The parts of an arrow that starts at the geom's centre and points along its z axis, as MuJoCo draws them: its size is
+ * twice the length, a third of the length is the head.
  * @param {number} radius
  * @param {number} size
- * @param {boolean} both whether it has a head at each end
+ * @param {boolean} wide whether the head is wider than the shaft
  * @returns {{shape: string, scale: number[], lift: number}[]}
  */
-export function arrow(radius, size, both) {
-  const length = size / 2;
-  const head = Math.min(HEAD.share * length, 4 * radius);
-  const wide = HEAD.width * radius;
-  const from = both ? head : 0;
-  const shaft = (length - head - from) / 2;
-  const parts = [
-    { shape: "cylinder", scale: [radius, radius, shaft], lift: from + shaft },
-    { shape: "cone", scale: [wide, wide, head / 2], lift: length - head / 2 },
+export function arrow(radius, size, wide) {
+  const [length, head] = [size / 2, size / 6];
+  const base = wide ? HEAD_WIDTH * radius : radius;
+  const shaft = (length - head) / 2;
+  return [
+    { shape: "cylinder", scale: [radius, radius, shaft], lift: shaft },
+    { shape: "cone", scale: [base, base, head / 2], lift: length - head / 2 },
   ];
-  return both ? [...parts, { shape: "cone", scale: [wide, -wide, -head / 2], lift: head / 2 }] : parts;
 }
 
 /** @param {Shape} shape with flat faces */

@@ -32,7 +32,7 @@ const KINDS = /** @type {const} */ ({
 });
 /** @typedef {keyof typeof KINDS} Kind */
 
-const PATH = /^(model\.)?(?:([a-z]+)\(([^()]*)\))?\.?([A-Za-z_][A-Za-z_.]*)?((?:\[-?\d+\])*)$/;
+const PATH = /^(model\.)?(?:([a-z]+)\(([^()]*)\))?\.?([A-Za-z_][A-Za-z0-9_.]*)?((?:\[-?\d+\])*)$/;
 
 /**
  * The path's parts.

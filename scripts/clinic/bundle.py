@@ -23,16 +23,16 @@ WASM_HEADER = b"\0asm\x01\0\0\0"
 log = logging.getLogger("mkdocs.clinic")
 
 
-class BundleError(RuntimeError):
-    """The playground cannot be bundled on this machine; the message says why."""
+class UnavailableError(RuntimeError):
+    """Node or a package is not installed; the message says which."""
 
 
 def parts(root: Path) -> Files:
     """The playground's files by their path in the site; without Node or its packages the loader alone."""
     loader = f"{FOLDER}/loader.js"
     try:
-        made = bundle(root)
-    except BundleError as error:
+        made = bundled(root)
+    except UnavailableError as error:
         log.log(logging.WARNING if os.environ.get("CI") else logging.INFO, "no playground: %s", error)
         return {loader: (root / LOADER).read_bytes()} if (root / LOADER).is_file() else {}
     return {f"{FOLDER}/{name}": content for name, content in made.items()}
@@ -43,14 +43,16 @@ def has_playground(made: Files) -> bool:
     return f"{FOLDER}/start.js" in made
 
 
-def bundle(root: Path) -> Files:
+def bundled(root: Path) -> Files:
     """The bundled modules and the engine by name, kept in `.cache/playground` by content.
 
     Raises:
-        BundleError: If Node or a package is missing, or the modules do not bundle.
+        UnavailableError: If Node or a package is missing.
+        RuntimeError: If the modules do not bundle, with what the bundler says.
     """
-    if not (root / ENGINE).is_file():
-        raise BundleError(f"{ENGINE} is not there; run `make setup`")
+    for needed in (ENGINE, "node_modules/esbuild"):
+        if not (root / needed).exists():
+            raise UnavailableError(f"{needed} is not there; run `make setup`")
     sources = [
         *sorted((root / "docs/playground").glob("*.js")),
         root / STYLE,
@@ -65,12 +67,12 @@ def node() -> str:
     """The path of Node: the environment's own, or the system's.
 
     Raises:
-        BundleError: If there is none.
+        UnavailableError: If there is none.
     """
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
     found = shutil.which("node", path=path)
     if found is None:
-        raise BundleError("node is not installed; run `make setup`")
+        raise UnavailableError("node is not installed; run `make setup`")
     return found
 
 
@@ -92,10 +94,11 @@ def strip_custom_sections(wasm: bytes) -> bytes:
 
 
 def _bundle(root: Path) -> Files:
+    program = node()
     with tempfile.TemporaryDirectory(prefix="clinic-") as folder:
-        done = subprocess.run([node(), BUNDLER, folder], cwd=root, check=False, capture_output=True, text=True)
+        done = subprocess.run([program, BUNDLER, folder], cwd=root, check=False, capture_output=True, text=True)
         if done.returncode:
-            raise BundleError(f"{BUNDLER} failed:\n{done.stderr.strip()}")
+            raise RuntimeError(f"{BUNDLER} failed:\n{done.stderr.strip()}")
         made = {path.name: path.read_bytes() for path in sorted(Path(folder).iterdir())}
     engine = strip_custom_sections((root / ENGINE).read_bytes())
     return {**made, "mujoco.wasm.gz": gzip.compress(engine, compresslevel=9, mtime=0)}

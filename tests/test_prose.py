@@ -6,7 +6,9 @@ import math
 
 import pytest
 from clinic.evidence import Evidence
-from clinic.prose import FieldError, field_errors, fill, formulas, markdown, number, outside_code, quantity, resolve
+from clinic.formula import formulas
+from clinic.inert import outside_code
+from clinic.prose import FieldError, field_errors, fill, markdown, number, quantity, resolve
 from helpers import evidence_of_variants, variant_evidence
 
 BROKEN = variant_evidence(
@@ -155,9 +157,9 @@ def test_field_errors_gives_all(evidence: Evidence) -> None:
     ("text", "shown"),
     [
         pytest.param("a <b>c</b>", "a &lt;b>c&lt;/b>", id="tags"),
-        pytest.param("`<geom/>` and <geom/>", "`<geom/>` and &lt;geom/>", id="code-is-left"),
+        pytest.param("`<geom/>` and <geom/>", "<code>&lt;geom/></code> and &lt;geom/>", id="code"),
         pytest.param("```xml\n<geom/>\n```\n<x>", "```xml\n<geom/>\n```\n&lt;x>", id="fences-are-left"),
-        pytest.param("``a ` <b>`` <c>", "``a ` <b>`` &lt;c>", id="double-ticks"),
+        pytest.param("``a ` <b>`` <c>", "<code>a &#96; &lt;b></code> &lt;c>", id="double-ticks"),
         pytest.param("It costs $5 and $6.", "It costs $5 and $6.", id="money"),
         pytest.param("`$x$`", "`$x$`", id="formula-in-code"),
         pytest.param(r"\$x\$ here", r"\$x\$ here", id="escaped"),
@@ -191,4 +193,4 @@ def test_block_formula_stands_in_a_paragraph_of_its_own() -> None:
 
 def test_outside_code_changes_the_rest() -> None:
     text = "ab `ab` ab\n~~~\nab\n~~~\nab"
-    assert outside_code(text, lambda part: part.replace("ab", "X")) == "X `ab` X\n~~~\nab\n~~~\nX"
+    assert outside_code(text, lambda part: part.replace("ab", "X")) == "X `ab` X\n```\nab\n```\nX"

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from clinic.problem import CaseError
-from clinic.record import Edit
+from clinic.record_parts import Edit
 from clinic.variant import EditError, apply_edits, changed_lines, diff, remedies, variants
 from helpers import MODEL, tiny_case
 

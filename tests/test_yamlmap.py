@@ -84,7 +84,7 @@ def test_dotted(where: Where, text: str) -> None:
         pytest.param("- a\n- b\n", 1, "no mapping", id="list"),
         pytest.param("text\n", 1, "no mapping", id="scalar"),
         pytest.param("a: 2024-13-45\n", 1, None, id="impossible-date"),
-        pytest.param("a: \x07\n", 1, "unacceptable character #x0007: special characters are not allowed", id="bell"),
+        pytest.param("a: \x07\n", 1, "the character U+0007", id="bell"),
         pytest.param("a: !!python/name:os.system\n", 1, None, id="python-object"),
     ],
 )

@@ -5,8 +5,9 @@ The stages, in order; each needs the one before:
 1. the folder: its name, its `case.yaml`, plain files only;
 2. the YAML: parses, no aliases, no key twice;
 3. the record: the fields' types and rules (`record.py`);
-4. the files: the model or script and `files` exist, nothing else lies in the folder;
-5. the references: names used in checks, expressions and the run exist, ids are unique.
+4. the files: the model or script and `files` exist, nothing else lies in the folder, no XML leads out of it;
+5. the references: names used in checks, expressions and the run exist, ids are unique;
+6. the words: what the page would not show as it stands (`wording.py`).
 
 What needs the compiled model (edits, signal paths) is checked in `variant.py` and `signals.py`.
 """
@@ -16,20 +17,24 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from pydantic import ValidationError
 
 from clinic.explain import field_problems
 from clinic.expression import ExpressionError, names, parse
+from clinic.mjcf import ModelError, references
 from clinic.predictions import MODEL_NUMBERS
 from clinic.problem import CaseError, Problem, article, closest, listed
 from clinic.record import Check, ExpressionSignal, PathSignal, Record, StartsSignal
 from clinic.signals import WARNINGS
-from clinic.yamlmap import Lines, Where, YamlError, dotted, read_yaml
+from clinic.wording import word_problems
+from clinic.yamlmap import CONTROL, Lines, Where, YamlError, dotted, named, read_yaml
 
 RECORD = "case.yaml"
+LARGEST = {RECORD: 200_000}  # bytes
+LARGE = 1_000_000
 SLUG = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 
 
@@ -74,7 +79,8 @@ def load_case(folder: Path) -> Case:
     if problems := list(_folder_problems(folder)):
         raise CaseError(problems)
     try:
-        data, lines = read_yaml((folder / RECORD).read_text(encoding="utf-8"))
+        text = (folder / RECORD).read_text(encoding="utf-8")
+        data, lines = read_yaml(text)
     except YamlError as error:
         raise CaseError([Problem(file, error.line, "", error.found, error.expected, error.repair)]) from None
     try:
@@ -83,9 +89,19 @@ def load_case(folder: Path) -> Case:
         raise CaseError(field_problems(file, lines, error.errors(), data)) from None
     texts = {path.name: path.read_text(encoding="utf-8") for path in sorted(folder.iterdir()) if path.name != RECORD}
     case = Case(slug, record, texts, lines)
-    if problems := [*_file_problems(case), *_reference_problems(case)]:
+    words = (
+        replace(case.problem(*told), line=_line_of(text, lines.at(told[0]), told[1])) for told in word_problems(record)
+    )
+    if problems := [*_file_problems(case), *_reference_problems(case), *words]:
         raise CaseError(problems)
     return case
+
+
+def _line_of(text: str, line: int, found: str) -> int:
+    """The first line from `line` on that holds the beginning of what was found, else `line`."""
+    beginning = found.partition("\n")[0][:20]
+    rows = text.split("\n")[line - 1 :]
+    return next((line + k for k, row in enumerate(rows) if beginning in row), line)
 
 
 def load_cases(root: Path) -> list[Case]:
@@ -94,6 +110,14 @@ def load_cases(root: Path) -> list[Case]:
     Raises:
         CaseError: With the problems of all cases, and those between cases.
     """
+    cases, problems = read_cases(root)
+    if problems:
+        raise CaseError(problems)
+    return cases
+
+
+def read_cases(root: Path) -> tuple[list[Case], list[Problem]]:
+    """The cases of `root` that can be read, sorted by number, and the problems of all, those between cases included."""
     cases: list[Case] = []
     problems: list[Problem] = []
     for path in sorted(root.iterdir()):
@@ -109,9 +133,7 @@ def load_cases(root: Path) -> list[Case]:
         except CaseError as error:
             problems += error.problems
     problems += _relation_problems(cases, {path.name for path in root.iterdir()})
-    if problems:
-        raise CaseError(problems)
-    return sorted(cases, key=lambda case: case.record.number)
+    return sorted(cases, key=lambda case: case.record.number), problems
 
 
 def _folder_problems(folder: Path) -> Iterator[Problem]:
@@ -122,6 +144,9 @@ def _folder_problems(folder: Path) -> Iterator[Problem]:
         repair = f"write {guess}" if guess else "correct the name"
         yield Problem(place, 1, "", f"no folder {folder.name}", f"the folder of a case: {listed(known, 30)}", repair)
         return
+    if folder.is_symlink():
+        yield Problem(place, 1, "", "a symbolic link", "a folder", "put the folder itself into cases/")
+        return
     if not SLUG.fullmatch(folder.name):
         yield Problem(
             place, 1, "", f"a folder named {folder.name}", "lower-case words joined by hyphens", "rename the folder"
@@ -131,18 +156,26 @@ def _folder_problems(folder: Path) -> Iterator[Problem]:
             place, 1, "", f"no {RECORD}", f"a {RECORD} in every folder of cases/", "add it, or remove the folder"
         )
     for path in sorted(folder.iterdir()):
-        if path.is_symlink() or not path.is_file():
-            kind = "a symbolic link" if path.is_symlink() else "a folder"
-            yield Problem(
-                f"{place}/{path.name}", 1, "", kind, "plain files", "put the file itself into the case's folder"
-            )
-            continue
-        try:
-            path.read_text(encoding="utf-8")
-        except UnicodeDecodeError:
-            yield Problem(
-                f"{place}/{path.name}", 1, "", "bytes that are not UTF-8", "text in UTF-8", "save the file as UTF-8"
-            )
+        if bad := _unreadable(path):
+            yield Problem(f"{place}/{path.name}", *bad)
+
+
+def _unreadable(path: Path) -> tuple[int, str, str, str, str] | None:
+    """Why a file of a case is no plain text: its line, an empty field, what was found, expected, and the repair."""
+    if path.is_symlink() or not path.is_file():
+        kind = "a symbolic link" if path.is_symlink() else "a folder" if path.is_dir() else "no file"
+        return 1, "", kind, "plain files", "put the file itself into the case's folder"
+    size, largest = path.stat().st_size, LARGEST.get(path.name, LARGE)
+    if size > largest:
+        return 1, "", f"{size} bytes", f"{largest} bytes at most", "keep what shows the bug"
+    try:
+        text = path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        return 1, "", "bytes that are not UTF-8", "text in UTF-8", "save the file as UTF-8"
+    if strange := CONTROL.search(text):
+        line = text.count("\n", 0, strange.start()) + 1
+        return line, "", named(strange[0]), "text that can be read", "delete it"
+    return None
 
 
 def _file_problems(case: Case) -> Iterator[Problem]:
@@ -162,6 +195,22 @@ def _file_problems(case: Case) -> Iterator[Problem]:
             f"{RECORD} and the files it names: {listed(named)}",
             "name it under `files`, or delete it",
         )
+    for name, text in case.texts.items():
+        if name.endswith(".xml"):
+            yield from _outside_problems(case, name, text)
+
+
+def _outside_problems(case: Case, name: str, text: str) -> Iterator[Problem]:
+    """What an XML file names besides the files beside it; a model case has none."""
+    file, beside = f"cases/{case.slug}/{name}", [] if case.record.model else sorted(case.texts)
+    try:
+        for found in references(text):
+            if found.value not in beside:
+                expected = f"a file of the folder: {listed(beside)}" if beside else "a model in one file"
+                repair = "write out what it names; put a file into the folder of a script only"
+                yield Problem(file, found.line, "", str(found), expected, repair)
+    except ModelError as error:
+        yield Problem(file, error.line, "", error.found, error.expected, error.repair)
 
 
 def _reference_problems(case: Case) -> Iterator[Problem]:

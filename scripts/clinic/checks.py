@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from clinic.record import Check, Comparison, Interval, Take
+from clinic.record import Check, Comparison
+from clinic.record_parts import Interval, Take
 
 TAKES: tuple[Take, ...] = ("final", "first", "min", "max", "mean", "span", "onset")
 

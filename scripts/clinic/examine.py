@@ -9,6 +9,7 @@ from dataclasses import replace
 import mujoco
 
 from clinic.case import Case
+from clinic.mjcf import ModelError, check_alone, probe
 from clinic.problem import CaseError, Problem, article, closest, listed
 from clinic.record import PathSignal, RowSignal, StartsSignal
 from clinic.signals import SignalError, bind, element_names, parse_path
@@ -47,7 +48,7 @@ def _sweep_problems(case: Case, made: list[Variant]) -> Iterator[Problem]:
             try:
                 text = substituted(base.text, sweep, at)
                 if case.record.run is not None:
-                    compile_model(text)
+                    _compiled(text)
             except EditError as error:
                 k = error.index - len(sweep.edits)
                 place: Where = ("edits", error.index, "find") if k < 0 else ("vary", k, "find")
@@ -79,9 +80,9 @@ def _model_problems(case: Case, made: list[Variant]) -> list[Problem]:
 
 def _scene_problems(case: Case, scene: str) -> Iterator[Problem]:
     try:
-        model = compile_model(case.texts[scene])
+        model = _compiled(case.texts[scene])
     except ValueError as error:
-        yield _compile_problem(case, scene, (), str(error))
+        yield _compile_problem(case, scene, (), error)
         return
     yield from _named(case, model, ("picture", "camera"), "camera", case.record.picture.camera)
 
@@ -106,9 +107,9 @@ def _variant_problems(case: Case, variant: Variant, place: Where) -> Iterator[Pr
     record = case.record
     assert record.run is not None
     try:
-        model = compile_model(variant.text)
+        model = _compiled(variant.text)
     except ValueError as error:
-        yield _compile_problem(case, record.source, place, str(error))
+        yield _compile_problem(case, record.source, place, error)
         return
     for prepare in (start, step_count, lambda m, spec: controls(m, spec, 1)):
         try:
@@ -149,10 +150,20 @@ def _named(case: Case, model: mujoco.MjModel, where: Where, kind: str, name: str
         )
 
 
-def _compile_problem(case: Case, name: str, place: Where, message: str) -> Problem:
-    expected, said = "XML that MuJoCo compiles", " ".join(message.split())
+def _compiled(xml: str) -> mujoco.MjModel:
+    """The model, compiled here only after a process of its own has shown that it can be."""
+    check_alone(xml)
+    probe(xml)
+    return compile_model(xml)
+
+
+def _compile_problem(case: Case, name: str, place: Where, error: ValueError) -> Problem:
+    if isinstance(error, ModelError):
+        said, expected, repair = error.found, error.expected, error.repair
+    else:
+        said, expected = " ".join(str(error).split()), "XML that MuJoCo compiles"
+        repair = "correct `replace`" if place else "correct the model"
     if place:
-        return case.problem((*place, "edits"), f"after these edits: {said}", expected, "correct `replace`")
-    line = re.search(r"line(?: number)?[ =](\d+)", message, re.IGNORECASE)
-    file = f"cases/{case.slug}/{name}"
-    return Problem(file, int(line[1]) if line else 1, "", said, expected, "correct the model")
+        return case.problem((*place, "edits"), f"after these edits: {said}", expected, repair)
+    line = re.search(r"line(?: number)?[ =](\d+)", str(error), re.IGNORECASE)
+    return Problem(f"cases/{case.slug}/{name}", int(line[1]) if line else 1, "", said, expected, repair)

@@ -10,6 +10,7 @@ from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
 from clinic import record as schema
+from clinic import record_parts, record_sweep
 from clinic.problem import Problem, closest, listed
 from clinic.yamlmap import Lines, Where, dotted
 
@@ -27,13 +28,13 @@ MODELS: dict[str | int, type[BaseModel]] = {
     "holds": schema.Check,
     "fixes": schema.Fix,
     "refuted": schema.Refuted,
-    "edits": schema.Edit,
+    "edits": record_parts.Edit,
     "picture": schema.Picture,
-    "vary": schema.Parameter,
-    "outcome": schema.Taken,
-    "prediction": schema.Prediction,
-    "rivals": schema.Rival,
-    "sweep": schema.Sweep,
+    "vary": record_sweep.Parameter,
+    "outcome": record_parts.Taken,
+    "prediction": record_sweep.Prediction,
+    "rivals": record_sweep.Rival,
+    "sweep": record_sweep.Sweep,
     "film": schema.Film,
     "alike": schema.Alike,
 }
@@ -118,7 +119,8 @@ def _explained(error: ErrorDetails, where: Where, tag: str) -> tuple[str, str, s
     if where[:2] == ("run", "ctrl"):
         expected = "a number, or a list of [time, value] pairs"
     else:
-        expected = EXPECTED.get(error["type"], message[0].lower() + message[1:]).format(**error.get("ctx", {}))
+        words = EXPECTED.get(error["type"])
+        expected = words.format(**error.get("ctx", {})) if words else message[0].lower() + message[1:]
     unquote = error["type"] in ("int_type", "float_type") and str(error["input"]).replace(".", "", 1).isdigit()
     return _shown(error["input"]), expected, "write it without quotes" if unquote else "correct the value"
 
@@ -128,7 +130,7 @@ def _model_at(where: Where, tag: str) -> type[BaseModel]:
     if len(where) == 2 and where[0] == "signals":
         return SIGNALS[tag]
     if where[:1] == ("sweep",) and where[-1] == "holds":
-        return schema.Side
+        return record_sweep.Side
     for part in reversed(where):
         if part in MODELS:
             return MODELS[part]

@@ -15,7 +15,7 @@ from clinic.case import Case
 from clinic.pages import TEMPLATES
 from clinic.problem import CaseError, Problem
 from clinic.provoke import provoked
-from clinic.record import Identifier, Strict, Text
+from clinic.record_parts import Identifier, Strict, Text
 from clinic.signals import WARNINGS
 from clinic.yamlmap import YamlError, dotted, read_yaml
 

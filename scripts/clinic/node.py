@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import re
 import shutil
+import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 ENDING = ".mjs"
@@ -17,7 +19,15 @@ CARET = re.compile(r"^\s*\^+\s*$\n\s*(?P<message>.+?)(?=\n\s+at |\n\(Use |\n\s*\
 
 def program() -> str | None:
     """The Node of the virtual environment, else the one on the path; None if there is neither."""
-    return shutil.which("node", path=str(Path(sys.executable).parent)) or shutil.which("node")
+    found = shutil.which("node", path=str(Path(sys.executable).parent)) or shutil.which("node")
+    return None if found is None else _binary(found)
+
+
+@cache
+def _binary(found: str) -> str:
+    """The program itself: what is found may be a script that starts it."""
+    said = subprocess.run([found, "-p", "process.execPath"], check=False, capture_output=True, text=True)
+    return said.stdout.strip() or found
 
 
 def modules() -> Path | None:
@@ -36,6 +46,15 @@ def version(package: str) -> str | None:
     if described is None or not described.is_file():
         return None
     return str(json.loads(described.read_text(encoding="utf-8"))["version"])
+
+
+@cache
+def release() -> str | None:
+    """The version of Node itself; None if there is none."""
+    found = program()
+    if found is None:
+        return None
+    return subprocess.run([found, "--version"], check=True, capture_output=True, text=True).stdout.strip()
 
 
 def failure(stderr: str, name: str) -> tuple[str, str | None]:

@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator
-
-import latex2mathml.converter
+from collections.abc import Iterator
 
 from clinic.evidence import Evidence, VariantEvidence
+from clinic.formula import formulas
+from clinic.inert import harmless, outside_code
 from clinic.problem import closest, listed
 
 FIELD = re.compile(r"\{\{(.*?)\}\}", re.DOTALL)
-CODE = re.compile(
-    r"(^ *(?P<fence>```+|~~~+).*?^ *(?P=fence) *$|(?P<tick>`+)(?!`).+?(?<!`)(?P=tick)(?!`))", re.DOTALL | re.M
-)
-FORMULA = re.compile(r"\$\$(?P<block>.+?)\$\$|(?<![\\$\w])\$(?P<inline>[^\s$](?:[^$]*[^\s$\\])?)\$(?![\d$])", re.DOTALL)
 CONVERSIONS = {
     "mm": ("m", 1e3, "mm"),
     "cm": ("m", 1e2, "cm"),
@@ -39,8 +35,9 @@ def markdown(text: str, evidence: Evidence) -> str:
 
     Raises:
         FieldError: For the first field that resolves to nothing.
+        FormulaError: For the first formula that cannot be set.
     """
-    return outside_code(fill(text, evidence), lambda part: formulas(part.replace("<", "&lt;")))
+    return outside_code(fill(text, evidence), lambda part: formulas(part, harmless))
 
 
 def fill(text: str, evidence: Evidence) -> str:
@@ -142,27 +139,6 @@ def number(value: float, digits: int = 3) -> str:
         mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
         text = f"{mantissa}\u00a0×\u00a010{str(int(exponent)).translate(SUPERSCRIPT)}"
     return text.replace("-", "\u2212")
-
-
-def formulas(text: str) -> str:
-    """The text with `$..$` and `$$..$$` set as MathML."""
-
-    def convert(match: re.Match[str]) -> str:
-        source = (match["block"] or match["inline"]).replace("&lt;", "<").strip()
-        display = "block" if match["block"] else "inline"
-        made = latex2mathml.converter.convert(" ".join(source.split()), display=display)
-        return f'\n\n<div class="formula">{made}</div>\n\n' if match["block"] else made
-
-    return FORMULA.sub(convert, text)
-
-
-def outside_code(text: str, change: Callable[[str], str]) -> str:
-    """The text with `change` applied to everything but code spans and fences."""
-    made, end = [], 0
-    for match in CODE.finditer(text):
-        made += [change(text[end : match.start()]), match[0]]
-        end = match.end()
-    return "".join([*made, change(text[end:])])
 
 
 def _value(name: str, rest: str, variant: VariantEvidence) -> tuple[float, str]:

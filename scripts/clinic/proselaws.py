@@ -7,7 +7,9 @@ from collections.abc import Iterator
 
 from clinic.case import Case
 from clinic.evidence import Evidence
-from clinic.prose import CODE, FIELD, FORMULA
+from clinic.formula import FORMULA
+from clinic.inert import CODE
+from clinic.prose import FIELD
 from clinic.variant import variants
 
 SPAN = re.compile(r"`([^`]+)`")

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import os
 import re
-import subprocess
 import sys
-import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,10 +12,14 @@ import numpy as np
 
 from clinic import node
 from clinic.checks import Trace
+from clinic.limits import Done, LimitError, Limits, run, written
 
 TIME_LIMIT = 20.0
+BY_HAND = "run it by hand and mend it"
+REFUSED = "let it write in its own folder only, start no program and open no socket"
 PRINTED = re.compile(
-    r"^\s*(?P<name>[a-z][a-z0-9 _,()-]*?)\s*=\s*(?P<value>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?![\w.])"
+    r"^\s*(?P<name>[a-z](?:[a-z0-9 _,()-]*[a-z0-9_,()-])?)\s*="
+    r"\s*(?P<value>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?![\w.])"
 )
 
 
@@ -48,73 +49,63 @@ class Output:
         return {name: Trace(np.arange(len(v), dtype=float), np.array(v)) for name, v in values.items()}
 
 
-def run_script(code: str, files: Mapping[str, str], time_limit: float = TIME_LIMIT, name: str = "script.py") -> Output:
+def run_script(code: str, files: Mapping[str, str], time_limit: float | None = None, name: str = "script.py") -> Output:
     """Runs `code` in a temporary folder that holds `files`: by Node where `name` ends in `.mjs`, else by Python.
 
+    Args:
+        code: The text of the script.
+        files: Texts by path below the folder.
+        time_limit: In s on the clock; TIME_LIMIT when absent.
+        name: What the script is called.
+
     Raises:
-        ScriptError: If it does not end within `time_limit` seconds, or ends with an error.
+        ScriptError: If it breaks a limit of `limits.py`, or ends with an error.
     """
     run = run_node if name.endswith(node.ENDING) else run_python
     return run(code, files, time_limit, name)
 
 
-def run_python(code: str, files: Mapping[str, str], time_limit: float = TIME_LIMIT, name: str = "script.py") -> Output:
-    """Runs Python `code` in a temporary folder that holds `files`.
+def run_python(code: str, files: Mapping[str, str], time_limit: float | None = None, name: str = "script.py") -> Output:
+    """Runs Python `code` in a temporary folder that holds `files`, as `run_script` does.
 
     Raises:
-        ScriptError: If it does not end within `time_limit` seconds, or ends with an error.
+        ScriptError: If it breaks a limit of `limits.py`, or ends with an error.
     """
-    with tempfile.TemporaryDirectory(prefix="clinic-") as folder:
-        done = _process(sys.executable, Path(folder), {**files, name: code}, name, time_limit)
-    if done.returncode:
-        last = done.stderr.strip().splitlines()[-1:] or [f"exit code {done.returncode}"]
+    with written({**files, name: code}) as folder:
+        done = _process(sys.executable, Path(folder), name, time_limit)
+    if done.code:
+        last = done.stderr.strip().splitlines()[-1:] or [f"exit code {done.code}"]
         at = re.findall(rf'File ".*{re.escape(name)}", line (\d+)', done.stderr)
         raise _failed(last[0], at[-1] if at else None, name)
     return Output(done.stdout)
 
 
-def run_node(code: str, files: Mapping[str, str], time_limit: float = TIME_LIMIT, name: str = "script.mjs") -> Output:
+def run_node(code: str, files: Mapping[str, str], time_limit: float | None = None, name: str = "script.mjs") -> Output:
     """Runs the JavaScript module `code` in a temporary folder that holds `files`; the checkout's packages are there.
 
     Raises:
-        ScriptError: If there is no Node, or it does not end within `time_limit` seconds, or ends with an error.
+        ScriptError: If there is no Node, or it breaks a limit of `limits.py`, or ends with an error.
     """
     program, modules = node.program(), node.modules()
     if program is None:
         raise ScriptError(*node.NO_PROGRAM)
-    with tempfile.TemporaryDirectory(prefix="clinic-") as folder:
+    with written({**files, name: code}) as folder:
         if modules is not None:
             Path(folder, modules.name).symlink_to(modules)
-        done = _process(program, Path(folder), {**files, name: code}, name, time_limit)
-    if done.returncode:
+        done = _process(program, Path(folder), name, time_limit)
+    if done.code:
         message, line = node.failure(done.stderr, name)
-        raise _failed(message or f"exit code {done.returncode}", line, name)
+        raise _failed(message or f"exit code {done.code}", line, name)
     return Output(done.stdout)
 
 
-def _process(
-    program: str, folder: Path, files: Mapping[str, str], name: str, time_limit: float
-) -> subprocess.CompletedProcess[str]:
-    for file, text in files.items():
-        path = folder / file
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
-    environment = {**os.environ, "PYTHONHASHSEED": "0", "PYTHONDONTWRITEBYTECODE": "1"}
-    environment.setdefault("MUJOCO_GL", "egl")
+def _process(program: str, folder: Path, name: str, time_limit: float | None) -> Done:
     try:
-        return subprocess.run(
-            [program, name],
-            check=False,
-            cwd=folder,
-            env=environment,
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            timeout=time_limit,
-        )
-    except subprocess.TimeoutExpired:
-        raise ScriptError(f"still running after {time_limit:g} s", "bound its loops by steps") from None
+        return run([program, name], folder, Limits(seconds=TIME_LIMIT if time_limit is None else time_limit))
+    except LimitError as error:
+        raise ScriptError(error.found, error.repair) from None
 
 
 def _failed(found: str, line: str | None, name: str) -> ScriptError:
-    return ScriptError(found + (f" (line {line} of {name})" if line else ""), "run it by hand and mend it")
+    repair = REFUSED if re.search("permi(tted|ssion denied)|EACCES|EPERM", found, re.IGNORECASE) else BY_HAND
+    return ScriptError(found + (f" (line {line} of {name})" if line else ""), repair)

@@ -9,7 +9,8 @@ from typing import Literal
 
 from clinic.case import Case
 from clinic.problem import CaseError, Problem
-from clinic.record import Edit, Remedy
+from clinic.record import Remedy
+from clinic.record_parts import Edit
 from clinic.yamlmap import Where
 
 Kind = Literal["broken", "fix", "refuted"]

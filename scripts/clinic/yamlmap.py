@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import json
+import re
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import yaml
 
 Where = tuple[str | int, ...]
+MAX_DEPTH = 20
+CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]")
+"""Characters that no text needs: controls but for tab and line feed, and those that turn the reading direction."""
 
 
 @dataclass
@@ -33,16 +39,6 @@ class Lines:
         return self.by_path.get(where, 1)
 
 
-class TextKeys(yaml.SafeLoader):
-    """Reads every key as the text that stands there: `on` is not True."""
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-        """The mapping, its keys being text."""
-        for key, _ in node.value:
-            key.tag = "tag:yaml.org,2002:str"
-        return super().construct_mapping(node, deep)
-
-
 def dotted(where: Where) -> str:
     """`("fixes", 0, "id")` as `fixes[0].id`."""
     text = ""
@@ -51,24 +47,31 @@ def dotted(where: Where) -> str:
     return text
 
 
+def named(character: str) -> str:
+    """A character that cannot be shown: `the character U+0007`."""
+    return f"the character U+{ord(character):04X}"
+
+
+@lru_cache(maxsize=2048)
 def read_yaml(text: str) -> tuple[Any, Lines]:
     """The document's data and the line of each of its fields.
 
     Raises:
-        YamlError: For a syntax error, an alias, a key given twice, or a document that is no mapping.
+        YamlError: For a syntax error, an alias, a tag, a key given twice, a character that cannot be
+            shown, more than MAX_DEPTH levels, or a document that is no mapping.
     """
     try:
+        depth = 0
         for event in yaml.parse(text, Loader=yaml.SafeLoader):
-            if isinstance(event, yaml.AliasEvent):
-                raise YamlError(
-                    _line(event.start_mark), f"the alias *{event.anchor}", "no aliases", "write the value out"
-                )
+            depth += _step(event)
+            if depth > MAX_DEPTH:
+                raise YamlError(_line(event.start_mark), "a list in a list in ...", f"{MAX_DEPTH} levels", "flatten it")
         node = yaml.compose(text, Loader=yaml.SafeLoader)
         if not isinstance(node, yaml.MappingNode):
             raise YamlError(1, "no mapping", "`field: value` lines", "start with `number:` and `title:`")
         by_path: dict[Where, int] = {}
         _walk(node, (), by_path)
-        return yaml.load(text, Loader=TextKeys), Lines(by_path)
+        return _plain(node, yaml.SafeLoader("")), Lines(by_path)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         raise YamlError(
@@ -77,20 +80,47 @@ def read_yaml(text: str) -> tuple[Any, Lines]:
             "valid YAML",
             "quote text that holds `: `, `#`, `{` or `[`; indent by two spaces",
         ) from None
-    except yaml.YAMLError as error:
-        raise YamlError(1, str(error).splitlines()[0], "valid YAML", "remove the characters named") from None
-    except (ValueError, TypeError, RecursionError) as error:
-        raise YamlError(1, str(error).splitlines()[0], "plain values", "quote text that looks like a date") from None
+    except yaml.reader.ReaderError as error:
+        line = text.count("\n", 0, error.position) + 1
+        raise YamlError(line, named(chr(error.character)), "text that can be read", "delete it") from None
+
+
+def _step(event: yaml.Event) -> int:
+    """How much deeper the event leads; refuses what makes a value of something else than what stands there."""
+    line = _line(event.start_mark)
+    if isinstance(event, yaml.AliasEvent):
+        raise YamlError(line, f"the alias *{event.anchor}", "no aliases", "write the value out")
+    if isinstance(event, yaml.ScalarEvent | yaml.CollectionStartEvent) and event.tag is not None:
+        raise YamlError(line, f"the tag {event.tag}", "no tags", "remove it")
+    return isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+
+
+def _plain(node: yaml.Node, loader: yaml.SafeLoader) -> Any:
+    """The node as data; a scalar that cannot be what it looks like is refused at its line."""
+    if isinstance(node, yaml.MappingNode):
+        return {key.value: _plain(value, loader) for key, value in node.value}
+    if isinstance(node, yaml.SequenceNode):
+        return [_plain(value, loader) for value in node.value]
+    try:
+        value = loader.construct_object(node)
+        json.dumps(value, default=str)  # fails for a whole number of thousands of digits
+        return value
+    except (ValueError, TypeError, OverflowError) as error:
+        found = f"{node.value[:40]}: {str(error).splitlines()[0]}"
+        raise YamlError(_line(node.start_mark), found, "plain values", "quote text that looks like a date") from None
 
 
 def _walk(node: yaml.Node, where: Where, by_path: dict[Where, int]) -> None:
     by_path.setdefault(where, _line(node.start_mark))
+    if isinstance(node, yaml.ScalarNode):
+        _shown(node)
     if isinstance(node, yaml.MappingNode):
         for key, value in node.value:
             if not isinstance(key, yaml.ScalarNode):
                 raise YamlError(
                     _line(key.start_mark), "a key that is no text", "`field: value` lines", "write one word"
                 )
+            _shown(key)
             path = (*where, key.value)
             if path in by_path:
                 raise YamlError(
@@ -101,6 +131,11 @@ def _walk(node: yaml.Node, where: Where, by_path: dict[Where, int]) -> None:
     elif isinstance(node, yaml.SequenceNode):
         for index, value in enumerate(node.value):
             _walk(value, (*where, index), by_path)
+
+
+def _shown(node: yaml.ScalarNode) -> None:
+    if strange := CONTROL.search(node.value):
+        raise YamlError(_line(node.start_mark), named(strange[0]), "text that can be read", "delete it")
 
 
 def _line(mark: Any) -> int:

@@ -1,0 +1,53 @@
+"""The rules for a record's words, so that a page shows them and does nothing else.
+
+A title, a label, a unit, a legend or a phrase is one line without `<`. Prose is Markdown: its `<` and `{` are shown as
+they are, so that HTML and attribute lists do nothing; its links lead to pages of this site or of the web, its images
+to files of this site; its formulas are LaTeX that makes a formula and nothing else.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+from clinic.formula import FORMULA, formula_errors
+from clinic.inert import strange_links
+from clinic.record import Record
+from clinic.yamlmap import Where
+
+LINES = ("title", "label", "unit", "phrases", "says", "yes", "no")
+PROSE = ("symptom", "diagnosis", "cause", "fix", "lesson", "why", "text", "exempt")
+FIELD = re.compile(r"\{\{.*?\}\}", re.DOTALL)
+
+
+def word_problems(record: Record) -> Iterator[tuple[Where, str, str, str]]:
+    """Every text of the record that breaks a rule: where, what was found, what was expected, the repair."""
+    for where, text in _texts(record.model_dump(mode="json"), ()):
+        names = {part for part in where[-2:] if isinstance(part, str)}
+        if names & set(LINES):
+            if found := re.search("[<\n]", text.rstrip("\n")):
+                shown = "a line break" if found[0] == "\n" else found[0]
+                yield (
+                    where,
+                    f"{shown} in {text.strip()[:40]!r}",
+                    "one line of plain text, without <",
+                    "write it in words",
+                )
+        elif names & set(PROSE):
+            yield from _prose_problems(where, text)
+
+
+def _prose_problems(where: Where, text: str) -> Iterator[tuple[Where, str, str, str]]:
+    for error in formula_errors(FIELD.sub("1", text)):
+        yield where, error.found, error.expected, error.repair
+    for link in strange_links(FORMULA.sub("", text)):
+        expected = "an address of the web, https://..., or of a page here; an image from here"
+        yield where, link, f"[text](address): {expected}", "correct the address; write code between backticks"
+
+
+def _texts(value: Any, where: Where) -> Iterator[tuple[Where, str]]:
+    if isinstance(value, str):
+        yield where, value
+    for key, part in value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ():
+        yield from _texts(part, (*where, key))

@@ -4,6 +4,7 @@
 # make bench   how long a build takes, cold and warm, and its parts
 # make lint    style and types
 # make lock    renews requirements.txt and requirements-parity.txt
+# make audit   asks the registries for known holes in what is locked
 # make clean   forgets everything built
 
 SHELL := /bin/bash
@@ -15,15 +16,20 @@ export NO_MKDOCS_2_WARNING := 1
 export DISABLE_MKDOCS_2_WARNING := true
 
 .DEFAULT_GOAL := help
-.PHONY: help setup serve site test bench lint lock clean
+.PHONY: help setup serve site test bench lint lock audit clean
 
 help:
 	@sed -n 's/^# make/make/p' Makefile
 
-setup: $(VENV)/.ready
+setup: $(VENV)/.ready case.schema.json
 
 $(VENV)/.ready: requirements.txt requirements-parity.txt pyproject.toml package-lock.json scripts/setup.sh
 	@bash scripts/setup.sh $(VENV)
+	@touch $@
+
+# What an editor asks while a record is typed; see the first line of a new case.
+case.schema.json: $(VENV)/.ready $(wildcard scripts/clinic/record*.py) scripts/clinic/schema.py
+	@$(BIN)/clinic schema --write
 	@touch $@
 
 serve: setup
@@ -52,5 +58,10 @@ lock: setup
 	  --no-deps --generate-hashes --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" \
 	  --upgrade --quiet --output-file requirements-parity.txt
 
+audit: setup
+	$(BIN)/uv tool run pip-audit --strict --require-hashes --disable-pip -r requirements.txt
+	$(BIN)/uv tool run pip-audit --strict --require-hashes --disable-pip -r requirements-parity.txt
+	PATH="$(CURDIR)/$(BIN):$$PATH" npm audit
+
 clean:
-	rm -rf site .cache node_modules $(VENV)
+	rm -rf site .cache case.schema.json node_modules $(VENV)

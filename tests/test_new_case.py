@@ -1,4 +1,4 @@
-"""A case dropped in by an author: its page, card, navigation and evidence follow, with nothing else edited."""
+"""Cases dropped in by authors, or begun by `clinic new`: all that a case has follows, with nothing else edited."""
 
 from __future__ import annotations
 
@@ -7,24 +7,49 @@ from pathlib import Path
 
 import pytest
 from clinic.cache import Cache
-from clinic.site import build, cache_folder, navigation
+from clinic.checkout import cache_folder
+from clinic.judgement import Neighbours, judge_folder
+from clinic.site import survey
+from clinic.start import Kind, start
 from helpers import MODEL, RECORD, write_case
 
 pytestmark = pytest.mark.xdist_group("site")
 PARTS = ("cases", "docs", "CONTRIBUTING.md", "pyproject.toml", "package.json", "package-lock.json")
 
 
-def test_a_dropped_folder_becomes_a_case(root: Path, tmp_path: Path) -> None:
+@pytest.fixture(scope="module")
+def checkout(root: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A copy of the checkout."""
+    made = tmp_path_factory.mktemp("checkout")
     for name in PARTS:
         copy = shutil.copytree if (root / name).is_dir() else shutil.copy
-        copy(root / name, tmp_path / name)
-    write_case(tmp_path, ("number: 1", "number: 9999"), slug="dropped-in", record=RECORD, model=MODEL)
+        copy(root / name, made / name)
+    return made
 
-    made = build(tmp_path, Cache(cache_folder(root)))
 
-    assert b"# 9999. A box falls through the floor" in made["cases/dropped-in/index.md"]
+@pytest.fixture(scope="module")
+def begun(checkout: Path) -> dict[Kind, Path]:
+    """The folder of a new case of each kind."""
+    return {kind: start(checkout, f"begun-in-{kind}", f"It stands askew in {kind}", kind) for kind in Kind}
+
+
+@pytest.mark.parametrize("kind", Kind)
+def test_a_new_case_passes_every_law(root: Path, checkout: Path, begun: dict[Kind, Path], kind: Kind) -> None:
+    judgement = judge_folder(begun[kind], Neighbours(checkout), Cache(cache_folder(root)))
+    assert (judgement.problems, judgement.complaints) == ((), ())
+    assert judgement.evidence is not None
+
+
+def test_folders_dropped_in_become_cases(root: Path, checkout: Path, begun: dict[Kind, Path]) -> None:
+    write_case(checkout, ("number: 1", "number: 9999"), slug="dropped-in", record=RECORD, model=MODEL)
+
+    site = survey(checkout, Cache(cache_folder(root)))
+
+    assert site.problems == ()
+    assert b"# 9999. A box falls through the floor" in site.files["cases/dropped-in/index.md"]
     assert {"evidence.json", "plot-light.svg", "model.xml", "case.yaml"} <= {
-        Path(name).name for name in made if name.startswith("cases/dropped-in/")
+        Path(name).name for name in site.files if name.startswith("cases/dropped-in/")
     }
-    assert b"cases/dropped-in/index.md" in made["index.md"]
-    assert "cases/dropped-in/index.md" in str(navigation(tmp_path))
+    for slug in ("dropped-in", *(folder.name for folder in begun.values())):
+        assert f"cases/{slug}/index.md" in str(site.navigation)
+        assert f"cases/{slug}/index.md".encode() in site.files["index.md"]

@@ -1,34 +1,158 @@
-"""The command `clinic`."""
+"""The command `clinic`. What is slow to import is imported by the command that needs it."""
 
 from __future__ import annotations
 
+import json
 import shutil
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
-from rich.table import Table
 
-from clinic.cache import Cache
-from clinic.case import Case, load_case, load_cases
-from clinic.evidence import Evidence
-from clinic.exhibit import evidence_of, exhibits
-from clinic.laws import all_complaints
+from clinic.checkout import cache_folder, folders, project_root, slugs
 from clinic.problem import CaseError
-from clinic.prose import quantity
-from clinic.reference import reference
-from clinic.site import build as build_site
-from clinic.site import cache_folder, project_root
-from clinic.triage.child import reports
 
-app = typer.Typer(add_completion=False, no_args_is_help=True, help="Broken MuJoCo simulations that prove themselves.")
+if TYPE_CHECKING:
+    from clinic.case import Case
+    from clinic.evidence import Evidence
+    from clinic.judgement import Judgement
+
+app = typer.Typer(no_args_is_help=True, help="Broken MuJoCo simulations that prove themselves.")
+
+
+def complete(incomplete: str) -> list[str]:
+    """The slugs that begin like this, for the shell."""
+    try:
+        return [slug for slug in slugs(project_root()) if slug.startswith(incomplete)]
+    except OSError:
+        return []
+
+
+Slug = Annotated[str, typer.Argument(help="A case, by its folder's name.", autocompletion=complete)]
+Slugs = Annotated[
+    list[str] | None, typer.Argument(metavar="[SLUG]...", help="Cases; all when left out.", autocompletion=complete)
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print data for a program.")]
+
+
+@app.command()
+def new(
+    slug: Annotated[str, typer.Argument(help="The folder's name: words that name the symptom, joined by hyphens.")],
+    title: Annotated[str | None, typer.Option(help="The symptom as a sentence, without a full stop.")] = None,
+    kind: Annotated[str | None, typer.Option(help="Where the bug lives: model, python or javascript.")] = None,
+) -> None:
+    """Write the folder of a new case, which passes every law until you put your bug into it."""
+    from clinic.schema import write_schema
+    from clinic.start import Kind, slug_problems, start
+
+    root = project_root()
+    if problems := list(slug_problems(root, slug)):
+        raise CaseError(problems)
+    title = title or _asked("title", "Title, the symptom as a sentence")
+    kind = kind or _asked("kind", "Where the bug lives (model, python, javascript)", "model")
+    if kind not in list(Kind):
+        raise typer.BadParameter(f"{kind} is none of {', '.join(Kind)}", param_hint="--kind")
+    place = start(root, slug, title, Kind(kind))
+    write_schema(root)
+    for path in sorted(place.iterdir()):
+        print(path.relative_to(root).as_posix())
+    print(f"It passes every law: clinic check {slug}. Now put your bug into it; `make serve` shows the page.")
+
+
+@app.command()
+def check(slugs: Slugs = None, as_json: AsJson = False) -> None:
+    """Run cases and judge them by every law; exit code 1 if anything is wrong."""
+    from clinic import terminal
+    from clinic.judgement import plain
+
+    judgements = _judged(project_root(), slugs or [])
+    if as_json:
+        _print_json([plain(judgement) for judgement in judgements])
+    else:
+        out = terminal.console()
+        for judgement in judgements if slugs else []:
+            if judgement.case and judgement.evidence:
+                out.print(terminal.checks_table(judgement.case, judgement.evidence))
+        out.print(terminal.summary(judgements))
+        for judgement in judgements:
+            for said in (*judgement.problems, *judgement.complaints):
+                print(said, file=sys.stderr)
+    if not all(judgement.sound for judgement in judgements):
+        raise typer.Exit(1)
+
+
+@app.command(name="list")
+def list_cases(as_json: AsJson = False) -> None:
+    """List the cases by number."""
+    from clinic import terminal
+    from clinic.case import read_cases
+
+    cases, problems = read_cases(project_root() / "cases")
+    if as_json:
+        _print_json([terminal.row_data(case) for case in cases])
+    else:
+        terminal.console().print(terminal.cases_table(cases))
+    if problems:
+        raise CaseError(problems)
+
+
+@app.command()
+def show(
+    slug: Slug,
+    answer: Annotated[bool, typer.Option("--answer", help="Open the folds: diagnosis, cause, fix, lesson.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Show a case in the terminal, its numbers filled in from the runs."""
+    from clinic import terminal
+    from clinic.prose import FieldError
+
+    case, evidence = _run(slug)
+    try:
+        if as_json:
+            _print_json(terminal.case_data(case, evidence, answer))
+        else:
+            terminal.console().print(terminal.case_text(case, evidence, answer))
+    except FieldError as error:
+        raise CaseError([case.problem((), error.found, error.expected, error.repair)]) from None
+
+
+@app.command()
+def view(
+    slug: Slug,
+    fix: Annotated[str, typer.Option(help="A fix or refuted remedy, by its id; the broken model when left out.")] = "",
+) -> None:
+    """Open a case's model in MuJoCo's viewer, at the start of its run."""
+    from clinic.case import load_case
+    from clinic.variant import BROKEN
+    from clinic.viewer import view as open_viewer
+
+    (folder,) = folders(project_root(), [slug])
+    try:
+        open_viewer(load_case(folder), fix or BROKEN)
+    except RuntimeError as error:
+        sys.exit(f"clinic: {error}")
+
+
+@app.command()
+def cache(clear: Annotated[bool, typer.Option("--clear", help="Forget everything kept.")] = False) -> None:
+    """Show where finished work is kept and how much of it, or clear it."""
+    from clinic.cache import Cache
+
+    kept = Cache(cache_folder(project_root()))
+    entries = list(kept.folder.glob(kept.path("*").name))
+    size = sum(entry.stat().st_size for entry in entries)
+    if clear:
+        for entry in entries:
+            entry.unlink(missing_ok=True)
+    print(f"{len(entries)} entries, {size / 1e6:.1f} MB, {'cleared from' if clear else 'in'} {kept.folder}")
 
 
 @app.command()
 def build(out: Annotated[Path, typer.Option(help="The folder to write; made anew.")]) -> None:
-    """Write the pages as real files, beside those written by hand."""
+    """Write the site's pages as real files, beside those written by hand."""
+    from clinic.site import build as build_site
+
     root = project_root()
     own = [root / name for name in ("docs", "cases", "scripts", "tests", ".git")]
     if root.is_relative_to(out.resolve()) or any(out.resolve().is_relative_to(folder) for folder in own):
@@ -45,45 +169,89 @@ def build(out: Annotated[Path, typer.Option(help="The folder to write; made anew
 
 
 @app.command()
-def check(slug: Annotated[str | None, typer.Argument(help="A case; all when left out.")] = None) -> None:
-    """Run a case and judge it by every law."""
-    root = project_root()
-    cases = load_cases(root / "cases") if slug is None else [load_case(root / "cases" / slug)]
-    cache = Cache(cache_folder(root))
-    failures: list[str] = []
-    for case in cases:
-        evidence = evidence_of(exhibits(case, cache))
-        Console().print(_table(case, evidence))
-        failures += all_complaints(case, evidence)
-    for failure in failures:
-        print(failure, file=sys.stderr)
-    if failures:
-        raise typer.Exit(1)
+def triage(path: Annotated[Path, typer.Argument(help="A case's folder, or any MJCF or URDF file.")]) -> None:
+    """Run the six steps of triage on a model and print what each saw."""
+    from clinic.triage.child import reports
+
+    for said in reports(path):
+        print(said, flush=True)
 
 
 @app.command(name="reference")
 def print_reference() -> None:
     """Print the record's reference as Markdown."""
+    from clinic.reference import reference
+
     print(reference())
 
 
-@app.command()
-def triage(path: Annotated[Path, typer.Argument(help="A case's folder, or any MJCF or URDF file.")]) -> None:
-    """Run the six steps of triage on a model and print what each saw."""
-    for said in reports(path):
-        print(said, flush=True)
+@app.command(name="schema")
+def print_schema(
+    write: Annotated[
+        bool, typer.Option("--write", help="Write it where the editor's lines in cases/ find it.")
+    ] = False,
+) -> None:
+    """Print the record's JSON Schema."""
+    from clinic.schema import schema_text, write_schema
+
+    if write:
+        write_schema(project_root())
+    else:
+        print(schema_text(), end="")
 
 
-def _table(case: Case, evidence: Evidence) -> Table:
-    table = Table("variant", "kind", "check", "measured", "holds", title=f"{case.record.number}. {case.record.title}")
-    for key, variant in evidence.variants.items():
-        for kind, results in variant.checks.items():
-            for result in results:
-                unit = "s" if result.take == "onset" else variant.traces[result.signal].unit
-                value = "nothing" if result.measured is None else quantity(result.measured, unit, 6)
-                claim = f"{kind}: {result.signal} {result.take} {result.expected}"
-                table.add_row(key, variant.kind, claim, value, "yes" if result.holds else "no")
-    return table
+def _judged(root: Path, wanted: list[str]) -> list[Judgement]:
+    """The judgements of the cases named, of all when none is, by number; progress goes to stderr."""
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    from clinic import terminal
+    from clinic.cache import Cache
+    from clinic.judgement import Neighbours, judge_folder
+
+    named = folders(root, wanted)
+    err = terminal.console(stderr=True)
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=err, transient=True, disable=not err.is_terminal) as progress:
+        task = progress.add_task("reading", total=len(named))
+        neighbours, store, judgements = Neighbours(root), Cache(cache_folder(root)), []
+        for folder in named:
+
+            def tell(said: str, name: str = folder.name) -> None:
+                progress.update(task, description=f"{name}: {said}")
+
+            judgements.append(judge_folder(folder, neighbours, store, tell))
+            progress.advance(task)
+    return sorted(judgements, key=lambda found: found.case.record.number if found.case else 0)
+
+
+def _run(slug: str) -> tuple[Case, Evidence]:
+    """A case and what its runs show."""
+    from clinic import terminal
+    from clinic.cache import Cache
+    from clinic.case import load_case
+    from clinic.exhibit import evidence_of, exhibits
+
+    root = project_root()
+    case = load_case(folders(root, [slug])[0])
+    with terminal.console(stderr=True).status(f"running {case.slug}"):
+        return case, evidence_of(exhibits(case, Cache(cache_folder(root))))
+
+
+def _asked(option: str, question: str, default: str | None = None) -> str:
+    """The answer of whoever sits at the terminal; the default where nobody does."""
+    if _asks():
+        return str(typer.prompt(question, default=default))
+    if default is None:
+        raise typer.BadParameter("give it, for nobody can be asked here", param_hint=f"--{option}")
+    return default
+
+
+def _asks() -> bool:
+    return sys.stdin.isatty()
+
+
+def _print_json(data: object) -> None:
+    print(json.dumps(data, indent=1, ensure_ascii=False))
 
 
 def main() -> None:

@@ -11,7 +11,8 @@ from clinic.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.measure import measure_model, measure_output
 from clinic.prose import quantity
 from clinic.proselaws import quoted, typed
-from clinic.record import Check, Edit, Fix, RowSignal
+from clinic.record import Check, Fix, RowSignal
+from clinic.record_parts import Edit
 from clinic.render import blindness
 from clinic.script import run_script
 from clinic.simulate import compile_model

@@ -10,7 +10,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from clinic import record, signals
+from clinic import record, record_parts, record_sweep, signals
 
 CHAPTERS: dict[str, type[BaseModel]] = {
     "case.yaml": record.Record,
@@ -23,13 +23,13 @@ CHAPTERS: dict[str, type[BaseModel]] = {
     "a check": record.Check,
     "fixes": record.Fix,
     "refuted": record.Refuted,
-    "an edit": record.Edit,
+    "an edit": record_parts.Edit,
     "film": record.Film,
-    "sweep": record.Sweep,
-    "holds in a sweep": record.Side,
-    "vary": record.Parameter,
-    "prediction": record.Prediction,
-    "rivals": record.Rival,
+    "sweep": record_sweep.Sweep,
+    "holds in a sweep": record_sweep.Side,
+    "vary": record_sweep.Parameter,
+    "prediction": record_sweep.Prediction,
+    "rivals": record_sweep.Rival,
     "alike": record.Alike,
     "picture": record.Picture,
 }

@@ -14,9 +14,10 @@ from pathlib import Path
 import mujoco
 from clinic.cache import Cache, Files
 from clinic.case import Case, load_cases
+from clinic.checkout import project_root
 from clinic.exhibit import all_exhibits, assembled, evidence_of, evidence_task, figure_task, measuring_tasks
 from clinic.simulate import compile_model, step_count
-from clinic.site import build, project_root
+from clinic.site import build
 from clinic.variant import variants
 from rich.console import Console
 from rich.table import Table

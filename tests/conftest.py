@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from clinic.cache import Cache
 from clinic.case import Case, load_case
+from clinic.checkout import cache_folder
 from clinic.evidence import Evidence
 from clinic.exhibit import evidence_of, exhibits
-from clinic.site import cache_folder
 
 ROOT = Path(__file__).parent.parent
 SLUGS = sorted(path.name for path in (ROOT / "cases").iterdir() if path.is_dir())

@@ -2,11 +2,32 @@
 
 from __future__ import annotations
 
+import errno
+import hashlib
+import os
+import shutil
+import subprocess
+import sys
+import time
 from pathlib import Path
 
+import clinic
 import pytest
-from clinic.cache import Cache, digest, key_of, source_digest
+from clinic.cache import (
+    CHECKSUM,
+    ENGINES,
+    LOADED,
+    ORPHANED,
+    SETTINGS,
+    Cache,
+    digest,
+    engines,
+    key_of,
+    say_unkept,
+    source_digest,
+)
 
+IGNORED = shutil.ignore_patterns("__pycache__")
 FILES = {"evidence.json": b"{}\n", "plot.svg": bytes(range(256)), "sub/empty": b""}
 
 
@@ -34,9 +55,10 @@ def test_no_files_are_a_result_too(cache: Cache) -> None:
 
 
 def test_archives_of_equal_files_are_equal_bytes(cache: Cache) -> None:
-    cache.put("one", FILES)
-    cache.put("two", dict(reversed(FILES.items())))
-    assert cache.path("one").read_bytes() == cache.path("two").read_bytes()
+    cache.put("key", FILES)
+    first = cache.path("key").read_bytes()
+    cache.put("key", dict(reversed(FILES.items())))
+    assert cache.path("key").read_bytes() == first
 
 
 def test_nothing_but_archives_is_left(cache: Cache) -> None:
@@ -81,6 +103,94 @@ def test_an_archive_with_a_bit_inverted_is_whole_or_none(cache: Cache) -> None:
         assert cache.get("key") in (None, files), f"bit {bit} inverted"
 
 
+@pytest.mark.parametrize(
+    "whole",
+    [
+        pytest.param(b"", id="empty"),
+        pytest.param(bytes(1000), id="zeros"),
+        pytest.param(b"no archive" * 50, id="text"),
+        pytest.param(b"PK\x05\x06" + bytes(18), id="an-archive-of-nothing-without-checksum"),
+    ],
+)
+def test_garbage_is_none(cache: Cache, whole: bytes) -> None:
+    cache.put("key", FILES)
+    cache.path("key").write_bytes(whole)
+    assert cache.get("key") is None
+
+
+def test_every_damage_behind_a_right_checksum_is_an_archive_or_none(cache: Cache) -> None:
+    cache.put("key", {"a": b"one"})
+    packed = cache.path("key").read_bytes()[CHECKSUM:]
+    damaged = [packed[:end] for end in range(len(packed))]
+    damaged += [packed[:k] + bytes([packed[k] ^ 0xFF]) + packed[k + 1 :] for k in range(len(packed))]
+    for body in damaged:
+        checksum = hashlib.sha256(b"key\0" + body).digest()
+        cache.path("key").write_bytes(checksum + body)
+        found = cache.get("key")
+        assert found is None or all(isinstance(content, bytes) for content in found.values())
+
+
+def test_the_archive_of_another_key_is_none(cache: Cache) -> None:
+    cache.put("one", FILES)
+    cache.path("other").write_bytes(cache.path("one").read_bytes())
+    assert cache.get("other") is None
+
+
+def test_a_folder_in_an_archives_place_is_none(cache: Cache) -> None:
+    cache.path("key").mkdir(parents=True)
+    assert cache.remember("key", lambda: FILES) == FILES
+
+
+@pytest.fixture
+def said(caplog: pytest.LogCaptureFixture) -> pytest.LogCaptureFixture:
+    say_unkept.cache_clear()
+    return caplog
+
+
+def test_work_goes_on_beside_a_folder_that_takes_nothing(tmp_path: Path, said: pytest.LogCaptureFixture) -> None:
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    cache = Cache(tmp_path / "file" / "cache")
+    cache.tidy()
+    assert [cache.remember(key, lambda: FILES) for key in ("one", "two")] == [FILES] * 2
+    assert len(said.messages) == 1
+    assert "takes no files" in said.messages[0]
+
+
+def test_work_goes_on_beside_a_full_disk(
+    cache: Cache, said: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(old: str, new: Path) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("clinic.cache.os.replace", full)
+    assert [cache.remember(key, lambda: FILES) for key in ("one", "two")] == [FILES] * 2
+    assert len(said.messages) == 1
+    assert list(cache.folder.iterdir()) == []
+
+
+def test_orphans_are_removed_and_what_is_being_written_is_not(cache: Cache) -> None:
+    cache.put("key", FILES)
+    orphan, young = cache.folder / "old.part", cache.folder / "new.part"
+    for part in (orphan, young):
+        part.write_bytes(b"half")
+    then = time.time() - ORPHANED - 60
+    for path in (orphan, cache.path("key")):
+        os.utime(path, (then, then))
+    cache.tidy()
+    assert set(cache.folder.iterdir()) == {young, cache.path("key")}
+
+
+def test_many_processes_put_one_key(tmp_path: Path) -> None:
+    code = (
+        "import sys; from pathlib import Path; from clinic.cache import Cache\n"
+        "cache = Cache(Path(sys.argv[1])); files = {'a': bytes(300_000)}\n"
+        "for _ in range(100):\n cache.put('key', files); assert cache.get('key') == files"
+    )
+    running = [subprocess.Popen([sys.executable, "-c", code, str(tmp_path)]) for _ in range(3)]
+    assert [process.wait() for process in running] == [0, 0, 0]
+    assert list(tmp_path.iterdir()) == [Cache(tmp_path).path("key")]
+
+
 def test_a_damaged_archive_is_made_again(cache: Cache) -> None:
     cache.put("key", FILES)
     cache.path("key").write_bytes(cache.path("key").read_bytes()[:9])
@@ -116,5 +226,51 @@ def test_digest_follows_names_and_contents(tmp_path: Path) -> None:
     assert len({of(a="1", b="2"), of(a="12", b=""), of(a="2", b="1"), of(c="1", b="2")}) == 4
 
 
-def test_source_digest_is_stable() -> None:
-    assert source_digest() == source_digest()
+def test_source_digest_follows_every_file_of_the_package(tmp_path: Path) -> None:
+    package = shutil.copytree(Path(clinic.__file__).parent, tmp_path / "clinic", ignore=IGNORED)
+    assert source_digest(package) == source_digest() == LOADED
+    digests = {LOADED}
+    files = [path for path in sorted(package.rglob("*")) if path.is_file()]
+    for path in files:
+        content = path.read_bytes()
+        path.write_bytes(content + b"\n")
+        digests.add(source_digest(package))
+        path.write_bytes(content)
+    (package / "triage" / "checks.py").write_bytes((package / "checks.py").read_bytes())
+    digests.add(source_digest(package))
+    assert len(digests) == len(files) + 2
+
+
+def test_source_digest_leaves_out_what_is_no_source(tmp_path: Path) -> None:
+    package = shutil.copytree(Path(clinic.__file__).parent, tmp_path / "clinic", ignore=IGNORED)
+    (package / "__pycache__").mkdir()
+    for name in ("__pycache__/cache.cpython-311.pyc", ".cache.py.swp", "cache.py~"):
+        (package / name).write_bytes(b"")
+    assert source_digest(package) == LOADED
+
+
+def test_keys_follow_the_package(monkeypatch: pytest.MonkeyPatch) -> None:
+    before = key_of("a")
+    monkeypatch.setattr("clinic.cache.LOADED", "another")
+    assert key_of("a") != before
+
+
+def test_nothing_is_kept_once_the_package_has_changed(cache: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("clinic.cache.source_digest", lambda: "another")
+    assert cache.remember("key", lambda: FILES) == FILES
+    assert cache.get("key") is None
+
+
+@pytest.mark.parametrize("name", [*ENGINES, "python", "machine"])
+def test_keys_follow_what_runs_and_draws(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = key_of("a")
+    changed = {**engines(), name: "another"}
+    monkeypatch.setattr("clinic.cache.engines", lambda: changed)
+    assert key_of("a") != before
+
+
+@pytest.mark.parametrize("name", SETTINGS)
+def test_keys_follow_the_renderer(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = key_of("a")
+    monkeypatch.setenv(name, "another")
+    assert key_of("a") != before

@@ -15,9 +15,11 @@ from clinic.exhibit import (
     evidence_of,
     evidence_task,
     exhibits,
+    figure_task,
     jobs,
     measuring_tasks,
     pictures,
+    possible_exhibits,
 )
 from clinic.problem import CaseError
 from helpers import MODEL, script_case, tiny_case, write_script_case
@@ -116,6 +118,44 @@ def test_a_case_is_run_again_when_its_model_changes(tmp_path: Path) -> None:
     before = without_film(tmp_path / "before")
     after = replace(before, texts={"model.xml": MODEL.replace('mass="1"', 'mass="2"')})
     assert evidence_task(before).key != evidence_task(after).key
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        pytest.param(("label: height of the box", "label: height"), id="label"),
+        pytest.param(("unit: m,", "unit: cm,"), id="unit"),
+        pytest.param(("duration: 0.4", "duration: 0.3"), id="run"),
+    ],
+)
+def test_plots_are_drawn_again_when_what_they_show_changes(
+    tmp_path: Path, cache: Cache, change: tuple[str, str]
+) -> None:
+    before, after = without_film(tmp_path / "before"), without_film(tmp_path / "after", change)
+    evidence = evidence_of(exhibits(before, cache))
+    assert figure_task(before, evidence).key != figure_task(after, evidence).key
+
+
+def test_a_result_is_kept_though_a_later_one_fails(
+    tmp_path: Path, cache: Cache, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def killed(case: Case) -> dict[str, bytes]:
+        raise KeyboardInterrupt
+
+    case = without_film(tmp_path)
+    monkeypatch.setattr(exhibit, "pictures", killed)
+    with pytest.raises(KeyboardInterrupt):
+        exhibits(case, cache)
+    first, robust, _ = evidence_task(case), *measuring_tasks(case)
+    assert cache.get(first.key) is not None
+    assert cache.get(robust.key) is not None
+
+
+def test_a_case_that_cannot_be_run_holds_up_no_other(tmp_path: Path, cache: Cache) -> None:
+    model, script = without_film(tmp_path, BROKEN_RECORD), script_case(tmp_path)
+    made, problems = possible_exhibits([model, script], cache)
+    assert made == {script.slug: exhibits(script, cache)}
+    assert {problem.file for problem in problems} == {model.file}
 
 
 def test_all_exhibits_are_by_slug(tmp_path: Path, cache: Cache) -> None:

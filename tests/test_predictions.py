@@ -16,6 +16,7 @@ from clinic.predictions import (
     omega_one_link,
     servo_sag,
     thrown_back,
+    upright_time,
 )
 
 PENDULA = """
@@ -79,3 +80,20 @@ def test_a_step_longer_than_the_room_misses_some_starts() -> None:
 
 def test_a_time_constant_below_two_steps_changes_nothing() -> None:
     assert held_share(0.1, -8, 0.013, 1e-4, 0.001, 0.04, 40) == held_share(0.1, -8, 0.013, 2e-3, 0.001, 0.04, 40)
+
+
+def upright(period: float, kd: float = 0.5) -> float:
+    return upright_time(2.7, 0.134, 6.0, kd, period, 0.02, 0.3, 10.0)
+
+
+def test_a_pendulum_left_alone_after_one_call_falls_to_the_other_side() -> None:
+    a, offset = math.sqrt(2.7 / 0.134), 6.0 * 0.02 / 2.7
+    assert upright(5.0) == pytest.approx(math.acosh((0.3 + offset) / (offset - 0.02)) / a, rel=1e-6)
+
+
+@pytest.mark.parametrize("kd", [0.2, 0.5, 1.5])
+def test_a_pendulum_stays_upright_up_to_the_period_that_jurys_criterion_gives(kd: float) -> None:
+    a = math.sqrt(2.7 / 0.134)
+    limit = 2 / a * math.atanh(min(a * kd / 6.0, a * 0.134 / kd))
+    assert upright(0.9 * limit, kd) == 10.0
+    assert upright(1.4 * limit, kd) < 10.0

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from clinic.case import Case
-from clinic.record import Parameter
+from clinic.record_sweep import Parameter
 from clinic.sweep import agreement, grid, measure_points, numbers, summarise
 from helpers import tiny_case
 

@@ -52,7 +52,7 @@ def test_the_tiny_case_is_caught_by_three_steps(tmp_path: Path) -> None:
 
 def test_the_table_has_a_row_for_every_case_and_is_honest_about_code(tmp_path: Path) -> None:
     cases = [tiny_case(tmp_path), script_case(tmp_path)]
-    text = table(cases, run_tasks(list(screening_tasks(cases)), Cache(tmp_path / "cache")))
+    text = table(cases, run_tasks(list(screening_tasks(cases)), Cache(tmp_path / "cache"))[0])
     rows = [line for line in text.splitlines() if line.startswith("| [")]
     assert len(rows) == 2
     assert all(row.count("](cases/") == 7 for row in rows)

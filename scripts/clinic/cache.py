@@ -2,24 +2,37 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import io
 import json
+import logging
 import os
+import platform
+import re
 import tempfile
+import time
 import zipfile
 from collections.abc import Callable, Iterable
+from functools import lru_cache
 from importlib.metadata import version
 from pathlib import Path
 
 Files = dict[str, bytes]
-ENGINES = ("mujoco", "numpy", "matplotlib", "pillow")
+ENGINES = ("mujoco", "numpy", "matplotlib", "kiwisolver", "pillow", "av")
+SETTINGS = ("MUJOCO_GL", "MUJOCO_EGL_DEVICE_ID", "PYOPENGL_PLATFORM", "LIBGL_ALWAYS_SOFTWARE", "GALLIUM_DRIVER")
 CHECKSUM = hashlib.sha256().digest_size
 EPOCH = (1980, 1, 1, 0, 0, 0)
+ORPHANED = 3600.0
+SCRAP = re.compile(r"^\.|~$|\.pyc$")
+log = logging.getLogger("clinic")
 
 
 class Cache:
-    """Files kept under `folder`, one archive a key, behind its checksum. One that is not whole is made again."""
+    """Files kept under `folder`, one archive a key, behind its checksum. One that is not whole is made again.
+
+    An archive comes into being by renaming, so that builds may share a folder and end at any moment.
+    """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -35,21 +48,31 @@ class Cache:
         except OSError:
             return None
         checksum, packed = whole[:CHECKSUM], whole[CHECKSUM:]
-        if hashlib.sha256(packed).digest() != checksum:
+        if _checksum(key, packed) != checksum:
             return None
-        with zipfile.ZipFile(io.BytesIO(packed)) as archive:
-            return {name: archive.read(name) for name in archive.namelist()}
+        try:
+            with zipfile.ZipFile(io.BytesIO(packed)) as archive:
+                return {name: archive.read(name) for name in archive.namelist()}
+        except Exception:  # zipfile has a dozen ways to say that this is no archive
+            return None
 
     def put(self, key: str, files: Files) -> None:
-        """Stores files under a key, all or nothing."""
-        self.folder.mkdir(parents=True, exist_ok=True)
+        """Stores files under a key, all or nothing.
+
+        Nothing is stored where the folder takes nothing, which is said once, nor when the package is no longer the
+        one that this process loaded: a process that it started may have run the new one.
+        """
+        if source_digest() != LOADED:
+            return
         packed = io.BytesIO()
         with zipfile.ZipFile(packed, "w", zipfile.ZIP_STORED) as archive:
             for name, content in sorted(files.items()):
                 archive.writestr(zipfile.ZipInfo(name, EPOCH), content)
-        with tempfile.NamedTemporaryFile(dir=self.folder, suffix=".part", delete=False) as part:
-            part.write(hashlib.sha256(packed.getvalue()).digest() + packed.getvalue())
-        os.replace(part.name, self.path(key))
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            self._write(key, _checksum(key, packed.getvalue()) + packed.getvalue())
+        except OSError as error:
+            say_unkept(self.folder, type(error).__name__)
 
     def remember(self, key: str, make: Callable[[], Files]) -> Files:
         """The files of a key, made and stored if they are not there."""
@@ -59,23 +82,65 @@ class Cache:
             self.put(key, files)
         return files
 
+    def tidy(self) -> None:
+        """Removes what builds that were killed left half written: what has not changed for ORPHANED s."""
+        for part in self.folder.glob("*.part"):
+            with contextlib.suppress(OSError):
+                if time.time() - part.stat().st_mtime > ORPHANED:
+                    part.unlink()
+
+    def _write(self, key: str, whole: bytes) -> None:
+        handle, part = tempfile.mkstemp(dir=self.folder, suffix=".part")
+        try:
+            with open(handle, "wb") as file:
+                file.write(whole)
+            os.replace(part, self.path(key))
+        except BaseException:
+            with contextlib.suppress(OSError):
+                os.unlink(part)
+            raise
+
+
+@lru_cache
+def say_unkept(folder: Path, reason: str) -> None:
+    """Says once that results are not kept; a strict build does not fail for it."""
+    log.warning("%s takes no files (%s): results are not kept, and the next build makes them again", folder, reason)
+
 
 def key_of(*parts: object) -> str:
-    """A key for work that depends on `parts`, on this package's source and on the engines' versions."""
-    text = json.dumps([*parts, source_digest(), {name: version(name) for name in ENGINES}], sort_keys=True)
+    """A key for work that depends on `parts`, on this package's source, on the engines and on how they draw."""
+    settings = {name: os.environ.get(name) for name in SETTINGS}
+    text = json.dumps([*parts, LOADED, engines(), settings], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
-def source_digest() -> str:
-    """A digest of the package's own files."""
-    return digest(sorted(path for path in Path(__file__).parent.rglob("*") if path.suffix in (".py", ".j2")))
+@lru_cache
+def engines() -> dict[str, str]:
+    """What runs and draws, with its version. Fonts come with the drawing libraries."""
+    here = {"python": platform.python_version(), "machine": f"{platform.system()} {platform.machine()}"}
+    return here | {name: version(name) for name in ENGINES}
 
 
-def digest(paths: Iterable[Path]) -> str:
-    """A digest of the files' names and contents."""
+def source_digest(package: Path = Path(__file__).parent) -> str:
+    """A digest of the package's own files, as they are now."""
+    found = [path for path in package.rglob("*") if path.is_file() and not SCRAP.search(path.name)]
+    return digest(sorted(found), package)
+
+
+def digest(paths: Iterable[Path], below: Path | None = None) -> str:
+    """A digest of the files' contents and names, or paths below a folder."""
     made = hashlib.sha256()
     for path in paths:
         content = path.read_bytes()
-        made.update(f"{path.name}\0{len(content)}\0".encode())
+        name = path.relative_to(below).as_posix() if below else path.name
+        made.update(f"{name}\0{len(content)}\0".encode())
         made.update(content)
     return made.hexdigest()
+
+
+def _checksum(key: str, packed: bytes) -> bytes:
+    return hashlib.sha256(f"{key}\0".encode() + packed).digest()
+
+
+LOADED = source_digest()
+"""The package's files as this process loaded them."""

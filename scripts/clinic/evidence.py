@@ -20,7 +20,7 @@ from clinic.record import Check, PathSignal
 from clinic.robust import Robustness
 from clinic.script import Output, ScriptError, run_script
 from clinic.simulate import compile_model
-from clinic.sweep import SweepEvidence
+from clinic.sweep import SweepEvidence, asked_of
 from clinic.variant import Variant, remedies, variants
 from clinic.yamlmap import Where
 
@@ -218,7 +218,7 @@ def comparison(check: Check) -> dict[str, float | tuple[float, float]]:
 
 def _unprinted(case: Case, observed: dict[str, VariantEvidence]) -> Iterator[Problem]:
     """Signals of a script that no variant prints, but for those that only a sweep's text prints."""
-    swept = {sweep.outcome.signal for sweep in case.record.sweep.values()}
+    swept = {name for sweep in case.record.sweep.values() for name in asked_of(sweep)}
     for name, signal in case.record.signals.items():
         seen = any(variant.values[name]["final"] is not None for variant in observed.values())
         if isinstance(signal, PathSignal) and case.record.script and observed and not seen and name not in swept:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import logging
 import os
+import traceback
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache, partial
@@ -18,7 +19,7 @@ from pydantic import TypeAdapter
 
 from clinic import node
 from clinic.cache import Cache, Files, key_of
-from clinic.case import Case
+from clinic.case import RECORD, Case
 from clinic.evidence import Evidence, collect
 from clinic.film import film, webp
 from clinic.plots import figures
@@ -31,7 +32,7 @@ from clinic.sweep import Point, grid, measure_points, summarise
 from clinic.variant import Variant, variants
 
 PROSE = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "no_sweep"}
-PROSE |= {"tags", "phrases", "looks", "manual", "see"}
+PROSE |= {"tags", "phrases", "looks", "manual", "see", "alike", "exempt"}
 SLICE = 60
 EVIDENCE = "evidence.json"
 UNSEEN = "unseen.txt"
@@ -56,19 +57,30 @@ def all_exhibits(cases: Iterable[Case], cache: Cache) -> dict[str, Files]:
     Raises:
         CaseError: With the problems of all cases that cannot be run.
     """
+    made, problems = possible_exhibits(cases, cache)
+    if problems:
+        raise CaseError(problems)
+    return made
+
+
+def possible_exhibits(cases: Iterable[Case], cache: Cache) -> tuple[dict[str, Files], list[Problem]]:
+    """The exhibits of every case that can be run, by slug, and the problems of the others."""
     cases = list(cases)
-    first = run_tasks([evidence_task(case) for case in cases], cache)
-    rest = run_tasks([task for case in cases for task in measuring_tasks(case)], cache)
-    whole = {case.slug: assembled(case, first[case.slug], rest.get(case.slug, {})) for case in cases}
-    drawn = run_tasks([figure_task(case, whole[case.slug]) for case in cases], cache)
-    return {
+    first, problems = run_tasks([evidence_task(case) for case in cases], cache)
+    cases = [case for case in cases if case.slug in first]
+    rest, more = run_tasks([task for case in cases for task in measuring_tasks(case)], cache)
+    cases = [case for case in cases if case.slug in rest]
+    whole = {case.slug: assembled(case, first[case.slug], rest[case.slug]) for case in cases}
+    drawn, others = run_tasks([figure_task(case, whole[case.slug]) for case in cases], cache)
+    made = {
         slug: {
-            EVIDENCE: (evidence.model_dump_json() + "\n").encode(),
-            **drawn[slug],
-            **{name: content for name, content in rest.get(slug, {}).items() if not name.endswith(".json")},
+            EVIDENCE: (whole[slug].model_dump_json() + "\n").encode(),
+            **figures,
+            **{name: content for name, content in rest[slug].items() if not name.endswith(".json")},
         }
-        for slug, evidence in whole.items()
+        for slug, figures in drawn.items()
     }
+    return made, problems + more + others
 
 
 def exhibits(case: Case, cache: Cache) -> Files:
@@ -105,8 +117,7 @@ def measuring_tasks(case: Case) -> Iterator[Task]:
 
 def figure_task(case: Case, evidence: Evidence) -> Task:
     """Draws the plots."""
-    key = key_of("figures", case.slug, evidence.model_dump(mode="json"))
-    return Task(case.slug, "plots", key, partial(figures, case, evidence))
+    return _task(case, "plots", partial(figures, case, evidence), evidence.model_dump_json())
 
 
 def assembled(case: Case, first: Files, rest: Files) -> Evidence:
@@ -119,32 +130,34 @@ def assembled(case: Case, first: Files, rest: Files) -> Evidence:
     return evidence_of(first).model_copy(update={"sweep": sweeps, "robustness": robust})
 
 
-def run_tasks(tasks: list[Task], cache: Cache) -> dict[str, Files]:
-    """The files of all tasks, by slug; those not kept are run in parallel and kept.
+def run_tasks(tasks: list[Task], cache: Cache) -> tuple[dict[str, Files], list[Problem]]:
+    """The files of all tasks by slug, and the problems of the slugs left out.
 
-    Raises:
-        CaseError: With the problems of all tasks.
+    What is not kept is run in parallel, and kept as soon as it is made.
     """
     done = {task.key: files for task in tasks if (files := cache.get(task.key)) is not None}
     missing = [task for task in tasks if task.key not in done]
-    workers = min(jobs(), len(missing))
-    results = joblib.Parallel(n_jobs=workers or 1)(joblib.delayed(_attempt)(task.make) for task in missing)
+    parallel = joblib.Parallel(n_jobs=min(jobs(), len(missing)) or 1, return_as="generator_unordered")
     problems: list[Problem] = []
     unseen: set[str] = set()
-    for task, (files, wrong, blind) in zip(missing, results, strict=True):
-        problems += wrong
-        unseen |= {blind} if blind else set()
-        done[task.key] = files
-        if not (wrong or blind):
-            cache.put(task.key, files)
+    failed: set[str] = set()
+    results = parallel(joblib.delayed(_attempt)(k, task) for k, task in enumerate(missing))
+    for k, (files, wrong, blind) in results:
+        done[missing[k].key] = files
+        if wrong:
+            problems += wrong
+            failed.add(missing[k].slug)
+        elif blind:
+            unseen.add(blind)
+        else:
+            cache.put(missing[k].key, files)
     for reason in sorted(unseen):
         say_blind(reason)
-    if problems:
-        raise CaseError(problems)
     merged: dict[str, Files] = {}
     for task in tasks:
-        merged.setdefault(task.slug, {}).update(done[task.key])
-    return merged
+        if task.slug not in failed:
+            merged.setdefault(task.slug, {}).update(done[task.key])
+    return merged, problems
 
 
 @lru_cache
@@ -192,19 +205,24 @@ def scene_image(case: Case) -> Image:
 
 def _task(case: Case, kind: str, make: Callable[[], Files], *part: object) -> Task:
     experiment = case.record.model_dump(mode="json", exclude=PROSE)
-    engine = [node.version(node.MUJOCO)] if case.record.language == "javascript" else []
+    engine = [node.version(node.MUJOCO), node.release()] if case.record.language == "javascript" else []
     whole = (*part, *engine, case.slug, case.record.number, experiment, case.texts)
     return Task(case.slug, kind, key_of(kind, *whole), make)
 
 
-def _attempt(make: Callable[[], Files]) -> tuple[Files, tuple[Problem, ...], str]:
+def _attempt(k: int, task: Task) -> tuple[int, tuple[Files, tuple[Problem, ...], str]]:
     try:
-        files = make()
-        return files, (), files.pop(UNSEEN, b"").decode()
+        files = task.make()
+        return k, (files, (), files.pop(UNSEEN, b"").decode())
     except CaseError as error:
-        return {}, error.problems, ""
+        return k, ({}, error.problems, "")
     except RenderError as error:
-        return {}, (), str(error)
+        return k, ({}, (), str(error))
+    except Exception as error:  # one case, whatever it does to the engine, leaves the others alone
+        found = f"{type(error).__name__}: {error}".strip(": ")
+        place = f"{traceback.extract_tb(error.__traceback__)[-1].name} of the {task.kind}"
+        expected, repair = f"{place} to come to an end", "correct what the message names"
+        return k, ({}, (Problem(f"cases/{task.slug}/{RECORD}", 1, "", found, expected, repair),), "")
 
 
 def _collect(case: Case) -> Files:

@@ -2,25 +2,36 @@
 
 from __future__ import annotations
 
+import logging
+import os
+
 import mkdocs_gen_files
 from mkdocs.exceptions import PluginError
 
+from clinic import cache
+from clinic.checkout import project_root
 from clinic.problem import CaseError
-from clinic.site import build, navigation, project_root
+from clinic.site import survey
+
+log = logging.getLogger("mkdocs.clinic")
 
 
 def write() -> None:
     """Writes every page into the running MkDocs build.
 
     Raises:
-        PluginError: With all problems of all cases; MkDocs prints it without a traceback.
+        PluginError: In a strict build, with all problems of all cases; MkDocs prints it without a traceback.
     """
-    try:
-        root = project_root()
-        made = build(root)
-        mkdocs_gen_files.config["nav"] = navigation(root)
-    except CaseError as error:
-        raise PluginError(str(error)) from None
-    for name, content in made.items():
+    os.environ.setdefault("SOURCE_DATE_EPOCH", "0")  # MkDocs dates pages by the day of the build
+    if cache.source_digest() != cache.LOADED:
+        log.warning("scripts/clinic is not what it was when this process began: start it again")
+    made = survey(project_root())
+    if made.problems:
+        said = str(CaseError(made.problems))
+        if mkdocs_gen_files.config.strict:
+            raise PluginError(said)
+        log.error("%s", said)
+    mkdocs_gen_files.config["nav"] = made.navigation
+    for name, content in made.files.items():
         with mkdocs_gen_files.open(name, "wb") as file:
             file.write(content)

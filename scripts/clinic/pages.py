@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import re
 from collections.abc import Iterable, Mapping
@@ -15,6 +16,7 @@ from clinic.cache import Files
 from clinic.case import Case
 from clinic.checks import expected, satisfies
 from clinic.evidence import Evidence, VariantEvidence
+from clinic.inert import code, fence, line
 from clinic.lookalike import Matrix
 from clinic.problem import CaseError, Problem
 from clinic.prose import field_errors, fill, markdown, number, plain, quantity
@@ -26,6 +28,7 @@ from clinic.yamlmap import Where
 TEMPLATES = jinja2.Environment(
     loader=jinja2.PackageLoader("clinic"), undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
 )
+TEMPLATES.filters |= {"code": code, "fence": fence, "line": line}
 PROSE = ("symptom", "diagnosis", "cause", "fix", "lesson")
 TAKES = {
     "final": "at the end",
@@ -67,7 +70,7 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
         evidence=evidence,
         broken=evidence.variants["broken"],
         fixed=evidence.variants[record.fixes[0].id],
-        description=json.dumps(_opening(fill(record.symptom, evidence)), ensure_ascii=False),
+        description=json.dumps(html.escape(_opening(fill(record.symptom, evidence))), ensure_ascii=False),
         title=json.dumps(record.title, ensure_ascii=False),
         prose={name: markdown(getattr(record, name), evidence) for name in PROSE},
         whys={remedy.id: markdown(remedy.why, evidence) for remedy in record.refuted},
@@ -87,7 +90,7 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
 
 def card(case: Case, evidence: Evidence, files: Files) -> Card:
     """The case's card on the home page."""
-    symptom = _opening(fill(case.record.symptom, evidence)).replace("<", "&lt;")
+    symptom = line(_opening(fill(case.record.symptom, evidence)))
     picture = "broken.webp" if "broken.webp" in files else "plot-light.svg"
     return Card(
         case.slug, case.record.number, case.record.title, symptom, picture, f"Case {case.record.number}: {symptom}"
@@ -208,14 +211,16 @@ def _steady(case: Case, evidence: Evidence) -> str:
         for key, robust in evidence.robustness.items()
         if robust.same < robust.runs
     ]
-    reasons = [case.record.exempt[law] for law in ("steady", "lasting") if law in case.record.exempt]
+    reasons = [
+        markdown(case.record.exempt[law], evidence) for law in ("steady", "lasting") if law in case.record.exempt
+    ]
     return " ".join([said, *([f"({', '.join(shaken)}.)"] if shaken else []), *reasons])
 
 
 def _matrix(made: Matrix, cases: Mapping[str, Case]) -> dict[str, Any]:
     """The matrix of look-alikes as a table."""
     members = [cases[slug] for slug in made.cases]
-    heads = [f"[{case.record.number}. {case.record.title}](../{case.slug}/index.md)" for case in members]
+    heads = [f"[{case.record.number}. {line(case.record.title)}](../{case.slug}/index.md)" for case in members]
     rows = []
     for case, values, holds in zip(members, made.measured, made.holds, strict=True):
         alike = case.record.alike
@@ -224,7 +229,7 @@ def _matrix(made: Matrix, cases: Mapping[str, Case]) -> dict[str, Any]:
             f"{'not measured' if value is None else quantity(value, '', 4)} {'✓' if hold else ''}".strip()
             for value, hold in zip(values, holds, strict=True)
         ]
-        rows.append([f"{alike.says}: `{alike.path}` {TAKES[alike.take]} is {expected(alike, plain)}", *cells])
+        rows.append([f"{line(alike.says)}: {code(alike.path)} {TAKES[alike.take]} is {expected(alike, plain)}", *cells])
     return {"heads": heads, "rows": rows}
 
 

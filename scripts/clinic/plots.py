@@ -61,6 +61,7 @@ def figure(case: Case, theme: Theme, draw: Callable[[Axes, Theme], None]) -> byt
     ink, grid = INK[theme], GRID[theme]
     settings: dict[Any, Any] = {
         "svg.hashsalt": case.slug,
+        "text.parse_math": False,
         "font.size": 9.5,
         "axes.edgecolor": grid,
         "axes.labelcolor": ink,
@@ -72,7 +73,9 @@ def figure(case: Case, theme: Theme, draw: Callable[[Axes, Theme], None]) -> byt
         "axes.spines.right": False,
         "axes.axisbelow": True,
     }
-    with mpl.rc_context(settings):
+    with mpl.rc_context():
+        mpl.rcdefaults()  # whatever the user's matplotlibrc says
+        mpl.rcParams.update(settings)
         made = Figure(figsize=SIZE, layout="constrained")
         draw(made.add_subplot(), theme)
         out = io.BytesIO()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 import mujoco
 import numpy as np
@@ -101,6 +102,51 @@ def impedance(depth: float) -> float:
     return 0.9 + y * (D_MAX - 0.9)
 
 
+def upright_time(
+    load: float, inertia: float, kp: float, kd: float, period: float, start: float, fallen: float, longest: float
+) -> float:
+    """How long, in s, an inverted pendulum stays within `fallen` of upright when its controller is called too rarely.
+
+    Between two calls the torque -kp q - kd v is constant and q'' = a^2 (q + q0) has the solution with cosh and sinh;
+    linear in the tilt, so `fallen` must be small.
+
+    Args:
+        load: Gravity's torque for a small tilt, m g l, in N m/rad.
+        inertia: About the hinge, in kg m^2.
+        kp: Gain on the tilt in N m/rad.
+        kd: Gain on its speed in N m s/rad.
+        period: Simulated time between two calls, in s.
+        start: Tilt at the start, at rest, in rad.
+        fallen: Tilt at which it has fallen, in rad.
+        longest: What is returned if it has not fallen by then, in s.
+    """
+    a = math.sqrt(load / inertia)
+    q, v, time = start, 0.0, 0.0
+    while time < longest:
+        offset = -(kp * q + kd * v) / load
+        path = partial(_tilt, a, q + offset, v, offset)
+        for k in range(SEARCH):
+            low, high = period * k / SEARCH, period * (k + 1) / SEARCH
+            if abs(path(high)) >= fallen:
+                while high - low > 1e-9:
+                    middle = (low + high) / 2
+                    low, high = (low, middle) if abs(path(middle)) >= fallen else (middle, high)
+                return min(time + high, longest)
+        v = a * (q + offset) * math.sinh(a * period) + v * math.cosh(a * period)
+        q, time = path(period), time + period
+    return longest
+
+
+def _tilt(a: float, x: float, v: float, offset: float, t: float) -> float:
+    return x * math.cosh(a * t) + v / a * math.sinh(a * t) - offset
+
+
+SEARCH = 16
 D_MAX = 0.95
 GRAVITY = 9.81
-FUNCTIONS: dict[str, Callable[..., float]] = {"servo_sag": servo_sag, "bits": bits, "held_share": held_share}
+FUNCTIONS: dict[str, Callable[..., float]] = {
+    "servo_sag": servo_sag,
+    "bits": bits,
+    "held_share": held_share,
+    "upright_time": upright_time,
+}

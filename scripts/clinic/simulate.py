@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -13,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clinic.checks import Trace
+from clinic.mjcf import check_alone, malformed
 from clinic.problem import article, closest, listed
 from clinic.record import RunSpec
 from clinic.signals import Path, bind, element_names
@@ -61,10 +63,14 @@ def compile_model(xml: str) -> mujoco.MjModel:
     """The compiled model.
 
     Raises:
-        ValueError: With MuJoCo's message, if the XML does not compile.
+        ValueError: With MuJoCo's message, if the XML does not compile; ModelError, if the text names a file.
     """
+    check_alone(xml)
     with captured_messages():
-        return mujoco.MjModel.from_xml_string(xml)
+        model = mujoco.MjModel.from_xml_string(xml)
+    if error := malformed(xml):
+        raise error
+    return model
 
 
 def start(model: mujoco.MjModel, spec: RunSpec, nudge: Nudge | None = None) -> mujoco.MjData:
@@ -123,6 +129,11 @@ def simulate(model: mujoco.MjModel, spec: RunSpec, paths: Mapping[str, Path], nu
     )
 
 
+def aside(text: str) -> None:
+    """Prints what MuJoCo says while nobody listens; without this it adds to MUJOCO_LOG.TXT in the working directory."""
+    print(f"WARNING: {text}", file=sys.stderr)
+
+
 @contextmanager
 def captured_messages() -> Iterator[list[str]]:
     """Collects what MuJoCo would print as warnings, and keeps it out of stderr and MUJOCO_LOG.TXT."""
@@ -132,7 +143,7 @@ def captured_messages() -> Iterator[list[str]]:
         try:
             yield messages
         finally:
-            mujoco.set_mju_user_warning(None)
+            mujoco.set_mju_user_warning(aside)
 
 
 def step(model: mujoco.MjModel, data: mujoco.MjData, drive: Drive, i: int) -> None:
@@ -198,3 +209,6 @@ def _require(model: mujoco.MjModel, kind: str, name: str, where: tuple[str, ...]
             f"{article(kind)}: {listed(known)}",
             f"write {guess}" if guess else "correct the name",
         )
+
+
+mujoco.set_mju_user_warning(aside)

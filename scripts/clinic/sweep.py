@@ -15,8 +15,11 @@ from clinic.checks import take
 from clinic.expression import evaluate, names, parse
 from clinic.measure import measure_model, measure_output
 from clinic.predictions import MODEL_NUMBERS
-from clinic.record import Edit, ExpressionSignal, Parameter, PathSignal, Prediction, Record, Rival, Side, Sweep
-from clinic.script import run_script
+from clinic.problem import CaseError
+from clinic.record import ExpressionSignal, PathSignal, Record
+from clinic.record_parts import Edit
+from clinic.record_sweep import Parameter, Prediction, Rival, Side, Sweep
+from clinic.script import ScriptError, run_script
 from clinic.simulate import compile_model
 from clinic.variant import Variant, apply_edits, variants
 
@@ -98,10 +101,11 @@ def measure_points(case: Case, sweep: Sweep, points: Sequence[Mapping[str, float
     """The outcome and the predictions at each of the points.
 
     Raises:
+        CaseError: If a point's script does not end well.
         EditError, ValueError: If a point's text cannot be made or compiled.
     """
     base = next(variant for variant in variants(case) if variant.id == sweep.base)
-    return [_measure(case, sweep, base, dict(at)) for at in points]
+    return [_attempt(case, sweep, base, dict(at)) for at in points]
 
 
 def summarise(case: Case, sweep: Sweep, points: Sequence[Point]) -> SweepEvidence:
@@ -160,6 +164,21 @@ def names_read(record: Record, prediction: Prediction) -> tuple[set[str], set[st
     read = names(parse(prediction.expr))
     signals = {n for n in read if isinstance(record.signals.get(n), PathSignal | ExpressionSignal)}
     return signals, read & MODEL_NUMBERS.keys() - signals, read - signals - MODEL_NUMBERS.keys()
+
+
+def asked_of(sweep: Sweep) -> set[str]:
+    """The names that a sweep's outcome and predictions read."""
+    return {sweep.outcome.signal}.union(*(names(parse(form.expr)) for form in (sweep.prediction, *sweep.rivals)))
+
+
+def _attempt(case: Case, sweep: Sweep, base: Variant, at: dict[str, float]) -> Point:
+    try:
+        return _measure(case, sweep, base, at)
+    except ScriptError as error:
+        name = next(name for name, other in case.record.sweep.items() if other is sweep)
+        point = ", ".join(f"{key} = {value:g}" for key, value in at.items())
+        found = f"at {point}: {error.found}"
+        raise CaseError([case.problem(("sweep", name), found, "a script that ends by itself", error.repair)]) from None
 
 
 def _measure(case: Case, sweep: Sweep, base: Variant, at: dict[str, float]) -> Point:

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from clinic.palette import BROKEN, DASHES, FIXED, INK, RIVAL, Theme
-from clinic.record import Parameter, Prediction, Sweep
+from clinic.record_sweep import Parameter, Prediction, Sweep
 from clinic.sweep import Point, SweepEvidence
 
 

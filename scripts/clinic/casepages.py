@@ -1,0 +1,104 @@
+"""The cases' own pages with the files beside them, and what a build refuses to publish."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+import mujoco
+
+from clinic.cache import Cache, Files, key_of
+from clinic.case import RECORD, Case
+from clinic.evidence import Evidence
+from clinic.exhibit import evidence_of, possible_exhibits
+from clinic.laws import complaints
+from clinic.lookalike import Matrix, alike_problems, group, matrix, unclear
+from clinic.manual import manual_problems
+from clinic.pages import Card, card, case_page
+from clinic.playground import FILE as PLAYGROUND
+from clinic.playground import playground
+from clinic.problem import CaseError, Problem
+from clinic.ward import by_case, without
+
+FOLDER = "cases/{slug}"
+PAGE = f"{FOLDER}/index.md"
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A case that has a page: the page's text, and the files beside it by name."""
+
+    case: Case
+    page: str
+    card: Card
+    files: Files
+
+
+def shown_cases(
+    root: Path, read: Iterable[Case], unread: set[str], cache: Cache, live: bool
+) -> tuple[list[Shown], list[Problem]]:
+    """The cases that can be shown, and the problems of all.
+
+    Args:
+        root: The checkout.
+        read: The cases whose records can be read.
+        unread: The others' slugs.
+        cache: Where finished work is kept.
+        live: Whether the site has a playground.
+    """
+    known = {case.slug: case for case in read}
+    blamed = [problem for problem in alike_problems(known) if problem.found not in unread]
+    exhibits, failed = possible_exhibits(known.values(), cache)
+    problems = [*blamed, *failed]
+    out = by_case(blamed).keys() | known.keys() - exhibits.keys()
+    cases = {slug: without(case, out, known) for slug, case in known.items() if slug in exhibits}
+    evidence = {slug: evidence_of(exhibits[slug]) for slug in cases}
+    shown = []
+    for slug, case in cases.items():
+        alike, wrong = _alike(case, cases, cache)
+        wrong += manual_problems(case)
+        wrong += [_unproven(case, complaint) for complaint in proven(case, evidence[slug], alike)]
+        files = dict(exhibits[slug])
+        if live and case.record.model is not None:
+            files[PLAYGROUND] = playground(case, mujoco.__version__, known.values())
+        try:
+            page = case_page(case, evidence[slug], files, known | cases, alike)
+            sources = {name: (root / "cases" / slug / name).read_bytes() for name in (RECORD, *case.texts)}
+            shown.append(Shown(case, page, card(case, evidence[slug], files), {**files, **sources}))
+        except CaseError as error:
+            wrong += error.problems
+        problems += wrong
+    return shown, problems
+
+
+def proven(case: Case, evidence: Evidence, alike: Matrix | None) -> Iterator[str]:
+    """What a build refuses to publish: claims that the runs do not bear out."""
+    for law in ("verdicts", "warned", "lasting", "steady", "swept"):
+        yield from complaints(case, evidence, law)
+    if alike is not None:
+        yield from (f"{cell}; correct `alike`" for cell in unclear(alike))
+
+
+def _alike(case: Case, cases: Mapping[str, Case], cache: Cache) -> tuple[Matrix | None, list[Problem]]:
+    """The matrix of a case that has look-alikes."""
+    if case.record.alike is None:
+        return None, []
+    members = group(case, cases)
+    key = key_of("alike", [[m.slug, m.text, m.record.model_dump(mode="json")] for m in members])
+    try:
+        files = cache.remember(key, partial(_matrix_file, members))
+    except ValueError as error:  # a path that one of the models lacks
+        repair = "name what every model of the group has"
+        return None, [case.problem(("alike",), str(error), "measurements of every model of the group", repair)]
+    return Matrix.model_validate_json(files["matrix.json"]), []
+
+
+def _matrix_file(members: list[Case]) -> Files:
+    return {"matrix.json": matrix(members).model_dump_json().encode()}
+
+
+def _unproven(case: Case, complaint: str) -> Problem:
+    found, _, repair = complaint.partition(";")
+    return case.problem(("checks",), found, "what the record claims", repair.strip() or found)

@@ -1,0 +1,127 @@
+"""What MkDocs keeps from one build to the next while it serves; `scripts/hooks.py` hands these events to it.
+
+A page whose Markdown is the same, among the same files, is not converted and not indexed again, and the theme's
+templates are compiled once. A single build finds nothing kept.
+"""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from dataclasses import dataclass
+from typing import Any
+
+from jinja2 import BytecodeCache, Environment
+from jinja2.bccache import Bucket
+from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.plugins import CombinedEvent, event_priority
+from mkdocs.structure.files import Files
+from mkdocs.structure.nav import Navigation
+from mkdocs.structure.pages import Page
+from mkdocs.structure.toc import TableOfContents
+from mkdocs.utils.templates import TemplateContext
+
+MOST = 5000
+Key = tuple[object, ...]
+
+
+@dataclass(frozen=True)
+class Converted:
+    """What converting a page gave: `links` are the anchors that it links to, by file."""
+
+    html: str
+    toc: TableOfContents
+    anchors: set[str]
+    links: dict[str, dict[str, str]]
+
+
+class Templates(BytecodeCache):
+    """Compiled templates, in memory."""
+
+    def __init__(self) -> None:
+        self.made: dict[str, bytes] = {}
+
+    def load_bytecode(self, bucket: Bucket) -> None:
+        """Fills the bucket with what was kept for it."""
+        if bucket.key in self.made:
+            bucket.bytecode_from_string(self.made[bucket.key])
+
+    def dump_bytecode(self, bucket: Bucket) -> None:
+        """Keeps what the bucket holds."""
+        self.made[bucket.key] = bucket.bytecode_to_string()
+
+
+_templates = Templates()
+_converted: dict[Key, Converted] = {}
+_asked: dict[str, tuple[Key, str]] = {}
+_indexed: dict[Key, list[dict[str, Any]]] = {}
+_indexing: dict[str, tuple[Key, Any, int]] = {}
+
+
+def on_env(env: Environment, config: MkDocsConfig, files: Files) -> Environment:
+    """Lets the theme's templates be compiled once."""
+    env.bytecode_cache = _templates
+    return env
+
+
+@event_priority(-100)  # when the Markdown is final
+def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Files) -> str:
+    """Gives the converter nothing to do where the result is known."""
+    paths = tuple(sorted(file.src_uri for file in files))
+    settings = repr((config.markdown_extensions, config.mdx_configs))
+    key = (page.file.src_uri, markdown, paths, settings)
+    _asked[page.file.src_uri] = key, markdown
+    return "" if key in _converted else markdown
+
+
+@event_priority(100)  # before anything is added to the page
+def on_page_content(html: str, page: Page, config: MkDocsConfig, files: Files) -> str:
+    """Takes the known result, or keeps the new one."""
+    key, markdown = _asked.pop(page.file.src_uri)
+    if key not in _converted:
+        if len(_converted) >= MOST:
+            _converted.clear()
+        links = {file.src_uri: anchors for file, anchors in (page.links_to_anchors or {}).items()}
+        _converted[key] = Converted(html, deepcopy(page.toc), set(page.present_anchor_ids or ()), links)
+        return html
+    kept = _converted[key]
+    page.markdown = markdown
+    page.toc = deepcopy(kept.toc)  # plugins add to it
+    page.present_anchor_ids = kept.anchors
+    page.links_to_anchors = {file: kept.links[file.src_uri] for file in files if file.src_uri in kept.links}
+    return kept.html
+
+
+@event_priority(100)  # before the search reads the page
+def _spare_search(context: TemplateContext, page: Page, config: MkDocsConfig, nav: Navigation) -> TemplateContext:
+    key = (page.url, page.content, str(page.toc), repr(page.meta))
+    _indexing[page.file.src_uri] = key, page.meta.get("search"), len(_entries(config))
+    if key in _indexed:
+        page.meta["search"] = {"exclude": True}
+    return context
+
+
+@event_priority(-100)
+def _keep_entries(context: TemplateContext, page: Page, config: MkDocsConfig, nav: Navigation) -> TemplateContext:
+    key, search, before = _indexing.pop(page.file.src_uri)
+    entries = _entries(config)
+    if key in _indexed:
+        page.meta["search"] = search
+        if search is None:
+            del page.meta["search"]
+        entries += deepcopy(_indexed[key])
+    else:
+        if len(_indexed) >= MOST:
+            _indexed.clear()
+        _indexed[key] = deepcopy(entries[before:])
+    return context
+
+
+on_page_context = CombinedEvent(_spare_search, _keep_entries)
+"""Adds what the search found on a page before, where the page is the same."""
+
+
+def _entries(config: MkDocsConfig) -> list[dict[str, Any]]:
+    """The entries of Material's search, made one page after the other."""
+    plugin: Any = next(plugin for name, plugin in config.plugins.items() if name.endswith("search"))
+    entries: list[dict[str, Any]] = plugin.search_index.entries
+    return entries

@@ -1,0 +1,5 @@
+"""What MkDocs calls: events that keep finished pages while the site is served."""
+
+from clinic.serving import on_env, on_page_content, on_page_context, on_page_markdown
+
+__all__ = ["on_env", "on_page_content", "on_page_context", "on_page_markdown"]

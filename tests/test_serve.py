@@ -1,0 +1,128 @@
+"""Cases in error: their own pages say so, the others stay as they are, and a strict build reports them all."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from clinic.cache import Cache
+from clinic.problem import CaseError
+from clinic.site import Site, build, survey
+from helpers import changed
+from project import run, write_project
+
+pytestmark = pytest.mark.xdist_group("kill")
+RECORD, MODEL = "cases/falling-box/case.yaml", "cases/falling-box/model.xml"
+PAGE, OTHER = "cases/falling-box/index.md", "cases/odd-script/index.md"
+MISTAKES = {
+    "yaml": (RECORD, "title: A box", "title: {A box", "valid YAML"),
+    "field": (RECORD, "signals:", "signal:", "signal"),
+    "model": (MODEL, "<freejoint", "<freejiont", "freejiont"),
+    "edit": (RECORD, 'find: \' contype="2"', 'find: \' contype="3"', "exactly once"),
+    "signal": (RECORD, "body(box)", "body(bix)", "bix"),
+    "prose": (RECORD, "broken.contacts.max", "broken.contact.max", "contact"),
+    "claim": (RECORD, "[0.045, 0.051]", "[0.045, 0.046]", "measured 0.04"),
+    "look-alike": (
+        RECORD,
+        "no_sweep:",
+        "alike: {cases: [odd-script], says: x, path: ncon, above: 1}\nno_sweep:",
+        "model",
+    ),
+}
+Survey = Callable[[], Site]
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Site]:
+    """The project, and its site without errors."""
+    folder = write_project(tmp_path_factory.mktemp("project"), ("film: {}\n", ""))
+    return folder, survey(folder, Cache(folder / "cache"))
+
+
+def mistaken(folder: Path, *kinds: str) -> dict[Path, str]:
+    """Makes mistakes and gives the texts as they were."""
+    before = {folder / MISTAKES[kind][0]: (folder / MISTAKES[kind][0]).read_text(encoding="utf-8") for kind in kinds}
+    for kind in kinds:
+        path, old, new, _ = MISTAKES[kind]
+        (folder / path).write_text(changed((folder / path).read_text(encoding="utf-8"), (old, new)), encoding="utf-8")
+    return before
+
+
+@pytest.mark.parametrize("kind", MISTAKES)
+def test_a_case_in_error_says_so_alone_until_it_is_mended(whole: tuple[Path, Site], kind: str) -> None:
+    folder, site = whole
+    cache = Cache(folder / "cache")
+    before = mistaken(folder, kind)
+    try:
+        made = survey(folder, cache)
+        with pytest.raises(CaseError) as caught:
+            build(folder, cache)
+    finally:
+        for path, text in before.items():
+            path.write_text(text, encoding="utf-8")
+
+    assert made.problems == caught.value.problems
+    page = made.files[PAGE].decode()
+    assert "# 1. " in page
+    assert all(line.strip() in page for problem in made.problems for line in str(problem).splitlines())
+    assert MISTAKES[kind][3] in str(caught.value)
+    assert [list(entry) for entry in made.navigation] == [list(entry) for entry in site.navigation]
+    assert PAGE in str(made.navigation)
+    others = {name for name in site.files if name.startswith("cases/odd-script/")} | {"messages.md", "contributing.md"}
+    assert {name: made.files[name] for name in others} == {name: site.files[name] for name in others}
+    assert survey(folder, cache) == site
+
+
+def test_the_problems_of_all_cases_at_all_stages_are_reported_together(whole: tuple[Path, Site]) -> None:
+    folder, _ = whole
+    script = folder / "cases" / "odd-script" / "case.yaml"
+    before = mistaken(folder, "claim") | {script: script.read_text(encoding="utf-8")}
+    third = folder / "cases" / "third-case"
+    third.mkdir()
+    (third / "case.yaml").write_text("number: 3\ntitle: [\n", encoding="utf-8")
+    script.write_text(changed(before[script], ("find: '0.5'", "find: '0.6'")), encoding="utf-8")
+    try:
+        done = run(folder, "-m", "mkdocs", "build", "--strict")
+        lenient = run(folder, "-m", "mkdocs", "build")
+        command = run(folder, "-m", "clinic", "build", "--out", "out")
+    finally:
+        for path, text in before.items():
+            path.write_text(text, encoding="utf-8")
+        (third / "case.yaml").unlink()
+        third.rmdir()
+
+    told = " ".join(done.stderr.split())
+    for words in ("falling-box/case.yaml", "odd-script/case.yaml", "exactly once", "third-case/case.yaml"):
+        assert words in told
+        assert words in " ".join(lenient.stderr.split())
+        assert words in " ".join(command.stderr.split())
+    assert "Traceback" not in done.stderr + lenient.stderr + command.stderr
+    assert done.returncode == command.returncode == 1
+    assert lenient.returncode == 0
+    assert "In error" in (folder / "site" / "cases" / "third-case" / "index.html").read_text(encoding="utf-8")
+    for name in ("falling-box", "odd-script"):
+        assert "In error" in (folder / "site" / "cases" / name / "index.html").read_text(encoding="utf-8")
+
+
+def test_a_task_that_raises_what_nobody_foresaw_is_a_problem_of_its_case(
+    whole: tuple[Path, Site], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    def fail(case: object) -> dict[str, float]:
+        raise ZeroDivisionError("by 0")
+
+    monkeypatch.setenv("CLINIC_JOBS", "1")
+    monkeypatch.setattr("clinic.exhibit.robustness", fail)
+    with caplog.at_level(logging.CRITICAL):
+        made = survey(whole[0], Cache(tmp_path / "cache"))
+    assert [(problem.file, problem.found) for problem in made.problems] == [(RECORD, "ZeroDivisionError: by 0")]
+    assert made.files[OTHER] == whole[1].files[OTHER]
+
+
+def test_a_package_that_changed_meanwhile_is_told(whole: tuple[Path, Site]) -> None:
+    code = "from clinic import cache; from mkdocs.__main__ import cli; cache.source_digest = str; cli(['build', '-s'])"
+    done = run(whole[0], "-c", code)
+    assert done.returncode == 1
+    assert "start it again" in " ".join(done.stderr.split())
+    assert not list((whole[0] / "cache").glob("*.part"))

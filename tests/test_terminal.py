@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 from clinic.case import Case
+from clinic.claim import claim
 from clinic.evidence import Evidence, collect
 from clinic.judgement import Judgement
-from clinic.playground import claim
 from clinic.problem import Problem
 from clinic.terminal import case_data, case_text, cases_table, checks_table, counted, summary
 from helpers import tiny_case

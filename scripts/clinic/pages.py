@@ -15,12 +15,14 @@ from clinic import manual
 from clinic.cache import Files
 from clinic.case import Case
 from clinic.checks import expected, satisfies
+from clinic.claim import TAKES, taken
 from clinic.evidence import Evidence, VariantEvidence
 from clinic.inert import code, fence, line
 from clinic.lookalike import Matrix
 from clinic.problem import CaseError, Problem
 from clinic.prose import field_errors, fill, markdown, number, plain, quantity
 from clinic.record import Check
+from clinic.record_parts import Interval
 from clinic.robust import NUDGE, STARTS
 from clinic.variant import diff, remedies, variants
 from clinic.yamlmap import Where
@@ -30,16 +32,6 @@ TEMPLATES = jinja2.Environment(
 )
 TEMPLATES.filters |= {"code": code, "fence": fence, "line": line}
 PROSE = ("symptom", "diagnosis", "cause", "fix", "lesson")
-TAKES = {
-    "final": "at the end",
-    "first": "after one step",
-    "min": "lowest",
-    "max": "highest",
-    "mean": "mean",
-    "span": "span",
-    "onset": "first differs from zero at",
-}
-PRINTED = {"final": "last printed", "first": "first printed"}
 
 
 @dataclass(frozen=True)
@@ -116,14 +108,13 @@ def _summary(case: Case, evidence: Evidence) -> str:
 def _table(case: Case, evidence: Evidence) -> dict[str, Any]:
     """The checks as a table: a column for each number taken, a row for each variant."""
     record = case.record
-    columns: dict[tuple[object, ...], dict[str, list[Check]]] = {}
+    columns: dict[tuple[str, str, Interval | None], dict[str, list[Check]]] = {}
     for kind in ("broken", "fixed"):
         for check in getattr(record.checks, kind):
             columns.setdefault((check.signal, check.take, check.window), {"broken": [], "fixed": []})[kind].append(
                 check
             )
-    script = record.script is not None
-    heads = [_head(record.signals[str(name)], str(name), str(take), span, script) for name, take, span in columns]
+    heads = [taken(case, *column) for column in columns]
 
     def meaning(kind: str) -> list[str]:
         return ["; ".join(_expected(check, case) for check in column[kind]) for column in columns.values()]
@@ -133,13 +124,6 @@ def _table(case: Case, evidence: Evidence) -> dict[str, Any]:
         cells = [_cell(variant, column["broken"] + column["fixed"], column["fixed"]) for column in columns.values()]
         rows.append({"id": key, "kind": variant.kind, "title": variant.title, "cells": cells, "well": variant.well})
     return {"heads": heads, "broken": meaning("broken"), "fixed": meaning("fixed"), "rows": rows}
-
-
-def _head(signal: Any, name: str, take: str, window: Any, script: bool) -> str:
-    words = PRINTED.get(take, TAKES[take]) if script else TAKES[take]
-    words = "" if hasattr(signal, "measure") else words
-    span = f", {window[0]:g} to {window[1]:g} s" if window else ""
-    return f"{signal.label or name}" + (f", {words}" if words else "") + span
 
 
 def _expected(check: Check, case: Case) -> str:

@@ -13,21 +13,12 @@ import mujoco
 import numpy as np
 
 from clinic.case import Case
-from clinic.checks import expected
+from clinic.claim import claim
 from clinic.record import Check, PathSignal, Remedy, Signal
 from clinic.signals import Path, parse_path
 from clinic.simulate import compile_model
 
 FILE = "playground.json"
-TAKES = {
-    "final": "at the end",
-    "first": "after one step",
-    "min": "lowest",
-    "max": "highest",
-    "mean": "mean",
-    "span": "span",
-    "onset": "first differs from zero at",
-}
 
 
 def playground(case: Case, engine: str, cases: Iterable[Case]) -> bytes:
@@ -63,15 +54,6 @@ def playground(case: Case, engine: str, cases: Iterable[Case]) -> bytes:
         "explained": _explained(cases),
     }
     return (json.dumps(made, ensure_ascii=False, allow_nan=False) + "\n").encode()
-
-
-def claim(case: Case, check: Check) -> str:
-    """A check in words: `height of the box, at the end: 0.05 ± 0.001 m`."""
-    signal = case.record.signals[check.signal]
-    unit = "s" if check.take == "onset" else signal.unit
-    words = "" if hasattr(signal, "measure") else f", {TAKES[check.take]}"
-    span = f", {check.window[0]:g} to {check.window[1]:g} s" if check.window else ""
-    return f"{signal.label or check.signal}{words}{span}: {expected(check)} {unit}".rstrip()
 
 
 def _signal(case: Case, name: str, signal: Signal) -> dict[str, Any]:

@@ -15,9 +15,9 @@ from rich.table import Table
 from rich.text import Text
 
 from clinic.case import Case
+from clinic.claim import claim
 from clinic.evidence import Evidence, VariantEvidence
 from clinic.judgement import Judgement
-from clinic.playground import claim
 from clinic.prose import fill, quantity
 from clinic.record import Check
 from clinic.variant import diff, variants

@@ -16,7 +16,6 @@ from clinic.exhibit import (
     evidence_task,
     exhibits,
     figure_task,
-    jobs,
     measuring_tasks,
     pictures,
     possible_exhibits,
@@ -171,9 +170,3 @@ def test_problems_of_all_cases_are_reported_and_not_remembered(tmp_path: Path, c
         with pytest.raises(CaseError) as caught:
             all_exhibits([model, script], cache)
         assert {problem.file for problem in caught.value.problems} == {model.file, script.file}
-
-
-@pytest.mark.parametrize(("setting", "number"), [("1", 1), ("7", 7)])
-def test_jobs_can_be_set(monkeypatch: pytest.MonkeyPatch, setting: str, number: int) -> None:
-    monkeypatch.setenv("CLINIC_JOBS", setting)
-    assert jobs() == number

@@ -8,22 +8,27 @@ import os
 import shutil
 import subprocess
 import sys
+from collections import Counter
 from dataclasses import asdict
 from html import unescape
 from pathlib import Path
+from typing import Any
 
 import pytest
 import yaml
 from clinic import confine, node
-from clinic.case import LARGE, load_case
+from clinic.case import load_case
 from clinic.evidence import Evidence, collect
 from clinic.examine import examine
+from clinic.folder import LARGE
 from clinic.limits import Limits
 from clinic.pages import card, home_page
 from clinic.playground import playground
 from clinic.plots import figures
 from clinic.problem import CaseError, Problem
 from clinic.script import ScriptError, run_node, run_python
+from clinic.site import navigation
+from clinic.ward import error_page, read_name
 from helpers import MODEL, RECORD, SCRIPT_RECORD, changed, page_of, script_case, tiny_case, write_case, write_folder
 from markup import ROOT, active, elements, extensions, rendered
 from mkdocs.commands.build import build
@@ -388,27 +393,63 @@ def test_lines_that_would_act_are_shown_on_every_page(hostile: Evidence, tmp_pat
 
 def test_a_built_page_and_the_search_hold_nothing_that_acts(hostile: Evidence, tmp_path: Path) -> None:
     texts = {"tame": ("A plain title", "Plain words."), "wild": (LINE[:80], "\n\n".join(ACTS))}
+    pages = {}
     for name, (title, symptom) in texts.items():
         record = {**plain_record(), "title": title, "phrases": [title], "symptom": symptom}
         folder = write_folder(tmp_path / name, "falling-box", {"case.yaml": json.dumps(record), "model.xml": MODEL})
-        (tmp_path / "docs").mkdir(exist_ok=True)
-        (tmp_path / "docs" / f"{name}.md").write_text(page_of(load_case(folder), hostile), encoding="utf-8")
+        pages[name] = page_of(load_case(folder), hostile)
+    tame, wild = built(tmp_path, pages, [{f"1. {title}": f"{name}.md"} for name, (title, _) in texts.items()])
+    assert tame == wild
+
+
+TITLES = [
+    LINE,
+    "</title>" + SCRIPTED,
+    "<img src=x onerror=alert(1)>",
+    "&lt;script>alert(1)&lt;/script>",
+    '" onclick="x',
+]
+
+
+@pytest.mark.parametrize("title", TITLES)
+def test_a_refused_title_is_text_on_every_page(tmp_path: Path, title: str) -> None:
+    names = [
+        read_name(write_folder(tmp_path / slug, slug, {"case.yaml": f"number: 1\ntitle: {said}\n"}))
+        for slug, said in (("tame", "A plain title"), ("wild", title))
+    ]
+    pages = {name.slug: error_page(name.heading, []) for name in names}
+    entries = next(entry["Cases"] for entry in navigation(names) if "Cases" in entry)
+    nav = [{heading: Path(path).parent.name + ".md" for heading, path in entry.items()} for entry in entries]
+    tame, wild = built(tmp_path, pages, nav)
+    tame_alone, _ = built(tmp_path, {"tame": pages["tame"], "wild": pages["tame"]}, ["tame.md", "wild.md"])
+    assert tame == wild == tame_alone
+
+
+def built(folder: Path, pages: dict[str, str], nav: list[Any]) -> list[Counter[str]]:
+    """What acts on each page of a site of these; its search holds nothing that does."""
+    (folder / "docs").mkdir(exist_ok=True)
+    for name, page in pages.items():
+        (folder / "docs" / f"{name}.md").write_text(page, encoding="utf-8")
     names, options = extensions()
     config = load_config(
         config_file=io.BytesIO(b"site_name: x"),
-        docs_dir=str(tmp_path / "docs"),
-        site_dir=str(tmp_path / "site"),
-        theme={"name": "material", "custom_dir": str(ROOT / "scripts" / "theme"), "font": False},
+        docs_dir=str(folder / "docs"),
+        site_dir=str(folder / "site"),
+        theme={
+            "name": "material",
+            "custom_dir": str(ROOT / "scripts" / "theme"),
+            "font": False,
+            "features": ["navigation.footer"],
+        },
         plugins=["search", "tags"],
         markdown_extensions=[{name: options.get(name, {})} for name in names],
-        nav=[{f"1. {title}": f"{name}.md"} for name, (title, _) in texts.items()],
+        nav=nav,
     )
     build(config)
-    tame, wild = (active((tmp_path / "site" / name / "index.html").read_text(encoding="utf-8")) for name in texts)
-    assert tame == wild
-    for entry in json.loads((tmp_path / "site" / "search" / "search_index.json").read_text(encoding="utf-8"))["docs"]:
+    for entry in json.loads((folder / "site" / "search" / "search_index.json").read_text(encoding="utf-8"))["docs"]:
         assert elements(entry["title"]) is None
         assert elements(entry["text"]) is None
+    return [active((folder / "site" / name / "index.html").read_text(encoding="utf-8")) for name in pages]
 
 
 def test_what_a_script_prints_is_shown(tmp_path: Path) -> None:

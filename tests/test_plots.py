@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 import xml.etree.ElementTree as ET
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 from clinic.case import Case
 from clinic.evidence import Evidence, VariantEvidence
 from clinic.plots import figures, plot
-from helpers import evidence_of_variants, tiny_case, variant_evidence
+from clinic.sweep import Point, summarise
+from helpers import evidence_of_variants, script_case, tiny_case, variant_evidence
 
 RAMP = [0.0, 0.1, 0.2, 0.3]
 
@@ -104,6 +106,25 @@ def test_a_hole_in_the_samples_is_a_gap(case: Case) -> None:
 def test_an_explosion_does_not_flatten_the_others(case: Case) -> None:
     _, (_, fix) = curves(drawn(case, heights([0.0, 0.1, 0.5, 1e6], RAMP)))
     assert fix[0][1] - fix[-1][1] > 3, "on a linear axis it would be a ten-thousandth"
+
+
+def test_numbers_at_compressed_axes_are_plain(case: Case) -> None:
+    said = texts(drawn(case, heights([0.0, 0.1, 0.5, 1e6], RAMP)))
+    assert {"0", "1", "1\u00a0×\u00a010⁶"} <= set(said)
+    assert "$" not in "".join(said)
+
+
+def test_numbers_at_the_axes_of_a_sweep_are_plain(tmp_path: Path) -> None:
+    vary = "{name: x, find: '0.5', replace: '{}', values: [1, 10, 100], scale: log}"
+    sweep = f"sweep:\n  size:\n    title: t\n    text: t\n    vary: [{vary}]\n    outcome: {{signal: error}}\n"
+    sweep += "    prediction: {label: x, expr: x, within: 0.01}\n"
+    case = script_case(tmp_path, ("no_sweep: There is nothing to vary.\n", sweep))
+    points = [Point(at={"x": x}, outcome=x, holds=None, predicted={"prediction": x}) for x in (1.0, 10.0, 100.0)]
+    evidence = evidence_of_variants(broken=variant_evidence(error_m=[0.5]))
+    evidence = evidence.model_copy(update={"sweep": {"size": summarise(case, case.record.sweep["size"], points)}})
+    said = texts(figures(case, evidence)["sweep-size-light.svg"].decode())
+    assert said.count("1") == said.count("10") == said.count("100") == 2, "at either axis"
+    assert "$" not in "".join(said)
 
 
 def test_what_is_merely_larger_leaves_the_axis_linear(case: Case) -> None:

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import os
+from html import unescape
 from pathlib import Path
 
+import lxml.html
 import pytest
+import yaml
+from clinic.folder import LARGEST, RECORD
 from clinic.problem import Problem
-from clinic.ward import Name, by_case, error_page, marked, ordered, read_name, without
+from clinic.site import navigation
+from clinic.ward import LONGEST, Name, by_case, error_page, marked, ordered, read_name, without
 from helpers import tiny_case, write_folder
+from markup import elements, rendered
 
 PROBLEM = Problem("cases/falling-box/case.yaml", 7, "run", "nothing", "```a fence```", "mend it")
 
@@ -29,6 +36,36 @@ def test_a_folder_without_a_record_is_named_by_itself(tmp_path: Path) -> None:
     assert read_name(write_folder(tmp_path, "a-case", {})).heading == "a-case"
 
 
+@pytest.mark.parametrize(
+    "record",
+    [
+        pytest.param("number: " + "9" * 5000 + "\n", id="number-of-thousands-of-digits"),
+        pytest.param("title: a\n" + "# \n" * LARGEST[RECORD], id="enormous"),
+        pytest.param("title: ''\n", id="empty"),
+    ],
+)
+def test_what_is_no_name_is_not_taken_for_one(tmp_path: Path, record: str) -> None:
+    assert read_name(write_folder(tmp_path, "a-case", {"case.yaml": record})) == Name("a-case", None, "a-case")
+
+
+def test_a_title_full_of_blanks_is_cut(tmp_path: Path) -> None:
+    folder = write_folder(tmp_path, "a-case", {"case.yaml": "title: a" + " " * 150_000 + "b\n"})
+    assert len(read_name(folder).title) == LONGEST
+
+
+@pytest.mark.parametrize("kind", ["link", "folder", "pipe", "link-to-the-folder"])
+def test_only_a_plain_file_is_read(tmp_path: Path, kind: str) -> None:
+    outside = write_folder(tmp_path, "outside", {"case.yaml": "number: 1\ntitle: Secret\n"})
+    folder = tmp_path / "cases" / "a-case"
+    if kind == "link-to-the-folder":
+        folder.symlink_to(outside)
+    else:
+        folder.mkdir()
+        make = {"link": lambda path: path.symlink_to(outside / "case.yaml"), "folder": Path.mkdir, "pipe": os.mkfifo}
+        make[kind](folder / "case.yaml")
+    assert read_name(folder) == Name("a-case", None, "a-case")
+
+
 def test_names_are_by_number_and_those_without_come_last() -> None:
     names = [Name("c", None, "c"), Name("b", 10, "b"), Name("a", 9, "a")]
     assert [name.slug for name in ordered(names)] == ["a", "b", "c"]
@@ -46,6 +83,18 @@ def test_an_error_page_holds_the_message_to_the_letter() -> None:
     for line in str(PROBLEM).splitlines():
         assert f"\n    {line}\n" in page
     assert "\n    ````text\n" in page
+
+
+def test_a_title_that_would_act_is_text_on_its_page_and_in_the_navigation(tmp_path: Path) -> None:
+    title = "</title><script>alert(1)</script> { onclick=x } [a](javascript:b)"
+    name = read_name(write_folder(tmp_path, "a-case", {"case.yaml": f"number: 7\ntitle: {title}\n"}))
+    page = error_page(name.heading, [PROBLEM])
+    _, front, body = page.split("---\n", 2)
+    assert name.heading == f"7. {title}"
+    assert elements(rendered(body)) is None
+    assert lxml.html.fromstring(rendered(body)).xpath("string(//h1/text())") == name.heading
+    assert "<" not in front + str(navigation([name]))
+    assert unescape(yaml.safe_load(front)["title"]) == name.heading
 
 
 def test_a_marked_page_keeps_all_it_has() -> None:

@@ -2,7 +2,7 @@
 
 The stages, in order; each needs the one before:
 
-1. the folder: its name, its `case.yaml`, plain files only;
+1. the folder: its name, its `case.yaml`, plain files only (`folder.py`);
 2. the YAML: parses, no aliases, no key twice;
 3. the record: the fields' types and rules (`record.py`);
 4. the files: the model or script and `files` exist, nothing else lies in the folder, no XML leads out of it;
@@ -15,7 +15,6 @@ What needs the compiled model (edits, signal paths) is checked in `variant.py` a
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -24,18 +23,17 @@ from pydantic import ValidationError
 
 from clinic.explain import field_problems
 from clinic.expression import ExpressionError, names, parse
+from clinic.folder import RECORD, folder_problems
 from clinic.mjcf import ModelError, references
 from clinic.predictions import MODEL_NUMBERS
 from clinic.problem import CaseError, Problem, article, closest, listed
 from clinic.record import Check, ExpressionSignal, PathSignal, Record, StartsSignal
 from clinic.signals import WARNINGS
 from clinic.wording import word_problems
-from clinic.yamlmap import CONTROL, Lines, Where, YamlError, dotted, named, read_yaml
+from clinic.yamlmap import Lines, Where, YamlError, dotted, read_yaml
 
-RECORD = "case.yaml"
-LARGEST = {RECORD: 200_000}  # bytes
-LARGE = 1_000_000
-SLUG = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
+MOST_POINTS = 1000
+MOST_POINTS_OF_A_SCRIPT = 200
 
 
 @dataclass(frozen=True)
@@ -76,7 +74,7 @@ def load_case(folder: Path) -> Case:
         CaseError: With all problems found by the first stage that found any.
     """
     slug, file = folder.name, f"cases/{folder.name}/{RECORD}"
-    if problems := list(_folder_problems(folder)):
+    if problems := list(folder_problems(folder)):
         raise CaseError(problems)
     try:
         text = (folder / RECORD).read_text(encoding="utf-8")
@@ -134,48 +132,6 @@ def read_cases(root: Path) -> tuple[list[Case], list[Problem]]:
             problems += error.problems
     problems += _relation_problems(cases, {path.name for path in root.iterdir()})
     return sorted(cases, key=lambda case: case.record.number), problems
-
-
-def _folder_problems(folder: Path) -> Iterator[Problem]:
-    place = f"cases/{folder.name}"
-    if not folder.is_dir():
-        known = sorted(path.name for path in folder.parent.iterdir())
-        guess = closest(folder.name, known)
-        repair = f"write {guess}" if guess else "correct the name"
-        yield Problem(place, 1, "", f"no folder {folder.name}", f"the folder of a case: {listed(known, 30)}", repair)
-        return
-    if folder.is_symlink():
-        yield Problem(place, 1, "", "a symbolic link", "a folder", "put the folder itself into cases/")
-        return
-    if not SLUG.fullmatch(folder.name):
-        yield Problem(
-            place, 1, "", f"a folder named {folder.name}", "lower-case words joined by hyphens", "rename the folder"
-        )
-    if not (folder / RECORD).is_file():
-        yield Problem(
-            place, 1, "", f"no {RECORD}", f"a {RECORD} in every folder of cases/", "add it, or remove the folder"
-        )
-    for path in sorted(folder.iterdir()):
-        if bad := _unreadable(path):
-            yield Problem(f"{place}/{path.name}", *bad)
-
-
-def _unreadable(path: Path) -> tuple[int, str, str, str, str] | None:
-    """Why a file of a case is no plain text: its line, an empty field, what was found, expected, and the repair."""
-    if path.is_symlink() or not path.is_file():
-        kind = "a symbolic link" if path.is_symlink() else "a folder" if path.is_dir() else "no file"
-        return 1, "", kind, "plain files", "put the file itself into the case's folder"
-    size, largest = path.stat().st_size, LARGEST.get(path.name, LARGE)
-    if size > largest:
-        return 1, "", f"{size} bytes", f"{largest} bytes at most", "keep what shows the bug"
-    try:
-        text = path.read_text(encoding="utf-8")
-    except UnicodeDecodeError:
-        return 1, "", "bytes that are not UTF-8", "text in UTF-8", "save the file as UTF-8"
-    if strange := CONTROL.search(text):
-        line = text.count("\n", 0, strange.start()) + 1
-        return line, "", named(strange[0]), "text that can be read", "delete it"
-    return None
 
 
 def _file_problems(case: Case) -> Iterator[Problem]:
@@ -251,8 +207,15 @@ def _reference_problems(case: Case) -> Iterator[Problem]:
 def _sweep_problems(case: Case) -> Iterator[Problem]:
     record = case.record
     variants = ["broken", *(remedy.id for remedy in [*record.fixes, *record.refuted])]
+    points, most = 0, MOST_POINTS if record.model else MOST_POINTS_OF_A_SCRIPT
     for name, sweep in record.sweep.items():
         where: Where = ("sweep", name)
+        before, points = points, points + sweep.size
+        if before <= most < points:
+            kind = "of a model" if record.model else "of a script, which runs as a process at each"
+            found = f"{points} points" + (f", with {before} of the sweeps before" if before else "")
+            expected, repair = f"{most} points at most in all sweeps {kind}", "take fewer numbers, further apart"
+            yield case.problem((*where, "vary"), found, expected, repair)
         if sweep.outcome.signal not in record.signals:
             yield case.problem((*where, "outcome", "signal"), *_unknown(sweep.outcome.signal, record.signals, "signal"))
         if sweep.base not in variants:

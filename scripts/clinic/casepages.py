@@ -10,9 +10,10 @@ from pathlib import Path
 import mujoco
 
 from clinic.cache import Cache, Files, key_of
-from clinic.case import RECORD, Case
+from clinic.case import Case
 from clinic.evidence import Evidence
 from clinic.exhibit import evidence_of, possible_exhibits
+from clinic.folder import RECORD
 from clinic.laws import complaints
 from clinic.lookalike import Matrix, alike_problems, group, matrix, unclear
 from clinic.manual import manual_problems

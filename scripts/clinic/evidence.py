@@ -16,7 +16,8 @@ from clinic.checks import TAKES, Trace, Verdict, judge, take
 from clinic.examine import examine
 from clinic.measure import SampleError, measure_model, measure_output
 from clinic.problem import CaseError, Problem, listed
-from clinic.record import Check, PathSignal
+from clinic.record import Check, PathSignal, RowSignal
+from clinic.render import RenderError, blindness
 from clinic.robust import Robustness
 from clinic.script import Output, ScriptError, run_script
 from clinic.simulate import compile_model
@@ -111,8 +112,11 @@ def collect(case: Case) -> Evidence:
 
     Raises:
         CaseError: With every problem that keeps the case from running.
+        RenderError: If the runs draw images, and this machine cannot.
     """
     examine(case)
+    if draws(case) and (reason := blindness()):
+        raise RenderError(reason)
     package, version = engine(case)
     observed: dict[str, VariantEvidence] = {}
     problems: list[Problem] = []
@@ -140,6 +144,12 @@ def collect(case: Case) -> Evidence:
         snippet=snippet,
         variants=observed,
     )
+
+
+def draws(case: Case) -> bool:
+    """Whether the runs draw images: for a signal, in the script or in the snippet."""
+    code = case.text + (case.record.snippet or "")
+    return "Renderer(" in code or any(isinstance(signal, RowSignal) for signal in case.record.signals.values())
 
 
 def engine(case: Case) -> tuple[str, str]:

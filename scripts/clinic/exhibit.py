@@ -13,18 +13,18 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache, partial
 
-import joblib
 import mujoco
 from pydantic import TypeAdapter
 
 from clinic import node
 from clinic.cache import Cache, Files, key_of
-from clinic.case import RECORD, Case
+from clinic.case import Case
+from clinic.cluster import parallel
 from clinic.evidence import Evidence, collect
 from clinic.film import film, webp
+from clinic.folder import RECORD
 from clinic.plots import figures
 from clinic.problem import CaseError, Problem
-from clinic.record import RowSignal
 from clinic.render import Image, RenderError, blindness, image
 from clinic.robust import Robustness, robustness
 from clinic.simulate import compile_model, state_at
@@ -35,7 +35,6 @@ PROSE = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "n
 PROSE |= {"tags", "phrases", "looks", "manual", "see", "alike", "exempt"}
 SLICE = 60
 EVIDENCE = "evidence.json"
-UNSEEN = "unseen.txt"
 POINTS = TypeAdapter(list[Point])
 ROBUST = TypeAdapter(dict[str, Robustness])
 log = logging.getLogger("mkdocs.clinic")
@@ -57,17 +56,22 @@ def all_exhibits(cases: Iterable[Case], cache: Cache) -> dict[str, Files]:
     Raises:
         CaseError: With the problems of all cases that cannot be run.
     """
+    cases = list(cases)
     made, problems = possible_exhibits(cases, cache)
+    problems = problems or [_unseen(case) for case in cases if case.slug not in made]
     if problems:
         raise CaseError(problems)
     return made
 
 
 def possible_exhibits(cases: Iterable[Case], cache: Cache) -> tuple[dict[str, Files], list[Problem]]:
-    """The exhibits of every case that can be run, by slug, and the problems of the others."""
+    """The exhibits of every case that can be run, by slug, and the problems of the others.
+
+    A case that is measured in images has neither on a machine that cannot draw them.
+    """
     cases = list(cases)
     first, problems = run_tasks([evidence_task(case) for case in cases], cache)
-    cases = [case for case in cases if case.slug in first]
+    cases = [case for case in cases if EVIDENCE in first.get(case.slug, {})]
     rest, more = run_tasks([task for case in cases for task in measuring_tasks(case)], cache)
     cases = [case for case in cases if case.slug in rest]
     whole = {case.slug: assembled(case, first[case.slug], rest[case.slug]) for case in cases}
@@ -137,12 +141,10 @@ def run_tasks(tasks: list[Task], cache: Cache) -> tuple[dict[str, Files], list[P
     """
     done = {task.key: files for task in tasks if (files := cache.get(task.key)) is not None}
     missing = [task for task in tasks if task.key not in done]
-    parallel = joblib.Parallel(n_jobs=min(jobs(), len(missing)) or 1, return_as="generator_unordered")
     problems: list[Problem] = []
     unseen: set[str] = set()
     failed: set[str] = set()
-    results = parallel(joblib.delayed(_attempt)(k, task) for k, task in enumerate(missing))
-    for k, (files, wrong, blind) in results:
+    for k, (files, wrong, blind) in parallel(_attempt, list(enumerate(missing))):
         done[missing[k].key] = files
         if wrong:
             problems += wrong
@@ -164,11 +166,6 @@ def run_tasks(tasks: list[Task], cache: Cache) -> tuple[dict[str, Files], list[P
 def say_blind(reason: str) -> None:
     """Says once that there will be no pictures; a warning in CI, where a strict build then fails."""
     log.log(logging.WARNING if os.environ.get("CI") else logging.INFO, "no pictures and no films: %s", reason)
-
-
-def jobs() -> int:
-    """How many processes to run: CLINIC_JOBS, or one a processor."""
-    return int(os.environ.get("CLINIC_JOBS", joblib.cpu_count()))
 
 
 def pictures(case: Case) -> Files:
@@ -212,8 +209,7 @@ def _task(case: Case, kind: str, make: Callable[[], Files], *part: object) -> Ta
 
 def _attempt(k: int, task: Task) -> tuple[int, tuple[Files, tuple[Problem, ...], str]]:
     try:
-        files = task.make()
-        return k, (files, (), files.pop(UNSEEN, b"").decode())
+        return k, (task.make(), (), "")
     except CaseError as error:
         return k, ({}, error.problems, "")
     except RenderError as error:
@@ -225,9 +221,13 @@ def _attempt(k: int, task: Task) -> tuple[int, tuple[Files, tuple[Problem, ...],
         return k, ({}, (Problem(f"cases/{task.slug}/{RECORD}", 1, "", found, expected, repair),), "")
 
 
+def _unseen(case: Case) -> Problem:
+    where, expected = "script" if case.record.script else "signals", "OpenGL: this case is measured in images"
+    return case.problem((where,), blindness(), expected, "judge it on a machine that draws")
+
+
 def _collect(case: Case) -> Files:
-    asks = any(isinstance(signal, RowSignal) for signal in case.record.signals.values())
-    return {EVIDENCE: collect(case).model_dump_json().encode(), UNSEEN: blindness().encode() if asks else b""}
+    return {EVIDENCE: collect(case).model_dump_json().encode()}
 
 
 def _slice(case: Case, name: str, k: int) -> Files:

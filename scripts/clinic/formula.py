@@ -26,7 +26,10 @@ class FormulaError(ValueError):
     def __init__(self, source: str, reason: str) -> None:
         self.found, self.expected = f"${source}$: {reason}", "a LaTeX formula"
         self.repair = "correct it; in text write \\lt for < and a formula's braces in pairs"
-        super().__init__(self.found)
+        super().__init__(source, reason)
+
+    def __str__(self) -> str:
+        return self.found
 
 
 def formulas(text: str, rest: Callable[[str], str] = lambda part: part) -> str:

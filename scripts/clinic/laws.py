@@ -11,9 +11,8 @@ from clinic.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.measure import measure_model, measure_output
 from clinic.prose import quantity
 from clinic.proselaws import quoted, typed
-from clinic.record import Check, Fix, RowSignal
+from clinic.record import Check, Fix
 from clinic.record_parts import Edit
-from clinic.render import blindness
 from clinic.script import run_script
 from clinic.simulate import compile_model
 from clinic.sweep import agreement
@@ -30,11 +29,11 @@ def verdicts(case: Case, evidence: Evidence) -> Iterator[str]:
     for name, variant in evidence.variants.items():
         match variant.kind:
             case "broken":
-                yield from _failing(case, name, variant, "broken")
+                yield from _failing(name, variant, "broken")
                 if variant.well:
                     yield f"{name}: passes every check of `fixed`; tighten one until the broken variant fails it"
             case "fix":
-                yield from _failing(case, name, variant, "fixed")
+                yield from _failing(name, variant, "fixed")
                 if variant.broken:
                     yield f"{name}: passes every check of `broken` too; tighten one until the repair fails it"
             case "refuted":
@@ -157,14 +156,9 @@ def _subsets(fix: Fix) -> Iterator[tuple[Edit, ...]]:
         yield from combinations(fix.edits, size)
 
 
-def unseen(case: Case, result: CheckResult) -> bool:
-    """Whether a check asks for a picture that this machine cannot draw."""
-    return result.measured is None and isinstance(case.record.signals[result.signal], RowSignal) and bool(blindness())
-
-
-def _failing(case: Case, name: str, variant: VariantEvidence, kind: str) -> Iterator[str]:
+def _failing(name: str, variant: VariantEvidence, kind: str) -> Iterator[str]:
     for result in variant.checks[kind]:  # type: ignore[index]
-        if not result.holds and not unseen(case, result):
+        if not result.holds:
             yield f"{name}: {_measured(result, variant)}; correct the bound of checks.{kind}, the edits, or the model"
 
 

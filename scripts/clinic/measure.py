@@ -12,7 +12,7 @@ from clinic.checks import Trace, judge
 from clinic.expression import evaluate, parse
 from clinic.expression import names as names_in
 from clinic.record import ExpressionSignal, PathSignal, Record, RowSignal, RunSpec, StartsSignal
-from clinic.render import RenderError, geom_row
+from clinic.render import geom_row
 from clinic.script import Output
 from clinic.signals import Path, parse_path
 from clinic.simulate import Nudge, Run, simulate, state_at
@@ -24,7 +24,10 @@ class SampleError(ValueError):
     def __init__(self, signal: str, counts: Mapping[str, int]) -> None:
         self.signal = signal
         self.found = "samples that do not pair up: " + ", ".join(f"{name} has {n}" for name, n in counts.items())
-        super().__init__(f"{signal}: {self.found}")
+        super().__init__(signal, dict(counts))
+
+    def __str__(self) -> str:
+        return f"{self.signal}: {self.found}"
 
 
 def paths(record: Record, wanted: Collection[str] | None = None) -> dict[str, Path]:
@@ -48,6 +51,7 @@ def measure_model(
 
     Raises:
         RunError, SignalError: If the run or a signal does not fit the model.
+        RenderError: If a signal asks for an image, and this machine cannot draw it.
     """
     run = simulate(model, spec, paths(record, wanted), nudge)
     traces = with_expressions(record, run.traces)
@@ -57,7 +61,7 @@ def measure_model(
         if isinstance(signal, StartsSignal):
             traces[name] = _single(fraction_of_starts(record, signal, model, spec))
         elif isinstance(signal, RowSignal):
-            traces[name] = _single(_row_or_nothing(signal, model, spec))
+            traces[name] = _single(image_row(signal, model, spec))
     return run, {name: traces[name] for name in names}
 
 
@@ -109,13 +113,6 @@ def fraction_of_starts(record: Record, signal: StartsSignal, model: mujoco.MjMod
 def image_row(signal: RowSignal, model: mujoco.MjModel, spec: RunSpec) -> float:
     """The mean row of a geom's pixels at the start of the run; 0 is the image's top edge, 1 its bottom."""
     return geom_row(model, state_at(model, spec, 0.0), signal.camera, signal.geom)
-
-
-def _row_or_nothing(signal: RowSignal, model: mujoco.MjModel, spec: RunSpec) -> float:
-    try:
-        return image_row(signal, model, spec)
-    except RenderError:
-        return math.nan
 
 
 def _single(value: float) -> Trace:

@@ -35,7 +35,10 @@ class ModelError(ValueError):
 
     def __init__(self, line: int, found: str, expected: str, repair: str) -> None:
         self.line, self.found, self.expected, self.repair = line, found, expected, repair
-        super().__init__(f"{found}, line {line}")
+        super().__init__(line, found, expected, repair)
+
+    def __str__(self) -> str:
+        return f"{self.found}, line {self.line}"
 
 
 @dataclass(frozen=True)

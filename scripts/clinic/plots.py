@@ -17,7 +17,7 @@ from clinic.case import Case
 from clinic.evidence import Evidence, VariantEvidence
 from clinic.palette import BROKEN, DASHES, FIXED, GRID, INK, THEMES, Theme
 from clinic.prose import quantity
-from clinic.sweepplot import sweep_plot
+from clinic.sweepplot import sweep_plot, write_numbers
 
 SIZE = (4.8, 3.0)
 EXPLODED = 50.0
@@ -107,6 +107,7 @@ def _tame(axes: Axes, shown: dict[str, VariantEvidence], name: str) -> None:
     usual = max((extent for key, extent in spread.items() if key != "broken"), default=0.0)
     if usual > 0 and spread.get("broken", 0.0) > EXPLODED * usual:
         axes.set_yscale("symlog", linthresh=10 ** math.ceil(math.log10(usual)))
+        write_numbers(axes.yaxis)
 
 
 def _dots(axes: Axes, shown: dict[str, VariantEvidence], name: str, label: str, theme: Theme) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Literal
 
 from pydantic import Field, model_validator
@@ -34,6 +35,11 @@ class Parameter(Strict):
         if self.replace.count("{}") != 1:
             raise ValueError(f"{self.replace}||`{{}}` once, where the number goes||write `{{}}` for the number")
         return self
+
+    @property
+    def size(self) -> int:
+        """How many numbers."""
+        return len(self.values) or self.count or 0
 
 
 class Side(Strict):
@@ -79,7 +85,11 @@ class Sweep(Strict):
     text: Text = Field(description="Prose under Cause; may hold `{{ sweep.ID.points }}`, `.worst`, `.agreed`, ...")
     base: Identifier = Field(default="broken", description="The variant whose text is varied.")
     edits: list[Edit] = Field(default=[], description="Applied to the base variant before the parameters are.")
-    vary: list[Parameter] = Field(min_length=1, max_length=2, description="One or two parameters.")
+    vary: list[Parameter] = Field(
+        min_length=1,
+        max_length=2,
+        description="One or two parameters. All sweeps of a model have 1000 points at most, of a script 200.",
+    )
     duration: float | None = Field(default=None, gt=0, le=60, description="In s, in place of the run's.")
     outcome: Taken = Field(description="The number measured at every point.")
     holds: Side | None = Field(
@@ -92,3 +102,8 @@ class Sweep(Strict):
     )
     prediction: Prediction = Field(description="The closed form that a law holds to its word.")
     rivals: list[Rival] = Field(default=[], description="Closed forms that are popular and wrong.")
+
+    @property
+    def size(self) -> int:
+        """How many points: every number of one parameter with every number of the other."""
+        return math.prod(parameter.size for parameter in self.vary)

@@ -28,7 +28,10 @@ class ScriptError(ValueError):
 
     def __init__(self, found: str, repair: str) -> None:
         self.found, self.repair = found, repair
-        super().__init__(f"{found}; {repair}")
+        super().__init__(found, repair)
+
+    def __str__(self) -> str:
+        return f"{self.found}; {self.repair}"
 
 
 @dataclass(frozen=True)

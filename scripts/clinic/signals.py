@@ -49,7 +49,10 @@ class SignalError(ValueError):
 
     def __init__(self, found: str, expected: str, repair: str) -> None:
         self.found, self.expected, self.repair = found, expected, repair
-        super().__init__(f"{found}; expected {expected}; {repair}")
+        super().__init__(found, expected, repair)
+
+    def __str__(self) -> str:
+        return f"{self.found}; expected {self.expected}; {self.repair}"
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,10 @@ class RunError(ValueError):
 
     def __init__(self, where: tuple[str, ...], found: str, expected: str, repair: str) -> None:
         self.where, self.found, self.expected, self.repair = where, found, expected, repair
-        super().__init__(f"{'.'.join(where)}: {found}; expected {expected}; {repair}")
+        super().__init__(where, found, expected, repair)
+
+    def __str__(self) -> str:
+        return f"{'.'.join(self.where)}: {self.found}; expected {self.expected}; {self.repair}"
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 
 from clinic import bundle
@@ -13,9 +14,10 @@ from clinic.casepages import FOLDER, PAGE, shown_cases
 from clinic.checkout import cache_folder, slugs
 from clinic.overviews import overviews
 from clinic.problem import CaseError, Problem
+from clinic.render import blindness
 from clinic.schema import FILE as SCHEMA
 from clinic.schema import schema_text
-from clinic.ward import Name, by_case, error_page, marked, name_of, ordered, read_name
+from clinic.ward import Name, by_case, error_page, marked, name_of, ordered, read_name, unseen_page
 
 BROWSER_PARTS = {"javascripts/iframe-worker.js": "node_modules/iframe-worker/shim/index.js"}
 Navigation = list[dict[str, object]]
@@ -66,21 +68,24 @@ def survey(root: Path, cache: Cache | None = None) -> Site:
     pages, ill = {one.case.slug: one.page for one in shown}, by_case(problems)
     names = [name_of(known[slug]) if slug in known else read_name(root / "cases" / slug) for slug in slugs(root)]
     for name in names:
-        page = pages.get(name.slug) or error_page(name.heading, ill[name.slug])
-        if name.slug in pages and name.slug in ill:
-            page = marked(page, ill[name.slug])
+        if name.slug in pages:
+            page = marked(pages[name.slug], ill[name.slug]) if name.slug in ill else pages[name.slug]
+        elif name.slug in ill:
+            page = error_page(name.heading, ill[name.slug])
+        else:
+            page = unseen_page(name.heading, blindness())
         made[PAGE.format(slug=name.slug)] = page.encode()
     return Site(made, navigation(names), CaseError(problems).problems)
 
 
 def navigation(names: Iterable[Name]) -> Navigation:
-    """The site's navigation: the cases by number, then the pages written by hand."""
+    """The site's navigation: the cases by number, then the pages written by hand. The theme takes titles as HTML."""
     return [
         {"Home": "index.md"},
         {"Find your symptom": "symptoms.md"},
         {"What MuJoCo says": "messages.md"},
         {"Triage": "triage.md"},
-        {"Cases": [{name.heading: PAGE.format(slug=name.slug)} for name in ordered(names)]},
+        {"Cases": [{escape(name.heading, quote=False): PAGE.format(slug=name.slug)} for name in ordered(names)]},
         {"By thing": "tags.md"},
         {"Add a case": "contributing.md"},
     ]

@@ -12,8 +12,8 @@ from pathlib import Path
 import jinja2
 import yaml
 
-from clinic.case import SLUG
 from clinic.checkout import slugs
+from clinic.folder import SLUG
 from clinic.problem import CaseError, Problem
 from clinic.schema import MODELINE
 

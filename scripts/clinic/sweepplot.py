@@ -7,9 +7,11 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from clinic.palette import BROKEN, DASHES, FIXED, INK, RIVAL, Theme
+from clinic.prose import plain
 from clinic.record_sweep import Parameter, Prediction, Sweep
 from clinic.sweep import Point, SweepEvidence
 
@@ -32,6 +34,11 @@ def sweep_plot(axes: Axes, theme: Theme, sweep: Sweep, outcome: str, swept: Swee
     axes.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, handlelength=2.4, fontsize=8.5)
 
 
+def write_numbers(axis: Axis) -> None:
+    """Labels a logarithmic axis with numbers as prose has them; by itself it writes TeX, which figures do not read."""
+    axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
+
+
 def _curve(axes: Axes, theme: Theme, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
     parameter = sweep.vary[0]
     x = [point.at[parameter.name] for point in swept.points]
@@ -47,6 +54,7 @@ def _curve(axes: Axes, theme: Theme, sweep: Sweep, outcome: str, swept: SweepEvi
     drawn = [abs(v) for point in swept.points for v in point.predicted.values() if v is not None]
     if parameter.scale == "log" and min(measured, default=0) > 0 and max(measured) > 30 * min(measured):
         axes.set_yscale("log")
+        write_numbers(axes.yaxis)
     elif max(drawn, default=0) > 3 * max(measured, default=1):
         axes.set_ylim(top=1.6 * max(measured), bottom=min(0.0, *y))
     axes.set_ylabel(outcome)
@@ -127,7 +135,7 @@ def _scale(axes: Axes, parameter: Parameter, side: str) -> None:
         (axes.set_xscale if side == "x" else axes.set_yscale)("log")
         axis = axes.xaxis if side == "x" else axes.yaxis
         axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        write_numbers(axis)
         axis.set_minor_formatter(NullFormatter())
 
 

@@ -27,7 +27,10 @@ class EditError(ValueError):
 
     def __init__(self, index: int, count: int) -> None:
         self.index, self.count = index, count
-        super().__init__(f"edit {index} matches {count} times")
+        super().__init__(index, count)
+
+    def __str__(self) -> str:
+        return f"edit {self.index} matches {self.count} times"
 
 
 @dataclass(frozen=True)

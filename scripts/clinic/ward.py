@@ -1,4 +1,4 @@
-"""Cases in error: what is known of them, and their pages; the other cases do without them."""
+"""Cases in error, or not measured: what is known of them, and their pages; the other cases do without them."""
 
 from __future__ import annotations
 
@@ -6,13 +6,17 @@ import json
 import re
 from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from html import escape
 from pathlib import Path, PurePosixPath
 
-from clinic.case import RECORD, Case
+from clinic.case import Case
+from clinic.folder import RECORD, unreadable
+from clinic.inert import line
 from clinic.problem import Problem
 
-NUMBER = re.compile(r"^number:\s*(\d+)", re.MULTILINE)
-TITLE = re.compile(r"^title:\s*(?P<quote>[\"']?)(?P<title>.+?)(?P=quote)\s*$", re.MULTILINE)
+NUMBER = re.compile(r"^number: *(\d{1,6})\b", re.MULTILINE)
+TITLE = re.compile(r"^title:(.+)$", re.MULTILINE)
+LONGEST = 90
 LAST = 10**6
 
 
@@ -36,13 +40,12 @@ def name_of(case: Case) -> Name:
 
 
 def read_name(folder: Path) -> Name:
-    """The name of a case whose record may be unreadable: the folder's where it is."""
-    try:
-        text = (folder / RECORD).read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        text = ""
+    """The name of a case whose record may be refused: the folder's where it is no plain file, or says nothing."""
+    record = folder / RECORD
+    text = "" if folder.is_symlink() or unreadable(record) else record.read_text(encoding="utf-8")
     number, title = NUMBER.search(text), TITLE.search(text)
-    return Name(folder.name, int(number[1]) if number else None, title["title"] if title else folder.name)
+    said = _unquoted(title[1].strip())[:LONGEST] if title else ""
+    return Name(folder.name, int(number[1]) if number else None, said or folder.name)
 
 
 def ordered(names: Iterable[Name]) -> list[Name]:
@@ -79,19 +82,33 @@ def notice(problems: Iterable[Problem]) -> str:
 
 
 def error_page(title: str, problems: Iterable[Problem]) -> str:
-    """The page that takes the place of one that cannot be made."""
-    return f"---\ntitle: {json.dumps(title)}\nsearch:\n  exclude: true\n---\n\n# {title}\n\n{notice(problems)}\n"
+    """The page that takes the place of one that cannot be made; its title is text."""
+    return _page(title, notice(problems))
+
+
+def unseen_page(title: str, reason: str) -> str:
+    """The page of a case that is measured in images, from a machine that cannot draw them."""
+    return _page(title, f"This case is measured in images. This page was built where none can be drawn: {line(reason)}")
 
 
 def marked(page: str, problems: Iterable[Problem]) -> str:
     """A page with its problems below its heading."""
-    heading = next(line for line in page.splitlines() if line.startswith("# "))
+    heading = next(row for row in page.splitlines() if row.startswith("# "))
     return page.replace(f"{heading}\n", f"{heading}\n\n{notice(problems)}\n", 1)
+
+
+def _page(title: str, text: str) -> str:
+    front = f"---\ntitle: {json.dumps(escape(title, quote=False))}\nsearch:\n  exclude: true\n---"
+    return f"{front}\n\n# {line(title)}\n\n{text}\n"
+
+
+def _unquoted(text: str) -> str:
+    return text[1:-1] if len(text) > 1 and text[0] == text[-1] and text[0] in "\"'" else text
 
 
 def _notice(texts: list[str]) -> Iterator[str]:
     yield '!!! failure "In error: the strict build refuses this page until it is mended"'
     for text in texts:
         fence = "`" * (1 + max([2, *map(len, re.findall("`+", text))]))
-        yield from ("", *(f"    {line}".rstrip() for line in (f"{fence}text", *text.splitlines(), fence)))
+        yield from ("", *(f"    {row}".rstrip() for row in (f"{fence}text", *text.splitlines(), fence)))
     yield ""

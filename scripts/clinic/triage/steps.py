@@ -14,7 +14,8 @@ import mujoco
 import numpy as np
 from pydantic import BaseModel, ConfigDict
 
-from clinic.case import RECORD, Case, load_case
+from clinic.case import Case, load_case
+from clinic.folder import RECORD
 from clinic.problem import CaseError, Problem
 from clinic.record import RunSpec
 from clinic.simulate import RunError, captured_messages

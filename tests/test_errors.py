@@ -1,0 +1,66 @@
+"""The package's exceptions: each is the same on the other side of a worker, whatever its constructor takes."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import pickle
+import pkgutil
+
+import clinic
+import pytest
+from clinic.bundle import UnavailableError
+from clinic.cluster import ClusterError
+from clinic.expression import ExpressionError
+from clinic.formula import FormulaError
+from clinic.limits import LimitError
+from clinic.measure import SampleError
+from clinic.mjcf import ModelError
+from clinic.problem import CaseError, Problem
+from clinic.prose import FieldError
+from clinic.render import RenderError
+from clinic.script import ScriptError
+from clinic.signals import SignalError
+from clinic.simulate import RunError
+from clinic.variant import EditError
+from clinic.yamlmap import YamlError
+
+EXAMPLES = [
+    CaseError(
+        [Problem("cases/b/case.yaml", 2, "run", "x", "y", "z"), Problem("cases/a/case.yaml", 1, "", "x", "y", "z")]
+    ),
+    ClusterError("no scheduler"),
+    EditError(2, 0),
+    ExpressionError("a number"),
+    FieldError("{{ x }}", "a field", "correct it"),
+    FormulaError("x_", "nothing below"),
+    LimitError("still running after 1 s", "bound its loops"),
+    ModelError(3, "a file", "none", "write it out"),
+    RenderError("no OpenGL"),
+    RunError(("qpos", "elbow"), "x", "y", "z"),
+    SampleError("error", {"a": 1, "b": 2}),
+    ScriptError("KeyError: 'x'", "mend it"),
+    SignalError("bodi(x)", "a path", "write body(x)"),
+    UnavailableError("no Node"),
+    YamlError(1, "an alias", "no aliases", "write it out"),
+]
+
+
+@pytest.mark.parametrize("error", EXAMPLES, ids=lambda error: type(error).__name__)
+def test_an_error_survives_the_way_between_processes(error: Exception) -> None:
+    again = pickle.loads(pickle.dumps(error))
+    assert type(again) is type(error)
+    assert str(again) == str(error)
+    assert vars(again) == vars(error)
+
+
+def test_there_is_an_example_of_every_error() -> None:
+    found = [found.name for found in pkgutil.walk_packages(clinic.__path__, "clinic.")]
+    modules = [importlib.import_module(name) for name in found if not name.endswith("__main__")]
+    kinds = {
+        kind
+        for module in modules
+        for _, kind in inspect.getmembers(module, inspect.isclass)
+        if issubclass(kind, Exception) and kind.__module__.startswith("clinic.")
+    }
+    assert kinds == {type(error) for error in EXAMPLES}

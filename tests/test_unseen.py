@@ -1,0 +1,114 @@
+"""Cases measured in images, on a machine that cannot draw any."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from pathlib import Path
+
+import mujoco
+import pytest
+from clinic.cache import Cache
+from clinic.case import Case, load_case
+from clinic.evidence import draws
+from clinic.exhibit import evidence_task, exhibits, possible_exhibits, say_blind
+from clinic.problem import CaseError
+from clinic.site import survey
+from helpers import SCRIPT, script_case, tiny_case
+from project import write_project
+
+DRAWS = "import mujoco\nmujoco.Renderer(mujoco.MjModel.from_xml_string('<mujoco/>'), 8, 8).close()\n"
+ROW = ("contacts: {path: ncon}", "contacts: {path: ncon}\n  row: {measure: image_row, camera: side, geom: box}")
+NO_FILM = ("film: {}\n", "")
+SNIPPET = ("signals:", "snippet: |\n  " + DRAWS.replace("\n", "\n  ") + "\nsignals:")
+Make = Callable[[Path], Case]
+MEASURED_IN_IMAGES = [
+    pytest.param(lambda root: script_case(root, script=DRAWS + SCRIPT), id="script"),
+    pytest.param(lambda root: script_case(root, SNIPPET), id="snippet"),
+    pytest.param(lambda root: tiny_case(root, NO_FILM, ROW), id="signal"),
+]
+
+
+@pytest.fixture
+def cache(tmp_path: Path) -> Cache:
+    return Cache(tmp_path / "cache")
+
+
+@pytest.fixture
+def blind(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leaves this process without OpenGL."""
+
+    def fail(*_: object) -> None:
+        raise RuntimeError("no display")
+
+    monkeypatch.setattr(mujoco, "Renderer", fail)
+    monkeypatch.setenv("CLINIC_JOBS", "1")
+    say_blind.cache_clear()
+
+
+@pytest.mark.parametrize("make", MEASURED_IN_IMAGES)
+def test_what_draws_is_measured_where_images_can_be_drawn(tmp_path: Path, cache: Cache, make: Make) -> None:
+    case = make(tmp_path)
+    assert draws(case)
+    assert "evidence.json" in exhibits(case, cache)
+
+
+@pytest.mark.usefixtures("blind")
+@pytest.mark.parametrize("make", MEASURED_IN_IMAGES)
+@pytest.mark.parametrize(
+    ("ci", "level"), [pytest.param("", "INFO", id="by-hand"), pytest.param("true", "WARNING", id="in-ci")]
+)
+def test_it_is_left_out_and_not_kept_and_said_once(
+    tmp_path: Path,
+    cache: Cache,
+    make: Make,
+    ci: str,
+    level: str,
+    monkeypatch: pytest.MonkeyPatch,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    monkeypatch.setenv("CI", ci)
+    caplog.set_level(logging.INFO, "mkdocs.clinic")
+    case, other = make(tmp_path / "one"), script_case(tmp_path / "two")
+
+    for _ in range(2):
+        assert possible_exhibits([case], cache) == ({}, [])
+
+    assert cache.get(evidence_task(case).key) is None
+    said = [(record.levelname, record.getMessage()) for record in caplog.records]
+    assert [name for name, text in said if text.startswith("no pictures") and "no display" in text] == [level]
+    assert "evidence.json" in exhibits(other, cache)
+
+
+@pytest.mark.usefixtures("blind")
+@pytest.mark.parametrize("make", MEASURED_IN_IMAGES)
+def test_it_cannot_be_judged(tmp_path: Path, cache: Cache, make: Make) -> None:
+    with pytest.raises(
+        CaseError, match=r"no display\n.*OpenGL: this case is measured in images\n.*a machine that draws"
+    ):
+        exhibits(make(tmp_path), cache)
+
+
+@pytest.mark.usefixtures("blind")
+def test_a_case_that_only_shows_pictures_is_measured_without_them(tmp_path: Path, cache: Cache) -> None:
+    files = exhibits(tiny_case(tmp_path, NO_FILM), cache)
+    assert "evidence.json" in files
+    assert not [name for name in files if name.endswith(".webp")]
+
+
+@pytest.mark.usefixtures("blind")
+def test_its_page_says_so_and_the_others_are_as_ever(tmp_path: Path, cache: Cache) -> None:
+    folder = write_project(tmp_path, NO_FILM)
+    script = folder / "cases" / "odd-script" / "script.py"
+    script.write_text(DRAWS + SCRIPT, encoding="utf-8")
+    assert draws(load_case(script.parent))
+
+    site = survey(folder, cache)
+
+    assert site.problems == ()
+    page = site.files["cases/odd-script/index.md"].decode()
+    assert "# 2. A script prints an error" in page
+    assert "measured in images" in page
+    assert "no display" in page
+    assert "cases/odd-script/index.md" in str(site.navigation)
+    assert "## Files" in site.files["cases/falling-box/index.md"].decode()

@@ -114,17 +114,29 @@ def test_numbers_at_compressed_axes_are_plain(case: Case) -> None:
     assert "$" not in "".join(said)
 
 
-def test_numbers_at_the_axes_of_a_sweep_are_plain(tmp_path: Path) -> None:
-    vary = "{name: x, find: '0.5', replace: '{}', values: [1, 10, 100], scale: log}"
+def swept_texts(tmp_path: Path, *values: float) -> list[str]:
+    """What the figure of a logarithmic sweep with these outcomes says."""
+    vary = f"{{name: x, find: '0.5', replace: '{{}}', values: {list(values)}, scale: log}}"
     sweep = f"sweep:\n  size:\n    title: t\n    text: t\n    vary: [{vary}]\n    outcome: {{signal: error}}\n"
     sweep += "    prediction: {label: x, expr: x, within: 0.01}\n"
     case = script_case(tmp_path, ("no_sweep: There is nothing to vary.\n", sweep))
-    points = [Point(at={"x": x}, outcome=x, holds=None, predicted={"prediction": x}) for x in (1.0, 10.0, 100.0)]
+    points = [Point(at={"x": x}, outcome=x, holds=None, predicted={"prediction": x}) for x in values]
     evidence = evidence_of_variants(broken=variant_evidence(error_m=[0.5]))
     evidence = evidence.model_copy(update={"sweep": {"size": summarise(case, case.record.sweep["size"], points)}})
-    said = texts(figures(case, evidence)["sweep-size-light.svg"].decode())
+    return texts(figures(case, evidence)["sweep-size-light.svg"].decode())
+
+
+def test_numbers_at_the_axes_of_a_sweep_are_plain(tmp_path: Path) -> None:
+    said = swept_texts(tmp_path, 1.0, 10.0, 100.0)
     assert said.count("1") == said.count("10") == said.count("100") == 2, "at either axis"
     assert "$" not in "".join(said)
+
+
+def test_an_axis_over_many_decades_names_powers_of_ten_alone(tmp_path: Path) -> None:
+    few, many = swept_texts(tmp_path / "few", 1.0, 100.0), swept_texts(tmp_path / "many", 1.0, 1e6)
+    assert "2" in few
+    assert "2" not in many
+    assert "100" in many
 
 
 def test_what_is_merely_larger_leaves_the_axis_linear(case: Case) -> None:
@@ -145,4 +157,6 @@ def test_what_never_changes_is_shown_as_its_final_values(case: Case) -> None:
 def test_samples_of_a_script_are_lines_of_output(case: Case) -> None:
     evidence = heights(RAMP, RAMP)
     variants = {key: v.model_copy(update={"timestep": None, "steps": None}) for key, v in evidence.variants.items()}
-    assert "line of output" in texts(drawn(case, evidence.model_copy(update={"variants": variants})))
+    said = texts(drawn(case, evidence.model_copy(update={"variants": variants})))
+    assert "line of output" in said
+    assert not [text for text in said if text.endswith(".5")], "there is no line between two lines"

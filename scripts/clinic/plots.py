@@ -12,6 +12,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from clinic.case import Case
 from clinic.evidence import Evidence, VariantEvidence
@@ -92,9 +93,13 @@ def _lines(axes: Axes, shown: dict[str, VariantEvidence], name: str, label: str,
         if variant.kind == "fix":
             colour, dash, title = FIXED[theme][fixes % 3], DASHES[fixes % 3], key
             fixes += 1
-        marker = "o" if len(value) == 1 else None
+        marker = "o" if variant.timestep is None else None
         axes.plot(trace.time, value, color=colour, linestyle=dash, linewidth=1.8, label=title, marker=marker)
-    axes.set_xlabel("time [s]" if any(v.timestep for v in shown.values()) else "line of output")
+    if any(variant.timestep for variant in shown.values()):
+        axes.set_xlabel("time [s]")
+    else:
+        axes.set_xlabel("line of output")
+        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.set_ylabel(label)
     axes.grid(visible=True, linewidth=0.6)
     _tame(axes, shown, name)

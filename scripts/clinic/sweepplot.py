@@ -15,6 +15,8 @@ from clinic.prose import plain
 from clinic.record_sweep import Parameter, Prediction, Sweep
 from clinic.sweep import Point, SweepEvidence
 
+MANY = 1e4  # of the last number to the first, from which on an axis names powers of ten alone
+
 
 def sweep_plot(axes: Axes, theme: Theme, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
     """Draws the sweep: outcome over its one parameter, or a map of its two.
@@ -94,7 +96,8 @@ def _map(axes: Axes, theme: Theme, sweep: Sweep, outcome: str, swept: SweepEvide
     _scale(axes, across, "x")
     _scale(axes, down, "y")
     values = sorted({p.at[down.name] for p in swept.points})
-    axes.set_ylim(values[0] * 0.93, values[-1] * 1.07)
+    edge = max(1.07, (values[-1] / values[0]) ** 0.03) if down.scale == "log" else 1.07
+    axes.set_ylim(values[0] / edge, values[-1] * edge)
 
 
 def _boundary(points: list[Point], across: Parameter, key: str) -> list[tuple[float, float]]:
@@ -134,7 +137,8 @@ def _scale(axes: Axes, parameter: Parameter, side: str) -> None:
     if parameter.scale == "log":
         (axes.set_xscale if side == "x" else axes.set_yscale)("log")
         axis = axes.xaxis if side == "x" else axes.yaxis
-        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        low, high = axes.get_xlim() if side == "x" else axes.get_ylim()
+        axis.set_major_locator(LogLocator(subs=(1.0,) if high > MANY * low else (1.0, 2.0, 5.0)))
         write_numbers(axis)
         axis.set_minor_formatter(NullFormatter())
 

@@ -81,8 +81,8 @@ def test_the_line_of_a_mistake_is_named(tmp_path: Path) -> None:
 
 
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:
-    for path in (tmp_path / "model.xml", tmp_path):
-        with pytest.raises(CaseError, match="no such file"):
+    for path, found in ((tmp_path / "model.xml", "no such file"), (tmp_path, "a folder without case.yaml")):
+        with pytest.raises(CaseError, match=found):
             subject_of(path)
 
 

@@ -110,7 +110,8 @@ def subject_of(path: Path) -> Subject:
             )
         return subject_of_case(case)
     if not path.is_file():
-        raise _problem(path, 1, "no such file", "an MJCF or URDF file, or a case's folder", "correct the path")
+        found = f"a folder without {RECORD}" if path.is_dir() else "no such file"
+        raise _problem(path, 1, found, "an MJCF or URDF file, or a case's folder", "correct the path")
     try:
         return _compiled(path.name, lambda: mujoco.MjSpec.from_file(str(path)))
     except (ValueError, mujoco.FatalError, mujoco.UnexpectedError, UnicodeError) as error:

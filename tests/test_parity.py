@@ -37,7 +37,27 @@ UNWRITTEN: list[tuple[str, dict[str, str], bool]] = [
         True,
     ),
     ("grasp-slips", {'friction="0.15" priority="2"': 'friction="0.15" priority="0"'}, True),
+    (
+        "ball-passes-through-shelf",
+        {
+            'timestep="0.002"': 'timestep="0.001"',
+            'size="0.08 0.05 0.003"': 'size="0.08 0.05 0.003" solref="-250000 -1000"',
+            'size="0.01" mass': 'size="0.01" solref="-250000 -1000" mass',
+        },
+        True,
+    ),
+    ("arm-explodes", {'stiffness="2000"': 'stiffness="2000" armature="0.3"'}, True),
+    ("arm-explodes", {'stiffness="2000"': 'stiffness="10"'}, False),
+    ("box-on-its-side", {'quat="0 0 0.7071068 0.7071068"': 'axisangle="0 0 1 1.5707963"'}, True),
+    ("box-on-its-side", {' quat="0 0 0.7071068 0.7071068"': ""}, False),
+    ("camera-upside-down", {'xyaxes="0 -1 0 0 0 -1"': 'quat="0.5 0.5 0.5 0.5"'}, True),
+    ("elbow-will-not-bend", {'range="0 2.5"': 'limited="false"'}, False),
+    ("gravity-ignores-forearm", {'pos="0 0 -0.3"': 'pos="0 0 -0.3" euler="90 0 0"'}, True),
     ("grasp-slips", {'mass="0.4"': 'mass="0.8"'}, False),
+    ("grasp-slips", {'friction="0.15"': 'friction="1.5"'}, True),
+    ("servo-oscillates", {'axis="0 0 1"': 'axis="0 0 1" damping="11.5"'}, True),
+    ("servo-oscillates", {'axis="0 0 1"': 'axis="0 0 1" armature="1"'}, False),
+    ("servo-sags", {'damping="1"': 'damping="30"', 'joint="shoulder"/>': 'joint="shoulder" kp="600"/>'}, True),
 ]
 
 

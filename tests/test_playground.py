@@ -5,11 +5,13 @@ from __future__ import annotations
 import gzip
 import json
 import re
+import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from clinic.bundle import node
 from clinic.playground import playground
 from helpers import tiny_case
 from playwright.sync_api import Browser, BrowserContext, Page, expect
@@ -27,6 +29,11 @@ HUGE = (
     '<geom type="hfield" hfield="h"/><body pos="0 0 1"><freejoint/><geom size="1"/></body></worldbody></mujoco>'
 )
 HOSTILE = '<!-- <img src="x" onerror="window.harmed = true"><script>window.harmed = true</script> -->\n<mujoco/>\n'
+PASTE = """(editor, text) => {
+  const clipboardData = new DataTransfer();
+  clipboardData.setData("text/plain", text);
+  editor.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
+}"""
 LIMIT = 60_000  # ms: how long anything may take on a busy machine; nothing here judges how long it did take
 BEFORE_THE_CLICK, AFTER_THE_CLICK = 2_000, 1_700_000  # bytes
 
@@ -54,9 +61,11 @@ def wait_for_steps(page: Page) -> None:  # noqa: F811
 
 
 def type_text(page: Page, text: str) -> None:  # noqa: F811
-    page.locator(".cm-content").focus()
+    """Puts a text in the place of all that stands in the editor, as a paste does."""
+    editor = page.locator(".cm-content")
+    editor.focus()
     page.keyboard.press("Control+a")
-    page.keyboard.insert_text(text)
+    editor.evaluate(PASTE, text)
 
 
 def engines(page: Page) -> list[str]:  # noqa: F811
@@ -100,7 +109,28 @@ def test_the_file_holds_what_the_browser_needs(tmp_path: Path) -> None:
     assert made["explained"] == {
         "BADQACC": [{"href": "../falling-box/index.html", "title": "1. A box falls through the floor"}]
     }
-    assert made["hints"][0]["text"] == "height of the box, at the end: between 0.045 and 0.051 m"
+    symptom, measure = made["hints"]
+    assert symptom["text"].endswith("Repaired, height of the box, at the end: between 0.045 and 0.051 m.")
+    assert measure["text"] == "after every step, height of the box, body(box).xpos[2]; contacts, ncon."
+
+
+def test_a_late_picture_gets_coarser_and_an_early_one_finer_again() -> None:
+    code = """
+      const { Pace } = await import("./docs/playground/pace.js");
+      const pace = new Pace(1.5);
+      let now = 0;
+      const after = (frames, interval) => {
+        for (let i = 0; i < frames; i++) pace.drawn((now += interval));
+        return pace.ratio;
+      };
+      const seen = [after(16, 16), after(160, 40), after(200, 27), after(1600, 16), after(200, 600)];
+      console.log(JSON.stringify(seen));
+    """
+    done = subprocess.run(
+        [node(), "--input-type=module", "-e", code], cwd=ROOT, check=True, capture_output=True, text=True
+    )
+
+    assert json.loads(done.stdout) == [1.5, 0.5, 0.5, 1.5, 1.5]
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -143,6 +173,21 @@ def test_a_compile_error_stands_at_its_line_and_the_last_model_goes_on(page: Pag
 
     restore(page)
     expect(page.locator(".cm-lintRange-error")).to_have_count(0)
+
+
+def test_a_text_that_was_edited_during_its_check_is_not_judged(page: Page, served: str) -> None:  # noqa: F811
+    open_playground(page, served)
+    text = page.evaluate("fetch('playground.json').then(response => response.json())")["text"]
+    slow = text.replace("<visual>", '<option timestep="1e-6"/><visual>')
+    type_text(page, slow)
+    button = page.get_by_role("button", name="Check my fix")
+    button.click()
+    expect(page.locator(".pg-result")).to_contain_text("Checking..")
+    type_text(page, slow + "<!-- edited -->")
+
+    expect(button).to_be_enabled()
+
+    expect(page.locator(".pg-result")).to_have_text("The text was edited during the check. Check again.")
 
 
 @pytest.mark.parametrize("text", [DEEP, HUGE], ids=["crashing", "endless"])
@@ -212,6 +257,23 @@ def test_a_link_brings_the_text_back_and_runs_nothing(page: Page, served: str) -
     page.get_by_role("button", name="Run", exact=True).click()
     page.wait_for_function("document.querySelector('.pg-clock')?.dataset.steps", timeout=LIMIT)
     assert page.evaluate("window.harmed") is None
+
+
+def test_a_link_to_a_text_that_does_not_compile_says_so(page: Page, served: str) -> None:  # noqa: F811
+    open_playground(page, served)
+    type_text(page, WRONG)
+    page.get_by_role("button", name="Copy link").click()
+    expect(page.locator(".pg-address")).to_have_value(re.compile("#model="))
+    expect(page.locator(".pg-status")).to_contain_text("This runs in MuJoCo")
+    there = page.locator(".pg-address").input_value()
+    page.goto("about:blank")
+    page.goto(there)
+
+    page.get_by_role("button", name="Run", exact=True).click()
+    wait_for_steps(page)
+
+    expect(page.locator(".pg-complaint")).to_contain_text("Line 3: XML Error: bad format in attribute 'size'")
+    expect(page.locator(".cm-lintRange-error")).to_contain_text('<geom size="one"/>')
 
 
 def test_solved_cases_are_ticked_until_the_reader_forgets_them(page: Page, served: str) -> None:  # noqa: F811
@@ -295,6 +357,22 @@ def test_overlays_are_off_until_asked_for(page: Page, served: str) -> None:  # n
 
     assert [box.is_checked() for box in boxes.all()].count(True) == 2
 
+    page.get_by_role("button", name="Show what matters", pressed=True).click()
+
+    assert not any(box.is_checked() for box in boxes.all())
+
+
+def test_the_fix_that_is_shown_is_named_until_the_text_is_edited(page: Page, served: str) -> None:  # noqa: F811
+    open_playground(page, served)
+    shown = page.get_by_label("Show the fix")
+    shown.select_option("default-masks")
+    expect(page.locator(".cm-changedLine, .cm-deletedChunk").first).to_be_attached()
+    expect(shown).to_have_value("default-masks")
+
+    page.locator(".cm-content").press("Enter")
+
+    expect(shown).to_have_value("")
+
 
 def test_hints_come_one_by_one_and_end_at_the_diagnosis(page: Page, served: str) -> None:  # noqa: F811
     open_playground(page, served)
@@ -302,7 +380,9 @@ def test_hints_come_one_by_one_and_end_at_the_diagnosis(page: Page, served: str)
     expect(hints).to_have_count(0)
 
     page.get_by_role("button", name="Give me a hint").click()
-    expect(hints).to_contain_text("height of the box, at the end: 0.05 ± 0.001 m")
+    expect(hints).to_contain_text(
+        "Repaired, contacts, at the end: 4 exactly; height of the box, at the end: 0.05 ± 0.001 m"
+    )
     page.get_by_role("button", name="Another hint").click()
     expect(hints).to_have_count(2)
     page.get_by_role("button", name="Open the diagnosis").click()

@@ -18,11 +18,13 @@ export class Draft {
    * @param {Playground} record
    * @param {Engine} engine
    * @param {string} text
+   * @param {() => void} changed called with every edit
    */
-  constructor(panel, record, engine, text) {
+  constructor(panel, record, engine, text, changed) {
     this.panel = panel;
     this.record = record;
     this.engine = engine;
+    this.changed = changed;
     /** The text that last compiled. */
     this.good = record.text;
     /** @type {string | null} the text that is being compiled */
@@ -47,8 +49,8 @@ export class Draft {
 
   edited() {
     clearTimeout(this.typing);
-    this.panel.result.replaceChildren();
-    this.panel.result.removeAttribute("data-well");
+    this.changed();
+    this.panel.fix.select.value = "";
     this.typing = setTimeout(() => this.engine.worker && this.compile(this.text), TYPING);
   }
 
@@ -68,6 +70,7 @@ export class Draft {
   /** @param {string[]} missing what of the record's run and signals the model lacks */
   accepted(missing) {
     this.good = this.settle();
+    if (this.good !== this.text) return; // what is said of the text in the editor still holds
     this.editor.complain(null);
     this.complain(missing.length > 0 ? `It compiles, but the case's run and signals need more: ${missing.join("; ")}.` : "");
   }
@@ -82,7 +85,7 @@ export class Draft {
     const newer = this.isOurs(text, true)
       ? ` MuJoCo ${this.record.engine}, which made the evidence, knows this; the engine of this page does not.`
       : "";
-    this.complain(refusal(error) + (running ? " The last model that compiled goes on." : "") + newer);
+    this.complain(refusal(error) + (running ? " (The last model that compiled goes on.)" : "") + newer);
   }
 
   /** What was compiled; has what was typed since compiled. @returns {string} */
@@ -110,14 +113,15 @@ export class Draft {
     this.editor.compare(null);
     this.editor.text = text;
     if (original !== null) this.editor.compare(original);
-    this.panel.fix.select.value = "";
   }
 
   /** @param {string} id of a fix or a refuted remedy */
   remedy(id) {
     const { text, fixes, refuted } = this.record;
     const remedy = [...fixes, ...refuted].find((one) => one.id === id);
-    if (remedy) this.put(applyEdits(text, remedy.edits), text);
+    if (!remedy) return;
+    this.put(applyEdits(text, remedy.edits), text);
+    this.panel.fix.select.value = id;
   }
 
   /** @param {string} text */
@@ -133,7 +137,7 @@ export class Draft {
 
   /** Puts a link to the text into the field below and, where the browser lets it, into the clipboard. */
   async link() {
-    const { address, status } = this.panel;
+    const { address, linked } = this.panel;
     address.value = new URL(await toFragment(this.text), location.href).href;
     address.hidden = false;
     address.select();
@@ -141,7 +145,7 @@ export class Draft {
       () => true,
       () => false,
     );
-    status.textContent = copied ? "The link to this text is copied." : "Copy the link to this text from the field below the editor.";
+    linked.textContent = copied ? "The link to this text is copied." : "Copy the link to this text from the field above.";
   }
 
   leave() {

@@ -31,6 +31,7 @@ export class Editor {
         doc: text,
         extensions: [
           lineNumbers(),
+          EditorView.lineWrapping,
           lintGutter(),
           history(),
           drawSelection(),

@@ -123,12 +123,19 @@ function signalChoice(record, act) {
  * @param {Actions} act
  */
 function overlayBoxes(record, act) {
-  const boxes = Object.entries(OVERLAYS).map(([name, label]) => ({ name, ...tickbox(label, act.redraw) }));
-  const chosen = () => boxes.filter(({ box }) => box.checked).map(({ name }) => name);
-  const tell = button("Show what matters", () => {
-    for (const { name, box } of boxes) box.checked = record.telling.includes(name);
+  const boxes = Object.entries(OVERLAYS).map(([name, label]) => ({ name, ...tickbox(label, () => changed()) }));
+  const changed = () => {
+    tell.setAttribute("aria-pressed", String(told()));
     act.redraw();
+  };
+  const chosen = () => boxes.filter(({ box }) => box.checked).map(({ name }) => name);
+  const told = () => boxes.every(({ name, box }) => box.checked || !record.telling.includes(name));
+  const tell = button("Show what matters", () => {
+    const all = !told();
+    for (const { name, box } of boxes) box.checked = all && record.telling.includes(name);
+    changed();
   });
+  tell.setAttribute("aria-pressed", "false");
   const telling = record.telling.length > 0 ? [tell] : [];
   return { whole: group("Overlays", ...boxes.map(({ whole }) => whole)), telling, chosen };
 }
@@ -144,6 +151,7 @@ function editorPlace(record, act) {
   const check = button("Check my fix", act.check, { class: "pg-check" });
   const stop = button("Stop checking", act.stop, { hidden: true });
   const result = el("div", { class: "pg-result", role: "status" });
+  const linked = el("p", { role: "status" });
   const address = el("input", { class: "pg-address", readonly: true, hidden: true, "aria-label": "Link to this text" });
   const remedies = /** @type {[string, string][]} */ ([
     ["", "choose one"],
@@ -152,15 +160,16 @@ function editorPlace(record, act) {
   ]);
   const fix = choice("Show the fix", remedies, "", (id) => id && act.remedy(id));
   const parts = [
-    el("p", { class: "pg-file" }, el("strong", {}, record.name), el("span", { id: help }, " Edit it; Tab leaves the editor.")),
+    el("p", { class: "pg-file" }, el("strong", {}, record.name), el("span", { id: help }, " Edit it; Tab leaves the editor, as does Escape and then Tab.")),
     editor,
     complaint,
     group("Repair", check, stop, fix.whole),
     result,
     group("Text", button("Restore", act.restore), button("Download XML", act.download), button("Copy link", act.link), ...live(record)),
     address,
+    linked,
   ];
-  return { parts, editor, complaint, check, stop, result, address, fix, help };
+  return { parts, editor, complaint, check, stop, result, address, linked, fix, help };
 }
 
 /**
@@ -180,7 +189,7 @@ function hints(record) {
   const ask = button("Give me a hint", () => {
     const hint = record.hints[said.childElementCount];
     if (hint) {
-      said.append(el("li", {}, el("strong", {}, `${hint.title}. `), hint.text));
+      said.append(el("li", {}, el("strong", {}, `${hint.title}: `), hint.text));
       ask.textContent = said.childElementCount < record.hints.length ? "Another hint" : "Open the diagnosis";
       return;
     }

@@ -3,6 +3,7 @@
 import * as THREE from "three";
 import { Eye } from "./camera.js";
 import { GEOM } from "./live.js";
+import { Pace } from "./pace.js";
 import { arrow, shapes } from "./shapes.js";
 import { dataTexture, Lights, sky } from "./surface.js";
 
@@ -15,8 +16,7 @@ const TYPE = {
   ARROW: 100, ARROW1: 101, ARROW2: 102, LINE: 103, LINEBOX: 104, TRIANGLE: 108,
 }; // prettier-ignore
 const FAR = 100; // half the side of an infinite plane, in m
-const RATIO = { most: 1.5, least: 0.5, less: 0.8 }; // pixels a CSS pixel, and by how much fewer where frames come late
-const LATE = { frames: 15, interval: 34, pause: 500 }; // ms between frames, on average over so many; longer is a pause
+const MAX_RATIO = 1.5; // pixels a CSS pixel
 const SOFTWARE = /swiftshader|llvmpipe|software|basic render/i;
 
 /**
@@ -33,7 +33,8 @@ export class Scene {
   constructor(canvas) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !drawsInSoftware(), powerPreference: "low-power" });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // colours go out as they came in
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, RATIO.most));
+    this.pace = new Pace(Math.min(devicePixelRatio, MAX_RATIO));
+    this.renderer.setPixelRatio(this.pace.ratio);
     this.renderer.setClearColor(new THREE.Color(0.2, 0.25, 0.3));
     this.root = new THREE.Scene();
     this.eye = new Eye();
@@ -45,8 +46,6 @@ export class Scene {
     this.textures = [];
     this.lights = new Lights();
     this.draws = 0;
-    /** @type {number[]} when the last frames were drawn, in ms */
-    this.times = [];
   }
 
   /**
@@ -77,20 +76,9 @@ export class Scene {
       mesh.instanceMatrix.needsUpdate = true;
       if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
     }
+    const ratio = this.pace.drawn(performance.now());
+    if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio); // which empties the canvas
     this.render();
-    this.pace();
-  }
-
-  /** Draws fewer pixels where frames come late. */
-  pace() {
-    const now = performance.now();
-    if (now - (this.times.at(-1) ?? now) > LATE.pause) this.times = [];
-    this.times.push(now);
-    if (this.times.length <= LATE.frames) return;
-    const interval = (this.times[LATE.frames] - this.times[0]) / LATE.frames;
-    this.times = [];
-    const ratio = this.renderer.getPixelRatio();
-    if (interval > LATE.interval && ratio > RATIO.least) this.renderer.setPixelRatio(Math.max(RATIO.least, RATIO.less * ratio));
   }
 
   /** Draws again what was drawn last, from where the eye is now. */

@@ -164,7 +164,7 @@ export class Stage {
     list.replaceChildren(
       ...warnings.map(({ name, text }) => {
         const pages = [...(this.record.explained[name] ?? []), ...general];
-        const links = pages.flatMap(({ href, title }) => [" ", el("a", { href }, title)]);
+        const links = pages.flatMap(({ href, title }, i) => [i ? ", " : " See ", el("a", { href }, title)]);
         return el("li", { "data-name": name }, `MuJoCo warns: ${text}`, ...links);
       }),
     );

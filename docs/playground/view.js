@@ -11,6 +11,7 @@ import { verdict } from "./verdict.js";
 /** @import {Judgement} from "./measure.js" */
 /** @import {Playground} from "./record.js" */
 
+const EDITED = "The text was edited during the check. Check again.";
 const MAX_LOSSES = 3; // of engines in a row
 const LOST = {
   crashed: "The engine crashed and was started anew.",
@@ -38,7 +39,7 @@ export class View {
     this.stage = new Stage(this.panel, record, engine);
     this.before = [...root.childNodes];
     root.replaceChildren(this.panel.whole);
-    this.draft = new Draft(this.panel, record, engine, linked ?? record.text);
+    this.draft = new Draft(this.panel, record, engine, linked ?? record.text, () => this.edited());
     this.say(linked === null ? "The engine is starting." : "This text came with the link. Nothing runs until you press Run.");
     engine.listen(
       (message) => this.hear(message),
@@ -105,7 +106,7 @@ export class View {
       case "unjudged":
         return this.finished("", `This model cannot be checked: ${message.message}.`);
       case "stopped":
-        return this.finished("", "Stopped.");
+        return this.finished("", this.judged === this.draft.text ? "Stopped." : EDITED);
     }
   }
 
@@ -156,9 +157,17 @@ export class View {
     this.finished(null, "Checking.");
   }
 
+  /** What was found out about the text no longer holds. */
+  edited() {
+    this.panel.result.replaceChildren();
+    this.panel.result.removeAttribute("data-well");
+    if (this.judged !== null) this.engine.post({ type: "stop" });
+  }
+
   /** @param {Judgement} judgement */
   decide(judgement) {
-    const { summary, table } = verdict(this.record, judgement, this.draft.isOurs(this.judged ?? ""));
+    if (this.judged !== this.draft.text) return this.finished("", EDITED);
+    const { summary, table } = verdict(this.record, judgement, this.draft.isOurs(this.judged));
     if (judgement.well) solve(this.record.case);
     this.finished(judgement.well ? "yes" : "no", summary, table);
   }

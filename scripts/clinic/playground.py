@@ -14,7 +14,8 @@ import numpy as np
 
 from clinic.case import Case
 from clinic.claim import claim
-from clinic.record import Check, PathSignal, Remedy, Signal
+from clinic.expression import names, parse
+from clinic.record import Check, ExpressionSignal, PathSignal, Remedy, Signal
 from clinic.signals import Path, parse_path
 from clinic.simulate import compile_model
 
@@ -84,11 +85,26 @@ def _remedy(remedy: Remedy) -> dict[str, Any]:
 
 
 def _hints(case: Case) -> list[dict[str, str]]:
-    """What a repair has to reach, then what to measure; the third rung is the page's Diagnosis."""
+    """The symptom and its repair in numbers, then what to measure; the third rung is the page's Diagnosis."""
     checks = case.record.checks
+    broken, fixed = ("; ".join(claim(case, check) for check in kind) for kind in (checks.broken, checks.fixed))
     return [
-        {"title": "What has to come out", "text": "; ".join(claim(case, check) for check in checks.fixed)},
-        {"title": "What to measure", "text": "As it is: " + "; ".join(claim(case, check) for check in checks.broken)},
+        {"title": "The symptom in numbers", "text": f"as it is, {broken}. Repaired, {fixed}."},
+        {"title": "What to measure", "text": f"after every step, {'; '.join(_measured(case))}."},
+    ]
+
+
+def _measured(case: Case) -> list[str]:
+    """What the checks read, each with its path where it has one."""
+    record = case.record
+    read: set[str] = set()
+    for check in [*record.checks.broken, *record.checks.fixed]:
+        signal = record.signals[check.signal]
+        read |= names(parse(signal.expr)) if isinstance(signal, ExpressionSignal) else {check.signal}
+    return [
+        (signal.label or name) + (f", {signal.path}" if isinstance(signal, PathSignal) else "")
+        for name, signal in record.signals.items()
+        if name in read
     ]
 
 

@@ -1,7 +1,8 @@
 # make serve   the site with live reload at http://localhost:8000
 # make test    every test; sets everything up by itself
 # make site    builds site/ strictly
-# make bench   how long a build takes, cold and warm, and its parts
+# make bench   how long a build takes, cold and warm, and its parts; the table goes into CONTRIBUTING
+# make growth  how the site grows to 1,000 cases; the table goes into CONTRIBUTING
 # make lint    style and types
 # make lock    renews requirements.txt and requirements-parity.txt
 # make audit   asks the registries for known holes in what is locked
@@ -16,7 +17,7 @@ export NO_MKDOCS_2_WARNING := 1
 export DISABLE_MKDOCS_2_WARNING := true
 
 .DEFAULT_GOAL := help
-.PHONY: help setup serve site test bench lint lock audit clean
+.PHONY: help setup serve site test bench growth lint lock audit clean
 
 help:
 	@sed -n 's/^# make/make/p' Makefile
@@ -43,7 +44,10 @@ test: setup
 	$(BIN)/pytest -n auto --dist loadgroup
 
 bench: setup
-	$(BIN)/python scripts/bench.py
+	$(BIN)/python scripts/bench.py --tests --write
+
+growth: setup
+	$(BIN)/python scripts/growth.py --write
 
 lint: setup
 	$(BIN)/ruff format --check .

@@ -1,91 +1,197 @@
-"""Times a cold and a warm build and their parts, and prints them as a table. Called by `make bench`."""
+"""Measures what a build costs, beside its aims and beside what it cannot be faster than. Called by `make bench`."""
 
 from __future__ import annotations
 
-import os
+import argparse
+import re
+import socket
+import statistics
 import subprocess
 import sys
 import tempfile
 import time
+import urllib.request
 from collections import defaultdict
-from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
+import clinic.measure
 import mujoco
-from clinic.cache import Cache, Files
 from clinic.case import Case, load_cases
 from clinic.checkout import project_root
-from clinic.exhibit import all_exhibits, assembled, evidence_of, evidence_task, figure_task, measuring_tasks
-from clinic.simulate import compile_model, step_count
-from clinic.site import build
-from clinic.variant import variants
-from rich.console import Console
-from rich.table import Table
+from clinic.exhibit import Task, assembled, evidence_task, figure_task, measuring_tasks
+from clinic.simulate import captured_messages, controls, start, step_count
+from measured import copied, finished, machine, markdown, put, python, show, surroundings, timed, write
+
+REPEATS = 3
+COLD, WARM, EDIT, TESTS = 90.0, 1.3, 2.0, 360.0  # s, times MkDocs alone, s, s
+PATIENCE = 300.0  # s
+PARTS = {"film": "rendering", "pictures": "rendering", "plots": "plotting"}
+HEAD = ("what", "measured", "aim")
+SHARES = ("part of a cold build, one after the other", "time", "share")
 
 
-def timed(work: Callable[[], object]) -> float:
-    """Seconds that `work` takes."""
-    start = time.perf_counter()
-    work()
-    return time.perf_counter() - start
+class Physics:
+    """How many steps the simulations make, and the seconds that these take with and without us.
+
+    While it is in use, every simulation is made twice: by `mj_step` alone first.
+    """
+
+    def __init__(self) -> None:
+        self.steps, self.bare, self.ours = 0, 0.0, 0.0
+
+    def simulate(self, model: mujoco.MjModel, spec: Any, paths: Any, nudge: Any = None) -> Any:
+        """What `clinic.simulate.simulate` gives."""
+        data, steps = start(model, spec, nudge), step_count(model, spec)
+        drive = controls(model, spec, steps)
+        if len(drive.actuators):
+            data.ctrl[drive.actuators] = drive.values[0]
+        with captured_messages():
+            self.bare += timed(lambda: mujoco.mj_step(model, data, nstep=steps))
+        self.steps += steps
+        begun = time.perf_counter()
+        try:
+            return clinic.simulate.simulate(model, spec, paths, nudge)
+        finally:
+            self.ours += time.perf_counter() - begun
 
 
-def parts(cases: list[Case]) -> dict[str, float]:
-    """Seconds of each kind of work, made anew one after the other in this process."""
+def parts(cases: list[Case]) -> tuple[dict[str, float], Physics]:
+    """Seconds of each kind of work, made anew one after the other in this process, and the physics in it."""
     spent: dict[str, float] = defaultdict(float)
-    for case in cases:
-        files: dict[str, Files] = {"first": {}, "rest": {}}
+    physics = Physics()
+    clinic.measure.simulate = physics.simulate
 
-        def run(task: object, kind: str, into: str, files: dict[str, Files] = files) -> None:
-            spent[kind] += timed(lambda: files[into].update(task.make()))  # type: ignore[attr-defined]
+    def run(task: Task) -> dict[str, bytes]:
+        begun, bare, ours = time.perf_counter(), physics.bare, physics.ours
+        files = task.make()
+        simulated = physics.ours - ours
+        spent["physics"] += simulated
+        kind = PARTS.get(task.kind, "snippets, scripts, and whether a model compiles")
+        spent[kind] += time.perf_counter() - begun - simulated - (physics.bare - bare)
+        return files
 
-        run(evidence_task(case), "runs and snippets", "first")
-        for task in measuring_tasks(case):
-            run(task, task.kind, "rest")
-        evidence = assembled(case, files["first"], files["rest"])
-        run(figure_task(case, evidence), "plots", "rest")
-        evidence_of(files["first"])
-    return dict(spent)
-
-
-def bare_steps(cases: list[Case]) -> tuple[int, float]:
-    """How many steps the variants' runs make, and the seconds that `mj_step` alone takes for them."""
-    total, spent = 0, 0.0
-    for case in cases:
-        for variant in variants(case) if case.record.run else []:
-            model = compile_model(variant.text)
-            data, steps = mujoco.MjData(model), step_count(model, case.record.run)
-            mujoco.set_mju_user_warning(lambda text: None)
-            spent += timed(lambda m=model, d=data, n=steps: mujoco.mj_step(m, d, nstep=n))  # type: ignore[misc]
-            total += steps
-    return total, spent
+    try:
+        for case in cases:
+            first, rest = run(evidence_task(case)), {}
+            for task in measuring_tasks(case):
+                rest |= run(task)
+            run(figure_task(case, assembled(case, first, rest)))
+    finally:
+        clinic.measure.simulate = clinic.simulate.simulate
+    return dict(spent), physics
 
 
-def site(root: Path, out: str, cache: str) -> float:
-    """Seconds of a strict MkDocs build into `out`."""
-    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", out]
-    environment = {**os.environ, "CLINIC_CACHE": cache}
-    return timed(lambda: subprocess.run(command, cwd=root, env=environment, check=True, capture_output=True))
+@contextmanager
+def served(folder: Path, cache: Path) -> Iterator[str]:
+    """The address of the copy's site, served as `make serve` does."""
+    with socket.create_server(("127.0.0.1", 0)) as probe:
+        port = probe.getsockname()[1]
+    command = [sys.executable, "-m", "mkdocs", "serve", "--livereload", "--dev-addr", f"127.0.0.1:{port}"]
+    with subprocess.Popen(
+        command, cwd=folder, env=surroundings(folder, cache), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    ) as process:
+        try:
+            await_text(f"http://127.0.0.1:{port}/index.html", "<h1")
+            yield f"http://127.0.0.1:{port}/"
+        finally:
+            process.terminate()
+
+
+def await_text(address: str, text: str) -> None:
+    """Asks until the page holds the text."""
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        try:
+            with urllib.request.urlopen(address, timeout=PATIENCE) as answer:
+                if text in answer.read().decode():
+                    return
+        except OSError:
+            pass
+        time.sleep(0.02)
+    sys.exit(f"{address} does not show {text!r} after {PATIENCE:g} s")
+
+
+def edits(folder: Path, cache: Path, slug: str) -> tuple[float, float]:
+    """Seconds from saving an edit of a case's prose, and of its model, to the new page."""
+    case = folder / "cases" / slug
+    record, model = case / "case.yaml", case / "model.xml"
+    with served(folder, cache) as address:
+        spent = []
+        for k in range(REPEATS + 1):  # the first edit also warms the server's processes
+            for path, old, new, shown in (
+                (record, r"^lesson: \|\n", f"lesson: |\n  Edited{k}.\n\n", "index.html"),
+                (model, r"</mujoco>\s*\Z", f"<!-- Edited{k} --></mujoco>\n", "model.xml"),
+            ):
+                text = path.read_text(encoding="utf-8")
+                made, count = re.subn(old, new, text, count=1, flags=re.MULTILINE)
+                assert count == 1, f"{path.name} has no {old}"
+                path.write_text(made, encoding="utf-8")
+                spent.append(timed(lambda s=shown, n=k: await_text(f"{address}cases/{slug}/{s}", f"Edited{n}")))  # type: ignore[misc]
+    return statistics.median(spent[2::2]), statistics.median(spent[3::2])
+
+
+def builds(root: Path, folder: Path) -> tuple[list[tuple[str, str, str]], float]:
+    """The rows about whole builds, and the seconds of MkDocs alone."""
+    copy, cache = copied(root, folder / "copy"), folder / "cache"
+    build = ("-m", "mkdocs", "build", "--strict", "--site-dir", str(folder / "site"))
+    cold = timed(lambda: python(copy, cache, *build))
+    plain = finished(copy, cache, folder / "finished" / "docs")
+    alone, warm = [], []
+    for _ in range(REPEATS):
+        alone.append(timed(lambda: python(copy, cache, *build, "--config-file", plain.name)))
+        warm.append(timed(lambda: python(copy, cache, *build)))
+    limit, again = statistics.median(alone), statistics.median(warm)
+    slug = min((case.record.number, case.slug) for case in load_cases(copy / "cases") if case.record.model)[1]
+    prose, model = edits(copy, cache, slug)
+    rows = [
+        ("cold build, with films and sweeps", f"{cold:.1f} s", f"below {COLD:g} s"),
+        ("warm build", f"{again:.1f} s, {again / limit:.2f} times MkDocs alone", f"{WARM:g} times at most"),
+        ("MkDocs alone, given the finished pages", f"{limit:.1f} s", ""),
+        ("an edit of prose, from saving to the page", f"{prose:.1f} s", f"below {EDIT:g} s"),
+        ("an edit of a model, from saving to the page", f"{model:.1f} s", f"below {EDIT:g} s"),
+    ]
+    return rows, limit
+
+
+def tests(root: Path, folder: Path) -> tuple[str, str, str]:
+    """The row about the tests, with nothing kept."""
+    command = ["make", "--silent", "test"]
+    environment = surroundings(root, folder / "tests")
+    done = []
+    spent = timed(lambda: done.append(subprocess.run(command, cwd=root, env=environment, check=False).returncode))
+    return f"`make test`{', which fails' if done[0] else ''}", f"{spent / 60:.1f} min", f"below {TESTS / 60:g} min"
 
 
 def main() -> None:
-    """Prints the table."""
+    """Prints the tables, and puts them into CONTRIBUTING when asked to."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--write", action="store_true", help="put the tables into CONTRIBUTING")
+    parser.add_argument("--tests", action="store_true", help="time `make test` too")
+    asked = parser.parse_args()
     root = project_root()
+    if asked.write:
+        put((root / "CONTRIBUTING.md").read_text(encoding="utf-8"), "cost", "")
     cases = load_cases(root / "cases")
-    table = Table("what", "seconds", title=f"{len(cases)} cases, MuJoCo {mujoco.__version__}, {os.cpu_count()} cores")
     with tempfile.TemporaryDirectory() as folder:
-        table.add_row("make site, cold", f"{site(root, f'{folder}/site', f'{folder}/cache'):.1f}")
-        table.add_row("make site, warm", f"{site(root, f'{folder}/site', f'{folder}/cache'):.1f}")
-        cache = Cache(Path(folder, "cache"))
-        table.add_row("  of it the pages, warm", f"{timed(lambda: build(root, cache)):.2f}")
-        table.add_row(
-            "exhibits of all cases, warm", f"{timed(lambda: all_exhibits(cases, cache)):.2f}", end_section=True
-        )
-    for kind, seconds in sorted(parts(cases).items(), key=lambda item: -item[1]):
-        table.add_row(f"{kind}, one process", f"{seconds:.2f}")
-    steps, seconds = bare_steps(cases)
-    table.add_row(f"mj_step alone, {steps} steps of all variants", f"{seconds:.2f}")
-    Console().print(table)
+        rows, alone = builds(root, Path(folder))
+        spent, physics = parts(cases)
+        times = f"{physics.ours:.1f} s, {physics.ours / physics.bare:.1f} times `mj_step` alone"
+        rows.append((f"physics, {physics.steps:,} steps, in one process", times, ""))
+        rows.append(("`mj_step` alone, as many steps", f"{physics.bare:.1f} s", ""))
+        if asked.tests:
+            rows.append(tests(root, Path(folder)))
+    spent["MkDocs alone"] = alone
+    whole = sum(spent.values())
+    ordered = sorted(spent.items(), key=lambda item: -item[1])
+    shares = [SHARES, *((kind, f"{seconds:.1f} s", f"{seconds / whole:.0%}") for kind, seconds in ordered)]
+    said = f"{len(cases)} cases: {machine()}"
+    show(said, [HEAD, *rows])
+    show(said, shares)
+    if asked.write:
+        write(root, "cost", f"Measured by `make bench` with {said}.", markdown([HEAD, *rows]), markdown(shares))
 
 
 if __name__ == "__main__":

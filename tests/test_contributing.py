@@ -17,8 +17,9 @@ from clinic.checkout import cache_folder
 pytestmark = pytest.mark.xdist_group("contributing")
 FENCE = re.compile(r"^```(?P<kind>\w+)?\n(?P<code>.*?)^```$", re.MULTILINE | re.DOTALL)
 PARTS = ("cases", "docs", "scripts", "CONTRIBUTING.md", "pyproject.toml", "Makefile", ".gitignore")
-NOT_HERE = ("git clone", "make ", "bash .ci/run", "clinic view", "cd ")
-"""What is slow, opens a window, or belongs to a fresh clone; each is asked for in a test of its own."""
+CLUSTER = ("dask ", "MUJOCO_GL=egl dask ", "CLINIC_DASK=")
+NOT_HERE = ("git clone", "make ", "bash .ci/run", "clinic view", "cd ", *CLUSTER)
+"""What is slow, opens a window, or belongs to a fresh clone or a cluster; each is asked for in a test of its own."""
 
 
 def commands(root: Path) -> list[str]:
@@ -105,7 +106,14 @@ def test_every_target_of_make_is_there(root: Path) -> None:
 
 def test_every_other_command_is_known(root: Path) -> None:
     other = [command for command in commands(root) if command.startswith(NOT_HERE)]
-    known = ("make ", "clinic view", "git clone <address of this repository> clinic", "cd clinic", "bash .ci/run")
+    known = (
+        "make ",
+        "clinic view",
+        "git clone <address of this repository> clinic",
+        "cd clinic",
+        "bash .ci/run",
+        *CLUSTER,
+    )
     assert [command for command in other if not command.startswith(known)] == []
     subprocess.run(["bash", "-n", ".ci/run"], cwd=root, check=True)
 

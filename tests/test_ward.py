@@ -109,3 +109,17 @@ def test_relations_to_cases_that_cannot_be_shown_are_left_out(tmp_path: Path) ->
     known = {"falling-box": case, "one": case}
     assert without(case, (), known).record.see == ["one"]
     assert without(case, (), {**known, "two": case}) is case
+
+
+@pytest.mark.parametrize(
+    ("count", "sections"),
+    [(1, []), (50, []), (51, ["1 to 50", "51 to 51"]), (120, ["1 to 50", "51 to 100", "101 to 120"])],
+)
+def test_many_cases_are_in_sections(count: int, sections: list[str]) -> None:
+    names = [Name(f"case-{n}", n, "A case") for n in range(1, count + 1)]
+    (made,) = (entry["Cases"] for entry in navigation(names) if "Cases" in entry)
+    assert isinstance(made, list)
+    if sections:
+        assert [next(iter(part)) for part in made] == sections
+        made = [case for part in made for cases in part.values() for case in cases]
+    assert [next(iter(case.values())) for case in made] == [f"cases/case-{n}/index.md" for n in range(1, count + 1)]

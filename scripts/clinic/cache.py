@@ -108,10 +108,14 @@ def say_unkept(folder: Path, reason: str) -> None:
 
 
 def key_of(*parts: object) -> str:
-    """A key for work that depends on `parts`, on this package's source, on the engines and on how they draw."""
-    settings = {name: os.environ.get(name) for name in SETTINGS}
-    text = json.dumps([*parts, LOADED, engines(), settings], sort_keys=True)
+    """A key for work that depends on `parts` and on its origin."""
+    text = json.dumps([*parts, origin()], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+def origin() -> dict[str, str | None]:
+    """What every result hangs on: this package's source, the engines, and how they draw."""
+    return {"clinic": LOADED, **engines(), **{name: os.environ.get(name) for name in SETTINGS}}
 
 
 @lru_cache

@@ -14,6 +14,7 @@ What needs the compiled model (edits, signal paths) is checked in `variant.py` a
 
 from __future__ import annotations
 
+import itertools
 import json
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -259,15 +260,14 @@ def _relation_problems(cases: list[Case], slugs: set[str]) -> Iterator[Problem]:
     for case in cases:
         number = case.record.number
         if number in numbers:
-            free = next(n for n in range(1, 10_000) if n not in {c.record.number for c in cases})
+            taken = {other.record.number for other in cases}
+            free = next(n for n in itertools.count(1) if n not in taken)
             yield case.problem(
                 ("number",), f"{number}, the number of {numbers[number]}", "a number of its own", f"take {free}"
             )
         numbers.setdefault(number, case.slug)
         for index, slug in enumerate(case.record.see):
-            others = sorted(slugs - {case.slug})
-            if slug == case.slug:
-                expected = f"a case: {listed(others, 30)}"
-                yield case.problem(("see", index), f"{slug}, this very case", expected, "remove it")
-            elif slug not in slugs:
-                yield case.problem(("see", index), *_unknown(slug, others, "case"))
+            if slug == case.slug or slug not in slugs:
+                others = sorted(slugs - {case.slug})
+                this = (f"{slug}, this very case", f"a case: {listed(others, 30)}", "remove it")
+                yield case.problem(("see", index), *(this if slug == case.slug else _unknown(slug, others, "case")))

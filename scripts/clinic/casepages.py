@@ -55,19 +55,20 @@ def shown_cases(
     problems = [*blamed, *failed]
     out = by_case(blamed).keys() | known.keys() - exhibits.keys()
     cases = {slug: without(case, out, known) for slug, case in known.items() if slug in exhibits}
-    evidence = {slug: evidence_of(exhibits[slug]) for slug in cases}
+    everyone, warned = known | cases, [case for case in known.values() if case.record.warnings]
     shown = []
     for slug, case in cases.items():
+        evidence = evidence_of(exhibits[slug])  # of one case at a time: a thousand would fill the memory
         alike, wrong = _alike(case, cases, cache)
         wrong += manual_problems(case)
-        wrong += [_unproven(case, complaint) for complaint in proven(case, evidence[slug], alike)]
+        wrong += [_unproven(case, complaint) for complaint in proven(case, evidence, alike)]
         files = dict(exhibits[slug])
         if live and case.record.model is not None:
-            files[PLAYGROUND] = playground(case, mujoco.__version__, known.values())
+            files[PLAYGROUND] = playground(case, mujoco.__version__, warned)
         try:
-            page = case_page(case, evidence[slug], files, known | cases, alike)
+            page = case_page(case, evidence, files, everyone, alike)
             sources = {name: (root / "cases" / slug / name).read_bytes() for name in (RECORD, *case.texts)}
-            shown.append(Shown(case, page, card(case, evidence[slug], files), {**files, **sources}))
+            shown.append(Shown(case, page, card(case, evidence, files), {**files, **sources}))
         except CaseError as error:
             wrong += error.problems
         problems += wrong

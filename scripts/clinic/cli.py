@@ -255,10 +255,10 @@ def _print_json(data: object) -> None:
 
 
 def main() -> None:
-    """Entry point: an author's mistake ends with its message and exit code 1, not with a traceback."""
+    """Entry point: a mistake of the author or of the machine ends with its message and exit code 1, not a traceback."""
     try:
         app()
     except CaseError as error:
         sys.exit(str(error))
-    except FileNotFoundError as error:
+    except (FileNotFoundError, ConnectionError) as error:
         sys.exit(f"clinic: {error}")

@@ -1,7 +1,8 @@
 """Exhibits: everything a case's page shows that had to be run or drawn, as files.
 
 The work is cut into tasks. A task's result is kept under a key made of all it depends on, so that a change of prose
-runs nothing and a change of one case runs that case's tasks alone. Tasks that are not kept run in parallel.
+runs nothing and a change of one case runs that case's tasks alone. Tasks that are not kept run in parallel; what they
+alone need is imported by them.
 """
 
 from __future__ import annotations
@@ -21,9 +22,7 @@ from clinic.cache import Cache, Files, key_of
 from clinic.case import Case
 from clinic.cluster import parallel
 from clinic.evidence import Evidence, collect
-from clinic.film import film, webp
 from clinic.folder import RECORD
-from clinic.plots import figures
 from clinic.problem import CaseError, Problem
 from clinic.render import Image, RenderError, blindness, image
 from clinic.robust import Robustness, robustness
@@ -74,11 +73,11 @@ def possible_exhibits(cases: Iterable[Case], cache: Cache) -> tuple[dict[str, Fi
     cases = [case for case in cases if EVIDENCE in first.get(case.slug, {})]
     rest, more = run_tasks([task for case in cases for task in measuring_tasks(case)], cache)
     cases = [case for case in cases if case.slug in rest]
-    whole = {case.slug: assembled(case, first[case.slug], rest[case.slug]) for case in cases}
-    drawn, others = run_tasks([figure_task(case, whole[case.slug]) for case in cases], cache)
+    whole = {case.slug: assembled(case, first[case.slug], rest[case.slug]).model_dump_json() for case in cases}
+    drawn, others = run_tasks([_figure_task(case, whole[case.slug]) for case in cases], cache)
     made = {
         slug: {
-            EVIDENCE: (whole[slug].model_dump_json() + "\n").encode(),
+            EVIDENCE: (whole[slug] + "\n").encode(),
             **figures,
             **{name: content for name, content in rest[slug].items() if not name.endswith(".json")},
         }
@@ -115,13 +114,13 @@ def measuring_tasks(case: Case) -> Iterator[Task]:
     if case.record.run is not None:
         yield _task(case, "robustness", partial(_robustness, case))
     if case.record.film is not None:
-        yield _task(case, "film", partial(film, case))
+        yield _task(case, "film", partial(_film, case))
     yield _task(case, "pictures", partial(pictures, case))
 
 
 def figure_task(case: Case, evidence: Evidence) -> Task:
     """Draws the plots."""
-    return _task(case, "plots", partial(figures, case, evidence), evidence.model_dump_json())
+    return _figure_task(case, evidence.model_dump_json())
 
 
 def assembled(case: Case, first: Files, rest: Files) -> Evidence:
@@ -174,6 +173,8 @@ def pictures(case: Case) -> Files:
     Raises:
         RenderError: If images cannot be drawn on this machine.
     """
+    from clinic.film import webp
+
     if case.record.model is not None:
         broken, fixed, *_ = variants(case)
         return {"broken.webp": webp(still(case, broken)), "fixed.webp": webp(still(case, fixed))}
@@ -233,6 +234,22 @@ def _collect(case: Case) -> Files:
 def _slice(case: Case, name: str, k: int) -> Files:
     sweep = case.record.sweep[name]
     return {_points_file(name, k): POINTS.dump_json(measure_points(case, sweep, grid(sweep)[k : k + SLICE]))}
+
+
+def _film(case: Case) -> Files:
+    from clinic.film import film
+
+    return film(case)
+
+
+def _figure_task(case: Case, evidence: str) -> Task:
+    return _task(case, "plots", partial(_figures, case, evidence), evidence)
+
+
+def _figures(case: Case, evidence: str) -> Files:
+    from clinic.plots import figures
+
+    return figures(case, Evidence.model_validate_json(evidence))
 
 
 def _robustness(case: Case) -> Files:

@@ -10,6 +10,7 @@ from mkdocs.exceptions import PluginError
 
 from clinic import cache
 from clinic.checkout import project_root
+from clinic.cluster import ClusterError
 from clinic.problem import CaseError
 from clinic.site import survey
 
@@ -20,12 +21,17 @@ def write() -> None:
     """Writes every page into the running MkDocs build.
 
     Raises:
-        PluginError: In a strict build, with all problems of all cases; MkDocs prints it without a traceback.
+        PluginError: In a strict build, with all problems of all cases; in any build, if the cluster cannot be used.
+            MkDocs prints it without a traceback.
     """
     os.environ.setdefault("SOURCE_DATE_EPOCH", "0")  # MkDocs dates pages by the day of the build
     if cache.source_digest() != cache.LOADED:
         log.warning("scripts/clinic is not what it was when this process began: start it again")
-    made = survey(project_root())
+    root = project_root()
+    try:
+        made = survey(root)
+    except ClusterError as error:
+        raise PluginError(str(error)) from None
     if made.problems:
         said = str(CaseError(made.problems))
         if mkdocs_gen_files.config.strict:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from copy import deepcopy
 from dataclasses import dataclass
+from hashlib import sha256
 from typing import Any
 
 from jinja2 import BytecodeCache, Environment
@@ -51,6 +52,7 @@ class Templates(BytecodeCache):
 
 
 _templates = Templates()
+_digest: dict[str, object] = {}
 _converted: dict[Key, Converted] = {}
 _asked: dict[str, tuple[Key, str]] = {}
 _indexed: dict[Key, list[dict[str, Any]]] = {}
@@ -66,9 +68,7 @@ def on_env(env: Environment, config: MkDocsConfig, files: Files) -> Environment:
 @event_priority(-100)  # when the Markdown is final
 def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Files) -> str:
     """Gives the converter nothing to do where the result is known."""
-    paths = tuple(sorted(file.src_uri for file in files))
-    settings = repr((config.markdown_extensions, config.mdx_configs))
-    key = (page.file.src_uri, markdown, paths, settings)
+    key = (page.file.src_uri, markdown, _surroundings(config, files))
     _asked[page.file.src_uri] = key, markdown
     return "" if key in _converted else markdown
 
@@ -87,7 +87,8 @@ def on_page_content(html: str, page: Page, config: MkDocsConfig, files: Files) -
     page.markdown = markdown
     page.toc = deepcopy(kept.toc)  # plugins add to it
     page.present_anchor_ids = kept.anchors
-    page.links_to_anchors = {file: kept.links[file.src_uri] for file in files if file.src_uri in kept.links}
+    found = {files.get_file_from_path(path): anchors for path, anchors in kept.links.items()}
+    page.links_to_anchors = {file: anchors for file, anchors in found.items() if file is not None}
     return kept.html
 
 
@@ -118,6 +119,18 @@ def _keep_entries(context: TemplateContext, page: Page, config: MkDocsConfig, na
 
 on_page_context = CombinedEvent(_spare_search, _keep_entries)
 """Adds what the search found on a page before, where the page is the same."""
+
+
+def _surroundings(config: MkDocsConfig, files: Files) -> str:
+    """A digest of what a page's HTML hangs on besides its Markdown: which files there are, and how it is converted.
+
+    Made once a build, which gives all its pages the same collection of files.
+    """
+    if _digest.get("files") is not files:
+        paths = sorted(file.src_uri for file in files)
+        said = repr((paths, config.markdown_extensions, config.mdx_configs))
+        _digest.update(files=files, made=sha256(said.encode()).hexdigest())
+    return str(_digest["made"])
 
 
 def _entries(config: MkDocsConfig) -> list[dict[str, Any]]:

@@ -20,6 +20,7 @@ from clinic.schema import schema_text
 from clinic.ward import Name, by_case, error_page, marked, name_of, ordered, read_name, unseen_page
 
 BROWSER_PARTS = {"javascripts/iframe-worker.js": "node_modules/iframe-worker/shim/index.js"}
+SECTION = 50
 Navigation = list[dict[str, object]]
 
 
@@ -79,13 +80,19 @@ def survey(root: Path, cache: Cache | None = None) -> Site:
 
 
 def navigation(names: Iterable[Name]) -> Navigation:
-    """The site's navigation: the cases by number, then the pages written by hand. The theme takes titles as HTML."""
+    """The site's navigation: the cases by number, then the pages written by hand. The theme takes titles as HTML.
+
+    More than SECTION cases are in sections, for every page holds the part of the navigation around it.
+    """
+    cases = [{escape(name.heading, quote=False): PAGE.format(slug=name.slug)} for name in ordered(names)]
+    sections = [cases[k : k + SECTION] for k in range(0, len(cases), SECTION)]
+    divided = [{f"{k * SECTION + 1} to {k * SECTION + len(part)}": part} for k, part in enumerate(sections)]
     return [
         {"Home": "index.md"},
         {"Find your symptom": "symptoms.md"},
         {"What MuJoCo says": "messages.md"},
         {"Triage": "triage.md"},
-        {"Cases": [{escape(name.heading, quote=False): PAGE.format(slug=name.slug)} for name in ordered(names)]},
+        {"Cases": divided if len(sections) > 1 else cases},
         {"By thing": "tags.md"},
         {"Add a case": "contributing.md"},
     ]

@@ -107,7 +107,10 @@ def changed_lines(before: str, after: str) -> int:
 
 def _occurrences(text: str, part: str) -> int:
     """How often `part` occurs, overlaps included."""
-    return sum(text.startswith(part, start) for start in range(len(text)))
+    count, at = 0, text.find(part)
+    while at >= 0:
+        count, at = count + 1, text.find(part, at + 1)
+    return count
 
 
 def _edit_problem(case: Case, where: Where, remedy: Remedy, error: EditError) -> Problem:

@@ -15,6 +15,8 @@ MAX_DEPTH = 20
 CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]")
 """Characters that no text needs: controls but for tab and line feed, and those that turn the reading direction."""
 
+FAST = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
 
 @dataclass
 class YamlError(Exception):
@@ -61,17 +63,11 @@ def read_yaml(text: str) -> tuple[Any, Lines]:
             shown, more than MAX_DEPTH levels, or a document that is no mapping.
     """
     try:
-        depth = 0
-        for event in yaml.parse(text, Loader=yaml.SafeLoader):
-            depth += _step(event)
-            if depth > MAX_DEPTH:
-                raise YamlError(_line(event.start_mark), "a list in a list in ...", f"{MAX_DEPTH} levels", "flatten it")
-        node = yaml.compose(text, Loader=yaml.SafeLoader)
-        if not isinstance(node, yaml.MappingNode):
-            raise YamlError(1, "no mapping", "`field: value` lines", "start with `number:` and `title:`")
-        by_path: dict[Where, int] = {}
-        _walk(node, (), by_path)
-        return _plain(node, yaml.SafeLoader("")), Lines(by_path)
+        return _read(text, FAST)
+    except yaml.YAMLError:
+        pass  # said again in the words of the loader that every machine has
+    try:
+        return _read(text, yaml.SafeLoader)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         raise YamlError(
@@ -83,6 +79,20 @@ def read_yaml(text: str) -> tuple[Any, Lines]:
     except yaml.reader.ReaderError as error:
         line = text.count("\n", 0, error.position) + 1
         raise YamlError(line, named(chr(error.character)), "text that can be read", "delete it") from None
+
+
+def _read(text: str, loader: Any) -> tuple[Any, Lines]:
+    depth = 0
+    for event in yaml.parse(text, Loader=loader):
+        depth += _step(event)
+        if depth > MAX_DEPTH:
+            raise YamlError(_line(event.start_mark), "a list in a list in ...", f"{MAX_DEPTH} levels", "flatten it")
+    node = yaml.compose(text, Loader=loader)
+    if not isinstance(node, yaml.MappingNode):
+        raise YamlError(1, "no mapping", "`field: value` lines", "start with `number:` and `title:`")
+    by_path: dict[Where, int] = {}
+    _walk(node, (), by_path)
+    return _plain(node, yaml.SafeLoader("")), Lines(by_path)
 
 
 def _step(event: yaml.Event) -> int:

@@ -1,0 +1,235 @@
+"""Measures how the site grows: 100, 300 and 1,000 cases, varied from those there are. Called by `make growth`.
+
+Simulating, drawing and filming a case is work of its own that no other case makes longer, so a varied case is given
+what its original showed. Measured is what is left: reading, judging and writing all pages, MkDocs, what a reader loads.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+
+import yaml
+from clinic.cache import Cache
+from clinic.case import Case, load_cases
+from clinic.checkout import project_root
+from clinic.exhibit import EVIDENCE, assembled, evidence_of, evidence_task, figure_task, measuring_tasks
+from clinic.overviews import screening_tasks
+from clinic.site import survey
+from measured import copied, machine, markdown, put, show, surroundings, write
+from playwright.sync_api import sync_playwright
+
+SIZES = (100, 300, 1000)
+MEMORY, SPREAD = 1.5, 0.2  # GB, share
+BEAT = 0.1  # s
+HEAD = ("cases", "warm build", "time a case", "peak memory", "home page", "search index", "search ready", "a query")
+QUERY = """async (queries) => {
+  const config = JSON.parse(document.getElementById("__config").textContent);
+  const index = await (await fetch("search/search_index.json")).json();
+  const worker = new Worker(config.search);
+  const tell = (type, data, wanted) => new Promise((done) => {
+    worker.onmessage = (event) => event.data.type === wanted && done();
+    worker.postMessage({type, data});
+  });
+  const begun = performance.now();
+  await tell(0, {...index, options: {suggest: false}}, 1);
+  const ready = performance.now();
+  for (const query of queries) await tell(2, query, 3);
+  return [ready - begun, (performance.now() - ready) / queries.length];
+}"""
+
+
+def varied(case: Case, record: dict[str, object], slugs: list[str], turn: int, number: int) -> dict[str, object]:
+    """The record of a case's variation in this turn, with its relations to the variations of the same turn."""
+    text = json.dumps({key: value for key, value in record.items() if key != "alike"})
+    for slug in slugs:
+        text = text.replace(f"../{slug}/", f"../{slug}-{turn}/")
+    made: dict[str, object] = json.loads(text)
+    phrases = [f"{phrase} {turn}" for phrase in case.record.phrases]
+    title = f"{case.record.title[:80]} ({turn})"
+    see = [f"{slug}-{turn}" for slug in case.record.see if slug in slugs]
+    return made | {"number": number, "title": title, "phrases": phrases, "see": see}
+
+
+def grow(folder: Path, cache: Cache, size: int) -> None:
+    """Adds variations to the cases of a copy until there are as many as asked for, and keeps what they showed."""
+    originals = load_cases(folder / "cases")
+    models = [case for case in originals if case.record.run is not None]
+    number = max(case.record.number for case in originals)
+    turn = 0
+    while number < size:
+        turn += 1
+        batch = models[: size - number]
+        slugs = [case.slug for case in batch]
+        for case in batch:
+            number += 1
+            place = folder / "cases" / f"{case.slug}-{turn}"
+            place.mkdir()
+            record = yaml.safe_load((folder / "cases" / case.slug / "case.yaml").read_text(encoding="utf-8"))
+            new = varied(case, record, slugs, turn, number)
+            (place / "case.yaml").write_text(yaml.safe_dump(new, allow_unicode=True, sort_keys=False), encoding="utf-8")
+            for name, text in case.texts.items():
+                (place / name).write_text(text, encoding="utf-8")
+    for case in load_cases(folder / "cases"):
+        original = next((one for one in models if re.fullmatch(rf"{one.slug}-\d+", case.slug)), None)
+        if original is not None:
+            keep(original, case, cache)
+
+
+def keep(original: Case, case: Case, cache: Cache) -> None:
+    """Keeps what the original showed as what its variation shows."""
+    first = cache.get(evidence_task(original).key)
+    assert first is not None, f"{original.slug} has not been built"
+    shown = evidence_of(first).model_copy(update={"case": case.slug, "number": case.record.number})
+    renamed = {**first, EVIDENCE: shown.model_dump_json().encode()}
+    cache.put(evidence_task(case).key, renamed)
+    rest = {}
+    for old, new in zip(measuring_tasks(original), measuring_tasks(case), strict=True):
+        files = cache.get(old.key) or {}
+        cache.put(new.key, files)
+        rest |= files
+    drawn = cache.get(figure_task(original, assembled(original, first, rest)).key)
+    cache.put(figure_task(case, assembled(case, renamed, rest)).key, drawn or {})
+    for old, new in zip(screening_tasks([original]), screening_tasks([case]), strict=True):
+        cache.put(new.key, cache.get(old.key) or {})
+
+
+def build(folder: Path, cache: Path, out: Path) -> tuple[float, float]:
+    """Seconds of a strict build of the copy, and the most memory in GB that its processes held at once."""
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(out)]
+    peak, ended, begun = 0, threading.Event(), time.perf_counter()
+    log = out.with_suffix(".log")
+    with (
+        log.open("w", encoding="utf-8") as said,
+        subprocess.Popen(
+            command, cwd=folder, env=surroundings(folder, cache), stdout=said, stderr=subprocess.STDOUT
+        ) as process,
+    ):
+
+        def watch() -> None:
+            nonlocal peak
+            while not ended.wait(BEAT):
+                peak = max(peak, sum(map(resident, tree(process.pid))))
+
+        watcher = threading.Thread(target=watch)
+        watcher.start()
+        code = process.wait()
+        spent = time.perf_counter() - begun
+        ended.set()
+        watcher.join()
+    if code:
+        sys.exit(log.read_text(encoding="utf-8"))
+    return spent, peak / 1e9
+
+
+def tree(pid: int) -> list[int]:
+    """A process and all that it started, by their ids."""
+    found = [pid]
+    for parent in found:
+        for task in Path(f"/proc/{parent}/task").glob("*/children"):
+            try:
+                found += map(int, task.read_text(encoding="ascii").split())
+            except OSError:  # it has ended
+                continue
+    return found
+
+
+def resident(pid: int) -> int:
+    """The bytes of memory that a process holds, its share of what it shares; 0 if it has ended."""
+    try:
+        found = re.search(
+            r"^Pss:\s+(\d+) kB", Path(f"/proc/{pid}/smaps_rollup").read_text(encoding="ascii"), re.MULTILINE
+        )
+    except OSError:
+        return 0
+    return int(found[1]) * 1024 if found else 0
+
+
+@contextmanager
+def served(folder: Path) -> Iterator[str]:
+    """The address of a folder's files."""
+
+    class Quiet(SimpleHTTPRequestHandler):
+        def log_message(self, format: str, *args: object) -> None:
+            pass
+
+    with ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=str(folder))) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        try:
+            yield f"http://127.0.0.1:{server.server_port}/"
+        finally:
+            server.shutdown()
+
+
+def search(site: Path, queries: list[str]) -> tuple[float, float]:
+    """Seconds until the search is ready in a browser, and of a query."""
+    path = shutil.which("chromium") or shutil.which("google-chrome")
+    with served(site) as address, sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-gpu"])
+        page = browser.new_page()
+        page.set_default_timeout(0)
+        page.goto(f"{address}index.html", wait_until="commit")
+        page.locator("#__config").wait_for(state="attached")
+        ready, query = page.evaluate(QUERY, queries)
+        browser.close()
+    return ready / 1000, query / 1000
+
+
+def measure(root: Path, folder: Path, cache: Path, size: int) -> tuple[tuple[str, ...], float]:
+    """The row of a site of so many cases, and its seconds a case."""
+    copy, out = copied(root, folder / "copy"), folder / "site"
+    survey(copy, Cache(cache))
+    queries = [phrase for case in load_cases(copy / "cases") for phrase in case.record.phrases][:40]
+    grow(copy, Cache(cache), size)
+    build(copy, cache, out)  # look-alikes and what else is not of one case
+    spent, peak = build(copy, cache, out)
+    ready, query = search(out, queries)
+    home, index = ((out / name).stat().st_size for name in ("index.html", "search/search_index.json"))
+    row = (f"{size:,}", f"{spent:.1f} s", f"{1000 * spent / size:.0f} ms", f"{peak:.2f} GB")
+    return (
+        *row,
+        f"{home / 1e6:.2f} MB",
+        f"{index / 1e6:.1f} MB",
+        f"{ready:.1f} s",
+        f"{1000 * query:.0f} ms",
+    ), spent / size
+
+
+def main() -> None:
+    """Prints the table, and puts it into CONTRIBUTING when asked to."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--write", action="store_true", help="put the table into CONTRIBUTING")
+    parser.add_argument("sizes", type=int, nargs="*", default=SIZES, help="how many cases")
+    asked = parser.parse_args()
+    root = project_root()
+    if asked.write:
+        put((root / "CONTRIBUTING.md").read_text(encoding="utf-8"), "growth", "")
+    rows, each = [HEAD], []
+    with tempfile.TemporaryDirectory() as folder:
+        for size in asked.sizes:
+            row, seconds = measure(root, Path(folder, str(size)), Path(folder, "cache"), size)
+            rows.append(row)
+            each.append(seconds)
+            print(dict(zip(HEAD, row, strict=True)), file=sys.stderr)
+    aim = f"Aims: a time a case that grows by {SPREAD:.0%} at most, and less than {MEMORY:g} GB of memory."
+    said = f"Here it is {each[-1] / each[0]:.2f} times as long at the largest size."
+    show(machine(), rows)
+    print(aim, said)
+    if asked.write:
+        write(root, "growth", f"Measured by `make growth` on {machine()}.", markdown(rows), f"{aim} {said}")
+
+
+if __name__ == "__main__":
+    main()

@@ -114,14 +114,15 @@ def simulate(model: mujoco.MjModel, spec: RunSpec, paths: Mapping[str, Path], nu
     readers = {name: bind(path, model, data) for name, path in paths.items()}
     drive = controls(model, spec, steps)
     counts = np.zeros(len(data.warning), dtype=int)
-    values = np.empty((steps, len(readers)))
+    rows = []
     reading = list(readers.values())
     with captured_messages() as messages:
         for i in range(steps):
             step(model, data, drive, i)
-            values[i] = [read() for read in reading]
-            if np.any(data.warning.number):
+            rows.append([read() for read in reading])
+            if messages:  # a type's first warning is printed, also after a reset: until then nothing is counted
                 np.maximum(counts, data.warning.number, out=counts)
+    values = np.array(rows, dtype=float).reshape(steps, len(readers))
     time = np.arange(1, steps + 1) * timestep
     return Run(
         timestep=timestep,

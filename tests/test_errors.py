@@ -16,7 +16,7 @@ from clinic.formula import FormulaError
 from clinic.limits import LimitError
 from clinic.measure import SampleError
 from clinic.mjcf import ModelError
-from clinic.problem import CaseError, Problem
+from clinic.problem import CaseError, LackError, Problem
 from clinic.prose import FieldError
 from clinic.render import RenderError
 from clinic.script import ScriptError
@@ -34,6 +34,7 @@ EXAMPLES = [
     ExpressionError("a number"),
     FieldError("{{ x }}", "a field", "correct it"),
     FormulaError("x_", "nothing below"),
+    LackError("no Node"),
     LimitError("still running after 1 s", "bound its loops"),
     ModelError(3, "a file", "none", "write it out"),
     RenderError("no OpenGL"),

@@ -15,9 +15,9 @@ from clinic.case import Case
 from clinic.checks import TAKES, Trace, Verdict, judge, take
 from clinic.examine import examine
 from clinic.measure import SampleError, measure_model, measure_output
-from clinic.problem import CaseError, Problem, listed
+from clinic.problem import CaseError, LackError, Problem, listed
 from clinic.record import Check, PathSignal, RowSignal
-from clinic.render import RenderError, blindness
+from clinic.render import blindness
 from clinic.robust import Robustness
 from clinic.script import Output, ScriptError, run_script
 from clinic.simulate import compile_model
@@ -112,11 +112,11 @@ def collect(case: Case) -> Evidence:
 
     Raises:
         CaseError: With every problem that keeps the case from running.
-        RenderError: If the runs draw images, and this machine cannot.
+        LackError: If this machine lacks what the runs need.
     """
     examine(case)
-    if draws(case) and (reason := blindness()):
-        raise RenderError(reason)
+    if missing := lack(case):
+        raise LackError(f"case {case.record.number} is not measured: {missing.found}")
     package, version = engine(case)
     observed: dict[str, VariantEvidence] = {}
     problems: list[Problem] = []
@@ -146,6 +146,18 @@ def collect(case: Case) -> Evidence:
     )
 
 
+def lack(case: Case) -> Problem | None:
+    """What this machine lacks to measure the case."""
+    where = "script" if case.record.script else "signals"
+    if draws(case) and (reason := blindness()):
+        needed = "OpenGL: this case is measured in images"
+        return case.problem((where,), reason, needed, "judge it on a machine that draws")
+    if case.record.language == "javascript" and (node.program() is None or node.version(node.MUJOCO) is None):
+        found, repair = node.NO_PROGRAM if node.program() is None else node.NO_PACKAGE
+        return case.problem((where,), found, f"Node and {node.MUJOCO}: this case is run by them", repair)
+    return None
+
+
 def draws(case: Case) -> bool:
     """Whether the runs draw images: for a signal, in the script or in the snippet."""
     code = case.text + (case.record.snippet or "")
@@ -153,17 +165,11 @@ def draws(case: Case) -> bool:
 
 
 def engine(case: Case) -> tuple[str, str]:
-    """The package that brings MuJoCo to the case's source, and its version.
-
-    Raises:
-        CaseError: If the case is in JavaScript and the package, or Node itself, is not installed.
-    """
+    """The package that brings MuJoCo to the case's source, and its version; that one must be installed."""
     if case.record.language != "javascript":
         return "mujoco", mujoco.__version__
     version = node.version(node.MUJOCO)
-    if node.program() is None or version is None:
-        found, repair = node.NO_PROGRAM if node.program() is None else node.NO_PACKAGE
-        raise CaseError([case.problem(("script",), found, f"Node and {node.MUJOCO}, to run it", repair)])
+    assert version is not None
     return node.MUJOCO, version
 
 

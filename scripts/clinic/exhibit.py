@@ -21,10 +21,10 @@ from clinic import node
 from clinic.cache import Cache, Files, key_of
 from clinic.case import Case
 from clinic.cluster import parallel
-from clinic.evidence import Evidence, collect
+from clinic.evidence import Evidence, collect, lack
 from clinic.folder import RECORD
-from clinic.problem import CaseError, Problem
-from clinic.render import Image, RenderError, blindness, image
+from clinic.problem import CaseError, LackError, Problem
+from clinic.render import Image, RenderError, image
 from clinic.robust import Robustness, robustness
 from clinic.simulate import compile_model, state_at
 from clinic.sweep import Point, grid, measure_points, summarise
@@ -57,7 +57,7 @@ def all_exhibits(cases: Iterable[Case], cache: Cache) -> dict[str, Files]:
     """
     cases = list(cases)
     made, problems = possible_exhibits(cases, cache)
-    problems = problems or [_unseen(case) for case in cases if case.slug not in made]
+    problems = problems or [missing for case in cases if case.slug not in made and (missing := lack(case))]
     if problems:
         raise CaseError(problems)
     return made
@@ -66,7 +66,7 @@ def all_exhibits(cases: Iterable[Case], cache: Cache) -> dict[str, Files]:
 def possible_exhibits(cases: Iterable[Case], cache: Cache) -> tuple[dict[str, Files], list[Problem]]:
     """The exhibits of every case that can be run, by slug, and the problems of the others.
 
-    A case that is measured in images has neither on a machine that cannot draw them.
+    A case has neither on a machine that lacks what its runs need.
     """
     cases = list(cases)
     first, problems = run_tasks([evidence_task(case) for case in cases], cache)
@@ -153,7 +153,7 @@ def run_tasks(tasks: list[Task], cache: Cache) -> tuple[dict[str, Files], list[P
         else:
             cache.put(missing[k].key, files)
     for reason in sorted(unseen):
-        say_blind(reason)
+        say_lack(reason)
     merged: dict[str, Files] = {}
     for task in tasks:
         if task.slug not in failed:
@@ -162,9 +162,9 @@ def run_tasks(tasks: list[Task], cache: Cache) -> tuple[dict[str, Files], list[P
 
 
 @lru_cache
-def say_blind(reason: str) -> None:
-    """Says once that there will be no pictures; a warning in CI, where a strict build then fails."""
-    log.log(logging.WARNING if os.environ.get("CI") else logging.INFO, "no pictures and no films: %s", reason)
+def say_lack(reason: str) -> None:
+    """Says once what is left out; a warning in CI, where a strict build then fails."""
+    log.log(logging.WARNING if os.environ.get("CI") else logging.INFO, reason)
 
 
 def pictures(case: Case) -> Files:
@@ -214,17 +214,14 @@ def _attempt(k: int, task: Task) -> tuple[int, tuple[Files, tuple[Problem, ...],
     except CaseError as error:
         return k, ({}, error.problems, "")
     except RenderError as error:
+        return k, ({}, (), f"no pictures and no films: {error}")
+    except LackError as error:
         return k, ({}, (), str(error))
     except Exception as error:  # one case, whatever it does to the engine, leaves the others alone
         found = f"{type(error).__name__}: {error}".strip(": ")
         place = f"{traceback.extract_tb(error.__traceback__)[-1].name} of the {task.kind}"
         expected, repair = f"{place} to come to an end", "correct what the message names"
         return k, ({}, (Problem(f"cases/{task.slug}/{RECORD}", 1, "", found, expected, repair),), "")
-
-
-def _unseen(case: Case) -> Problem:
-    where, expected = "script" if case.record.script else "signals", "OpenGL: this case is measured in images"
-    return case.problem((where,), blindness(), expected, "judge it on a machine that draws")
 
 
 def _collect(case: Case) -> Files:

@@ -37,6 +37,10 @@ class Problem:
         )
 
 
+class LackError(RuntimeError):
+    """What this machine lacks, not the author's mistake."""
+
+
 class CaseError(Exception):
     """All problems of one or more cases, sorted by file and line."""
 

@@ -10,12 +10,14 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from clinic.problem import LackError
+
 WIDTH, HEIGHT = 480, 360
 SHADOW_SIZE, SHADOW_CLIP = 1024, 2.0  # smaller than the defaults: faster; wider: no speckles at the edge
 Image = NDArray[np.uint8]
 
 
-class RenderError(RuntimeError):
+class RenderError(LackError):
     """Images cannot be drawn on this machine."""
 
 

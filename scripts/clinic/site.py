@@ -12,12 +12,12 @@ from clinic.cache import Cache, Files
 from clinic.case import read_cases
 from clinic.casepages import FOLDER, PAGE, shown_cases
 from clinic.checkout import cache_folder, slugs
+from clinic.evidence import lack
 from clinic.overviews import overviews
 from clinic.problem import CaseError, Problem
-from clinic.render import blindness
 from clinic.schema import FILE as SCHEMA
 from clinic.schema import schema_text
-from clinic.ward import Name, by_case, error_page, marked, name_of, ordered, read_name, unseen_page
+from clinic.ward import Name, by_case, error_page, lacking_page, marked, name_of, ordered, read_name
 
 BROWSER_PARTS = {"javascripts/iframe-worker.js": "node_modules/iframe-worker/shim/index.js"}
 SECTION = 50
@@ -74,7 +74,7 @@ def survey(root: Path, cache: Cache | None = None) -> Site:
         elif name.slug in ill:
             page = error_page(name.heading, ill[name.slug])
         else:
-            page = unseen_page(name.heading, blindness())
+            page = lacking_page(name.heading, lack(known[name.slug]))
         made[PAGE.format(slug=name.slug)] = page.encode()
     return Site(made, navigation(names), CaseError(problems).problems)
 

@@ -86,9 +86,10 @@ def error_page(title: str, problems: Iterable[Problem]) -> str:
     return _page(title, notice(problems))
 
 
-def unseen_page(title: str, reason: str) -> str:
-    """The page of a case that is measured in images, from a machine that cannot draw them."""
-    return _page(title, f"This case is measured in images. This page was built where none can be drawn: {line(reason)}")
+def lacking_page(title: str, lack: Problem | None) -> str:
+    """The page of a case that was not measured, for want of something on the machine that built the site."""
+    why = f": {line(lack.found)}. Needed is {line(lack.expected)}" if lack else ""
+    return _page(title, f"The machine that built this page could not measure this case{why}.")
 
 
 def marked(page: str, problems: Iterable[Problem]) -> str:

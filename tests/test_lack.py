@@ -1,4 +1,4 @@
-"""Cases measured in images, on a machine that cannot draw any."""
+"""Cases on a machine that lacks what measures them: OpenGL, or MuJoCo's package for Node."""
 
 from __future__ import annotations
 
@@ -8,12 +8,15 @@ from pathlib import Path
 
 import mujoco
 import pytest
+from clinic import node
 from clinic.cache import Cache
 from clinic.case import Case, load_case
-from clinic.evidence import draws
-from clinic.exhibit import evidence_task, exhibits, possible_exhibits, say_blind
+from clinic.checkout import project_root
+from clinic.evidence import draws, lack
+from clinic.exhibit import evidence_task, exhibits, possible_exhibits, say_lack
 from clinic.problem import CaseError
 from clinic.site import survey
+from clinic.ward import lacking_page
 from helpers import SCRIPT, script_case, tiny_case
 from project import write_project
 
@@ -43,7 +46,7 @@ def blind(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(mujoco, "Renderer", fail)
     monkeypatch.setenv("CLINIC_JOBS", "1")
-    say_blind.cache_clear()
+    say_lack.cache_clear()
 
 
 @pytest.mark.parametrize("make", MEASURED_IN_IMAGES)
@@ -76,7 +79,7 @@ def test_it_is_left_out_and_not_kept_and_said_once(
 
     assert cache.get(evidence_task(case).key) is None
     said = [(record.levelname, record.getMessage()) for record in caplog.records]
-    assert [name for name, text in said if text.startswith("no pictures") and "no display" in text] == [level]
+    assert [name for name, text in said if "is not measured" in text and "no display" in text] == [level]
     assert "evidence.json" in exhibits(other, cache)
 
 
@@ -112,3 +115,25 @@ def test_its_page_says_so_and_the_others_are_as_ever(tmp_path: Path, cache: Cach
     assert "no display" in page
     assert "cases/odd-script/index.md" in str(site.navigation)
     assert "## Files" in site.files["cases/falling-box/index.md"].decode()
+
+
+@pytest.mark.parametrize("gone", ["program", "version"])
+def test_a_case_in_javascript_waits_for_node_and_its_package(
+    tmp_path: Path, cache: Cache, gone: str, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    (folder,) = {path.parent for path in (project_root() / "cases").glob("*/script.mjs")}
+    case = load_case(folder)
+    monkeypatch.setattr(node, gone, lambda *_: None)
+    monkeypatch.setenv("CLINIC_JOBS", "1")
+    monkeypatch.setenv("CI", "")
+    caplog.set_level(logging.INFO, "mkdocs.clinic")
+
+    assert possible_exhibits([case], cache) == ({}, [])
+
+    found = {"program": "no Node on this machine", "version": "@mujoco/mujoco is not installed"}[gone]
+    assert f"case {case.record.number} is not measured: {found}" in caplog.messages
+    missing = lack(case)
+    assert missing is not None
+    assert found in lacking_page("15. A view", missing)
+    with pytest.raises(CaseError, match=rf"found: +{found}\n.*this case is run by them"):
+        exhibits(case, cache)

@@ -58,7 +58,7 @@ def test_check_of_a_case_named_shows_every_check() -> None:
     result = run("check", "odd-script")
     assert result.exit_code == 0, result.output
     assert "2. A script prints an error" in result.stdout
-    assert "error, at the end: above 0.1 m" in result.stdout
+    assert "error, last printed: above 0.1 m" in result.stdout
     assert "no-error" in result.stdout
     assert result.stderr == ""
 

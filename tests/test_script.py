@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+import os
+import signal
 import subprocess
 import sys
 
 import pytest
-from clinic.script import Output, ScriptError, run_python
+from clinic.script import DRAWS, Output, ScriptError, run_python
 
 
 @pytest.mark.parametrize(
@@ -117,3 +119,27 @@ def test_script_has_no_input_even_where_there_is_some() -> None:
 
 def test_numbers_survive_printing() -> None:
     assert run_python("import math\nprint('pi =', repr(math.pi))", {}).traces()["pi"].value[0] == math.pi
+
+
+def test_a_script_finds_nothing_of_the_one_before() -> None:
+    run_python("import math, os, sys\nmath.pi = 3\nos.environ['LEFT'] = 'x'\nsys.modules['left'] = sys\nleft = 1", {})
+    seen = run_python(
+        "import math, os, sys\nprint(math.pi, 'LEFT' in os.environ, 'left' in sys.modules, 'left' in globals())", {}
+    )
+    assert seen.text == f"{math.pi} False False False\n"
+
+
+def test_a_script_prints_the_same_alone_and_in_a_process_that_stays() -> None:
+    code = "import mujoco, numpy as np\nprint(mujoco.__version__, np.random.default_rng(0).normal(), {'a', 'b'})\n"
+    code += "import atexit, sys, tempfile, os\natexit.register(print, 'at the end')\n"
+    code += "print(__name__, sys.argv, sys.stdin.read(), os.path.samefile(tempfile.gettempdir(), os.getcwd()))\n"
+    assert run_python(code, {}).text == run_python(f"{code}# {DRAWS}", {}).text
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="no process stays elsewhere")
+def test_a_process_that_stays_is_replaced_when_it_is_gone() -> None:
+    parent = "import os\nprint(os.getppid())"
+    first = int(run_python(parent, {}).text)
+    assert int(run_python(parent, {}).text) == first
+    os.kill(first, signal.SIGKILL)
+    assert int(run_python(parent, {}).text) != first

@@ -1,21 +1,25 @@
 """Runs a program under limits: a process of its own, started by `limits.py`, that outlives whatever it runs.
 
-Run as a file, with the standard library alone, it takes an order on stdin and prints what became of it, both JSON.
+Run as a file, it takes orders on stdin, a line each, and prints what became of each, both JSON. With `--keep` it first
+imports what nearly every script imports, and runs Python scripts in forks of itself, which then need not.
 The program writes only below its folder (by Landlock), and makes no processes and no sockets (by a seccomp filter);
 where the kernel does neither, its children, those that detach themselves too, end with it.
 """
 
 from __future__ import annotations
 
+import atexit
 import ctypes
 import json
 import os
 import resource
+import runpy
 import selectors
 import signal
 import subprocess
 import sys
 import time
+import traceback
 from collections.abc import Iterator
 from contextlib import suppress
 from errno import ENOSYS, EPERM
@@ -81,7 +85,17 @@ def confine(order: dict[str, Any]) -> dict[str, Any]:
     if LINUX:
         libc.prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
         libc.prctl(PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0)
-    with subprocess.Popen(
+    with Fork(libc, order) if order.get("script") else _started(libc, order) as process:
+        try:
+            said, stopped = _watch(process, order)
+        finally:
+            _end(process)
+    made = {name: bytes(text).decode("utf-8", "surrogateescape") for name, text in said.items()}
+    return {**made, "code": process.returncode, "stopped": stopped}
+
+
+def _started(libc: Any, order: dict[str, Any]) -> subprocess.Popen[bytes]:
+    return subprocess.Popen(
         order["command"],
         cwd=order["folder"],
         env=order["environment"],
@@ -90,13 +104,77 @@ def confine(order: dict[str, Any]) -> dict[str, Any]:
         stderr=subprocess.PIPE,
         start_new_session=True,
         preexec_fn=lambda: _before(libc, order),  # noqa: PLW1509 (there are no threads)
-    ) as process:
-        try:
-            said, stopped = _watch(process, order)
-        finally:
-            _end(process)
-    made = {name: bytes(text).decode("utf-8", "surrogateescape") for name, text in said.items()}
-    return {**made, "code": process.returncode, "stopped": stopped}
+    )
+
+
+class Fork:
+    """A fork of this process that runs the order's Python script; what it has in common with `Popen` is as there."""
+
+    def __init__(self, libc: Any, order: dict[str, Any]) -> None:
+        pipes = [os.pipe() for _ in range(3)]
+        theirs = (pipes[0][0], pipes[1][1], pipes[2][1])
+        self.returncode: int | None = None
+        self.pid = os.fork()
+        if not self.pid:
+            os._exit(_script(libc, order, theirs))
+        for end in theirs:
+            os.close(end)
+        self.stdin = os.fdopen(pipes[0][1], "wb", 0)
+        self.stdout, self.stderr = (os.fdopen(pipe[0], "rb", 0) for pipe in pipes[1:])
+
+    def __enter__(self) -> Fork:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for pipe in (self.stdin, self.stdout, self.stderr):
+            pipe.close()
+
+    def poll(self) -> int | None:
+        """The exit code once it has ended, negative for a signal; None while it runs."""
+        return self._waited(os.WNOHANG)
+
+    def wait(self) -> int | None:
+        """Its exit code, when it has ended."""
+        return self._waited(0)
+
+    def _waited(self, how: int) -> int | None:
+        if self.returncode is None:
+            pid, status = os.waitpid(self.pid, how)
+            if pid:
+                self.returncode = os.waitstatus_to_exitcode(status)
+        return self.returncode
+
+
+def _script(libc: Any, order: dict[str, Any], pipes: tuple[int, ...]) -> int:
+    """In a fork: runs the order's script as Python would; its exit code."""
+    code = 1
+    try:
+        os.setsid()
+        for number, pipe in enumerate(pipes):
+            os.dup2(pipe, number)
+        os.closerange(3, os.sysconf("SC_OPEN_MAX"))
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        os.chdir(order["folder"])
+        os.environ.clear()
+        os.environ.update(order["environment"])
+        _before(libc, order)
+        sys.argv = [order["script"]]
+        sys.path.insert(0, order["folder"])
+        runpy.run_path(order["script"], run_name="__main__")
+        code = 0
+    except SystemExit as error:
+        code = error.code if isinstance(error.code, int) else int(error.code is not None)
+        if not isinstance(error.code, int | None):
+            print(error.code, file=sys.stderr)
+    except BaseException:
+        traceback.print_exc()
+    try:
+        atexit._run_exitfuncs()
+        sys.stdout.flush()
+        sys.stderr.flush()
+    except BaseException:
+        code = code or 1
+    return code & 0xFF
 
 
 def _before(libc: Any, order: dict[str, Any]) -> None:
@@ -155,7 +233,7 @@ def _seccomp(libc: Any) -> None:
         raise OSError("seccomp refused its filter")
 
 
-def _watch(process: subprocess.Popen[bytes], order: dict[str, Any]) -> tuple[dict[str, bytearray], str]:
+def _watch(process: subprocess.Popen[bytes] | Fork, order: dict[str, Any]) -> tuple[dict[str, bytearray], str]:
     """What the program printed, and the limit that it broke; reads no more than the limit on output."""
     said = {"stdout": bytearray(), "stderr": bytearray()}
     given = memoryview(order["input"].encode())
@@ -205,7 +283,7 @@ def _excess(order: dict[str, Any]) -> str:
     return "memory" if pages * resource.getpagesize() > order["memory"] else ""
 
 
-def _end(process: subprocess.Popen[bytes]) -> None:
+def _end(process: subprocess.Popen[bytes] | Fork) -> None:
     """Kills the program and everything that came of it."""
     _kill(-process.pid)
     process.wait()
@@ -246,4 +324,7 @@ def _stop(*_: object) -> None:
 
 if __name__ == "__main__":
     signal.signal(signal.SIGTERM, _stop)
-    print(json.dumps(confine(json.load(sys.stdin))))
+    if "--keep" in sys.argv:
+        import mujoco  # noqa: F401
+    for line in sys.stdin:
+        print(json.dumps(confine(json.loads(line))), flush=True)

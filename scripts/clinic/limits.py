@@ -8,13 +8,17 @@ the size of a file hold.
 
 from __future__ import annotations
 
+import atexit
 import json
 import os
 import subprocess
 import sys
 import tempfile
+import threading
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass
+from functools import lru_cache
 from pathlib import Path
 
 from clinic.yamlmap import CONTROL, named
@@ -22,6 +26,7 @@ from clinic.yamlmap import CONTROL, named
 CONFINE = Path(__file__).with_name("confine.py")
 MIB = 2**20
 KEPT = ("PATH", "LANG", "LD_LIBRARY_PATH", "MUJOCO_GL", "PYOPENGL_PLATFORM")
+_asking = threading.Lock()
 KEPT_FAMILIES = ("LIBGL_", "EGL_", "__EGL_", "__GLX_", "MESA_", "GALLIUM_")
 
 
@@ -62,8 +67,16 @@ class Done:
     stderr: str
 
 
-def run(command: Sequence[str], folder: Path, limits: Limits, given: str = "") -> Done:
+def run(command: Sequence[str], folder: Path, limits: Limits, given: str = "", script: str = "") -> Done:
     """Runs a program in `folder`, with `given` on its stdin, its home and its temporary files in `folder`.
+
+    Args:
+        command: The program; what a message says of it.
+        folder: Where it runs.
+        limits: What it may use.
+        given: What it reads.
+        script: A Python script that draws nothing: run in place of the program by a process that has NumPy and MuJoCo
+            imported, and stays for the next one.
 
     Raises:
         LimitError: If it breaks a limit, or prints what is not text.
@@ -73,8 +86,16 @@ def run(command: Sequence[str], folder: Path, limits: Limits, given: str = "") -
         "folder": str(folder),
         "environment": environment(folder),
         "input": given,
+        "script": script if sys.platform == "linux" else "",
         **asdict(limits),
     }
+    done = json.loads((_kept if order["script"] else _once)(json.dumps(order)))
+    if done["stopped"]:
+        raise LimitError(*_broken(done["stopped"], limits))
+    return Done(done["code"], _text(done["stdout"]), done["stderr"].encode(errors="replace").decode())
+
+
+def _once(order: str) -> str:
     with subprocess.Popen(
         [sys.executable, "-I", "-S", str(CONFINE)],
         stdin=subprocess.PIPE,
@@ -83,15 +104,63 @@ def run(command: Sequence[str], folder: Path, limits: Limits, given: str = "") -
         text=True,
     ) as process:
         try:
-            answer, wrong = process.communicate(json.dumps(order))
+            answer, wrong = process.communicate(order)
         finally:
             process.terminate()
     if process.returncode:
         raise LimitError(f"not run: {(wrong.splitlines() or ['killed'])[-1]}", "run it again")
-    done = json.loads(answer)
-    if done["stopped"]:
-        raise LimitError(*_broken(done["stopped"], limits))
-    return Done(done["code"], _text(done["stdout"]), done["stderr"].encode(errors="replace").decode())
+    return answer
+
+
+def _kept(order: str) -> str:
+    """What the process that stays answers; started anew where it has ended, as it does with the thread it came from."""
+    with _asking:
+        for _ in range(2):
+            if answer := _asked(_keeper(os.getpid()), order):
+                return answer
+    raise LimitError("not run: killed", "run it again")
+
+
+def _asked(keeper: subprocess.Popen[str], order: str) -> str:
+    """The answer; empty from a process that has ended. One that was interrupted is ended."""
+    assert keeper.stdin is not None
+    assert keeper.stdout is not None
+    answer = ""
+    try:
+        with suppress(BrokenPipeError):
+            keeper.stdin.write(order + "\n")
+            keeper.stdin.flush()
+            answer = keeper.stdout.readline()
+        return answer
+    finally:
+        if not answer:
+            keeper.kill()
+            keeper.wait()
+            _keeper.cache_clear()
+
+
+@lru_cache(maxsize=1)
+def _keeper(pid: int) -> subprocess.Popen[str]:
+    """A process of process `pid`, this one, for scripts in Python."""
+    home = Path(tempfile.gettempdir())
+    keeper = subprocess.Popen(
+        [sys.executable, "-P", "-s", str(CONFINE), "--keep"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        env={**environment(home), "MUJOCO_GL": "disable"},
+        cwd=home,
+        text=True,
+    )
+    atexit.register(_dismiss, keeper, pid)
+    return keeper
+
+
+def _dismiss(keeper: subprocess.Popen[str], pid: int) -> None:
+    if pid == os.getpid():
+        keeper.kill()
+        with suppress(BrokenPipeError):
+            keeper.communicate()
 
 
 def environment(folder: Path) -> dict[str, str]:

@@ -15,6 +15,7 @@ from clinic.checks import Trace
 from clinic.limits import Done, LimitError, Limits, run, written
 
 TIME_LIMIT = 20.0
+DRAWS = "Render"  # OpenGL does not survive a fork
 BY_HAND = "run it by hand and mend it"
 REFUSED = "let it write in its own folder only, start no program and open no socket"
 PRINTED = re.compile(
@@ -75,7 +76,8 @@ def run_python(code: str, files: Mapping[str, str], time_limit: float | None = N
         ScriptError: If it breaks a limit of `limits.py`, or ends with an error.
     """
     with written({**files, name: code}) as folder:
-        done = _process(sys.executable, Path(folder), name, time_limit)
+        alone = any(DRAWS in text for text in (code, *files.values()))
+        done = _process(sys.executable, Path(folder), name, time_limit, "" if alone else name)
     if done.code:
         last = done.stderr.strip().splitlines()[-1:] or [f"exit code {done.code}"]
         at = re.findall(rf'File ".*{re.escape(name)}", line (\d+)', done.stderr)
@@ -102,9 +104,10 @@ def run_node(code: str, files: Mapping[str, str], time_limit: float | None = Non
     return Output(done.stdout)
 
 
-def _process(program: str, folder: Path, name: str, time_limit: float | None) -> Done:
+def _process(program: str, folder: Path, name: str, time_limit: float | None, script: str = "") -> Done:
+    limits = Limits(seconds=TIME_LIMIT if time_limit is None else time_limit)
     try:
-        return run([program, name], folder, Limits(seconds=TIME_LIMIT if time_limit is None else time_limit))
+        return run([program, name], folder, limits, script=script)
     except LimitError as error:
         raise ScriptError(error.found, error.repair) from None
 

@@ -13,7 +13,7 @@ from clinic.bundle import UnavailableError
 from clinic.cluster import ClusterError
 from clinic.expression import ExpressionError
 from clinic.formula import FormulaError
-from clinic.limits import LimitError
+from clinic.limits import LimitError, ProgramError
 from clinic.measure import SampleError
 from clinic.mjcf import ModelError
 from clinic.problem import CaseError, LackError, Problem
@@ -37,6 +37,7 @@ EXAMPLES = [
     LackError("no Node"),
     LimitError("still running after 1 s", "bound its loops"),
     ModelError(3, "a file", "none", "write it out"),
+    ProgramError("exit code 1", "mend it"),
     RenderError("no OpenGL"),
     RunError(("qpos", "elbow"), "x", "y", "z"),
     SampleError("error", {"a": 1, "b": 2}),

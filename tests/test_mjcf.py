@@ -41,8 +41,10 @@ def test_what_mujoco_says_is_told() -> None:
 
 
 def test_a_child_that_was_ended_is_made_again() -> None:
-    mjcf._child().kill()
-    mjcf._child().wait()
+    probe(MODEL)
+    assert mjcf.KEEPER.process is not None
+    mjcf.KEEPER.process.kill()
+    mjcf.KEEPER.process.wait()
     probe(MODEL)
 
 

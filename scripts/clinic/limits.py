@@ -8,30 +8,26 @@ the size of a file hold.
 
 from __future__ import annotations
 
-import atexit
 import json
 import os
 import subprocess
 import sys
 import tempfile
-import threading
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from dataclasses import asdict, dataclass
-from functools import lru_cache
 from pathlib import Path
 
+from clinic.keeper import Keeper
 from clinic.yamlmap import CONTROL, named
 
 CONFINE = Path(__file__).with_name("confine.py")
 MIB = 2**20
 KEPT = ("PATH", "LANG", "LD_LIBRARY_PATH", "MUJOCO_GL", "PYOPENGL_PLATFORM")
-_asking = threading.Lock()
 KEPT_FAMILIES = ("LIBGL_", "EGL_", "__EGL_", "__GLX_", "MESA_", "GALLIUM_")
 
 
-class LimitError(ValueError):
-    """A program that broke a limit; `found` says which, `repair` what to do."""
+class ProgramError(ValueError):
+    """A program that did not end well; `found` says how, `repair` what to do."""
 
     def __init__(self, found: str, repair: str) -> None:
         self.found, self.repair = found, repair
@@ -39,6 +35,10 @@ class LimitError(ValueError):
 
     def __str__(self) -> str:
         return f"{self.found}; {self.repair}"
+
+
+class LimitError(ProgramError):
+    """A program that broke a limit; `found` says which."""
 
 
 @dataclass(frozen=True)
@@ -113,37 +113,15 @@ def _once(order: str) -> str:
 
 
 def _kept(order: str) -> str:
-    """What the process that stays answers; started anew where it has ended, as it does with the thread it came from."""
-    with _asking:
-        for _ in range(2):
-            if answer := _asked(_keeper(os.getpid()), order):
-                return answer
+    if answer := KEEPER.ask(order):
+        return answer
     raise LimitError("not run: killed", "run it again")
 
 
-def _asked(keeper: subprocess.Popen[str], order: str) -> str:
-    """The answer; empty from a process that has ended. One that was interrupted is ended."""
-    assert keeper.stdin is not None
-    assert keeper.stdout is not None
-    answer = ""
-    try:
-        with suppress(BrokenPipeError):
-            keeper.stdin.write(order + "\n")
-            keeper.stdin.flush()
-            answer = keeper.stdout.readline()
-        return answer
-    finally:
-        if not answer:
-            keeper.kill()
-            keeper.wait()
-            _keeper.cache_clear()
-
-
-@lru_cache(maxsize=1)
-def _keeper(pid: int) -> subprocess.Popen[str]:
-    """A process of process `pid`, this one, for scripts in Python."""
+def _keeper() -> subprocess.Popen[str]:
+    """The process for scripts in Python."""
     home = Path(tempfile.gettempdir())
-    keeper = subprocess.Popen(
+    return subprocess.Popen(
         [sys.executable, "-P", "-s", str(CONFINE), "--keep"],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
@@ -152,15 +130,9 @@ def _keeper(pid: int) -> subprocess.Popen[str]:
         cwd=home,
         text=True,
     )
-    atexit.register(_dismiss, keeper, pid)
-    return keeper
 
 
-def _dismiss(keeper: subprocess.Popen[str], pid: int) -> None:
-    if pid == os.getpid():
-        keeper.kill()
-        with suppress(BrokenPipeError):
-            keeper.communicate()
+KEEPER = Keeper(_keeper)
 
 
 def environment(folder: Path) -> dict[str, str]:

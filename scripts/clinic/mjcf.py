@@ -7,7 +7,6 @@ compiles first in a process of its own.
 
 from __future__ import annotations
 
-import atexit
 import json
 import os
 import resource
@@ -15,19 +14,18 @@ import signal
 import subprocess
 import sys
 import tempfile
-import threading
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache
 from xml.parsers import expat
+
+from clinic.keeper import Keeper
 
 SECONDS = 20
 MEMORY = 2 * 2**30
 PIPE = 4096
 LATE = (-signal.SIGXCPU, -signal.SIGKILL)
 FOLDERS = ("meshdir", "texturedir", "assetdir")
-_asking = threading.Lock()
 
 
 class ModelError(ValueError):
@@ -99,8 +97,7 @@ def probe(xml: str) -> None:
         ValueError: With what MuJoCo says of it.
         ModelError: If that process is ended, or needs more than SECONDS of the processor or MEMORY bytes.
     """
-    with _asking:
-        said, code = _asked(xml)
+    said, code = _asked(xml)
     if code:
         how = f"takes more than {SECONDS} s" if code in LATE else f"ends the process, with exit code {code}"
         raise ModelError(1, f"a model that {how}", "one that MuJoCo compiles and steps", "remove half of the model")
@@ -109,25 +106,15 @@ def probe(xml: str) -> None:
 
 
 def _asked(xml: str) -> tuple[str, int]:
-    """What is said of a text, and the exit code of the process that tried it; a child that was ended is made again."""
-    for _ in range(2):
-        process = _child()
-        assert process.stdin is not None
-        assert process.stdout is not None
-        with suppress(BrokenPipeError):
-            process.stdin.write(json.dumps([xml, SECONDS]) + "\n")
-            process.stdin.flush()
-            if answer := process.stdout.readline():
-                said, code = json.loads(answer)
-                return said, code
-        _child.cache_clear()
-    return "", -signal.SIGKILL
+    """What is said of a text, and the exit code of the process that tried it."""
+    answer = KEEPER.ask(json.dumps([xml, SECONDS]))
+    said, code = json.loads(answer) if answer else ("", -signal.SIGKILL)
+    return said, code
 
 
-@cache
-def _child() -> subprocess.Popen[str]:
-    """The process that compiles; it ends with this one."""
-    made = subprocess.Popen(
+def _keeper() -> subprocess.Popen[str]:
+    """The process that compiles."""
+    return subprocess.Popen(
         [sys.executable, "-m", "clinic.mjcf"],
         cwd=tempfile.gettempdir(),
         env={**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)},
@@ -137,12 +124,8 @@ def _child() -> subprocess.Popen[str]:
         text=True,
     )
 
-    def close() -> None:
-        made.kill()
-        made.communicate()
 
-    atexit.register(close)
-    return made
+KEEPER = Keeper(_keeper)
 
 
 def _serve() -> None:

@@ -12,7 +12,7 @@ import numpy as np
 
 from clinic import node
 from clinic.checks import Trace
-from clinic.limits import Done, LimitError, Limits, run, written
+from clinic.limits import Done, LimitError, Limits, ProgramError, run, written
 
 TIME_LIMIT = 20.0
 DRAWS = "Render"  # OpenGL does not survive a fork
@@ -24,15 +24,8 @@ PRINTED = re.compile(
 )
 
 
-class ScriptError(ValueError):
-    """A script that did not end well; `found` says how, `repair` what to do."""
-
-    def __init__(self, found: str, repair: str) -> None:
-        self.found, self.repair = found, repair
-        super().__init__(found, repair)
-
-    def __str__(self) -> str:
-        return f"{self.found}; {self.repair}"
+class ScriptError(ProgramError):
+    """A script that did not end well."""
 
 
 @dataclass(frozen=True)

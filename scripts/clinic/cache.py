@@ -32,10 +32,14 @@ class Cache:
     """Files kept under `folder`, one archive a key, behind its checksum. One that is not whole is made again.
 
     An archive comes into being by renaming, so that builds may share a folder and end at any moment.
+
+    Attributes:
+        missed: The keys that were asked for and are still not kept.
     """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
+        self.missed: set[str] = set()
 
     def path(self, key: str) -> Path:
         """Where the archive of a key lies."""
@@ -43,6 +47,12 @@ class Cache:
 
     def get(self, key: str) -> Files | None:
         """The files of a key, or None."""
+        files = self._get(key)
+        if files is None:
+            self.missed.add(key)
+        return files
+
+    def _get(self, key: str) -> Files | None:
         try:
             whole = self.path(key).read_bytes()
         except OSError:
@@ -71,6 +81,7 @@ class Cache:
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
             self._write(key, _checksum(key, packed.getvalue()) + packed.getvalue())
+            self.missed.discard(key)
         except OSError as error:
             say_unkept(self.folder, type(error).__name__)
 
@@ -115,7 +126,9 @@ def key_of(*parts: object) -> str:
 
 def origin() -> dict[str, str | None]:
     """What every result hangs on: this package's source, the engines, and how they draw."""
-    return {"clinic": LOADED, **engines(), **{name: os.environ.get(name) for name in SETTINGS}}
+    settings = {name: os.environ.get(name) for name in SETTINGS}
+    settings["PYOPENGL_PLATFORM"] = settings["PYOPENGL_PLATFORM"] or settings["MUJOCO_GL"]  # as MuJoCo will set it
+    return {"clinic": LOADED, **engines(), **settings}
 
 
 @lru_cache

@@ -13,8 +13,6 @@ from contextlib import contextmanager
 from typing import Any, TypeVar
 from urllib.parse import urlsplit
 
-import mujoco  # noqa: F401  settles PYOPENGL_PLATFORM, on which results hang
-
 from clinic import node
 from clinic.cache import origin
 from clinic.problem import listed

@@ -19,8 +19,14 @@ CARET = re.compile(r"^\s*\^+\s*$\n\s*(?P<message>.+?)(?=\n\s+at |\n\(Use |\n\s*\
 
 def program() -> str | None:
     """The Node of the virtual environment, else the one on the path; None if there is neither."""
-    found = shutil.which("node", path=str(Path(sys.executable).parent)) or shutil.which("node")
-    return None if found is None else _binary(found)
+    first = next(iter(found()), None)
+    return None if first is None else _binary(first)
+
+
+def found() -> list[str]:
+    """Every Node there is, or what starts it, by its path: the virtual environment's first."""
+    both = (shutil.which("node", path=str(Path(sys.executable).parent)), shutil.which("node"))
+    return [path for path in both if path]
 
 
 @cache

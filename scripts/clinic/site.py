@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 
@@ -13,30 +12,15 @@ from clinic.case import read_cases
 from clinic.casepages import FOLDER, PAGE, shown_cases
 from clinic.checkout import cache_folder, slugs
 from clinic.evidence import lack
+from clinic.finished import Navigation, Site
 from clinic.overviews import overviews
-from clinic.problem import CaseError, Problem
+from clinic.problem import CaseError
 from clinic.schema import FILE as SCHEMA
 from clinic.schema import schema_text
 from clinic.ward import Name, by_case, error_page, lacking_page, marked, name_of, ordered, read_name
 
 BROWSER_PARTS = {"javascripts/iframe-worker.js": "node_modules/iframe-worker/shim/index.js"}
 SECTION = 50
-Navigation = list[dict[str, object]]
-
-
-@dataclass(frozen=True)
-class Site:
-    """What there is to publish; a case in error has a page that says so.
-
-    Attributes:
-        files: Every generated file, by its path below the documentation folder.
-        navigation: As MkDocs takes it.
-        problems: All problems of all cases, and every claim that the runs do not bear out.
-    """
-
-    files: Files
-    navigation: Navigation
-    problems: tuple[Problem, ...]
 
 
 def build(root: Path, cache: Cache | None = None) -> Files:
@@ -58,6 +42,8 @@ def survey(root: Path, cache: Cache | None = None) -> Site:
     read, problems = read_cases(root / "cases")
     known = {case.slug: case for case in read}
     made: Files = bundle.parts(root)
+    if not bundle.has_playground(made):
+        cache.missed.add("playground")
     shown, wrong = shown_cases(root, read, set(slugs(root)) - known.keys(), cache, bundle.has_playground(made))
     files, others = overviews(root, shown, known, cache)
     problems += [*wrong, *others]

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import logging
+import threading
 from collections.abc import Callable
 from pathlib import Path
 
 import mujoco
 import pytest
-from clinic import node
+from clinic import node, render
 from clinic.cache import Cache
 from clinic.case import Case, load_case
 from clinic.checkout import project_root
@@ -44,7 +45,8 @@ def blind(monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object) -> None:
         raise RuntimeError("no display")
 
-    monkeypatch.setattr(mujoco, "Renderer", fail)
+    monkeypatch.setattr(mujoco, "GLContext", fail)
+    monkeypatch.setattr(render, "_own", threading.local())
     monkeypatch.setenv("CLINIC_JOBS", "1")
     say_lack.cache_clear()
 

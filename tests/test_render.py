@@ -5,10 +5,13 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import threading
+from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
+from clinic import render
 from clinic.render import HEIGHT, WIDTH, RenderError, geom_row, image, renderer
 from helpers import compiled
 
@@ -49,6 +52,23 @@ def test_image_is_the_same_every_time() -> None:
     assert image(*scene(), "front").tobytes() == image(*scene(), "front").tobytes()
 
 
+def test_image_does_not_hang_on_what_was_drawn_before() -> None:
+    alone = "import sys; from test_render import UPSIDE_DOWN, image, scene\n"
+    alone += "sys.stdout.buffer.write(image(*scene(UPSIDE_DOWN), 'front').tobytes())"
+    image(*scene(), "front")
+    geom_row(*scene(), "front", "red")
+    done = subprocess.run([sys.executable, "-c", alone], cwd=Path(__file__).parent, check=True, capture_output=True)
+    assert image(*scene(UPSIDE_DOWN), "front").tobytes() == done.stdout
+
+
+def test_image_is_drawn_in_any_thread() -> None:
+    drawn: list[bytes] = []
+    thread = threading.Thread(target=lambda: drawn.append(image(*scene(), "front").tobytes()))
+    thread.start()
+    thread.join()
+    assert drawn == [image(*scene(), "front").tobytes()]
+
+
 def test_image_does_not_hang_on_the_models_own_buffer_size() -> None:
     xml = SCENE.format(xyaxes=UPRIGHT).replace("<visual>", '<visual><global offwidth="64" offheight="48"/>')
     assert image(*compiled(xml), "front").shape == (HEIGHT, WIDTH, 3)
@@ -83,7 +103,8 @@ def test_machine_without_opengl_is_said(monkeypatch: pytest.MonkeyPatch) -> None
     def fail(*_: object) -> None:
         raise RuntimeError("no display")
 
-    monkeypatch.setattr(mujoco, "Renderer", fail)
+    monkeypatch.setattr(mujoco, "GLContext", fail)
+    monkeypatch.setattr(render, "_own", threading.local())
     with pytest.raises(RenderError, match=r"OpenGL by \w+ is not available: no display"), renderer(scene()[0]):
         pass
 

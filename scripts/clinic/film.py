@@ -94,8 +94,7 @@ def frames(model: mujoco.MjModel, run: RunSpec, spec: Film, camera: str) -> Iter
                     halted = f"reset at {number(made * model.opt.timestep, 2)} s"
             if image is None or (not halted and np.max(np.abs(data.qpos - drawn), initial=0) > STILL):
                 mujoco.mj_kinematics(model, data)  # a step leaves the positions of its start
-                draw.update_scene(data, camera, option)
-                image, drawn = draw.render().copy(), data.qpos.copy()
+                image, drawn = draw.render(data, camera, option), data.qpos.copy()
             yield image, halted or f"{time:.2f} s"
 
 

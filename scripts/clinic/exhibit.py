@@ -33,6 +33,7 @@ from clinic.variant import Variant, variants
 PROSE = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "no_sweep"}
 PROSE |= {"tags", "phrases", "looks", "manual", "see", "alike", "exempt"}
 SLICE = 60
+LONG = ("film", "robustness", "sweeps", "pictures")  # kinds of measuring, by the longest task of each
 EVIDENCE = "evidence.json"
 POINTS = TypeAdapter(list[Point])
 ROBUST = TypeAdapter(dict[str, Robustness])
@@ -68,10 +69,11 @@ def possible_exhibits(cases: Iterable[Case], cache: Cache) -> tuple[dict[str, Fi
 
     A case has neither on a machine that lacks what its runs need.
     """
-    cases = list(cases)
+    cases = sorted(cases, key=lambda case: case.record.run is not None)  # what takes long goes first, not last
     first, problems = run_tasks([evidence_task(case) for case in cases], cache)
     cases = [case for case in cases if EVIDENCE in first.get(case.slug, {})]
-    rest, more = run_tasks([task for case in cases for task in measuring_tasks(case)], cache)
+    measuring = [task for case in cases for task in measuring_tasks(case)]
+    rest, more = run_tasks(sorted(measuring, key=lambda task: LONG.index(task.kind)), cache)
     cases = [case for case in cases if case.slug in rest]
     whole = {case.slug: assembled(case, first[case.slug], rest[case.slug]).model_dump_json() for case in cases}
     drawn, others = run_tasks([_figure_task(case, whole[case.slug]) for case in cases], cache)

@@ -23,6 +23,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import mujoco
@@ -149,7 +150,7 @@ def _bind_field(path: Path, owner: Any, shown: str) -> Reader:
         return _constraint_reader(path, owner)
     if isinstance(value, np.ndarray) and value.ndim:
         where = _checked_index(path, value.shape, shown)
-        return lambda: float(value[where])
+        return partial(value.item, *where)
     if isinstance(value, bool | int | float | np.number) or (isinstance(value, np.ndarray) and value.ndim == 0):
         if path.index:
             raise SignalError(f"an index on {shown}.{last}", "no index: it is one number", "remove the brackets")
@@ -168,8 +169,9 @@ def _constraint_reader(path: Path, data: mujoco.MjData) -> Reader:
 
 
 def _attribute(owner: Any, name: str, shown: str) -> Any:
-    known = [field for field in dir(owner) if not field.startswith("_")]
-    if name.startswith("_") or name not in known or callable(value := getattr(owner, name)):
+    value = None if name.startswith("_") else getattr(owner, name, None)
+    if value is None or callable(value):
+        known = [field for field in dir(owner) if not field.startswith("_")]
         guess = closest(name, known)
         raise SignalError(
             f"{shown}.{name}, which does not exist",
@@ -219,7 +221,7 @@ def _bind_contact(path: Path, model: mujoco.MjModel, data: mujoco.MjData) -> Rea
     force = np.zeros(6)
 
     def chosen() -> Sequence[int]:
-        if pair is None or not data.ncon:
+        if pair is None:
             return range(data.ncon)
         return [i for i, geoms in enumerate(data.contact.geom.tolist()) if geoms in pair]
 
@@ -228,7 +230,7 @@ def _bind_contact(path: Path, model: mujoco.MjModel, data: mujoco.MjData) -> Rea
         return float(force[index[0]])
 
     def read() -> float:
-        found = chosen()
+        found = chosen() if data.ncon else ()
         match path.field:
             case "count":
                 return float(len(found))

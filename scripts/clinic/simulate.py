@@ -61,6 +61,12 @@ class Drive:
     actuators: NDArray[np.int64]
     values: NDArray[np.float64]
 
+    def changes(self, steps: int) -> list[bool]:
+        """Whether a step has other controls than the one before, or is the first."""
+        if not len(self.actuators):
+            return [False] * steps
+        return [True, *(self.values[1:] != self.values[:-1]).any(axis=1).tolist()]
+
 
 def compile_model(xml: str) -> mujoco.MjModel:
     """The compiled model.
@@ -112,22 +118,29 @@ def simulate(model: mujoco.MjModel, spec: RunSpec, paths: Mapping[str, Path], nu
     timestep, steps = model.opt.timestep, step_count(model, spec)
     data = start(model, spec, nudge)
     readers = {name: bind(path, model, data) for name, path in paths.items()}
+    moving = [name for name in readers if not paths[name].model]
+    reading = [readers[name] for name in moving]
     drive = controls(model, spec, steps)
+    steered = drive.changes(steps)
     counts = np.zeros(len(data.warning), dtype=int)
     rows = []
-    reading = list(readers.values())
     with captured_messages() as messages:
         for i in range(steps):
-            step(model, data, drive, i)
+            if steered[i] or messages:  # an automatic reset undoes controls too
+                step(model, data, drive, i)
+            else:
+                mujoco.mj_step(model, data)
             rows.append([read() for read in reading])
             if messages:  # a type's first warning is printed, also after a reset: until then nothing is counted
                 np.maximum(counts, data.warning.number, out=counts)
-    values = np.array(rows, dtype=float).reshape(steps, len(readers))
+    values = dict(zip(moving, np.array(rows, dtype=float).reshape(steps, len(moving)).T, strict=True))
     time = np.arange(1, steps + 1) * timestep
     return Run(
         timestep=timestep,
         steps=steps,
-        traces={name: Trace(time, values[:, k]) for k, name in enumerate(readers)},
+        traces={
+            name: Trace(time, values[name] if name in values else np.full(steps, readers[name]())) for name in paths
+        },
         warnings={mujoco.mjtWarning(k).name.removeprefix("mjWARN_"): int(n) for k, n in enumerate(counts) if n},
         messages=tuple(dict.fromkeys(messages)),
     )

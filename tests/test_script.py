@@ -7,9 +7,11 @@ import os
 import signal
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
-from clinic.script import DRAWS, Output, ScriptError, run_python
+from clinic.limits import Limits, run, written
+from clinic.script import Output, ScriptError, run_python
 
 
 @pytest.mark.parametrize(
@@ -46,6 +48,23 @@ def test_printed_number(line: str, name: str, value: float) -> None:
 )
 def test_no_printed_number(line: str) -> None:
     assert Output(line).traces() == {}
+
+
+TELLING = """\
+import atexit, os, sys, tempfile
+import mujoco
+import numpy as np
+print(mujoco.__version__, np.random.default_rng(0).normal(), {'a', 'b'})
+atexit.register(print, 'at the end')
+print(__name__, sys.argv, sys.stdin.read(), os.path.samefile(tempfile.gettempdir(), os.getcwd()))
+scene = '<geom size="0.1" pos="0 0 -1"/><light/><camera name="above"/>'
+model = mujoco.MjModel.from_xml_string(f'<mujoco><worldbody>{scene}</worldbody></mujoco>')
+data = mujoco.MjData(model)
+mujoco.mj_forward(model, data)
+with mujoco.Renderer(model, 40, 60) as draw:
+    draw.update_scene(data, 'above')
+    print(draw.render().mean())
+"""
 
 
 def test_a_name_printed_again_gives_another_sample() -> None:
@@ -130,10 +149,10 @@ def test_a_script_finds_nothing_of_the_one_before() -> None:
 
 
 def test_a_script_prints_the_same_alone_and_in_a_process_that_stays() -> None:
-    code = "import mujoco, numpy as np\nprint(mujoco.__version__, np.random.default_rng(0).normal(), {'a', 'b'})\n"
-    code += "import atexit, sys, tempfile, os\natexit.register(print, 'at the end')\n"
-    code += "print(__name__, sys.argv, sys.stdin.read(), os.path.samefile(tempfile.gettempdir(), os.getcwd()))\n"
-    assert run_python(code, {}).text == run_python(f"{code}# {DRAWS}", {}).text
+    with written({"script.py": TELLING}) as folder:
+        alone = run([sys.executable, "script.py"], Path(folder), Limits())
+    assert alone.code == 0, alone.stderr
+    assert run_python(TELLING, {}).text == alone.stdout
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="no process stays elsewhere")

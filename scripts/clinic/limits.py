@@ -75,7 +75,7 @@ def run(command: Sequence[str], folder: Path, limits: Limits, given: str = "", s
         folder: Where it runs.
         limits: What it may use.
         given: What it reads.
-        script: A Python script that draws nothing: run in place of the program by a process that has NumPy and MuJoCo
+        script: A Python script: run in place of the program by a process that has NumPy and MuJoCo
             imported, and stays for the next one.
 
     Raises:
@@ -126,7 +126,7 @@ def _keeper() -> subprocess.Popen[str]:
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
-        env={**environment(home), "MUJOCO_GL": "disable"},
+        env=environment(home),
         cwd=home,
         text=True,
     )

@@ -15,7 +15,6 @@ from clinic.checks import Trace
 from clinic.limits import Done, LimitError, Limits, ProgramError, run, written
 
 TIME_LIMIT = 20.0
-DRAWS = "Render"  # OpenGL does not survive a fork
 BY_HAND = "run it by hand and mend it"
 REFUSED = "let it write in its own folder only, start no program and open no socket"
 PRINTED = re.compile(
@@ -69,8 +68,7 @@ def run_python(code: str, files: Mapping[str, str], time_limit: float | None = N
         ScriptError: If it breaks a limit of `limits.py`, or ends with an error.
     """
     with written({**files, name: code}) as folder:
-        alone = any(DRAWS in text for text in (code, *files.values()))
-        done = _process(sys.executable, Path(folder), name, time_limit, "" if alone else name)
+        done = _process(sys.executable, Path(folder), name, time_limit, name)
     if done.code:
         last = done.stderr.strip().splitlines()[-1:] or [f"exit code {done.code}"]
         at = re.findall(rf'File ".*{re.escape(name)}", line (\d+)', done.stderr)

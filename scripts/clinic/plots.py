@@ -16,7 +16,7 @@ from matplotlib.ticker import MaxNLocator
 
 from clinic.case import Case
 from clinic.evidence import Evidence, VariantEvidence
-from clinic.palette import BROKEN, DASHES, FIXED, GRID, INK, THEMES, Theme
+from clinic.palette import BROKEN, DASHES, FIXED, GRID, INK, darkened
 from clinic.prose import quantity
 from clinic.sweepplot import sweep_plot, write_numbers
 
@@ -25,15 +25,14 @@ EXPLODED = 50.0
 
 
 def figures(case: Case, evidence: Evidence) -> dict[str, bytes]:
-    """The case's plots in every theme: `plot-light.svg`, and `sweep-<name>-light.svg` for each sweep."""
-    made = {}
-    for theme in THEMES:
-        made[f"plot-{theme}.svg"] = plot(case, evidence, theme)
-        for name, swept in evidence.sweep.items():
-            sweep = case.record.sweep[name]
-            draw = partial(sweep_plot, sweep=sweep, outcome=axis_label(case, sweep.outcome.signal), swept=swept)
-            made[f"sweep-{name}-{theme}.svg"] = figure(case, theme, draw)
-    return made
+    """The case's plots, light and dark: `plot-light.svg`, and `sweep-<name>-light.svg` for each sweep."""
+    drawn = {"plot": plot(case, evidence)}
+    for name, swept in evidence.sweep.items():
+        sweep = case.record.sweep[name]
+        draw = partial(sweep_plot, sweep=sweep, outcome=axis_label(case, sweep.outcome.signal), swept=swept)
+        drawn[f"sweep-{name}"] = figure(case, draw)
+    light = {f"{name}-light.svg": svg.encode() for name, svg in drawn.items()}
+    return light | {f"{name}-dark.svg": darkened(svg).encode() for name, svg in drawn.items()}
 
 
 def axis_label(case: Case, name: str) -> str:
@@ -42,34 +41,33 @@ def axis_label(case: Case, name: str) -> str:
     return (signal.label or name) + (f" [{signal.unit}]" if signal.unit else "")
 
 
-def plot(case: Case, evidence: Evidence, theme: Theme) -> bytes:
+def plot(case: Case, evidence: Evidence) -> str:
     """The first signal of the broken variant and of every fix, over time; its final values when none changes."""
     name = next(iter(case.record.signals))
     shown = {key: v for key, v in evidence.variants.items() if v.kind != "refuted"}
     label = axis_label(case, name)
 
-    def draw(axes: Axes, theme: Theme) -> None:
+    def draw(axes: Axes) -> None:
         if all(_constant(variant.traces[name].value) for variant in shown.values()):
-            _dots(axes, shown, name, label, theme)
+            _dots(axes, shown, name, label)
         else:
-            _lines(axes, shown, name, label, theme)
+            _lines(axes, shown, name, label)
 
-    return figure(case, theme, draw)
+    return figure(case, draw)
 
 
-def figure(case: Case, theme: Theme, draw: Callable[[Axes, Theme], None]) -> bytes:
-    """What `draw` draws, as SVG in a theme; the same drawing gives the same bytes."""
-    ink, grid = INK[theme], GRID[theme]
+def figure(case: Case, draw: Callable[[Axes], None]) -> str:
+    """What `draw` draws, as SVG in the colours for a light page; the same drawing gives the same text."""
     settings: dict[Any, Any] = {
         "svg.hashsalt": case.slug,
         "text.parse_math": False,
         "font.size": 9.5,
-        "axes.edgecolor": grid,
-        "axes.labelcolor": ink,
-        "text.color": ink,
-        "xtick.color": ink,
-        "ytick.color": ink,
-        "grid.color": grid,
+        "axes.edgecolor": GRID,
+        "axes.labelcolor": INK,
+        "text.color": INK,
+        "xtick.color": INK,
+        "ytick.color": INK,
+        "grid.color": GRID,
         "axes.spines.top": False,
         "axes.spines.right": False,
         "axes.axisbelow": True,
@@ -78,20 +76,20 @@ def figure(case: Case, theme: Theme, draw: Callable[[Axes, Theme], None]) -> byt
         mpl.rcdefaults()  # whatever the user's matplotlibrc says
         mpl.rcParams.update(settings)
         made = Figure(figsize=SIZE, layout="constrained")
-        draw(made.add_subplot(), theme)
-        out = io.BytesIO()
+        draw(made.add_subplot())
+        out = io.StringIO()
         made.savefig(out, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
     return out.getvalue()
 
 
-def _lines(axes: Axes, shown: dict[str, VariantEvidence], name: str, label: str, theme: Theme) -> None:
+def _lines(axes: Axes, shown: dict[str, VariantEvidence], name: str, label: str) -> None:
     fixes = 0
     for key, variant in shown.items():
         trace = variant.traces[name]
         value = [math.nan if v is None else v for v in trace.value]
-        colour, dash, title = BROKEN[theme], "-", "broken"
+        colour, dash, title = BROKEN, "-", "broken"
         if variant.kind == "fix":
-            colour, dash, title = FIXED[theme][fixes % 3], DASHES[fixes % 3], key
+            colour, dash, title = FIXED[fixes % 3], DASHES[fixes % 3], key
             fixes += 1
         marker = "o" if variant.timestep is None else None
         axes.plot(trace.time, value, color=colour, linestyle=dash, linewidth=1.8, label=title, marker=marker)
@@ -115,7 +113,7 @@ def _tame(axes: Axes, shown: dict[str, VariantEvidence], name: str) -> None:
         write_numbers(axes.yaxis)
 
 
-def _dots(axes: Axes, shown: dict[str, VariantEvidence], name: str, label: str, theme: Theme) -> None:
+def _dots(axes: Axes, shown: dict[str, VariantEvidence], name: str, label: str) -> None:
     finals = {key: variant.values[name]["final"] for key, variant in shown.items()}
     unit = next(iter(shown.values())).traces[name].unit
     for row, (key, value) in enumerate(finals.items()):
@@ -123,13 +121,13 @@ def _dots(axes: Axes, shown: dict[str, VariantEvidence], name: str, label: str, 
             axes.text(0, row, "  not measured", va="center")
             continue
         broken = shown[key].kind == "broken"
-        colour = BROKEN[theme] if broken else FIXED[theme][(row - 1) % 3]
+        colour = BROKEN if broken else FIXED[(row - 1) % 3]
         axes.plot([0, value], [row, row], color=colour, linewidth=2, linestyle="-" if broken else DASHES[(row - 1) % 3])
         axes.plot([value], [row], color=colour, marker="X" if broken else "o", markersize=9, linestyle="")
         axes.annotate(quantity(value, unit), (value, row), xytext=(0, 9), textcoords="offset points", ha="center")
     axes.set_yticks(range(len(finals)), list(finals))
     axes.set_ylim(len(finals) - 0.4, -0.7)
-    axes.axvline(0, color=INK[theme], linewidth=0.8)
+    axes.axvline(0, color=INK, linewidth=0.8)
     axes.margins(x=0.15)
     axes.set_xlabel(label)
     axes.grid(visible=True, axis="x", linewidth=0.6)

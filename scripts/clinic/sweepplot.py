@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from clinic.palette import BROKEN, DASHES, FIXED, INK, RIVAL, Theme
+from clinic.palette import BROKEN, DASHES, FIXED, INK, RIVAL
 from clinic.prose import plain
 from clinic.record_sweep import Parameter, Prediction, Sweep
 from clinic.sweep import Point, SweepEvidence
@@ -18,20 +18,19 @@ from clinic.sweep import Point, SweepEvidence
 MANY = 1e4  # of the last number to the first, from which on an axis names powers of ten alone
 
 
-def sweep_plot(axes: Axes, theme: Theme, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
+def sweep_plot(axes: Axes, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
     """Draws the sweep: outcome over its one parameter, or a map of its two.
 
     Args:
         axes: Where to draw.
-        theme: The palette.
         sweep: The record's sweep.
         outcome: The label of the measured number with its unit.
         swept: The points and predictions.
     """
     if len(sweep.vary) == 1:
-        _curve(axes, theme, sweep, outcome, swept)
+        _curve(axes, sweep, outcome, swept)
     else:
-        _map(axes, theme, sweep, outcome, swept)
+        _map(axes, sweep, outcome, swept)
     axes.grid(visible=True, linewidth=0.6)
     axes.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, handlelength=2.4, fontsize=8.5)
 
@@ -41,14 +40,14 @@ def write_numbers(axis: Axis) -> None:
     axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
 
 
-def _curve(axes: Axes, theme: Theme, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
+def _curve(axes: Axes, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
     parameter = sweep.vary[0]
     x = [point.at[parameter.name] for point in swept.points]
     y = [_value(point.outcome) for point in swept.points]
-    for key, prediction, style in _predictions(sweep, theme):
+    for key, prediction, style in _predictions(sweep):
         axes.plot(x, [_value(point.predicted[key]) for point in swept.points], label=prediction.label, **style)
-    axes.plot(x, y, "o", color=INK[theme], markersize=4, fillstyle="none", label="measured")
-    for name, at, style in _marks(swept, theme):
+    axes.plot(x, y, "o", color=INK, markersize=4, fillstyle="none", label="measured")
+    for name, at, style in _marks(swept):
         value = at[parameter.name]
         axes.plot([value], [np.interp(value, x, y)], label=name, **style)
     _scale(axes, parameter, "x")
@@ -62,7 +61,7 @@ def _curve(axes: Axes, theme: Theme, sweep: Sweep, outcome: str, swept: SweepEvi
     axes.set_ylabel(outcome)
 
 
-def _map(axes: Axes, theme: Theme, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
+def _map(axes: Axes, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
     down, across = sweep.vary
     if sweep.holds is None:
         dots = axes.scatter(
@@ -85,13 +84,13 @@ def _map(axes: Axes, theme: Theme, sweep: Sweep, outcome: str, swept: SweepEvide
                 marker="o" if answer else "x",
                 markersize=3.2,
                 fillstyle=fill,
-                color=FIXED[theme][0] if answer else BROKEN[theme],
+                color=FIXED[0] if answer else BROKEN,
                 label=label,
             )
-        for key, prediction, style in _predictions(sweep, theme):
+        for key, prediction, style in _predictions(sweep):
             line = _boundary(swept.points, across, key)
             axes.plot([x for x, _ in line], [y for _, y in line], label=prediction.label, **style)
-    for name, at, style in _marks(swept, theme):
+    for name, at, style in _marks(swept):
         axes.plot([at[across.name]], [at[down.name]], label=name, **style)
     _scale(axes, across, "x")
     _scale(axes, down, "y")
@@ -109,23 +108,23 @@ def _boundary(points: list[Point], across: Parameter, key: str) -> list[tuple[fl
     return [(x, float(np.median(ys))) for x, ys in sorted(values.items())]
 
 
-def _predictions(sweep: Sweep, theme: Theme) -> list[tuple[str, Prediction, dict[str, Any]]]:
+def _predictions(sweep: Sweep) -> list[tuple[str, Prediction, dict[str, Any]]]:
     made: list[tuple[str, Prediction, dict[str, Any]]] = [
-        ("prediction", sweep.prediction, {"color": FIXED[theme][1], "linewidth": 1.8})
+        ("prediction", sweep.prediction, {"color": FIXED[1], "linewidth": 1.8})
     ]
     for k, rival in enumerate(sweep.rivals):
-        made.append((rival.id, rival, {"color": RIVAL[theme], "linewidth": 1.6, "linestyle": DASHES[k % 3]}))
+        made.append((rival.id, rival, {"color": RIVAL, "linewidth": 1.6, "linestyle": DASHES[k % 3]}))
     return made
 
 
-def _marks(swept: SweepEvidence, theme: Theme) -> list[tuple[str, dict[str, float], dict[str, Any]]]:
+def _marks(swept: SweepEvidence) -> list[tuple[str, dict[str, float], dict[str, Any]]]:
     made, fixes = [], 0
     for name, at in swept.marks.items():
         style: dict[str, Any] = {"linestyle": "", "markersize": 10, "markeredgewidth": 2.2, "zorder": 5}
         if name == "broken":
-            style |= {"marker": "X", "color": BROKEN[theme], "markeredgecolor": INK[theme], "markeredgewidth": 0.8}
+            style |= {"marker": "X", "color": BROKEN, "markeredgecolor": INK, "markeredgewidth": 0.8}
         else:
-            style |= {"marker": "Ds^"[fixes % 3], "color": "none", "markeredgecolor": INK[theme]}
+            style |= {"marker": "Ds^"[fixes % 3], "color": "none", "markeredgecolor": INK}
             fixes += 1
         made.append((name, at, style))
     return made

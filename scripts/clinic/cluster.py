@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import socket
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any, TypeVar
@@ -37,6 +38,7 @@ def parallel(work: Callable[..., T], tasks: Sequence[tuple[Any, ...]]) -> Iterat
         return
     import joblib
 
+    warnings.filterwarnings("ignore", "A worker stopped", UserWarning)  # one that has grown by 300 MB is replaced
     address = os.environ.get(ADDRESS)
     if not address:
         run = joblib.Parallel(n_jobs=min(jobs(), len(tasks)), return_as="generator_unordered")

@@ -48,14 +48,33 @@ def finished(root: Path, cache: Cache, make: Callable[[Path, Cache], Site]) -> S
     This one is kept if nothing is wrong with it, all that it was made from is kept, and no input changed meanwhile.
     """
     before = list(stamps(root))
-    key = key_of("site", [(stamp[0], _content(root, stamp)) for stamp in before], packages())
-    if (kept := _get(cache, key)) is not None:
+    key = key_of_site(root)
+    if (kept := kept_site(cache, key)) is not None:
         return kept
     cache.missed.clear()
     made = make(root, cache)
     if not made.problems and not cache.missed and list(stamps(root)) == before:
         _put(cache, key, made)
     return made
+
+
+def key_of_site(root: Path) -> str:
+    """The key of everything that the site hangs on, as it is now."""
+    return key_of("site", [(stamp[0], _content(root, stamp)) for stamp in stamps(root)], packages())
+
+
+def kept_site(cache: Cache, key: str) -> Site | None:
+    """The site that was kept under the key."""
+    listed = cache.get(key)
+    if listed is None:
+        return None
+    known = json.loads(listed[LIST])
+    files: Files = {}
+    for part in known["parts"]:
+        if (found := cache.get(part)) is None:
+            return None
+        files |= found
+    return Site({name: files[name] for name in known["order"]}, known["navigation"])
 
 
 def stamps(root: Path) -> Iterator[Stamp]:
@@ -86,19 +105,6 @@ def _content(root: Path, stamp: Stamp) -> object:
     if kind == stat.S_IFREG and size <= LARGE:
         return sha256((root / name).read_bytes()).hexdigest()
     return kind, size, time
-
-
-def _get(cache: Cache, key: str) -> Site | None:
-    listed = cache.get(key)
-    if listed is None:
-        return None
-    known = json.loads(listed[LIST])
-    files: Files = {}
-    for part in known["parts"]:
-        if (found := cache.get(part)) is None:
-            return None
-        files |= found
-    return Site({name: files[name] for name in known["order"]}, known["navigation"])
 
 
 def _put(cache: Cache, key: str, made: Site) -> None:

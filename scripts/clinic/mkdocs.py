@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import logging
 import os
-from pathlib import Path
 
 import mkdocs_gen_files
 from mkdocs.exceptions import PluginError
 
 from clinic import cache
 from clinic.checkout import cache_folder, project_root
-from clinic.finished import Site, finished
+from clinic.later import LATER
 from clinic.problem import CaseError
 
 log = logging.getLogger("mkdocs.clinic")
@@ -29,7 +28,7 @@ def write() -> None:
         log.warning("scripts/clinic is not what it was when this process began: start it again")
     root = project_root()
     try:
-        made = finished(root, cache.Cache(cache_folder(root)), _survey)
+        made = LATER.site(root, cache.Cache(cache_folder(root)))
     except ConnectionError as error:  # to a cluster
         raise PluginError(str(error)) from None
     if made.problems:
@@ -41,9 +40,3 @@ def write() -> None:
     for name, content in made.files.items():
         with mkdocs_gen_files.open(name, "wb") as file:
             file.write(content)
-
-
-def _survey(root: Path, kept: cache.Cache) -> Site:
-    from clinic.site import survey
-
-    return survey(root, kept)

@@ -80,6 +80,16 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
     )
 
 
+def interim_page(case: Case, evidence: Evidence) -> str:
+    """The Markdown of a case's page while what takes long is being measured."""
+    return TEMPLATES.get_template("interim.md.j2").render(
+        record=case.record,
+        broken=evidence.variants["broken"],
+        title=json.dumps(case.record.title, ensure_ascii=False),
+        table=_table(case, evidence),
+    )
+
+
 def card(case: Case, evidence: Evidence, files: Files) -> Card:
     """The case's card on the home page."""
     symptom = line(_opening(fill(case.record.symptom, evidence)))

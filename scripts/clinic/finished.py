@@ -41,6 +41,18 @@ class Site:
     navigation: Navigation
     problems: tuple[Problem, ...] = ()
 
+    @property
+    def sectioned(self) -> bool:
+        """Whether a section of the navigation has sections: there are many cases."""
+        sections = (
+            entry
+            for part in self.navigation
+            for entries in part.values()
+            if isinstance(entries, list)
+            for entry in entries
+        )
+        return any(isinstance(entries, list) for entry in sections for entries in entry.values())
+
 
 def finished(root: Path, cache: Cache, make: Callable[[Path, Cache], Site]) -> Site:
     """The site that was made from the same inputs before, or else the one that `make` gives.

@@ -37,6 +37,9 @@ def write() -> None:
             raise PluginError(said)
         log.error("%s", said)
     mkdocs_gen_files.config["nav"] = made.navigation
+    if made.sectioned:  # else each of a thousand pages would hold a thousand links
+        theme = mkdocs_gen_files.config["theme"]
+        theme["features"] = [*theme["features"], "navigation.prune"]
     for name, content in made.files.items():
         with mkdocs_gen_files.open(name, "wb") as file:
             file.write(content)

@@ -1,4 +1,4 @@
-# make serve   the site with live reload at http://localhost:8000
+# make serve   the site with live reload at http://localhost:8000, or another PORT=8010
 # make test    every test; sets everything up by itself
 # make site    builds site/ strictly
 # make bench   how long a build takes, cold and warm, and its parts; the table goes into CONTRIBUTING
@@ -34,7 +34,7 @@ case.schema.json: $(VENV)/.ready $(wildcard scripts/clinic/record*.py) scripts/c
 	@touch $@
 
 serve: setup
-	$(BIN)/mkdocs serve --livereload
+	$(BIN)/mkdocs serve --livereload --dev-addr localhost:$(or $(PORT),8000)
 
 site: setup
 	$(BIN)/mkdocs build --strict

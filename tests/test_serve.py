@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import logging
+import shutil
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
+from clinic import casepages
 from clinic.cache import Cache
 from clinic.problem import CaseError
 from clinic.site import Site, build, survey
@@ -126,3 +129,42 @@ def test_a_package_that_changed_meanwhile_is_told(whole: tuple[Path, Site]) -> N
     assert done.returncode == 1
     assert "start it again" in " ".join(done.stderr.split())
     assert not list((whole[0] / "cache").glob("*.part"))
+
+
+def test_a_folder_that_is_renamed_while_the_site_is_made_is_told(
+    whole: tuple[Path, Site], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "project"
+    shutil.copytree(whole[0], folder)
+    real = casepages.possible_exhibits
+
+    def renaming(*given: Any) -> Any:
+        (folder / "cases" / "falling-box").rename(folder / "cases" / "sinking-box")
+        return real(*given)
+
+    monkeypatch.setattr(casepages, "possible_exhibits", renaming)
+    made = survey(folder, Cache(folder / "cache"))
+    assert [(problem.file, problem.repair) for problem in made.problems] == [(RECORD, "build again")]
+    assert "In error" in made.files[PAGE].decode()
+    assert made.files[OTHER] == whole[1].files[OTHER]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "where", "found"),
+    [
+        pytest.param("cause: The", "cause: After 3 mm the", "cause", "typed by hand", id="number"),
+        pytest.param("fix: Share", 'fix: In `contype="7"`, share', "fix", 'quotes contype="7"', id="quotation"),
+    ],
+)
+def test_a_page_says_what_its_prose_must_not(
+    whole: tuple[Path, Site], old: str, new: str, where: str, found: str
+) -> None:
+    folder, _ = whole
+    record = folder / RECORD
+    before = record.read_text(encoding="utf-8")
+    record.write_text(changed(before, (old, new)), encoding="utf-8")
+    try:
+        made = survey(folder, Cache(folder / "cache"))
+    finally:
+        record.write_text(before, encoding="utf-8")
+    assert [(problem.where, found in problem.found) for problem in made.problems] == [(where, True)]

@@ -17,11 +17,13 @@ from clinic.folder import RECORD
 from clinic.laws import complaints
 from clinic.lookalike import Matrix, alike_problems, group, matrix, unclear
 from clinic.manual import manual_problems
-from clinic.pages import Card, card, case_page
+from clinic.pages import PROSE, Card, card, case_page
 from clinic.playground import FILE as PLAYGROUND
 from clinic.playground import playground
 from clinic.problem import CaseError, Problem
+from clinic.variant import remedies
 from clinic.ward import by_case, without
+from clinic.yamlmap import Where
 
 FOLDER = "cases/{slug}"
 PAGE = f"{FOLDER}/index.md"
@@ -71,13 +73,15 @@ def shown_cases(
             shown.append(Shown(case, page, card(case, evidence, files), {**files, **sources}))
         except CaseError as error:
             wrong += error.problems
+        except OSError as error:  # renamed or deleted since it was read
+            wrong.append(case.problem((), type(error).__name__, "the folder as it was read", "build again"))
         problems += wrong
     return shown, problems
 
 
 def proven(case: Case, evidence: Evidence, alike: Matrix | None) -> Iterator[str]:
     """What a build refuses to publish: claims that the runs do not bear out."""
-    for law in ("verdicts", "warned", "lasting", "steady", "swept"):
+    for law in ("quoted", "typed", "verdicts", "warned", "lasting", "steady", "swept"):
         yield from complaints(case, evidence, law)
     if alike is not None:
         yield from (f"{cell}; correct `alike`" for cell in unclear(alike))
@@ -103,4 +107,15 @@ def _matrix_file(members: list[Case]) -> Files:
 
 def _unproven(case: Case, complaint: str) -> Problem:
     found, _, repair = complaint.partition(";")
-    return case.problem(("checks",), found, "what the record claims", repair.strip() or found)
+    return case.problem(_place(case, found), found, "what the record claims", repair.strip() or found)
+
+
+def _place(case: Case, found: str) -> Where:
+    """The field that a complaint begins with: a text, a sweep, a refuted remedy; else the checks."""
+    kind, _, name = found.partition(":")[0].partition(" ")
+    if kind in PROSE:
+        return (kind,)
+    if kind == "sweep" and name in case.record.sweep:
+        return (kind, name)
+    places = {remedy.id: where for where, which, remedy in remedies(case) if kind == "refuted"}
+    return places.get(name, ("checks",))

@@ -33,6 +33,7 @@ from clinic.variant import Variant, variants
 PROSE = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "no_sweep"}
 PROSE |= {"tags", "phrases", "looks", "manual", "see", "alike", "exempt"}
 SLICE = 60
+MANY = 10
 LONG = ("film", "robustness", "sweeps", "pictures")  # kinds of measuring, by the longest task of each
 EVIDENCE = "evidence.json"
 POINTS = TypeAdapter(list[Point])
@@ -142,6 +143,8 @@ def run_tasks(tasks: list[Task], cache: Cache) -> tuple[dict[str, Files], list[P
     """
     done = {task.key: files for task in tasks if (files := cache.get(task.key)) is not None}
     missing = [task for task in tasks if task.key not in done]
+    if len(missing) >= MANY:
+        log.info("%d cases are run and drawn: of a whole site that takes minutes, once", len({t.slug for t in missing}))
     problems: list[Problem] = []
     unseen: set[str] = set()
     failed: set[str] = set()

@@ -101,7 +101,8 @@ def _allow(node: ast.AST) -> None:
                 if len(args) == wanted:
                     return
                 raise ExpressionError(f"{name} with {wanted} argument{'s' if wanted > 1 else ''}")
-            raise ExpressionError(f"one of the functions {', '.join(FUNCTIONS)}")
+            instead = f"{name}imum in place of {name}: " if name in ("max", "min") else ""
+            raise ExpressionError(f"{instead}one of the functions {', '.join(FUNCTIONS)}")
     raise ExpressionError("numbers, names, + - * / **, parentheses and functions")
 
 

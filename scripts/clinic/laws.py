@@ -102,7 +102,7 @@ def swept(case: Case, evidence: Evidence) -> Iterator[str]:
         found = evidence.sweep[name]
         own = found.agreement["prediction"]
         if own.judged == 0 or own.wrong:
-            worst = "" if own.worst is None else f", by {own.worst:.3g} at the worst"
+            worst = "" if own.worst is None else f", by {quantity(own.worst, own.unit)} at the worst"
             yield f"sweep {name}: the prediction misses {own.wrong} of {own.judged} points{worst}; correct its `expr`"
         for factor in (0.95, 1.05):
             if not agreement(sweep, sweep.prediction, "prediction", found.points, factor).wrong:

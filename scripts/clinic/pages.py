@@ -20,7 +20,7 @@ from clinic.evidence import Evidence, VariantEvidence
 from clinic.inert import code, fence, line
 from clinic.lookalike import Matrix
 from clinic.problem import CaseError, Problem
-from clinic.prose import field_errors, fill, markdown, number, plain, quantity
+from clinic.prose import field_errors, fill, markdown, plain, quantity
 from clinic.record import Check
 from clinic.record_parts import Interval
 from clinic.robust import NUDGE, STARTS
@@ -161,7 +161,7 @@ def _sweep(case: Case, evidence: Evidence, name: str) -> dict[str, str]:
         result = f"{sweep.prediction.label} is right at {own.judged - own.wrong} of {own.judged} points"
     else:
         relative = sweep.prediction.relative
-        error = quantity(100 * own.worst, "%", 2) if relative else number(own.worst, 2)
+        error = quantity(100 * own.worst, "%", 2) if relative else quantity(own.worst, own.unit, 2)
         result = f"{sweep.prediction.label} is within {error} of the measurement at all {own.judged} points"
     rivals = [f"; {r.label} is wrong at {found.agreement[r.id].wrong}" for r in sweep.rivals]
     return {

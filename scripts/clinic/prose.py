@@ -95,11 +95,11 @@ def _sweep_field(name: str, filters: list[str], evidence: Evidence) -> str:
     which, field = ("prediction", *rest) if len(rest) == 1 else (*rest, "")[:2]
     if which not in swept.agreement:
         raise _unknown(name, which, swept.agreement, "prediction of the sweep")
-    value = swept.agreement[which].model_dump().get(field)
-    if value is None:
-        fields = [key for key, known in swept.agreement[which].model_dump().items() if known is not None]
+    numbers = swept.agreement[which].model_dump(exclude={"unit"})
+    if numbers.get(field) is None:
+        fields = [key for key, known in numbers.items() if known is not None]
         raise _unknown(name, field, ["points", *fields], "field of the sweep")
-    return _shown(name, value, "", filters)
+    return _shown(name, numbers[field], swept.agreement[which].unit if field == "worst" else "", filters)
 
 
 def _shown(name: str, value: float, unit: str, filters: list[str]) -> str:
@@ -112,9 +112,12 @@ def _shown(name: str, value: float, unit: str, filters: list[str]) -> str:
             value *= factor
         else:
             fitting = [key for key, (source, _, _) in CONVERSIONS.items() if source == unit]
-            raise FieldError(
-                f"the filter {conversion} on {name} in {unit or 'no unit'}", listed(fitting), "change the filter"
+            expected = (
+                f"{listed([*fitting, '2', '3'])}, ...: the digits to keep"
+                if fitting
+                else "2, 3, ...: the digits to keep"
             )
+            raise FieldError(f"the filter {conversion} on {name} in {unit or 'no unit'}", expected, "change the filter")
     return quantity(value, unit, digits)
 
 

@@ -32,8 +32,8 @@ class Parameter(Strict):
         spaced = [value is not None for value in (self.start, self.stop, self.count)]
         if bool(self.values) == all(spaced) or any(spaced) != all(spaced):
             raise ValueError("no numbers, or two kinds||`values`, or all of start, stop, count||keep one of the two")
-        if self.replace.count("{}") != 1:
-            raise ValueError(f"{self.replace}||`{{}}` once, where the number goes||write `{{}}` for the number")
+        if "{}" not in self.replace:
+            raise ValueError(f"{self.replace}||`{{}}` where the number goes||write `{{}}` for the number")
         return self
 
     @property

@@ -5,12 +5,15 @@ from __future__ import annotations
 import inspect
 import types
 import typing
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from pydantic import BaseModel
 
-from clinic import record, record_parts, record_sweep, signals
+from clinic import predictions, record, record_parts, record_sweep, signals
+from clinic.checks import TAKES
+from clinic.expression import FUNCTIONS
+from clinic.prose import CONVERSIONS
 
 CHAPTERS: dict[str, type[BaseModel]] = {
     "case.yaml": record.Record,
@@ -42,7 +45,40 @@ def reference() -> str:
     """Every field of the record with its type and meaning, and the signal paths, as Markdown."""
     parts = [line for title, model in CHAPTERS.items() for line in _chapter(title, model)]
     paths = inspect.getdoc(signals) or ""
-    return "\n".join([*parts, "### Signal paths", "", paths.partition("\n\n")[2]])
+    return "\n".join([*parts, *_fields(), *_arithmetic(), "### Signal paths", "", paths.partition("\n\n")[2]])
+
+
+def _fields() -> list[str]:
+    """What prose may ask of the runs."""
+    filters = ", ".join(f"`{name}` (of {unit or 'a share'})" for name, (unit, _, _) in CONVERSIONS.items())
+    rows = {
+        "`{{ ID.SIGNAL.TAKE }}`": f"Of a variant: one of {', '.join(f'`{take}`' for take in TAKES)}.",
+        "`{{ ID.timestep }}`, `{{ ID.duration }}`, `{{ ID.warning }}`": "Of a variant of a model.",
+        "`{{ sweep.ID.points }}`": "How many points there are.",
+        "`{{ sweep.ID.worst }}`, `.wrong`, `.judged`, `.good_from`": "How the prediction fared.",
+        "`{{ sweep.ID.RIVAL.wrong }}`, ...": "How a rival fared.",
+        "`{{ engine }}`": "The version of MuJoCo.",
+    }
+    said = (
+        f"A filter after `|` converts, or sets the digits, as in `{{{{ broken.height.final | mm | 2 }}}}`: {filters}."
+    )
+    return ["### fields in prose", "", said, "", *_list(rows)]
+
+
+def _arithmetic() -> list[str]:
+    """The functions of expressions, and the numbers that a prediction can take from the model."""
+    own = {f"`{name}(...)`": _summary(function) for name, function in predictions.FUNCTIONS.items()}
+    own |= {f"`{name}`": f"{_summary(number)} In a prediction." for name, number in predictions.MODEL_NUMBERS.items()}
+    usual = ", ".join(f"`{name}`" for name in FUNCTIONS if name not in predictions.FUNCTIONS)
+    return ["### arithmetic in `expr`", "", f"`+ - * / **`, `pi`, and as in NumPy {usual}.", "", *_list(own)]
+
+
+def _summary(function: object) -> str:
+    return " ".join((inspect.getdoc(function) or "").partition("\n\n")[0].split())
+
+
+def _list(rows: Mapping[str, str]) -> list[str]:
+    return [*(f"- {name}: {said}" for name, said in rows.items()), ""]
 
 
 def _chapter(title: str, model: type[BaseModel]) -> Iterator[str]:

@@ -39,12 +39,13 @@ def survey(root: Path, cache: Cache | None = None) -> Site:
     """The site as far as it can be made: every case comes as far as it can, and holds up no other."""
     cache = cache or Cache(cache_folder(root))
     cache.tidy()
+    there = slugs(root)  # as it is now: a folder may be renamed while the site is made
     read, problems = read_cases(root / "cases")
     known = {case.slug: case for case in read}
     made: Files = bundle.parts(root)
     if not bundle.has_playground(made):
         cache.missed.add("playground")
-    shown, wrong = shown_cases(root, read, set(slugs(root)) - known.keys(), cache, bundle.has_playground(made))
+    shown, wrong = shown_cases(root, read, set(there) - known.keys(), cache, bundle.has_playground(made))
     files, others = overviews(root, shown, known, cache)
     problems += [*wrong, *others]
     made |= files
@@ -53,7 +54,9 @@ def survey(root: Path, cache: Cache | None = None) -> Site:
     for one in shown:
         made |= {f"{FOLDER.format(slug=one.case.slug)}/{name}": content for name, content in one.files.items()}
     pages, ill = {one.case.slug: one.page for one in shown}, by_case(problems)
-    names = [name_of(known[slug]) if slug in known else read_name(root / "cases" / slug) for slug in slugs(root)]
+    names = [
+        name_of(known[slug]) if slug in known else read_name(root / "cases" / slug) for slug in sorted({*there, *known})
+    ]
     for name in names:
         if name.slug in pages:
             page = marked(pages[name.slug], ill[name.slug]) if name.slug in ill else pages[name.slug]

@@ -47,12 +47,14 @@ class Agreement(Plain):
         wrong: How many of them it misses by more than `within`, or, for a yes or no, gets wrong.
         worst: Its largest error over the judged points; None for a yes or no.
         good_from: The smallest first parameter from which on it is never wrong; None if there is none.
+        unit: The unit of `worst`; empty where it is a share.
     """
 
     judged: int
     wrong: int
     worst: float | None
     good_from: float | None
+    unit: str = ""
 
 
 class SweepEvidence(Plain):
@@ -111,17 +113,18 @@ def measure_points(case: Case, sweep: Sweep, points: Sequence[Mapping[str, float
 def summarise(case: Case, sweep: Sweep, points: Sequence[Point]) -> SweepEvidence:
     """The points with every prediction's agreement and the variants' marks."""
     predictions: dict[str, Prediction] = {"prediction": sweep.prediction, **{r.id: r for r in sweep.rivals}}
+    unit = "s" if sweep.outcome.take == "onset" else case.record.signals[sweep.outcome.signal].unit
     return SweepEvidence(
         points=list(points),
-        agreement={key: agreement(sweep, prediction, key, points) for key, prediction in predictions.items()},
+        agreement={key: agreement(sweep, form, key, points, unit=unit) for key, form in predictions.items()},
         marks=marks(case, sweep),
     )
 
 
 def agreement(
-    sweep: Sweep, prediction: Prediction, key: str, points: Sequence[Point], factor: float = 1.0
+    sweep: Sweep, prediction: Prediction, key: str, points: Sequence[Point], factor: float = 1.0, unit: str = ""
 ) -> Agreement:
-    """How the prediction, multiplied by `factor`, fares against the points."""
+    """How the prediction, multiplied by `factor`, fares against the points; `unit` is the outcome's."""
     first = sweep.vary[0].name
     low, high = prediction.over or (-math.inf, math.inf)
     errors: list[tuple[float, float]] = []
@@ -144,17 +147,20 @@ def agreement(
         wrong=len(bad),
         worst=max(finite, default=None) if sweep.holds is None else None,
         good_from=good[0] if good else None,
+        unit="" if prediction.relative else unit,
     )
 
 
 def marks(case: Case, sweep: Sweep) -> dict[str, dict[str, float]]:
-    """Where the broken variant and the fixes stand, for those that show every parameter."""
+    """Where the broken variant and the fixes stand: where the record says so, or the sweep has the variant's text."""
     made = {}
+    texts = {variant.id: variant.text for variant in variants(case)}
     for variant in variants(case):
-        if variant.kind == "refuted":
-            continue
         at = {p.name: value for p in sweep.vary if (value := _mark(p, variant)) is not None}
-        if len(at) == len(sweep.vary):
+        if variant.kind == "refuted" or len(at) < len(sweep.vary):
+            continue
+        told = any(variant.id in parameter.marks for parameter in sweep.vary)
+        if told or _shape(substituted(texts[sweep.base], sweep, at), sweep) == _shape(variant.text, sweep):
             made[variant.id] = at
     return made
 
@@ -216,6 +222,18 @@ def _holds(side: Side, outcome: float) -> bool:
 def _mark(parameter: Parameter, variant: Variant) -> float | None:
     if variant.id in parameter.marks:
         return parameter.marks[variant.id]
-    before, after = (re.escape(part) for part in parameter.replace.split("{}"))
-    found = re.findall(before + r"([-+0-9.eE]+)" + after, variant.text)
-    return float(found[0]) if len(found) == 1 else None
+    found = set(_written(parameter).findall(variant.text))
+    return float(found.pop()) if len(found) == 1 else None
+
+
+def _written(parameter: Parameter) -> re.Pattern[str]:
+    """The text that a parameter's number is written in, the same number wherever it occurs in it."""
+    first, *rest = (re.escape(part) for part in parameter.replace.split("{}"))
+    return re.compile(first + r"([-+0-9.eE]+)" + r"\1".join(rest))
+
+
+def _shape(text: str, sweep: Sweep) -> str:
+    """The text without the parameters' numbers."""
+    for parameter in sweep.vary:
+        text = _written(parameter).sub(parameter.name, text)
+    return text

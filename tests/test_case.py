@@ -1057,7 +1057,7 @@ def test_wrong_scene_of_a_script(tmp_path: Path, scene: str, message: str) -> No
         pytest.param(
             "broken.height.final | deg",
             "the filter deg on broken.height.final in m",
-            "mm, cm",
+            "mm, cm, 2, 3, ...: the digits to keep",
             "change the filter",
             id="filter",
         ),

@@ -105,16 +105,17 @@ def test_an_edit_that_cannot_run_says_so_at_once(project: Path, served: Later, o
     assert served.process is None
 
 
-def test_a_claim_that_the_numbers_do_not_bear_out_is_said_when_all_is_made(project: Path, served: Later) -> None:
+def test_a_claim_that_the_numbers_do_not_bear_out_is_said_at_once(project: Path, served: Later) -> None:
     site(served, project)
     edit(project, RECORD, "[0.045, 0.051]", "[0.045, 0.046]")
     early = site(served, project)
-    assert not early.problems
-    assert "✗" in early.files[PAGE].decode()
+    assert {problem.where for problem in early.problems} == {"checks"}
+    assert "measured 0.0498" in early.files[PAGE].decode()
+    assert MEASURING in early.files[PAGE].decode()
     ended(served)
     made = site(served, project)
     assert "In error" in made.files[PAGE].decode()
-    edit(project, MODEL, 'pos="0 0 0.06"', 'pos="0 0 0.065"')
+    edit(project, RECORD, "[0.045, 0.046]", "[0.045, 0.052]")
     assert not site(served, project).problems
 
 

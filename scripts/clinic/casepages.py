@@ -27,6 +27,7 @@ from clinic.yamlmap import Where
 
 FOLDER = "cases/{slug}"
 PAGE = f"{FOLDER}/index.md"
+AT_ONCE = ("quoted", "typed", "verdicts", "warned")  # laws that need the variants' runs alone
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ def shown_cases(
         evidence = evidence_of(exhibits[slug])  # of one case at a time: a thousand would fill the memory
         alike, wrong = _alike(case, cases, cache)
         wrong += manual_problems(case)
-        wrong += [_unproven(case, complaint) for complaint in proven(case, evidence, alike)]
+        wrong += [unproven(case, complaint) for complaint in proven(case, evidence, alike)]
         files = dict(exhibits[slug])
         if live and case.record.model is not None:
             files[PLAYGROUND] = playground(case, mujoco.__version__, warned)
@@ -81,7 +82,7 @@ def shown_cases(
 
 def proven(case: Case, evidence: Evidence, alike: Matrix | None) -> Iterator[str]:
     """What a build refuses to publish: claims that the runs do not bear out."""
-    for law in ("quoted", "typed", "verdicts", "warned", "lasting", "steady", "swept"):
+    for law in (*AT_ONCE, "lasting", "steady", "swept"):
         yield from complaints(case, evidence, law)
     if alike is not None:
         yield from (f"{cell}; correct `alike`" for cell in unclear(alike))
@@ -105,7 +106,8 @@ def _matrix_file(members: list[Case]) -> Files:
     return {"matrix.json": matrix(members).model_dump_json().encode()}
 
 
-def _unproven(case: Case, complaint: str) -> Problem:
+def unproven(case: Case, complaint: str) -> Problem:
+    """A law's complaint as a problem of the record."""
     found, _, repair = complaint.partition(";")
     return case.problem(_place(case, found), found, "what the record claims", repair.strip() or found)
 

@@ -103,12 +103,13 @@ class Later:
 def interim(root: Path, cache: Cache, whole: Site) -> Site | None:
     """The site with the numbers of every case that was edited and takes long; None if there is none, or it fails."""
     from clinic.case import read_cases
-    from clinic.casepages import FOLDER, PAGE
+    from clinic.casepages import AT_ONCE, FOLDER, PAGE, unproven
     from clinic.exhibit import EVIDENCE, evidence_of, evidence_task, run_tasks
     from clinic.folder import RECORD
+    from clinic.laws import complaints
     from clinic.pages import interim_page
     from clinic.site import navigation
-    from clinic.ward import by_case, name_of
+    from clinic.ward import by_case, marked, name_of
 
     cases, problems = read_cases(root / "cases")
     late = [case for case in cases if takes_long(case, cache)]
@@ -116,14 +117,16 @@ def interim(root: Path, cache: Cache, whole: Site) -> Site | None:
         return None
     found, problems = run_tasks([evidence_task(case) for case in late], cache)
     files = dict(whole.files)
+    problems = [problem for slug, told in by_case(whole.problems).items() if slug not in found for problem in told]
     for case in late:
         if EVIDENCE not in found.get(case.slug, {}):
             return None
-        folder = FOLDER.format(slug=case.slug)
-        files[PAGE.format(slug=case.slug)] = interim_page(case, evidence_of(found[case.slug])).encode()
+        folder, evidence = FOLDER.format(slug=case.slug), evidence_of(found[case.slug])
+        wrong = [unproven(case, said) for law in AT_ONCE for said in complaints(case, evidence, law)]
+        page = interim_page(case, evidence)
+        files[PAGE.format(slug=case.slug)] = (marked(page, wrong) if wrong else page).encode()
         files |= {f"{folder}/{name}": (root / folder / name).read_bytes() for name in (RECORD, *case.texts)}
-    others = by_case(whole.problems).items()
-    problems = [problem for slug, told in others if slug not in found for problem in told]
+        problems += wrong
     return Site(files, navigation(map(name_of, cases)), tuple(problems))
 
 

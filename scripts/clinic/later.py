@@ -115,7 +115,7 @@ def interim(root: Path, cache: Cache, whole: Site) -> Site | None:
     late = [case for case in cases if takes_long(case, cache)]
     if problems or not late:
         return None
-    found, problems = run_tasks([evidence_task(case) for case in late], cache)
+    found, _ = run_tasks([evidence_task(case) for case in late], cache)
     files = dict(whole.files)
     problems = [problem for slug, told in by_case(whole.problems).items() if slug not in found for problem in told]
     for case in late:

@@ -112,11 +112,7 @@ def _shown(name: str, value: float, unit: str, filters: list[str]) -> str:
             value *= factor
         else:
             fitting = [key for key, (source, _, _) in CONVERSIONS.items() if source == unit]
-            expected = (
-                f"{listed([*fitting, '2', '3'])}, ...: the digits to keep"
-                if fitting
-                else "2, 3, ...: the digits to keep"
-            )
+            expected = f"{listed([*fitting, '2', '3'])}, ...: the digits to keep"
             raise FieldError(f"the filter {conversion} on {name} in {unit or 'no unit'}", expected, "change the filter")
     return quantity(value, unit, digits)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -12,6 +13,8 @@ from clinic.checkout import cache_folder
 from clinic.evidence import Evidence
 from clinic.exhibit import evidence_of, exhibits
 
+if "PYTEST_XDIST_WORKER" in os.environ:
+    os.environ.setdefault("CLINIC_JOBS", "1")  # the tests' own processes are as many as there are processors
 ROOT = Path(__file__).parent.parent
 SLUGS = sorted(path.name for path in (ROOT / "cases").iterdir() if path.is_dir())
 

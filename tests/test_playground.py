@@ -15,7 +15,7 @@ from clinic.bundle import node
 from clinic.playground import playground
 from helpers import tiny_case
 from playwright.sync_api import Browser, BrowserContext, Page, TimeoutError, expect
-from test_browser import browser, page, served  # noqa: F401
+from test_browser import browser, served  # noqa: F401
 from test_site import site  # noqa: F401
 
 pytestmark = pytest.mark.xdist_group("site")
@@ -41,6 +41,14 @@ BEFORE_THE_CLICK, AFTER_THE_CLICK = 2_000, 1_700_000  # bytes
 expect.set_options(timeout=LIMIT)
 
 
+@pytest.fixture
+def page(browser: Browser) -> Iterator[Page]:  # noqa: F811
+    """A page on which nothing moves before it is asked to: drawing without a graphics card takes a processor."""
+    context = browser.new_context(reduced_motion="reduce")
+    yield context.new_page()
+    context.close()
+
+
 def address(served: str, slug: str = CASE) -> str:  # noqa: F811
     return f"{served}cases/{slug}/index.html"
 
@@ -51,17 +59,23 @@ def open_playground(page: Page, served: str, slug: str = CASE) -> None:  # noqa:
     page.wait_for_function("document.querySelector('.pg-clock')?.dataset.steps", timeout=LIMIT)
 
 
-def steps(page: Page) -> int:  # noqa: F811
+def steps(page: Page) -> int:
     return int(page.locator(".pg-clock").get_attribute("data-steps") or 0)
 
 
-def wait_for_steps(page: Page) -> None:  # noqa: F811
-    """Waits until the model has moved on, on the clock and in the picture."""
+def run(page: Page) -> None:
+    """Runs the model until it has moved on, on the clock and in the picture, and stops it."""
+    page.get_by_role("button", name="Run", exact=True).click()
+    wait_for_steps(page)
+    page.get_by_role("button", name="Pause").click()
+
+
+def wait_for_steps(page: Page) -> None:
     before = steps(page)
     page.wait_for_function(f"document.querySelector('.pg-clock').dataset.steps > {before}", timeout=LIMIT)
 
 
-def type_text(page: Page, text: str) -> None:  # noqa: F811
+def type_text(page: Page, text: str) -> None:
     """Puts a text in the place of all that stands in the editor, as a paste does."""
     editor = page.locator(".cm-content")
     editor.focus()
@@ -69,16 +83,16 @@ def type_text(page: Page, text: str) -> None:  # noqa: F811
     editor.evaluate(PASTE, text)
 
 
-def engines(page: Page) -> list[str]:  # noqa: F811
+def engines(page: Page) -> list[str]:
     return [worker.url for worker in page.workers if "playground" in worker.url]
 
 
-def restore(page: Page) -> None:  # noqa: F811
+def restore(page: Page) -> None:
     page.get_by_role("button", name="Restore").click()
     expect(page.locator(".pg-complaint")).to_be_empty()
 
 
-def check(page: Page) -> str:  # noqa: F811
+def check(page: Page) -> str:
     """Presses `Check my fix` and gives what it says: yes, no, or nothing when there is no judgement."""
     button = page.get_by_role("button", name="Check my fix")
     button.click()
@@ -86,7 +100,7 @@ def check(page: Page) -> str:  # noqa: F811
     return page.locator(".pg-result").get_attribute("data-well") or ""
 
 
-def axe(page: Page) -> list[Any]:  # noqa: F811
+def axe(page: Page) -> list[Any]:
     """Serious findings on the playground."""
     page.add_script_tag(path=str(ROOT / "node_modules/axe-core/axe.min.js"))
     found: list[Any] = page.evaluate("axe.run('.pg').then(found => found.violations)")
@@ -137,7 +151,7 @@ def test_a_late_picture_gets_coarser_and_an_early_one_finer_again() -> None:
 @pytest.mark.parametrize("name", MODELS)
 def test_every_model_runs_and_is_judged(page: Page, served: str, name: str) -> None:  # noqa: F811
     open_playground(page, served, name)
-    wait_for_steps(page)
+    run(page)
     assert check(page) == "no"
 
     record = page.evaluate("fetch('playground.json').then(response => response.json())")
@@ -149,15 +163,24 @@ def test_every_model_runs_and_is_judged(page: Page, served: str, name: str) -> N
     assert page.locator(".pg-result tbody tr").count() > len(record["checks"]["fixed"])
 
 
+def test_it_runs_by_itself_unless_the_reader_wants_less_motion(page: Page, served: str) -> None:  # noqa: F811
+    open_playground(page, served)
+    expect(page.locator(".pg-run")).to_have_text("Run")
+    assert steps(page) == 0
+
+    page.emulate_media(reduced_motion="no-preference")
+    page.reload()
+    open_playground(page, served)
+    expect(page.locator(".pg-run")).to_have_text("Pause")
+    wait_for_steps(page)
+
+
 def test_the_picture_changes_while_it_runs(page: Page, served: str) -> None:  # noqa: F811
     open_playground(page, served)
     canvas = page.locator(".pg-stage canvas")
-    page.get_by_role("button", name="Reset").click()
-    page.get_by_role("button", name="Pause").click()
     before = canvas.screenshot()
 
-    for _ in range(60):
-        page.get_by_role("button", name="Step").click()
+    page.get_by_role("button", name="Step").evaluate("button => { for (let i = 0; i < 60; i++) button.click(); }")
     page.wait_for_function("document.querySelector('.pg-clock').dataset.steps >= 60", timeout=LIMIT)
 
     assert canvas.screenshot() != before
@@ -169,7 +192,7 @@ def test_a_compile_error_stands_at_its_line_and_the_last_model_goes_on(page: Pag
 
     expect(page.locator(".pg-complaint")).to_contain_text("Line 3: XML Error: bad format in attribute 'size'")
     expect(page.locator(".cm-lintRange-error")).to_contain_text('<geom size="one"/>')
-    wait_for_steps(page)
+    run(page)
     assert check(page) == ""
 
     restore(page)
@@ -199,10 +222,7 @@ def test_a_model_that_ends_the_engine_leaves_the_page_usable(page: Page, served:
 
     restore(page)
 
-    run = page.locator(".pg-run")
-    if run.inner_text() == "Run":
-        run.click()
-    wait_for_steps(page)
+    run(page)
     assert check(page) == "no"
 
 
@@ -296,6 +316,7 @@ def test_solved_cases_are_ticked_until_the_reader_forgets_them(page: Page, serve
 
 def test_warnings_of_the_engine_link_to_what_explains_them(page: Page, served: str) -> None:  # noqa: F811
     open_playground(page, served, "arm-explodes")
+    page.get_by_role("button", name="Run", exact=True).click()
 
     warning = page.locator(".pg-warnings li")
     expect(warning).to_contain_text("Nan, Inf or huge value in QACC")
@@ -309,6 +330,7 @@ def test_a_body_is_pulled_with_buttons_and_with_the_pointer(page: Page, served: 
     page.get_by_label("Show the fix").select_option("default-masks")
     page.get_by_label("Speed", exact=True).select_option("1")
     page.get_by_label("Signal", exact=True).select_option("height")
+    page.get_by_role("button", name="Run", exact=True).click()
     page.wait_for_function("parseFloat(document.querySelector('.pg-newest').value) < 0.051", timeout=LIMIT)
     page.locator(".pg-fold summary").click()
     risen = "parseFloat(document.querySelector('.pg-newest').value) > 0.06"
@@ -339,7 +361,6 @@ def test_a_body_is_pulled_with_buttons_and_with_the_pointer(page: Page, served: 
 
 def test_the_view_is_turned_with_buttons_and_with_the_pointer(page: Page, served: str) -> None:  # noqa: F811
     open_playground(page, served)
-    page.get_by_role("button", name="Pause").click()
     page.locator(".pg-fold summary").click()
     canvas = page.locator(".pg-stage canvas")
     seen = [canvas.screenshot()]
@@ -425,11 +446,11 @@ def test_everything_is_reached_with_the_keyboard(page: Page, served: str) -> Non
     assert any(name.startswith("<mujoco") for name in reached)
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("width", [360, 1280])
-def test_it_fits_and_has_no_serious_finding(browser: Browser, served: str, scheme: str, width: int) -> None:  # noqa: F811
-    context = browser.new_context(color_scheme=scheme, viewport={"width": width, "height": 800})  # type: ignore[arg-type]
-    page = context.new_page()  # noqa: F811
+@pytest.mark.parametrize(("width", "scheme"), [(360, "dark"), (1280, "light")])
+def test_it_fits_and_has_no_serious_finding(browser: Browser, served: str, width: int, scheme: str) -> None:  # noqa: F811
+    size: Any = {"color_scheme": scheme, "viewport": {"width": width, "height": 800}}
+    context = browser.new_context(reduced_motion="reduce", **size)
+    page = context.new_page()
     open_playground(page, served, "ball-passes-through-shelf")
     page.locator(".pg-fold summary").click()
     page.get_by_role("button", name="Give me a hint").click()
@@ -473,7 +494,7 @@ def bare(browser: Browser) -> Iterator[BrowserContext]:  # noqa: F811
 
 
 def test_without_scripts_a_sentence_stands_in_its_place(bare: BrowserContext, served: str) -> None:  # noqa: F811
-    page = bare.new_page()  # noqa: F811
+    page = bare.new_page()
     page.goto(address(served))
     expect(page.get_by_text("Here the model runs live")).to_be_visible()
     expect(page.get_by_role("button", name="Run the broken model")).to_be_hidden()

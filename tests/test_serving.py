@@ -46,8 +46,8 @@ def test_every_rebuild_equals_a_build_from_nothing_and_converts_what_changed(tmp
     assert done.returncode == 0, done.stderr
     counts = dict(line.split() for line in done.stdout.splitlines())
     assert int(counts["prose"]) < int(counts["first"]) / 2
-    for name, text in texts.items():
-        (folder / RECORD).write_text(text, encoding="utf-8")
+    for name in ("prose", "error", "tags"):
+        (folder / RECORD).write_text(texts[name], encoding="utf-8")
         fresh = run(folder, "-m", "mkdocs", "build", "--site-dir", f"fresh/{name}")
         assert fresh.returncode == 0, fresh.stderr
         assert bytes_of(folder / "served" / name) == bytes_of(folder / "fresh" / name), name

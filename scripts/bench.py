@@ -21,8 +21,9 @@ import clinic.measure
 import mujoco
 from clinic.case import Case, load_cases
 from clinic.checkout import project_root
-from clinic.exhibit import Task, assembled, evidence_task, figure_task, measuring_tasks
+from clinic.exhibit import assembled, evidence_task, figure_task, measuring_tasks
 from clinic.simulate import captured_messages, controls, start, step_count
+from clinic.task import Task
 from measured import copied, finished, machine, markdown, put, python, show, surroundings, timed, write
 
 REPEATS, PAIRS = 3, 7

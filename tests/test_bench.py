@@ -89,7 +89,7 @@ def test_variations_are_cases_that_need_no_run(project: Path, tmp_path: Path, mo
         assert not tasks
         return []
 
-    monkeypatch.setattr("clinic.exhibit.parallel", none)
+    monkeypatch.setattr("clinic.task.parallel", none)
     made = survey(copy, cache)
     assert not made.problems
     shown = all_exhibits([load_case(copy / "cases" / "falling-box-2")], cache)

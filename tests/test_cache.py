@@ -5,29 +5,24 @@ from __future__ import annotations
 import errno
 import hashlib
 import os
-import shutil
 import subprocess
 import sys
 import time
 from pathlib import Path
 
-import clinic
 import pytest
 from clinic.cache import (
     CHECKSUM,
     ENGINES,
-    LOADED,
     ORPHANED,
     SETTINGS,
     Cache,
-    digest,
     engines,
     key_of,
     say_unkept,
-    source_digest,
 )
+from clinic.sources import Sources
 
-IGNORED = shutil.ignore_patterns("__pycache__")
 FILES = {"evidence.json": b"{}\n", "plot.svg": bytes(range(256)), "sub/empty": b""}
 
 
@@ -216,43 +211,19 @@ def test_key_does_not_hang_on_the_order_of_a_mapping() -> None:
     assert key_of({"a": 1, "b": 2}) == key_of({"b": 2, "a": 1})
 
 
-def test_digest_follows_names_and_contents(tmp_path: Path) -> None:
-    def of(**files: str) -> str:
-        for name, text in files.items():
-            (tmp_path / name).write_text(text, encoding="utf-8")
-        return digest([tmp_path / name for name in files])
-
-    assert of(a="1", b="2") == of(a="1", b="2")
-    assert len({of(a="1", b="2"), of(a="12", b=""), of(a="2", b="1"), of(c="1", b="2")}) == 4
-
-
-def test_source_digest_follows_every_file_of_the_package(tmp_path: Path) -> None:
-    package = shutil.copytree(Path(clinic.__file__).parent, tmp_path / "clinic", ignore=IGNORED)
-    assert source_digest(package) == source_digest() == LOADED
-    digests = {LOADED}
-    files = [path for path in sorted(package.rglob("*")) if path.is_file()]
-    for path in files:
-        content = path.read_bytes()
-        path.write_bytes(content + b"\n")
-        digests.add(source_digest(package))
-        path.write_bytes(content)
-    (package / "triage" / "checks.py").write_bytes((package / "checks.py").read_bytes())
-    digests.add(source_digest(package))
-    assert len(digests) == len(files) + 2
-
-
-def test_source_digest_leaves_out_what_is_no_source(tmp_path: Path) -> None:
-    package = shutil.copytree(Path(clinic.__file__).parent, tmp_path / "clinic", ignore=IGNORED)
-    (package / "__pycache__").mkdir()
-    for name in ("__pycache__/cache.cpython-311.pyc", ".cache.py.swp", "cache.py~"):
-        (package / name).write_bytes(b"")
-    assert source_digest(package) == LOADED
-
-
 def test_keys_follow_the_package(monkeypatch: pytest.MonkeyPatch) -> None:
     before = key_of("a")
     monkeypatch.setattr("clinic.cache.LOADED", "another")
     assert key_of("a") != before
+
+
+def test_keys_follow_the_modules_that_do_the_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    before = {name: key_of("a", of=[name]) for name in ("simulate", "film", "pages")}
+    assert len({*before.values(), key_of("a")}) == 4
+    changed = Sources()
+    changed.contents["film.py"] += b"\n"
+    monkeypatch.setattr("clinic.cache.SOURCES", changed)
+    assert [name for name, key in before.items() if key != key_of("a", of=[name])] == ["film"]
 
 
 def test_nothing_is_kept_once_the_package_has_changed(cache: Cache, monkeypatch: pytest.MonkeyPatch) -> None:

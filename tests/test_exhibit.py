@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import io
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from clinic import exhibit
 from clinic.cache import Cache
-from clinic.case import Case, load_case
+from clinic.case import Case
 from clinic.exhibit import (
     all_exhibits,
     evidence_of,
@@ -17,12 +16,10 @@ from clinic.exhibit import (
     exhibits,
     figure_task,
     measuring_tasks,
-    pictures,
     possible_exhibits,
 )
 from clinic.problem import CaseError
-from helpers import MODEL, script_case, tiny_case, write_script_case
-from PIL import Image
+from helpers import MODEL, script_case, tiny_case
 
 BROKEN_RECORD = ("body(box).xpos[2]", "body(bix).xpos[2]")
 
@@ -35,12 +32,6 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Cache:
 
 def without_film(root: Path, *changes: tuple[str, str]) -> Case:
     return tiny_case(root, ("film: {}\n", ""), *changes)
-
-
-def webp_size(data: bytes) -> tuple[int, int]:
-    with Image.open(io.BytesIO(data)) as image:
-        assert image.format == "WEBP"
-        return image.size
 
 
 def test_exhibits_of_a_model(tmp_path: Path, cache: Cache) -> None:
@@ -56,31 +47,6 @@ def test_exhibits_of_a_script(tmp_path: Path, cache: Cache) -> None:
 
     assert set(files) == {"evidence.json", "plot-light.svg", "plot-dark.svg"}
     assert evidence_of(files).variants["no-error"].well
-
-
-def test_pictures_show_the_broken_model_and_the_first_fix(tmp_path: Path) -> None:
-    made = pictures(without_film(tmp_path, ("camera: side", "camera: side, time: 0.2")))
-
-    assert {name: webp_size(data) for name, data in made.items()} == {
-        "broken.webp": (480, 360),
-        "fixed.webp": (480, 360),
-    }
-    assert made["broken.webp"] != made["fixed.webp"]
-
-
-def test_picture_of_a_script_is_its_scene_from_keyframe_0(tmp_path: Path) -> None:
-    def picture(name: str, scene: str) -> bytes:
-        folder = write_script_case(
-            tmp_path / name,
-            ("script: script.py", "script: script.py\nfiles: [scene.xml]"),
-            ("camera: side", "camera: side, scene: scene.xml"),
-        )
-        (folder / "scene.xml").write_text(scene, encoding="utf-8")
-        return pictures(load_case(folder))["broken.webp"]
-
-    raised = MODEL.replace("</mujoco>", '<keyframe><key qpos="0 0 0.3 1 0 0 0"/></keyframe></mujoco>')
-    assert webp_size(picture("one", MODEL)) == (480, 360)
-    assert picture("two", raised) == picture("three", MODEL.replace('pos="0 0 0.06"', 'pos="0 0 0.3"'))
 
 
 def test_two_makings_are_equal_to_the_last_byte(tmp_path: Path, cache: Cache) -> None:
@@ -142,7 +108,7 @@ def test_a_result_is_kept_though_a_later_one_fails(
         raise KeyboardInterrupt
 
     case = without_film(tmp_path)
-    monkeypatch.setattr(exhibit, "pictures", killed)
+    monkeypatch.setattr("clinic.pictures.pictures", killed)
     with pytest.raises(KeyboardInterrupt):
         exhibits(case, cache)
     first, robust, _ = evidence_task(case), *measuring_tasks(case)

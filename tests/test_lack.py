@@ -14,9 +14,10 @@ from clinic.cache import Cache
 from clinic.case import Case, load_case
 from clinic.checkout import project_root
 from clinic.evidence import draws, lack
-from clinic.exhibit import evidence_task, exhibits, possible_exhibits, say_lack
+from clinic.exhibit import evidence_task, exhibits, possible_exhibits
 from clinic.problem import CaseError
 from clinic.site import survey
+from clinic.task import say_lack
 from clinic.ward import lacking_page
 from helpers import SCRIPT, script_case, tiny_case
 from project import write_project

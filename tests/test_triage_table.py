@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from clinic.cache import Cache
-from clinic.exhibit import run_tasks
+from clinic.task import run_tasks
 from clinic.triage.steps import STEPS, Finding, Observation
 from clinic.triage.table import FILE, Screening, cell, screen, screening_tasks, table
 from helpers import script_case, tiny_case

@@ -11,7 +11,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from clinic.cache import Cache, Files, digest
+from clinic.cache import Cache, Files
+from clinic.sources import digest
 
 FOLDER = "javascripts/playground"
 LOADER = "docs/playground/loader.js"
@@ -60,7 +61,8 @@ def bundled(root: Path) -> Files:
         root / "package-lock.json",
     ]
     cache = Cache(root / ".cache" / "playground")
-    return cache.remember(digest([*sources, Path(__file__)])[:32], lambda: _bundle(root))
+    key = digest((path.name, path.read_bytes()) for path in [*sources, Path(__file__)])[:32]
+    return cache.remember(key, lambda: _bundle(root))
 
 
 def node() -> str:

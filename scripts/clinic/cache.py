@@ -9,14 +9,15 @@ import json
 import logging
 import os
 import platform
-import re
 import tempfile
 import time
 import zipfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from importlib.metadata import version
 from pathlib import Path
+
+from clinic.sources import Sources, source_digest
 
 Files = dict[str, bytes]
 ENGINES = ("mujoco", "numpy", "matplotlib", "kiwisolver", "pillow", "av")
@@ -24,7 +25,6 @@ SETTINGS = ("MUJOCO_GL", "MUJOCO_EGL_DEVICE_ID", "PYOPENGL_PLATFORM", "LIBGL_ALW
 CHECKSUM = hashlib.sha256().digest_size
 EPOCH = (1980, 1, 1, 0, 0, 0)
 ORPHANED = 3600.0
-SCRAP = re.compile(r"^\.|~$|\.pyc$")
 log = logging.getLogger("clinic")
 
 
@@ -118,9 +118,15 @@ def say_unkept(folder: Path, reason: str) -> None:
     log.warning("%s takes no files (%s): results are not kept, and the next build makes them again", folder, reason)
 
 
-def key_of(*parts: object) -> str:
-    """A key for work that depends on `parts` and on its origin."""
-    text = json.dumps([*parts, origin()], sort_keys=True)
+def key_of(*parts: object, of: Sequence[str] = ()) -> str:
+    """A key for work that depends on `parts` and on its origin.
+
+    Args:
+        parts: As JSON takes them.
+        of: The module that does the work, then others, as `Sources.behind` takes them; all of the package if not given.
+    """
+    made = origin() | {"clinic": SOURCES.behind(*of) if of else LOADED}
+    text = json.dumps([*parts, made], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
@@ -138,26 +144,11 @@ def engines() -> dict[str, str]:
     return here | {name: version(name) for name in ENGINES}
 
 
-def source_digest(package: Path = Path(__file__).parent) -> str:
-    """A digest of the package's own files, as they are now."""
-    found = [path for path in package.rglob("*") if path.is_file() and not SCRAP.search(path.name)]
-    return digest(sorted(found), package)
-
-
-def digest(paths: Iterable[Path], below: Path | None = None) -> str:
-    """A digest of the files' contents and names, or paths below a folder."""
-    made = hashlib.sha256()
-    for path in paths:
-        content = path.read_bytes()
-        name = path.relative_to(below).as_posix() if below else path.name
-        made.update(f"{name}\0{len(content)}\0".encode())
-        made.update(content)
-    return made.hexdigest()
-
-
 def _checksum(key: str, packed: bytes) -> bytes:
     return hashlib.sha256(f"{key}\0".encode() + packed).digest()
 
 
-LOADED = source_digest()
+SOURCES = Sources()
 """The package's files as this process loaded them."""
+
+LOADED = SOURCES.digest

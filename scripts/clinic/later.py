@@ -17,9 +17,10 @@ from typing import TYPE_CHECKING
 
 from mkdocs.livereload import LiveReloadServer
 
-from clinic.cache import LOADED, Cache, source_digest
+from clinic.cache import LOADED, Cache
 from clinic.checkout import cache_folder, project_root
 from clinic.finished import Site, finished, kept_site, key_of_site
+from clinic.sources import source_digest
 
 if TYPE_CHECKING:
     from clinic.case import Case
@@ -104,11 +105,12 @@ def interim(root: Path, cache: Cache, whole: Site) -> Site | None:
     """The site with the numbers of every case that was edited and takes long; None if there is none, or it fails."""
     from clinic.case import read_cases
     from clinic.casepages import AT_ONCE, FOLDER, PAGE, unproven
-    from clinic.exhibit import EVIDENCE, evidence_of, evidence_task, run_tasks
+    from clinic.exhibit import EVIDENCE, evidence_of, evidence_task
     from clinic.folder import RECORD
     from clinic.laws import complaints
     from clinic.pages import interim_page
     from clinic.site import navigation
+    from clinic.task import run_tasks
     from clinic.ward import by_case, marked, name_of
 
     cases, problems = read_cases(root / "cases")

@@ -82,7 +82,8 @@ def load_messages(file: Path = FILE) -> list[Message]:
 def heard(messages: Iterable[Message], cache: Cache) -> dict[str, str]:
     """What the installed engine says, by the messages' ids; those that no build can provoke are left out."""
     codes = {message.id: message.code for message in messages if message.code is not None}
-    files = cache.remember(key_of("messages", codes), lambda: {SAID: json.dumps(provoked(codes)).encode()})
+    key = key_of("messages", codes, of=["messages"])
+    files = cache.remember(key, lambda: {SAID: json.dumps(provoked(codes)).encode()})
     made: dict[str, str] = json.loads(files[SAID])
     return made
 

@@ -12,6 +12,7 @@ from clinic import cache
 from clinic.checkout import cache_folder, project_root
 from clinic.later import LATER
 from clinic.problem import CaseError
+from clinic.sources import source_digest
 
 log = logging.getLogger("mkdocs.clinic")
 
@@ -24,7 +25,7 @@ def write() -> None:
             MkDocs prints it without a traceback.
     """
     os.environ.setdefault("SOURCE_DATE_EPOCH", "0")  # MkDocs dates pages by the day of the build
-    if cache.source_digest() != cache.LOADED:
+    if source_digest() != cache.LOADED:
         log.warning("scripts/clinic is not what it was when this process began: start it again")
     root = project_root()
     try:

@@ -11,13 +11,13 @@ import mujoco
 from clinic.cache import Cache, Files
 from clinic.case import Case
 from clinic.casepages import Shown
-from clinic.exhibit import run_tasks
 from clinic.fences import NAMED, run_fences
 from clinic.messages import heard, load_messages, messages_page
 from clinic.pages import home_page
 from clinic.problem import CaseError, Problem
 from clinic.reference import reference
 from clinic.symptoms import symptoms_page
+from clinic.task import run_tasks
 from clinic.triage.table import MARK as TRIAGE_MARK
 from clinic.triage.table import screening_tasks, table
 from clinic.ward import error_page

@@ -72,9 +72,14 @@ def test_check_of_a_case_that_breaks_a_law(project: Path) -> None:
     assert result.exit_code == 1
     assert "2 broken laws" in result.stdout
     assert result.stderr.splitlines() == [
-        "case 2 odd-script: broken: error (final) measured 0.500000\u00a0m, expected below 0.1 m; correct the bound of "
-        "checks.broken, the edits, or the model",
-        "case 2 odd-script: no-error: passes every check of `broken` too; tighten one until the repair fails it",
+        "cases/odd-script/case.yaml:16: checks.broken[0]",
+        "  found:    broken: error (final) measured 0.500000\u00a0m, expected below 0.1 m",
+        "  expected: what the record claims",
+        "  repair:   correct the bound of checks.broken[0], the edits, or the model",
+        "cases/odd-script/case.yaml:20: fixes[0]",
+        "  found:    no-error: passes every check of `broken` too",
+        "  expected: what the record claims",
+        "  repair:   tighten one until the repair fails it",
     ]
 
 
@@ -95,7 +100,7 @@ def test_check_reports_all_that_is_wrong_with_all_cases(project: Path) -> None:
     assert found["misspelt"]["variants"] == {}
     (check,) = found["falling-box"]["variants"]["broken"]["checks"]["broken"]
     assert (check["measured"], check["expected"], check["holds"]) == (0, {"equals": 1}, False)
-    assert "checks.broken" in found["falling-box"]["complaints"][0]
+    assert found["falling-box"]["breaches"][0]["where"] == "checks.broken[0]"
 
 
 def test_check_keeps_its_work_in_the_project(project: Path) -> None:

@@ -12,7 +12,7 @@ from helpers import MODEL, changed, script_case, tiny_case
 
 EDIT = "{find: ' contype=\"2\" conaffinity=\"2\"', replace: ''}"
 SPACE = "\u00a0"
-WRONG = "correct the bound of checks.{}, the edits, or the model"
+WRONG = "correct the bound of checks.{}[0], the edits, or the model"
 FALLEN = f"\u22120.721{SPACE}m"
 EXPLOSIVE = (
     '<body><joint type="slide" stiffness="1e9" springref="1"/><geom size="0.1" mass="0.001" pos="9 0 9"/></body>'

@@ -36,7 +36,7 @@ def begun(checkout: Path) -> dict[Kind, Path]:
 @pytest.mark.parametrize("kind", Kind)
 def test_a_new_case_passes_every_law(root: Path, checkout: Path, begun: dict[Kind, Path], kind: Kind) -> None:
     judgement = judge_folder(begun[kind], Neighbours(checkout), Cache(cache_folder(root)))
-    assert (judgement.problems, judgement.complaints) == ((), ())
+    assert (judgement.problems, judgement.breaches) == ((), ())
     assert judgement.evidence is not None
 
 

@@ -14,16 +14,14 @@ from clinic.case import Case
 from clinic.evidence import Evidence
 from clinic.exhibit import evidence_of, possible_exhibits
 from clinic.folder import RECORD
-from clinic.laws import complaints
+from clinic.laws import breach, complaints
 from clinic.lookalike import Matrix, alike_problems, group, matrix, unclear
 from clinic.manual import manual_problems
-from clinic.pages import PROSE, Card, card, case_page
+from clinic.pages import Card, card, case_page
 from clinic.playground import FILE as PLAYGROUND
 from clinic.playground import playground
 from clinic.problem import CaseError, Problem
-from clinic.variant import remedies
 from clinic.ward import by_case, without
-from clinic.yamlmap import Where
 
 FOLDER = "cases/{slug}"
 PAGE = f"{FOLDER}/index.md"
@@ -64,7 +62,7 @@ def shown_cases(
         evidence = evidence_of(exhibits[slug])  # of one case at a time: a thousand would fill the memory
         alike, wrong = _alike(case, cases, cache)
         wrong += manual_problems(case)
-        wrong += [unproven(case, complaint) for complaint in proven(case, evidence, alike)]
+        wrong += [breach(case, complaint) for complaint in proven(case, evidence, alike)]
         files = dict(exhibits[slug])
         if live and case.record.model is not None:
             files[PLAYGROUND] = playground(case, mujoco.__version__, warned)
@@ -104,20 +102,3 @@ def _alike(case: Case, cases: Mapping[str, Case], cache: Cache) -> tuple[Matrix 
 
 def _matrix_file(members: list[Case]) -> Files:
     return {"matrix.json": matrix(members).model_dump_json().encode()}
-
-
-def unproven(case: Case, complaint: str) -> Problem:
-    """A law's complaint as a problem of the record."""
-    found, _, repair = complaint.partition(";")
-    return case.problem(_place(case, found), found, "what the record claims", repair.strip() or found)
-
-
-def _place(case: Case, found: str) -> Where:
-    """The field that a complaint begins with: a text, a sweep, a refuted remedy; else the checks."""
-    kind, _, name = found.partition(":")[0].partition(" ")
-    if kind in PROSE:
-        return (kind,)
-    if kind == "sweep" and name in case.record.sweep:
-        return (kind, name)
-    places = {remedy.id: where for where, which, remedy in remedies(case) if kind == "refuted"}
-    return places.get(name, ("checks",))

@@ -76,7 +76,7 @@ def check(slugs: Slugs = None, as_json: AsJson = False) -> None:
                 out.print(terminal.checks_table(judgement.case, judgement.evidence))
         out.print(terminal.summary(judgements))
         for judgement in judgements:
-            for said in (*judgement.problems, *judgement.complaints):
+            for said in (*judgement.problems, *judgement.breaches):
                 print(said, file=sys.stderr)
     if not all(judgement.sound for judgement in judgements):
         raise typer.Exit(1)

@@ -11,7 +11,7 @@ from clinic.cache import Cache
 from clinic.case import Case, read_cases
 from clinic.evidence import Evidence
 from clinic.exhibit import evidence_of, exhibits
-from clinic.laws import all_complaints
+from clinic.laws import all_breaches, breach
 from clinic.lookalike import alike_problems, group, matrix, unclear
 from clinic.manual import manual_problems
 from clinic.pages import case_page
@@ -31,19 +31,19 @@ class Judgement:
         case: The case; None if its record could not be read.
         evidence: What its runs showed; None if it could not be run.
         problems: Mistakes in its files.
-        complaints: Laws it breaks.
+        breaches: Of laws.
     """
 
     slug: str
     case: Case | None
     evidence: Evidence | None
     problems: tuple[Problem, ...]
-    complaints: tuple[str, ...]
+    breaches: tuple[Problem, ...]
 
     @property
     def sound(self) -> bool:
         """Whether nothing was found."""
-        return not (self.problems or self.complaints)
+        return not (self.problems or self.breaches)
 
 
 class Neighbours:
@@ -74,12 +74,12 @@ def judge_folder(folder: Path, neighbours: Neighbours, cache: Cache, tell: Tell 
         return Judgement(slug, case, None, tuple(sorted({*problems, *error.problems})), ())
     evidence = evidence_of(files)
     tell("laws")
-    complaints = all_complaints(case, evidence)
+    breaches = all_breaches(case, evidence)
     made = None
     if case.record.alike is not None and not problems:
         try:
             made = matrix(group(case, neighbours.cases))
-            complaints += [f"case {case.record.number} {slug}: {cell}; correct `alike`" for cell in unclear(made)]
+            breaches += [breach(case, f"{cell}; correct `alike`") for cell in unclear(made)]
         except SignalError as error:
             problems.append(case.problem(("alike", "path"), error.found, error.expected, error.repair))
     if set(case.record.see) <= neighbours.cases.keys():
@@ -87,7 +87,7 @@ def judge_folder(folder: Path, neighbours: Neighbours, cache: Cache, tell: Tell 
             case_page(case, evidence, files, neighbours.cases, made)
         except CaseError as error:
             problems += error.problems
-    return Judgement(slug, case, evidence, tuple(sorted(set(problems))), tuple(complaints))
+    return Judgement(slug, case, evidence, tuple(sorted(set(problems))), tuple(sorted(set(breaches))))
 
 
 def plain(judgement: Judgement) -> dict[str, Any]:
@@ -99,7 +99,7 @@ def plain(judgement: Judgement) -> dict[str, Any]:
         "title": judgement.case.record.title if judgement.case else None,
         "sound": judgement.sound,
         "problems": [asdict(problem) for problem in judgement.problems],
-        "complaints": list(judgement.complaints),
+        "breaches": [asdict(problem) for problem in judgement.breaches],
         "variants": {
             key: variant.model_dump(mode="json", include={"kind", "title", "warnings", "checks"})
             for key, variant in variants.items()

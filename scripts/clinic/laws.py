@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from itertools import combinations
 
@@ -9,16 +10,19 @@ from clinic.case import Case
 from clinic.checks import expected, judge
 from clinic.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.measure import measure_model, measure_output
+from clinic.problem import Problem
 from clinic.prose import quantity
-from clinic.proselaws import quoted, typed
+from clinic.proselaws import PROSE, quoted, typed
 from clinic.record import Check, Fix
 from clinic.record_parts import Edit
 from clinic.script import run_script
 from clinic.simulate import compile_model
 from clinic.sweep import agreement
-from clinic.variant import EditError, apply_edits, changed_lines, variants
+from clinic.variant import EditError, apply_edits, changed_lines, remedies, variants
+from clinic.yamlmap import Where
 
 MAX_CHANGED_LINES = 5
+CHECK = re.compile(r"checks\.(?P<kind>broken|fixed)\[(?P<index>\d+)\]")
 
 
 def verdicts(case: Case, evidence: Evidence) -> Iterator[str]:
@@ -132,10 +136,28 @@ def complaints(case: Case, evidence: Evidence, law: str) -> list[str]:
     return [] if found else [f"`exempt: {law}` is no longer needed; remove it"]
 
 
-def all_complaints(case: Case, evidence: Evidence) -> list[str]:
-    """What every law complains of, each as `case 7 ball-passes-through-shelf: ...`."""
-    name = f"case {case.record.number} {case.slug}"
-    return [f"{name}: {complaint}" for law in LAWS for complaint in complaints(case, evidence, law)]
+def all_breaches(case: Case, evidence: Evidence) -> list[Problem]:
+    """What every law complains of, as problems of the record."""
+    return [breach(case, complaint) for law in LAWS for complaint in complaints(case, evidence, law)]
+
+
+def breach(case: Case, complaint: str) -> Problem:
+    """A complaint as a problem of the record."""
+    found, _, repair = complaint.partition(";")
+    return case.problem(_place(case, complaint), found, "what the record claims", repair.strip() or found)
+
+
+def _place(case: Case, complaint: str) -> Where:
+    """The check that a complaint names, or what it begins with: a text, a sweep, a remedy; else the checks."""
+    if check := CHECK.search(complaint):
+        return "checks", check["kind"], int(check["index"])
+    kind, _, name = complaint.partition(":")[0].partition(" ")
+    if kind in PROSE:
+        return (kind,)
+    if kind == "sweep" and name in case.record.sweep:
+        return kind, name
+    places = {remedy.id: where for where, _, remedy in remedies(case)}
+    return places.get(name, places.get(kind, ("checks",)))
 
 
 def passes(case: Case, edits: tuple[Edit, ...]) -> bool:
@@ -157,9 +179,10 @@ def _subsets(fix: Fix) -> Iterator[tuple[Edit, ...]]:
 
 
 def _failing(name: str, variant: VariantEvidence, kind: str) -> Iterator[str]:
-    for result in variant.checks[kind]:  # type: ignore[index]
+    for index, result in enumerate(variant.checks[kind]):  # type: ignore[index]
         if not result.holds:
-            yield f"{name}: {_measured(result, variant)}; correct the bound of checks.{kind}, the edits, or the model"
+            place = f"checks.{kind}[{index}]"
+            yield f"{name}: {_measured(result, variant)}; correct the bound of {place}, the edits, or the model"
 
 
 def _measured(result: CheckResult, variant: VariantEvidence) -> str:

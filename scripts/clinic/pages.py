@@ -21,6 +21,7 @@ from clinic.inert import code, fence, line
 from clinic.lookalike import Matrix
 from clinic.problem import CaseError, Problem
 from clinic.prose import field_errors, fill, markdown, plain, quantity
+from clinic.proselaws import PROSE
 from clinic.record import Check
 from clinic.record_parts import Interval
 from clinic.robust import NUDGE, STARTS
@@ -31,7 +32,6 @@ TEMPLATES = jinja2.Environment(
     loader=jinja2.PackageLoader("clinic"), undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
 )
 TEMPLATES.filters |= {"code": code, "fence": fence, "line": line}
-PROSE = ("symptom", "diagnosis", "cause", "fix", "lesson")
 
 
 @dataclass(frozen=True)

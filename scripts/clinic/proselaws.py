@@ -12,6 +12,7 @@ from clinic.inert import CODE
 from clinic.prose import FIELD
 from clinic.variant import variants
 
+PROSE = ("symptom", "diagnosis", "cause", "fix", "lesson")
 SPAN = re.compile(r"`([^`]+)`")
 ATTRIBUTE = re.compile(r'[a-z_]+="[^"]*"')
 UNIT = (
@@ -38,7 +39,7 @@ def typed(case: Case, evidence: Evidence) -> Iterator[str]:
 
 def prose_of(case: Case) -> Iterator[tuple[str, str]]:
     """Every prose field of the record with its place."""
-    for name in ("symptom", "diagnosis", "cause", "fix", "lesson"):
+    for name in PROSE:
         yield name, getattr(case.record, name)
     for remedy in case.record.refuted:
         yield f"refuted {remedy.id}", remedy.why

@@ -83,8 +83,7 @@ def renderer(model: mujoco.MjModel, width: int = WIDTH, height: int = HEIGHT) ->
     Raises:
         RenderError: If there is no OpenGL library, or it cannot make a context.
     """
-    model.vis.global_.offwidth = max(model.vis.global_.offwidth, width)
-    model.vis.global_.offheight = max(model.vis.global_.offheight, height)
+    model.vis.global_.offwidth, model.vis.global_.offheight = width, height  # all of the buffer is read, used or not
     model.vis.quality.shadowsize = min(model.vis.quality.shadowsize, SHADOW_SIZE)
     model.vis.map.shadowclip = max(model.vis.map.shadowclip, SHADOW_CLIP)
     try:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +37,7 @@ def schema() -> dict[str, Any]:
     return {"$schema": Plain.schema_dialect, **made, "title": "The record of a case", "oneOf": list(SOURCES)}
 
 
+@lru_cache
 def schema_text() -> str:
     """The schema as the text of its file."""
     return json.dumps(schema(), indent=1, ensure_ascii=False) + "\n"

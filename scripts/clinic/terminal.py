@@ -64,7 +64,7 @@ def result(judgement: Judgement) -> Text:
     """The judgement in a word or two."""
     if judgement.sound:
         return Text("sound", "green")
-    parts = [counted(len(judgement.problems), "mistake"), counted(len(judgement.complaints), "broken law")]
+    parts = [counted(len(judgement.problems), "mistake"), counted(len(judgement.breaches), "broken law")]
     return Text(", ".join(part for part in parts if part), "red")
 
 

@@ -18,6 +18,8 @@ from clinic.finished import Site
 from clinic.later import Later, takes_long
 from clinic.site import survey
 from helpers import changed
+from mkdocs.config import load_config
+from mkdocs.livereload import LiveReloadServer
 from project import write_project
 
 pytestmark = pytest.mark.xdist_group("kill")
@@ -172,3 +174,18 @@ def test_the_server_shows_the_numbers_and_then_the_page(project: Path, tmp_path:
     prose, numbers, whole = bench.edits(copy, project / "cache", "falling-box", repeats=0)
     assert prose > 0
     assert 0 < numbers < whole
+
+
+def test_the_server_looks_often_at_all_that_it_watched_before(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("CLINIC_CACHE", str(project / "cache"))
+    monkeypatch.setattr(module, "LATER", Later())
+    config = load_config(str(project / "mkdocs.yml"))
+    server = LiveReloadServer(lambda: None, "127.0.0.1", 0, str(project))
+    watched = [config.docs_dir, config.config_file_path]
+    for path in watched:
+        server.watch(path)
+    module.on_serve(server, config=config)
+    assert server.observer.timeout == module.POLLING < 0.5
+    seen = {emitter.watch.path for emitter in server.observer.emitters}
+    assert seen == {*watched, str(module.LATER.folder)}
+    server.server_close()

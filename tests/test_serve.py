@@ -125,8 +125,7 @@ def test_a_task_that_raises_what_nobody_foresaw_is_a_problem_of_its_case(
 
 def test_a_package_that_changed_meanwhile_is_told(whole: tuple[Path, Site]) -> None:
     code = (
-        "from clinic import sources\nsources.source_digest = str\n"
-        "from mkdocs.__main__ import cli\ncli(['build', '-s'])"
+        "from clinic import sources\nsources.source_digest = str\nfrom mkdocs.__main__ import cli\ncli(['build', '-s'])"
     )
     done = run(whole[0], "-c", code)
     assert done.returncode == 1

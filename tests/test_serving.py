@@ -5,9 +5,12 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import bench
 import pytest
 from helpers import changed
+from playwright.sync_api import Browser, expect
 from project import bytes_of, run, write_project
+from test_browser import browser  # noqa: F401
 
 pytestmark = pytest.mark.xdist_group("kill")
 RECORD = "cases/falling-box/case.yaml"
@@ -51,6 +54,24 @@ def test_every_rebuild_equals_a_build_from_nothing_and_converts_what_changed(tmp
         fresh = run(folder, "-m", "mkdocs", "build", "--site-dir", f"fresh/{name}")
         assert fresh.returncode == 0, fresh.stderr
         assert bytes_of(folder / "served" / name) == bytes_of(folder / "fresh" / name), name
+
+
+def test_a_page_that_is_loaded_anew_stands_where_it_stood(tmp_path: Path, browser: Browser) -> None:  # noqa: F811
+    folder = write_project(tmp_path, ("film: {}\n", ""))
+    record, shown = folder / RECORD, "cases/falling-box/index.html"
+    page = browser.new_context(viewport={"width": 800, "height": 400}).new_page()
+    with bench.served(folder, folder / "cache") as address:
+        page.goto(address + shown)
+        page.get_by_text("Fix", exact=True).click()
+        page.evaluate("scrollTo(0, 333)")
+        record.write_text(changed(record.read_text(encoding="utf-8"), EDITS["prose"]), encoding="utf-8")
+        expect(page.get_by_text("Look at the masks twice.")).to_be_attached(timeout=bench.PATIENCE * 1000)
+        page.wait_for_function("scrollY === 333")
+        assert page.evaluate("[...document.querySelectorAll('details')].filter(fold => fold.open).length") == 1
+        page.goto(address + "symptoms.html")
+        page.goto(address + shown)
+        assert page.evaluate("document.querySelectorAll('details[open]').length") == 0
+    page.context.close()
 
 
 def test_the_server_watches_what_pages_are_made_of(root: Path) -> None:

@@ -12,6 +12,7 @@ from urllib.parse import unquote, urlparse
 
 import lxml.html
 import pytest
+from clinic.serving import SCRIPT
 from clinic.site import build
 
 pytestmark = pytest.mark.xdist_group("site")
@@ -105,6 +106,11 @@ def test_no_source_links_and_no_unresolved_templates(site: Path, pages) -> None:
         text = page.text_content()
         for mark in ("{{", "}}", "{%", "!!!", "???", "$$"):
             assert mark not in text, f"{path.relative_to(site)}: {mark}"
+
+
+def test_nothing_of_what_serves_authors_is_published(pages) -> None:
+    text = SCRIPT.read_text(encoding="utf-8")
+    assert not [path for path in pages if text in path.read_text(encoding="utf-8")]
 
 
 def test_images_say_what_they_show(site: Path, pages) -> None:

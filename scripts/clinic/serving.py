@@ -1,7 +1,7 @@
 """What MkDocs keeps from one build to the next while it serves; `scripts/hooks.py` hands these events to it.
 
 A page whose Markdown is the same, among the same files, is not converted and not indexed again, and the theme's
-templates are compiled once. A single build finds nothing kept.
+templates are compiled once. A page that the browser loads anew stands where it stood. A single build has none of this.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 from copy import deepcopy
 from dataclasses import dataclass
 from hashlib import sha256
+from pathlib import Path
 from typing import Any
 
 from jinja2 import BytecodeCache, Environment
@@ -51,12 +52,25 @@ class Templates(BytecodeCache):
         self.made[bucket.key] = bucket.bytecode_to_string()
 
 
+SCRIPT = Path(__file__).parent / "templates" / "served.js"
+_scripts: list[str] = []
 _templates = Templates()
 _digest: dict[str, object] = {}
 _converted: dict[Key, Converted] = {}
 _asked: dict[str, tuple[Key, str]] = {}
 _indexed: dict[Key, list[dict[str, Any]]] = {}
 _indexing: dict[str, tuple[Key, Any, int]] = {}
+
+
+def on_startup(command: str, dirty: bool) -> None:
+    """From now on, every page carries SCRIPT, if the site is served."""
+    if command == "serve":
+        _scripts.append(f"<script>{SCRIPT.read_text(encoding='utf-8')}</script>")
+
+
+def on_post_page(output: str, page: Page, config: MkDocsConfig) -> str:
+    """Adds SCRIPT at the end of a page."""
+    return output.replace("</body>", f"{''.join(_scripts)}</body>")
 
 
 def on_env(env: Environment, config: MkDocsConfig, files: Files) -> Environment:

@@ -776,7 +776,7 @@ qacc_smooth, qacc_warmstart, qfrc_actuator, qfrc_applied, qfrc_bias, and 8 more
             [(EDIT, "{find: 'contype=\"3\"', replace: ''}")],
             """
             cases/falling-box/case.yaml:24: fixes[0].edits[0].find
-              found:    text that does not occur in model.xml: contype="3"
+              found:    text that does not occur in model.xml: 'contype="3"'
               expected: text that occurs exactly once
               repair:   copy the text from model.xml, character by character
             """,
@@ -786,7 +786,7 @@ qacc_smooth, qacc_warmstart, qfrc_actuator, qfrc_applied, qfrc_bias, and 8 more
             [(EDIT, "{find: '=\"2\"', replace: '=\"1\"'}")],
             """
             cases/falling-box/case.yaml:24: fixes[0].edits[0].find
-              found:    text that occurs 2 times in model.xml: ="2"
+              found:    text that occurs 2 times in model.xml: '="2"'
               expected: text that occurs exactly once
               repair:   lengthen `find` until it names one place
             """,
@@ -796,7 +796,7 @@ qacc_smooth, qacc_warmstart, qfrc_actuator, qfrc_applied, qfrc_bias, and 8 more
             [(EDIT, EDIT + "\n      - {find: 'contype=\"2\"', replace: ''}")],
             """
             cases/falling-box/case.yaml:25: fixes[0].edits[1].find
-              found:    text that does not occur in model.xml after the edits before it: contype="2"
+              found:    text that does not occur in model.xml after the edits before it: 'contype="2"'
               expected: text that occurs exactly once
               repair:   copy the text from model.xml, character by character
             """,

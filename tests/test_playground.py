@@ -155,11 +155,10 @@ def test_every_model_runs_and_is_judged(page: Page, served: str, name: str) -> N
     assert check(page) == "no"
 
     record = page.evaluate("fetch('playground.json').then(response => response.json())")
-    remedies = [(fix, "yes") for fix in record["fixes"]] + [(refuted, "no") for refuted in record["refuted"][:1]]
-    for remedy, well in remedies:
-        page.get_by_label("Show the fix").select_option(remedy["id"])
-        expect(page.locator(".cm-changedLine, .cm-deletedChunk").first).to_be_attached()
-        assert check(page) == well, f"{remedy['id']}: {page.locator('.pg-result').inner_text()}"
+    fix = record["fixes"][0]["id"]  # Node judges all that records hold: see test_parity.py
+    page.get_by_label("Show the fix").select_option(fix)
+    expect(page.locator(".cm-changedLine, .cm-deletedChunk").first).to_be_attached()
+    assert check(page) == "yes", f"{fix}: {page.locator('.pg-result').inner_text()}"
     assert page.locator(".pg-result tbody tr").count() > len(record["checks"]["fixed"])
 
 

@@ -120,13 +120,13 @@ def _edit_problem(case: Case, where: Where, remedy: Remedy, error: EditError) ->
     if error.count == 0:
         return case.problem(
             place,
-            f"text that does not occur in {name}{before}: {remedy.edits[error.index].find}",
+            f"text that does not occur in {name}{before}: {remedy.edits[error.index].find!r}",
             "text that occurs exactly once",
             f"copy the text from {name}, character by character",
         )
     return case.problem(
         place,
-        f"text that occurs {error.count} times in {name}{before}: {remedy.edits[error.index].find}",
+        f"text that occurs {error.count} times in {name}{before}: {remedy.edits[error.index].find!r}",
         "text that occurs exactly once",
         "lengthen `find` until it names one place",
     )

@@ -22,12 +22,13 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import yaml
-from clinic.cache import Cache
+from clinic.cache import Cache, Files
 from clinic.case import Case, load_cases
 from clinic.checkout import project_root
 from clinic.exhibit import EVIDENCE, assembled, evidence_of, evidence_task, figure_task, measuring_tasks
 from clinic.overviews import screening_tasks
 from clinic.site import survey
+from clinic.task import Task
 from measured import copied, machine, markdown, put, show, surroundings, write
 from playwright.sync_api import sync_playwright
 
@@ -90,20 +91,27 @@ def grow(folder: Path, cache: Cache, size: int) -> None:
 
 def keep(original: Case, case: Case, cache: Cache) -> None:
     """Keeps what the original showed as what its variation shows."""
-    first = cache.get(evidence_task(original).key)
-    assert first is not None, f"{original.slug} has not been built"
+    first = kept(cache, evidence_task(original))
     shown = evidence_of(first).model_copy(update={"case": case.slug, "number": case.record.number})
     renamed = {**first, EVIDENCE: shown.model_dump_json().encode()}
     cache.put(evidence_task(case).key, renamed)
     rest = {}
     for old, new in zip(measuring_tasks(original), measuring_tasks(case), strict=True):
-        files = cache.get(old.key) or {}
+        files = kept(cache, old)
         cache.put(new.key, files)
         rest |= files
-    drawn = cache.get(figure_task(original, assembled(original, first, rest)).key)
-    cache.put(figure_task(case, assembled(case, renamed, rest)).key, drawn or {})
+    drawn = kept(cache, figure_task(original, assembled(original, first, rest)))
+    cache.put(figure_task(case, assembled(case, renamed, rest)).key, drawn)
     for old, new in zip(screening_tasks([original]), screening_tasks([case]), strict=True):
-        cache.put(new.key, cache.get(old.key) or {})
+        cache.put(new.key, kept(cache, old))
+
+
+def kept(cache: Cache, task: Task) -> Files:
+    """What a task has made."""
+    files = cache.get(task.key)
+    if files is None:
+        sys.exit(f"{task.slug}: its {task.kind} is not kept; was the package changed meanwhile? Start again")
+    return files
 
 
 def build(folder: Path, cache: Path, out: Path) -> tuple[float, float]:

@@ -35,7 +35,7 @@ all_exhibits(load_cases(Path("cases")), cache.Cache(Path("elsewhere")))
 for path in {Path(path).resolve() for path in opened}:
     if path.is_relative_to(package):
         name = path.relative_to(package)
-        print(name.parent.parent / f"{name.name.split('.')[0]}.py" if name.suffix == ".pyc" else name)
+        print(name.parent.parent / f"{name.name.split('.')[0]}.py" if "__pycache__" in name.parts else name)
 """
 
 

@@ -9,4 +9,6 @@ import pytest
 def test_groups_reach_the_scheduler(request: pytest.FixtureRequest, worker_id: str) -> None:
     if worker_id == "master":
         pytest.skip("one process runs every test")
-    assert request.node.nodeid.endswith("@together"), "pytest-xdist ignores groups with this pytest: see pyproject.toml"
+    assert request.node.nodeid.endswith("@together"), (
+        "no groups: run with `--dist loadgroup`; if that was so, this pytest-xdist ignores them: see pyproject.toml"
+    )

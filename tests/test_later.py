@@ -181,11 +181,11 @@ def test_the_server_looks_often_at_all_that_it_watched_before(project: Path, mon
     monkeypatch.setattr(module, "LATER", Later())
     config = load_config(str(project / "mkdocs.yml"))
     server = LiveReloadServer(lambda: None, "127.0.0.1", 0, str(project))
-    watched = [config.docs_dir, config.config_file_path]
-    for path in watched:
+    theme = config.theme.dirs[0]  # as `--watch-theme` has it
+    for path in (config.docs_dir, config.config_file_path, theme):
         server.watch(path)
     module.on_serve(server, config=config)
     assert server.observer.timeout == module.POLLING < 0.5
     seen = {emitter.watch.path for emitter in server.observer.emitters}
-    assert seen == {config.docs_dir, str(project), str(module.LATER.folder)}  # a file is seen in its folder
+    assert seen == {config.docs_dir, str(project), theme, str(module.LATER.folder)}  # a file is seen in its folder
     server.server_close()

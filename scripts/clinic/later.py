@@ -151,9 +151,11 @@ def survey(root: Path, cache: Cache) -> Site:
 
 def on_serve(server: LiveReloadServer, config: MkDocsConfig, **_: object) -> LiveReloadServer:
     """From now on, files are looked at more often, and what takes long is put off, if the end of it can be told."""
-    watched = (config.docs_dir, config.config_file_path)
-    for path in watched:
-        server.unwatch(path)
+    watched = []
+    for path in (config.docs_dir, config.config_file_path, *config.theme.dirs):
+        with suppress(KeyError):  # the theme is watched if asked for
+            server.unwatch(path)
+            watched.append(path)
     server.observer = PollingObserver(timeout=POLLING)
     for path in watched:
         server.watch(path)

@@ -62,6 +62,22 @@ film: {}
 picture: {camera: side}
 """
 
+SWEEP = """\
+sweep:
+  fall:
+    title: Gravity and the fall
+    text: At {{ sweep.fall.points }} points.
+    vary:
+      - {name: g, find: '<option timestep="0.002"/>', replace: '<option timestep="0.002" gravity="0 0 -{}"/>',
+         values: [1, 2, 4, 8], unit: m/s²}
+    outcome: {signal: height}
+    prediction:
+      {label: "semi-implicit, a step behind", expr: 0.06 - g * 0.4 * 0.398 / 2, within: 1.0e-9, relative: false}
+    rivals:
+      - {id: textbook, label: half g t squared, expr: 0.06 - g * 0.4 ** 2 / 2, within: 0.005, relative: false}
+"""
+"""How far the box falls in 0.4 s."""
+
 SCRIPT = """\
 print("first error = 0.25")
 print("error = 0.5")

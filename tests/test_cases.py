@@ -6,16 +6,16 @@ from pathlib import Path
 
 import pytest
 from clinic.case import load_cases
-from clinic.laws import LAWS, complaints
+from clinic.laws import LAWS, breaches
 
 
 @pytest.mark.parametrize("law", LAWS)
 def test_law(slug: str, law: str, proven) -> None:
     case, evidence = proven(slug)
 
-    found = complaints(case, evidence, law)
+    found = breaches(case, evidence, law)
 
-    assert not found, f"case {case.record.number} {slug}:\n" + "\n".join(found)
+    assert not found, f"case {case.record.number} {slug}:\n" + "\n".join(map(str, found))
 
 
 def test_every_file_belongs_to_a_case_and_every_relation_resolves(root: Path) -> None:

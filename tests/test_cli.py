@@ -72,14 +72,14 @@ def test_check_of_a_case_that_breaks_a_law(project: Path) -> None:
     assert result.exit_code == 1
     assert "2 broken laws" in result.stdout
     assert result.stderr.splitlines() == [
+        "cases/odd-script/case.yaml:15: checks.broken",
+        "  found:    no-error: passes every check",
+        "  expected: a check that the repair fails",
+        "  repair:   tighten one",
         "cases/odd-script/case.yaml:16: checks.broken[0]",
-        "  found:    broken: error (final) measured 0.500000\u00a0m, expected below 0.1 m",
-        "  expected: what the record claims",
-        "  repair:   correct the bound of checks.broken[0], the edits, or the model",
-        "cases/odd-script/case.yaml:20: fixes[0]",
-        "  found:    no-error: passes every check of `broken` too",
-        "  expected: what the record claims",
-        "  repair:   tighten one until the repair fails it",
+        "  found:    broken: error (final) = 0.500000\u00a0m",
+        "  expected: below 0.1 m",
+        "  repair:   correct the bound, the edits, or the model",
     ]
 
 

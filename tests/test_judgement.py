@@ -77,5 +77,5 @@ def test_mistakes_and_broken_laws_are_found_together(checkout: Path) -> None:
     write_script_case(checkout, ("above: 0.1", "below: 0.1"))
     judgement = judged(checkout)
     assert [problem.where for problem in judgement.problems] == ["phrases"]
-    assert [said.found.split(": ")[0] for said in judgement.breaches] == ["broken", "no-error"]
-    assert [said.where for said in judgement.breaches] == ["checks.broken[0]", "fixes[0]"]
+    assert [said.found.split(": ")[0] for said in judgement.breaches] == ["no-error", "broken"]
+    assert [said.where for said in judgement.breaches] == ["checks.broken", "checks.broken[0]"]

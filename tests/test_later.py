@@ -112,7 +112,7 @@ def test_a_claim_that_the_numbers_do_not_bear_out_is_said_at_once(project: Path,
     edit(project, RECORD, "[0.045, 0.051]", "[0.045, 0.046]")
     early = site(served, project)
     assert {problem.where for problem in early.problems} == {"checks.fixed[0]"}
-    assert "measured 0.0498" in early.files[PAGE].decode()
+    assert "share-a-bit: height (final) = 0.0498" in early.files[PAGE].decode()
     assert MEASURING in early.files[PAGE].decode()
     ended(served)
     made = site(served, project)

@@ -30,7 +30,7 @@ def test_a_clear_matrix_holds_on_its_diagonal_alone(tmp_path: Path) -> None:
 
     assert made.measured == [[0.0, 4.0], [0.0, 4.0]]
     assert made.holds == [[True, False], [False, True]]
-    assert list(unclear(made)) == []
+    assert list(unclear(cases["falling-box"], made)) == []
     assert list(alike_problems(cases)) == []
 
 
@@ -38,7 +38,8 @@ def test_a_measurement_that_holds_for_both_is_unclear(tmp_path: Path) -> None:
     both = "alike: {cases: [falling-box], path: time, above: 0, says: time passes}\n"
     cases = pair(tmp_path, NONE.format("resting-box"), both)
 
-    assert list(unclear(matrix(list(cases.values())))) == ["the measurement of resting-box holds for falling-box (0.4)"]
+    (problem,) = unclear(cases["resting-box"], matrix(list(cases.values())))
+    assert (problem.where, problem.found) == ("alike", "the measurement of resting-box holds for falling-box (0.4)")
 
 
 def test_look_alikes_name_each_other(tmp_path: Path) -> None:

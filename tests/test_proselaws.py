@@ -19,17 +19,17 @@ def test_a_quotation_that_stands_in_a_variant(tmp_path, text: str) -> None:
 
 
 def test_a_quotation_that_no_variant_has(tmp_path) -> None:
-    assert list(quoted(*case_with(tmp_path, 'It has `contype="3" conaffinity="2"`.'))) == [
-        'lesson: quotes contype="3", which no variant has; correct the quotation'
-    ]
+    (problem,) = quoted(*case_with(tmp_path, 'It has `contype="3" conaffinity="2"`.'))
+    assert (problem.where, problem.found) == ("lesson", 'contype="3"')
+    assert (problem.expected, problem.repair) == ("an attribute that some variant has", "correct the quotation")
 
 
 @pytest.mark.parametrize("text", ["It falls 3 m.", "After 20ms it", "turned by 90°", "by 90 degrees", "weighs 3.9 N."])
 def test_a_number_typed_by_hand(tmp_path, text: str) -> None:
-    complaint, *rest = typed(*case_with(tmp_path, text))
-    assert complaint.startswith("lesson: ")
-    assert complaint.endswith("is typed by hand; write a field such as {{ broken.signal.final }}")
-    assert not rest
+    (problem,) = typed(*case_with(tmp_path, text))
+    assert problem.where == "lesson"
+    assert problem.found.endswith(", typed by hand")
+    assert problem.repair == "write a field such as {{ broken.signal.final }}"
 
 
 @pytest.mark.parametrize(

@@ -10,30 +10,11 @@ from clinic.case import Case
 from clinic.problem import CaseError, Problem
 from clinic.record_sweep import Parameter
 from clinic.sweep import agreement, grid, measure_points, numbers, substituted, summarise
-from helpers import script_case, tiny_case
-
-FALL = """\
-sweep:
-  fall:
-    title: Gravity and the fall
-    text: At {{ sweep.fall.points }} points.
-    vary:
-      - {name: g, find: '<option timestep="0.002"/>', replace: '<option timestep="0.002" gravity="0 0 -{}"/>',
-         values: [1, 2, 4, 8], unit: m/s²}
-    outcome: {signal: height}
-    prediction:
-      {label: "semi-implicit, a step behind", expr: 0.06 - g * 0.4 * 0.398 / 2, within: 1.0e-9, relative: false}
-    rivals:
-      - {id: textbook, label: half g t squared, expr: 0.06 - g * 0.4 ** 2 / 2, within: 0.005, relative: false}
-"""
+from helpers import SWEEP, changed, script_case, tiny_case
 
 
 def falling(tmp_path: Path, *changes: tuple[str, str]) -> Case:
-    text = FALL
-    for old, new in changes:
-        assert old in text
-        text = text.replace(old, new)
-    return tiny_case(tmp_path, ("no_sweep: The masks are not a number.\n", text))
+    return tiny_case(tmp_path, ("no_sweep: The masks are not a number.\n", changed(SWEEP, *changes)))
 
 
 def test_numbers_are_spaced_as_asked() -> None:
@@ -110,7 +91,7 @@ def crowded(*sizes: tuple[int, int]) -> str:
     """Sweeps of so many points in either direction."""
     text = "sweep:\n"
     for k, (first, second) in enumerate(sizes):
-        whole = FALL.split("\n", 1)[1].replace("fall:", f"fall-{k}:", 1).replace("expr: 0.06 - g", "expr: a")
+        whole = SWEEP.split("\n", 1)[1].replace("fall:", f"fall-{k}:", 1).replace("expr: 0.06 - g", "expr: a")
         head, rest = whole.split("    vary:\n")
         text += (
             head + GRID.format(first, ", ".join(map(str, range(second)))) + "    outcome" + rest.split("    outcome")[1]

@@ -14,7 +14,7 @@ from clinic.case import Case
 from clinic.evidence import Evidence
 from clinic.exhibit import evidence_of, possible_exhibits
 from clinic.folder import RECORD
-from clinic.laws import breach, complaints
+from clinic.laws import breaches
 from clinic.lookalike import Matrix, alike_problems, group, matrix, unclear
 from clinic.manual import manual_problems
 from clinic.pages import Card, card, case_page
@@ -62,7 +62,7 @@ def shown_cases(
         evidence = evidence_of(exhibits[slug])  # of one case at a time: a thousand would fill the memory
         alike, wrong = _alike(case, cases, cache)
         wrong += manual_problems(case)
-        wrong += [breach(case, complaint) for complaint in proven(case, evidence, alike)]
+        wrong += unproven(case, evidence, alike)
         files = dict(exhibits[slug])
         if live and case.record.model is not None:
             files[PLAYGROUND] = playground(case, mujoco.__version__, warned)
@@ -78,12 +78,12 @@ def shown_cases(
     return shown, problems
 
 
-def proven(case: Case, evidence: Evidence, alike: Matrix | None) -> Iterator[str]:
+def unproven(case: Case, evidence: Evidence, alike: Matrix | None) -> Iterator[Problem]:
     """What a build refuses to publish: claims that the runs do not bear out."""
     for law in (*AT_ONCE, "lasting", "steady", "swept"):
-        yield from complaints(case, evidence, law)
+        yield from breaches(case, evidence, law)
     if alike is not None:
-        yield from (f"{cell}; correct `alike`" for cell in unclear(alike))
+        yield from unclear(case, alike)
 
 
 def _alike(case: Case, cases: Mapping[str, Case], cache: Cache) -> tuple[Matrix | None, list[Problem]]:

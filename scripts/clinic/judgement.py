@@ -11,7 +11,7 @@ from clinic.cache import Cache
 from clinic.case import Case, read_cases
 from clinic.evidence import Evidence
 from clinic.exhibit import evidence_of, exhibits
-from clinic.laws import all_breaches, breach
+from clinic.laws import LAWS, breaches
 from clinic.lookalike import alike_problems, group, matrix, unclear
 from clinic.manual import manual_problems
 from clinic.pages import case_page
@@ -74,12 +74,12 @@ def judge_folder(folder: Path, neighbours: Neighbours, cache: Cache, tell: Tell 
         return Judgement(slug, case, None, tuple(sorted({*problems, *error.problems})), ())
     evidence = evidence_of(files)
     tell("laws")
-    breaches = all_breaches(case, evidence)
+    broken = [each for law in LAWS for each in breaches(case, evidence, law)]
     made = None
     if case.record.alike is not None and not problems:
         try:
             made = matrix(group(case, neighbours.cases))
-            breaches += [breach(case, f"{cell}; correct `alike`") for cell in unclear(made)]
+            broken += unclear(case, made)
         except SignalError as error:
             problems.append(case.problem(("alike", "path"), error.found, error.expected, error.repair))
     if set(case.record.see) <= neighbours.cases.keys():
@@ -87,7 +87,7 @@ def judge_folder(folder: Path, neighbours: Neighbours, cache: Cache, tell: Tell 
             case_page(case, evidence, files, neighbours.cases, made)
         except CaseError as error:
             problems += error.problems
-    return Judgement(slug, case, evidence, tuple(sorted(set(problems))), tuple(sorted(set(breaches))))
+    return Judgement(slug, case, evidence, tuple(sorted(set(problems))), tuple(sorted(set(broken))))
 
 
 def plain(judgement: Judgement) -> dict[str, Any]:

@@ -110,7 +110,7 @@ def interim(root: Path, cache: Cache, whole: Site) -> Site | None:
     from clinic.casepages import AT_ONCE, FOLDER, PAGE
     from clinic.exhibit import EVIDENCE, evidence_of, evidence_task
     from clinic.folder import RECORD
-    from clinic.laws import breach, complaints
+    from clinic.laws import breaches
     from clinic.pages import interim_page
     from clinic.site import navigation
     from clinic.task import run_tasks
@@ -127,7 +127,7 @@ def interim(root: Path, cache: Cache, whole: Site) -> Site | None:
         if EVIDENCE not in found.get(case.slug, {}):
             return None
         folder, evidence = FOLDER.format(slug=case.slug), evidence_of(found[case.slug])
-        wrong = [breach(case, said) for law in AT_ONCE for said in complaints(case, evidence, law)]
+        wrong = [each for law in AT_ONCE for each in breaches(case, evidence, law)]
         page = interim_page(case, evidence)
         files[PAGE.format(slug=case.slug)] = (marked(page, wrong) if wrong else page).encode()
         files |= {f"{folder}/{name}": (root / folder / name).read_bytes() for name in (RECORD, *case.texts)}

@@ -1,163 +1,161 @@
-"""The laws that every case obeys. Each law gives its complaints, and a complaint says what to do."""
+"""The laws that every case obeys. Each law gives where the record breaks it, and what to do."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
 from itertools import combinations
+from math import isfinite
+from typing import Literal
 
 from clinic.case import Case
 from clinic.checks import expected, judge
-from clinic.evidence import CheckResult, Evidence, VariantEvidence, observe
+from clinic.evidence import Evidence, VariantEvidence, observe
 from clinic.measure import measure_model, measure_output
-from clinic.problem import Problem
+from clinic.problem import Problem, listed
 from clinic.prose import quantity
-from clinic.proselaws import PROSE, quoted, typed
+from clinic.proselaws import quoted, typed
 from clinic.record import Check, Fix
 from clinic.record_parts import Edit
+from clinic.record_sweep import Sweep
 from clinic.script import run_script
 from clinic.simulate import compile_model
-from clinic.sweep import agreement
+from clinic.sweep import SweepEvidence, agreement, misses
 from clinic.variant import EditError, apply_edits, changed_lines, remedies, variants
 from clinic.yamlmap import Where
 
 MAX_CHANGED_LINES = 5
-CHECK = re.compile(r"checks\.(?P<kind>broken|fixed)\[(?P<index>\d+)\]")
 
 
-def verdicts(case: Case, evidence: Evidence) -> Iterator[str]:
+def verdicts(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 1. Broken: all of `checks.broken`, not all of `checks.fixed`. A fix: the other way round.
 
     A refuted remedy: not all of `checks.fixed`.
     """
     for name, variant in evidence.variants.items():
-        match variant.kind:
-            case "broken":
-                yield from _failing(name, variant, "broken")
-                if variant.well:
-                    yield f"{name}: passes every check of `fixed`; tighten one until the broken variant fails it"
-            case "fix":
-                yield from _failing(name, variant, "fixed")
-                if variant.broken:
-                    yield f"{name}: passes every check of `broken` too; tighten one until the repair fails it"
-            case "refuted":
-                if variant.well:
-                    yield f"{name}: refuted, yet passes every check of `fixed`; move it to `fixes` or tighten a check"
+        if variant.kind != "refuted":
+            yield from _failing(case, name, variant, "broken" if variant.kind == "broken" else "fixed")
+        if variant.kind == "broken" and variant.well:
+            yield _lax(case, name, "fixed", "a check that the broken variant fails")
+        if variant.kind == "fix" and variant.broken:
+            yield _lax(case, name, "broken", "a check that the repair fails")
+        if variant.kind == "refuted" and variant.well:
+            found, wanted = "passes every check of `fixed`", "a refuted remedy that fails one"
+            yield case.problem(_place(case, name), found, wanted, "move it to `fixes`, or tighten a check")
 
 
-def ablation(case: Case, evidence: Evidence) -> Iterator[str]:
+def ablation(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 2. Of a fix with several edits, no proper subset passes `fixed`, or `redundant` says why."""
-    for fix in case.record.fixes:
+    for index, fix in enumerate(case.record.fixes):
+        where: Where = ("fixes", index)
         enough = [subset for subset in _subsets(fix) if passes(case, subset)]
         if enough and fix.redundant is None:
             part = " and ".join(f"{edit.find!r}" for edit in enough[0])
-            yield f"{fix.id}: the edit of {part} alone repairs it; drop the other edits, or say why in `redundant`"
+            found, repair = f"the edit of {part} alone repairs it", "drop the other edits, or say why in `redundant`"
+            yield case.problem((*where, "edits"), found, "edits of which none can be spared", repair)
         if not enough and fix.redundant is not None:
-            yield f"{fix.id}: `redundant` is no longer needed: every edit is necessary; remove it"
+            found = "a reason, though every edit is necessary"
+            yield case.problem((*where, "redundant"), found, "a reason for an edit that can be spared", "remove it")
 
 
-def small_edits(case: Case, evidence: Evidence) -> Iterator[str]:
+def small_edits(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 3. Every remedy changes at most a handful of lines (that edits match once is checked on loading)."""
     for variant in variants(case)[1:]:
         count = changed_lines(case.text, variant.text)
         if not 1 <= count <= MAX_CHANGED_LINES:
-            yield f"{variant.id}: changes {count} lines; keep it to 1 to {MAX_CHANGED_LINES}"
+            place, wanted = (*_place(case, variant.id), "edits"), f"1 to {MAX_CHANGED_LINES}"
+            yield case.problem(place, f"{count} changed lines", wanted, "change the lines that matter, and no others")
 
 
-def repeatable(case: Case, evidence: Evidence) -> Iterator[str]:
+def repeatable(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 4, first half. A second run of a variant gives bitwise the same evidence."""
     for variant in variants(case):
-        again = observe(case, variant)
-        if again != evidence.variants[variant.id]:
-            yield f"{variant.id}: two runs differ; seed what is random, and bound loops by steps"
+        if observe(case, variant) != evidence.variants[variant.id]:
+            found, wanted = f"{variant.id}: two runs that differ", "the same numbers from every run"
+            yield case.problem(_place(case, variant.id), found, wanted, "seed what is random, and bound loops by steps")
 
 
-def warned(case: Case, evidence: Evidence) -> Iterator[str]:
+def warned(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 4, second half. A fix raises no MuJoCo warning; the broken variant exactly those in `warnings`."""
     for name, variant in evidence.variants.items():
         raised, named = sorted(variant.warnings), sorted(case.record.warnings)
         if variant.kind == "fix" and raised:
-            yield f"{name}: a fix that raises {', '.join(raised)}; repair the model until it is silent"
+            wanted, repair = "a fix that raises no warning", "repair the model until it is silent"
+            yield case.problem(_place(case, name), f"{name}: raises {listed(raised)}", wanted, repair)
         if variant.kind == "broken" and raised != named:
-            yield f"{name}: raises {raised}, while `warnings` names {named}; write `warnings: {raised}`"
+            repair = f"write `warnings: [{', '.join(raised)}]`" if raised else "remove `warnings`"
+            yield case.problem(
+                ("warnings",), listed(named), f"what the broken variant raises: {listed(raised)}", repair
+            )
 
 
-def lasting(case: Case, evidence: Evidence) -> Iterator[str]:
+def lasting(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 6, first half. A fix still holds after ten times its duration."""
     for name, robust in evidence.robustness.items():
         if robust.longer is False:
-            yield f"{name}: no longer holds after ten times the duration; repair it, or say why in `exempt: lasting`"
+            found = f"{name}: no longer holds after ten times the duration"
+            repair = "repair what builds up, or say in `exempt: {lasting: ...}` why it must"
+            yield case.problem(_place(case, name), found, "a fix that holds", repair)
 
 
-def steady(case: Case, evidence: Evidence) -> Iterator[str]:
+def steady(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 6, second half. Small changes of the start, and half the timestep, leave every verdict."""
     for name, robust in evidence.robustness.items():
         if robust.same < robust.runs:
-            share = f"{robust.same} of {robust.runs}"
-            yield f"{name}: keeps its verdict in {share} changed runs; widen a bound, or say why in `exempt: steady`"
+            found = f"{name}: keeps its verdict in {robust.same} of {robust.runs} slightly changed runs"
+            repair = "widen a bound, or say in `exempt: {steady: ...}` why it must"
+            yield case.problem(_place(case, name), found, "the same verdict in all of them", repair)
 
 
-def swept(case: Case, evidence: Evidence) -> Iterator[str]:
+def swept(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """The cause is a law: each prediction agrees, moved by 5 % it does not, and rivals miss; or `no_sweep` says why."""
     record = case.record
     if bool(record.sweep) == (record.no_sweep is not None):
-        yield "has no `sweep` and no reason in `no_sweep`, or both; give one of the two"
+        given = "both" if record.sweep else "neither"
+        yield case.problem(
+            ("sweep",), given, "`sweep`, or the reason why there is none in `no_sweep`", "give one of them"
+        )
     for name, sweep in record.sweep.items():
+        where: Where = ("sweep", name)
         found = evidence.sweep[name]
         own = found.agreement["prediction"]
-        if own.judged == 0 or own.wrong:
-            worst = "" if own.worst is None else f", by {quantity(own.worst, own.unit)} at the worst"
-            yield f"sweep {name}: the prediction misses {own.wrong} of {own.judged} points{worst}; correct its `expr`"
+        if own.judged == 0:
+            said, repair = "held against no point", "widen its `over`, or correct its `expr`"
+            yield case.problem((*where, "prediction"), said, "points that it can miss", repair)
+        if own.wrong:
+            said = f"misses {own.wrong} of {own.judged} points" + _worst(sweep, found)
+            yield case.problem((*where, "prediction"), said, "a prediction that misses none", "correct its `expr`")
+        telling = "choose points that can tell"
         for factor in (0.95, 1.05):
             if not agreement(sweep, sweep.prediction, "prediction", found.points, factor).wrong:
-                yield f"sweep {name}: the prediction times {factor} agrees too; choose points that can tell"
-        for rival in sweep.rivals:
+                said, wanted = f"agrees when multiplied by {factor} too", "a prediction that then misses"
+                yield case.problem((*where, "prediction"), said, wanted, telling)
+        for index, rival in enumerate(sweep.rivals):
             if not found.agreement[rival.id].wrong:
-                yield f"sweep {name}: the rival {rival.id} never misses; remove it, or choose points that can tell"
+                place, repair = (*where, "rivals", index), f"remove it, or {telling}"
+                yield case.problem(place, f"{rival.id}: never misses", "a rival that misses somewhere", repair)
 
 
-def filmed(case: Case, evidence: Evidence) -> Iterator[str]:
+def filmed(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """A model case has a film, a code case none."""
-    if (case.record.film is None) != (case.record.model is None):
-        yield "a model needs `film`, and a script has none; add or remove it"
+    if case.record.model is not None and case.record.film is None:
+        yield case.problem(("film",), "nothing", "a film of the model", "add `film`")
+    if case.record.model is None and case.record.film is not None:
+        yield case.problem(("film",), "a film of a script", "none: there is nothing to see", "remove `film`")
 
 
-LAWS: dict[str, Callable[[Case, Evidence], Iterator[str]]] = {
+LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
     law.__name__: law
     for law in (verdicts, ablation, small_edits, repeatable, warned, quoted, typed, lasting, steady, swept, filmed)
 }
 
 
-def complaints(case: Case, evidence: Evidence, law: str) -> list[str]:
-    """What a law complains of, after exemptions (law 8): one that is no longer needed is a complaint itself."""
+def breaches(case: Case, evidence: Evidence, law: str) -> list[Problem]:
+    """Where the case breaks a law, after exemptions (law 8): one that is no longer needed is a breach itself."""
     found = list(LAWS[law](case, evidence))
     if law not in case.record.exempt:
         return found
-    return [] if found else [f"`exempt: {law}` is no longer needed; remove it"]
-
-
-def all_breaches(case: Case, evidence: Evidence) -> list[Problem]:
-    """What every law complains of, as problems of the record."""
-    return [breach(case, complaint) for law in LAWS for complaint in complaints(case, evidence, law)]
-
-
-def breach(case: Case, complaint: str) -> Problem:
-    """A complaint as a problem of the record."""
-    found, _, repair = complaint.partition(";")
-    return case.problem(_place(case, complaint), found, "what the record claims", repair.strip() or found)
-
-
-def _place(case: Case, complaint: str) -> Where:
-    """The check that a complaint names, or what it begins with: a text, a sweep, a remedy; else the checks."""
-    if check := CHECK.search(complaint):
-        return "checks", check["kind"], int(check["index"])
-    kind, _, name = complaint.partition(":")[0].partition(" ")
-    if kind in PROSE:
-        return (kind,)
-    if kind == "sweep" and name in case.record.sweep:
-        return kind, name
-    places = {remedy.id: where for where, _, remedy in remedies(case)}
-    return places.get(name, places.get(kind, ("checks",)))
+    where, wanted = ("exempt", law), "an exemption from a law that the case breaks"
+    return [] if found else [case.problem(where, "a law that it obeys", wanted, "remove it")]
 
 
 def passes(case: Case, edits: tuple[Edit, ...]) -> bool:
@@ -178,15 +176,34 @@ def _subsets(fix: Fix) -> Iterator[tuple[Edit, ...]]:
         yield from combinations(fix.edits, size)
 
 
-def _failing(name: str, variant: VariantEvidence, kind: str) -> Iterator[str]:
-    for index, result in enumerate(variant.checks[kind]):  # type: ignore[index]
+def _failing(case: Case, name: str, variant: VariantEvidence, kind: Literal["broken", "fixed"]) -> Iterator[Problem]:
+    for index, result in enumerate(variant.checks[kind]):
         if not result.holds:
-            place = f"checks.{kind}[{index}]"
-            yield f"{name}: {_measured(result, variant)}; correct the bound of {place}, the edits, or the model"
+            unit = "s" if result.take == "onset" else variant.traces[result.signal].unit
+            value = "nothing" if result.measured is None else quantity(result.measured, unit, 6)
+            check = Check.model_validate(
+                {"signal": result.signal, "take": result.take, **result.expected}, strict=False
+            )
+            found = f"{name}: {result.signal} ({result.take}) = {value}"
+            wanted = f"{expected(check)} {unit}".rstrip()
+            yield case.problem(("checks", kind, index), found, wanted, "correct the bound, the edits, or the model")
 
 
-def _measured(result: CheckResult, variant: VariantEvidence) -> str:
-    unit = "s" if result.take == "onset" else variant.traces[result.signal].unit
-    value = "nothing" if result.measured is None else quantity(result.measured, unit, 6)
-    check = Check.model_validate({"signal": result.signal, "take": result.take, **result.expected}, strict=False)
-    return f"{result.signal} ({result.take}) measured {value}, expected {expected(check)} {unit}".rstrip()
+def _lax(case: Case, name: str, kind: str, wanted: str) -> Problem:
+    return case.problem(("checks", kind), f"{name}: passes every check", wanted, "tighten one")
+
+
+def _worst(sweep: Sweep, found: SweepEvidence) -> str:
+    """Where the prediction misses most."""
+    missed = misses(sweep, sweep.prediction, "prediction", found.points)
+    if not missed:
+        return ""
+    point, error = max(missed, key=lambda each: each[1])
+    at = ", ".join(f"{key} = {value:g}" for key, value in point.at.items())
+    by = f", by {quantity(error, found.agreement['prediction'].unit)}" if isfinite(error) else ""
+    return f"; most at {at}{by}"
+
+
+def _place(case: Case, variant: str) -> Where:
+    """Where the record speaks of a variant: its remedy, or the checks."""
+    return next((where for where, _, remedy in remedies(case) if remedy.id == variant), ("checks",))

@@ -77,7 +77,7 @@ def matrix(members: list[Case]) -> Matrix:
     )
 
 
-def unclear(made: Matrix) -> Iterator[str]:
+def unclear(case: Case, made: Matrix) -> Iterator[Problem]:
     """Every cell that is not as it should be."""
     for i, row in enumerate(made.holds):
         for j, holds in enumerate(row):
@@ -85,7 +85,9 @@ def unclear(made: Matrix) -> Iterator[str]:
                 state = "holds for" if holds else "does not hold for"
                 value = made.measured[i][j]
                 seen = "nothing" if value is None else f"{value:.4g}"
-                yield f"the measurement of {made.cases[i]} {state} {made.cases[j]} ({seen})"
+                found = f"the measurement of {made.cases[i]} {state} {made.cases[j]} ({seen})"
+                wanted = "measurements that hold for their own case alone"
+                yield case.problem(("alike",), found, wanted, "correct its `path`, `take` or bound")
 
 
 def _measure(of: Case, on: Case) -> float | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict
@@ -126,19 +126,7 @@ def agreement(
 ) -> Agreement:
     """How the prediction, multiplied by `factor`, fares against the points; `unit` is the outcome's."""
     first = sweep.vary[0].name
-    low, high = prediction.over or (-math.inf, math.inf)
-    errors: list[tuple[float, float]] = []
-    for point in points:
-        predicted = point.predicted[key]
-        if predicted is None or not low <= point.at[first] <= high:
-            continue
-        predicted *= factor
-        if sweep.holds is None:
-            error = math.inf if point.outcome is None else abs(point.outcome - predicted)
-            errors.append((point.at[first], error / abs(predicted) if prediction.relative and predicted else error))
-        elif abs(point.at[first] / predicted - 1) > prediction.within:
-            yes = point.at[first] < predicted if sweep.side == "below" else point.at[first] > predicted
-            errors.append((point.at[first], 0.0 if yes == point.holds else math.inf))
+    errors = [(point.at[first], error) for point, error in _errors(sweep, prediction, key, points, factor)]
     bad = [at for at, error in errors if error > prediction.within]
     good = sorted({at for at, _ in errors if not bad or at > max(bad)})
     finite = [error for _, error in errors if math.isfinite(error)]
@@ -149,6 +137,12 @@ def agreement(
         good_from=good[0] if good else None,
         unit="" if prediction.relative else unit,
     )
+
+
+def misses(sweep: Sweep, prediction: Prediction, key: str, points: Sequence[Point]) -> list[tuple[Point, float]]:
+    """The points that the prediction misses, each with its error; infinite where a yes or no is wrong."""
+    errors = _errors(sweep, prediction, key, points)
+    return [(point, error) for point, error in errors if error > prediction.within]
 
 
 def marks(case: Case, sweep: Sweep) -> dict[str, dict[str, float]]:
@@ -175,6 +169,25 @@ def names_read(record: Record, prediction: Prediction) -> tuple[set[str], set[st
 def asked_of(sweep: Sweep) -> set[str]:
     """The names that a sweep's outcome and predictions read."""
     return {sweep.outcome.signal}.union(*(names(parse(form.expr)) for form in (sweep.prediction, *sweep.rivals)))
+
+
+def _errors(
+    sweep: Sweep, prediction: Prediction, key: str, points: Sequence[Point], factor: float = 1.0
+) -> Iterator[tuple[Point, float]]:
+    """The error at every point that is judged."""
+    first = sweep.vary[0].name
+    low, high = prediction.over or (-math.inf, math.inf)
+    for point in points:
+        predicted = point.predicted[key]
+        if predicted is None or not low <= point.at[first] <= high:
+            continue
+        predicted *= factor
+        if sweep.holds is None:
+            error = math.inf if point.outcome is None else abs(point.outcome - predicted)
+            yield point, error / abs(predicted) if prediction.relative and predicted else error
+        elif abs(point.at[first] / predicted - 1) > prediction.within:
+            yes = point.at[first] < predicted if sweep.side == "below" else point.at[first] > predicted
+            yield point, 0.0 if yes == point.holds else math.inf
 
 
 def _attempt(case: Case, sweep: Sweep, base: Variant, at: dict[str, float]) -> Point:

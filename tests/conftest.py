@@ -12,6 +12,7 @@ from clinic.case import Case, load_case
 from clinic.checkout import cache_folder
 from clinic.evidence import Evidence
 from clinic.exhibit import evidence_of, exhibits
+from project import SILENT, run, write_project
 
 if "PYTEST_XDIST_WORKER" in os.environ:
     os.environ.setdefault("CLINIC_JOBS", "1")  # the tests' own processes are as many as there are processors
@@ -32,6 +33,15 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 def root() -> Path:
     """The checkout."""
     return ROOT
+
+
+@pytest.fixture(scope="session")
+def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The cache of the small project without a film, built once: tests that begin with it build what they change."""
+    folder = write_project(tmp_path_factory.mktemp("kept"), SILENT)
+    done = run(folder, "-m", "mkdocs", "build", "--strict")
+    assert done.returncode == 0, done.stderr
+    return folder / "cache"
 
 
 @pytest.fixture(scope="session")

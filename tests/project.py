@@ -14,6 +14,7 @@ from clinic.triage.steps import STEPS
 from helpers import write_case, write_script_case
 
 ROOT = Path(__file__).parent.parent
+SILENT = ("film: {}\n", "")
 COPIED = (
     "mkdocs.yml",
     "pyproject.toml",
@@ -27,8 +28,8 @@ TRIAGE = "# Triage\n\nThe table is made by the build.\n\n```python run\nprint(2 
 TRIAGE += "".join(f"\n## {title} {{ #{step} }}\n" for step, (title, _) in STEPS.items())
 
 
-def write_project(folder: Path, *changes: tuple[str, str]) -> Path:
-    """Writes the project with a model case, its record changed, and a script case."""
+def write_project(folder: Path, *changes: tuple[str, str], kept: Path | None = None) -> Path:
+    """Writes the project with a model case, its record changed, and a script case; `kept` is a cache to begin with."""
     for name in COPIED:
         target = folder / name
         target.parent.mkdir(parents=True, exist_ok=True)
@@ -40,6 +41,8 @@ def write_project(folder: Path, *changes: tuple[str, str]) -> Path:
     (folder / "CONTRIBUTING.md").write_text("# Add a case\n\nPrint it with `clinic reference`.\n", encoding="utf-8")
     write_case(folder, ("duration: 0.4", "duration: 0.2"), *changes)
     write_script_case(folder)
+    if kept is not None:
+        shutil.copytree(kept, folder / "cache")
     return folder
 
 

@@ -16,15 +16,15 @@ from clinic.case import load_case, load_cases
 from clinic.exhibit import all_exhibits, evidence_of
 from clinic.site import survey
 from helpers import tiny_case
-from project import write_project
+from project import SILENT, write_project
 
 pytestmark = pytest.mark.xdist_group("kill")
 PAGE = "# A page\n\n## One { #one }\n\nold\n\n| a |\n\n### Two { #two }\n\nkept\n"
 
 
 @pytest.fixture(scope="module")
-def project(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    folder = write_project(tmp_path_factory.mktemp("project"), ("film: {}\n", ""))
+def project(tmp_path_factory: pytest.TempPathFactory, kept: Path) -> Iterator[Path]:
+    folder = write_project(tmp_path_factory.mktemp("project"), SILENT, kept=kept)
     yield folder
     shutil.rmtree(folder)
 
@@ -60,16 +60,14 @@ def test_the_steps_of_all_runs_are_counted(tmp_path: Path) -> None:
 
 
 def test_a_plain_site_has_the_same_pages_and_nothing_of_ours(project: Path, tmp_path: Path) -> None:
-    copy = measured.copied(project, tmp_path / "copy")
-    plain = measured.finished(copy, tmp_path / "cache", tmp_path / "finished" / "docs")
+    copy, cache = measured.copied(project, tmp_path / "copy"), project / "cache"
+    plain = measured.finished(copy, cache, tmp_path / "finished" / "docs")
     settings = yaml.safe_load(plain.read_text(encoding="utf-8"))
     assert "gen-files" not in str(settings)
     assert settings["hooks"] == settings["watch"] == []
     for name in ("ours", "plain"):
         chosen = ["--config-file", plain.name] if name == "plain" else []
-        measured.python(
-            copy, tmp_path / "cache", "-m", "mkdocs", "build", "--strict", "--site-dir", str(tmp_path / name), *chosen
-        )
+        measured.python(copy, cache, "-m", "mkdocs", "build", "--strict", "--site-dir", str(tmp_path / name), *chosen)
     ours, theirs = (
         {p.relative_to(tmp_path / name): p.read_bytes() for p in (tmp_path / name).rglob("*.html")}
         for name in ("ours", "plain")
@@ -78,7 +76,7 @@ def test_a_plain_site_has_the_same_pages_and_nothing_of_ours(project: Path, tmp_
 
 
 def test_variations_are_cases_that_need_no_run(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    copy, cache = measured.copied(project, tmp_path / "copy"), Cache(tmp_path / "cache")
+    copy, cache = measured.copied(project, tmp_path / "copy"), Cache(project / "cache")
     survey(copy, cache)
     growth.grow(copy, cache, 5)
     cases = load_cases(copy / "cases")

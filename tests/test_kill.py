@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from clinic.cache import Cache
-from project import bytes_of, run, settings, write_project
+from project import SILENT, bytes_of, run, settings, write_project
 
 BUILD = """
 import os, signal, sys
@@ -39,7 +39,6 @@ for slug, files in all_exhibits(load_cases(Path("cases")), Cache(cache_folder(Pa
         Path("out", slug, name).write_bytes(content)
 """
 ENTRIES = 7
-SILENT = ("film: {}\n", "")
 pytestmark = pytest.mark.xdist_group("kill")
 
 

@@ -20,7 +20,7 @@ from clinic.site import survey
 from helpers import changed
 from mkdocs.config import load_config
 from mkdocs.livereload import LiveReloadServer
-from project import write_project
+from project import SILENT, write_project
 
 pytestmark = pytest.mark.xdist_group("kill")
 PAGE, OTHER = "cases/falling-box/index.md", "cases/odd-script/index.md"
@@ -29,9 +29,9 @@ PATIENCE = 120.0  # s
 
 
 @pytest.fixture(scope="module")
-def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def project(tmp_path_factory: pytest.TempPathFactory, kept: Path) -> Path:
     lesson = ("lesson: Look", "lesson: |\n  Look")
-    return write_project(tmp_path_factory.mktemp("project"), ("film: {}\n", ""), lesson)
+    return write_project(tmp_path_factory.mktemp("project"), SILENT, lesson, kept=kept)
 
 
 @pytest.fixture
@@ -152,7 +152,7 @@ def test_what_the_process_could_not_make_is_made_here(project: Path, served: Lat
 
 def test_a_build_waits_for_everything(project: Path, tmp_path: Path) -> None:
     later = Later()
-    edited = write_project(tmp_path / "project", ("film: {}\n", ""), ("Look at the masks.", "Look."))
+    edited = write_project(tmp_path / "project", SILENT, ("Look at the masks.", "Look."))
     later.site(edited, Cache(project / "cache"))
     edit(edited, MODEL, 'mass="1"', 'mass="5"')
     assert MEASURING not in later.site(edited, Cache(project / "cache")).files[PAGE].decode()

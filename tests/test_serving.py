@@ -9,7 +9,7 @@ import bench
 import pytest
 from helpers import changed
 from playwright.sync_api import Browser, expect
-from project import bytes_of, run, write_project
+from project import SILENT, bytes_of, run, write_project
 from test_browser import browser  # noqa: F401
 
 pytestmark = pytest.mark.xdist_group("kill")
@@ -38,8 +38,8 @@ for name, text in texts.items():
 """
 
 
-def test_every_rebuild_equals_a_build_from_nothing_and_converts_what_changed(tmp_path: Path) -> None:
-    folder = write_project(tmp_path, ("film: {}\n", ""))
+def test_every_rebuild_equals_a_build_from_nothing_and_converts_what_changed(tmp_path: Path, kept: Path) -> None:
+    folder = write_project(tmp_path, SILENT, kept=kept)
     texts = {"first": (folder / RECORD).read_text(encoding="utf-8")}
     for name, edit in EDITS.items():
         texts[name] = changed(next(reversed(texts.values())), edit)
@@ -56,8 +56,12 @@ def test_every_rebuild_equals_a_build_from_nothing_and_converts_what_changed(tmp
         assert bytes_of(folder / "served" / name) == bytes_of(folder / "fresh" / name), name
 
 
-def test_a_page_that_is_loaded_anew_stands_where_it_stood(tmp_path: Path, browser: Browser) -> None:  # noqa: F811
-    folder = write_project(tmp_path, ("film: {}\n", ""))
+def test_a_page_that_is_loaded_anew_stands_where_it_stood(
+    tmp_path: Path,
+    kept: Path,
+    browser: Browser,  # noqa: F811
+) -> None:
+    folder = write_project(tmp_path, SILENT, kept=kept)
     record, shown = folder / RECORD, "cases/falling-box/index.html"
     page = browser.new_context(viewport={"width": 800, "height": 400}).new_page()
     with bench.served(folder, folder / "cache") as address:

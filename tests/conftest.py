@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
-from collections.abc import Callable
+import shutil
+import threading
+from collections.abc import Callable, Iterator
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import pytest
@@ -12,6 +17,7 @@ from clinic.case import Case, load_case
 from clinic.checkout import cache_folder
 from clinic.evidence import Evidence
 from clinic.exhibit import evidence_of, exhibits
+from playwright.sync_api import Browser, Page, sync_playwright
 from project import SILENT, run, write_project
 
 if "PYTEST_XDIST_WORKER" in os.environ:
@@ -56,3 +62,55 @@ def proven() -> Proven:
         return made[slug]
 
     return get
+
+
+@pytest.fixture(scope="session")
+def site(root: Path, tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Path:
+    """The strict build, made once for all workers of a session."""
+    base = tmp_path_factory.getbasetemp()
+    out = (base if worker_id == "master" else base.parent) / "built"
+    out.mkdir(exist_ok=True)
+    with open(out / "lock", "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not (out / "site").exists():
+            cache = str(cache_folder(root))
+            done = run(root, "-m", "mkdocs", "build", "--strict", "--site-dir", str(out / "new"), CLINIC_CACHE=cache)
+            assert done.returncode == 0, done.stderr
+            (out / "new").rename(out / "site")
+    return out / "site"
+
+
+class Quiet(SimpleHTTPRequestHandler):
+    """Says nothing of what it serves."""
+
+    def log_message(self, format: str, *args: object) -> None:
+        pass
+
+
+@pytest.fixture(scope="module")
+def served(site: Path) -> Iterator[str]:
+    """The address of the built site."""
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=site))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_port}/"
+    server.shutdown()
+    server.server_close()
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    """Chromium; of a module, since other modules' loops of events do not run beside it."""
+    path = shutil.which("chromium") or shutil.which("google-chrome")
+    assert path, "no Chromium on this system: run `make setup`, or install the package chromium"
+    with sync_playwright() as playwright:
+        made = playwright.chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-gpu"])
+        yield made
+        made.close()
+
+
+@pytest.fixture
+def page(browser: Browser) -> Iterator[Page]:
+    """A page without a past."""
+    context = browser.new_context()
+    yield context.new_page()
+    context.close()

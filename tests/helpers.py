@@ -5,9 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import mujoco
+import pytest
 from clinic.case import Case, load_case
 from clinic.evidence import Evidence, VariantEvidence
+from clinic.examine import examine
 from clinic.pages import case_page
+from clinic.problem import CaseError, Problem
 
 GRAVITY = 9.81
 SLUG = "falling-box"
@@ -254,3 +257,11 @@ def evidence_of_variants(**variants: VariantEvidence) -> Evidence:
 def page_of(case: Case, evidence: Evidence, files: dict[str, bytes] | None = None, *others: Case) -> str:
     """The Markdown of a case's page, with no look-alikes."""
     return case_page(case, evidence, files or {}, {other.slug: other for other in others}, None)
+
+
+def only_problem(folder: Path) -> Problem:
+    """The only problem of a case that is read, compiled and bound."""
+    with pytest.raises(CaseError) as caught:
+        examine(load_case(folder))
+    (found,) = caught.value.problems
+    return found

@@ -2,50 +2,13 @@
 
 from __future__ import annotations
 
-import shutil
-import threading
-from collections.abc import Iterator
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, expect, sync_playwright
-from test_site import site  # noqa: F401
+from playwright.sync_api import Page, expect
 
 pytestmark = pytest.mark.xdist_group("site")
 CASE = "cases/box-falls-through-floor/index.html"
-
-
-class Quiet(SimpleHTTPRequestHandler):
-    def log_message(self, *args: object) -> None:
-        """Says nothing."""
-
-
-@pytest.fixture(scope="module")
-def served(site: Path) -> Iterator[str]:  # noqa: F811
-    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=site))
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    yield f"http://127.0.0.1:{server.server_port}/"
-    server.shutdown()
-    server.server_close()
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    path = shutil.which("chromium") or shutil.which("google-chrome")
-    assert path, "no Chromium on this system: run `make setup`, or install the package chromium"
-    with sync_playwright() as playwright:
-        made = playwright.chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-gpu"])
-        yield made
-        made.close()
-
-
-@pytest.fixture
-def page(browser: Browser) -> Iterator[Page]:
-    context = browser.new_context()
-    yield context.new_page()
-    context.close()
 
 
 def search(page: Page, query: str) -> list[str]:
@@ -58,7 +21,7 @@ def search(page: Page, query: str) -> list[str]:
 
 
 @pytest.mark.parametrize("scheme", ["http", "file"])
-def test_search_finds_the_case_offline(page: Page, served: str, site: Path, scheme: str) -> None:  # noqa: F811
+def test_search_finds_the_case_offline(page: Page, served: str, site: Path, scheme: str) -> None:
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
     start = served if scheme == "http" else site.as_uri() + "/"

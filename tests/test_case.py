@@ -706,6 +706,17 @@ def test_see_to_nowhere(tmp_path: Path) -> None:
         """)
 
 
+def test_a_tag_that_misspells_one_of_several_cases(tmp_path: Path) -> None:
+    for number, (slug, tag) in enumerate({"a": "contact", "b": "contact", "c": "contacts", "d": "tendon"}.items()):
+        write_case(tmp_path, ("number: 1", f"number: {number + 1}"), ("[contact]", f"[{tag}]"), slug=f"{slug}-box")
+    assert message_of(lambda: load_cases(tmp_path / "cases")) == says("""
+        cases/c-box/case.yaml:9: tags[0]
+          found:    contacts, which no other case has
+          expected: a topic: contact, or a new one
+          repair:   write contact
+        """)
+
+
 def test_file_beside_the_folders(tmp_path: Path) -> None:
     write_case(tmp_path)
     (tmp_path / "cases" / "README.md").write_text("hello", encoding="utf-8")

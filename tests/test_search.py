@@ -9,8 +9,6 @@ import pytest
 from clinic.case import load_cases
 from clinic.messages import load_messages
 from playwright.sync_api import Browser
-from test_browser import browser, served  # noqa: F401
-from test_site import site  # noqa: F401
 
 pytestmark = pytest.mark.xdist_group("site")
 FIRST = 3
@@ -109,7 +107,7 @@ Ask = Callable[[list[str]], list[list[str]]]
 
 
 @pytest.fixture(scope="module")
-def ask(browser: Browser, served: str) -> Ask:  # noqa: F811
+def ask(browser: Browser, served: str) -> Ask:
     """The pages that each query finds, best first."""
     page = browser.new_page()
     page.goto(served + "index.html")

@@ -10,7 +10,6 @@ import pytest
 from helpers import changed
 from playwright.sync_api import Browser, expect
 from project import SILENT, bytes_of, run, write_project
-from test_browser import browser  # noqa: F401
 
 pytestmark = pytest.mark.xdist_group("kill")
 RECORD = "cases/falling-box/case.yaml"
@@ -59,7 +58,7 @@ def test_every_rebuild_equals_a_build_from_nothing_and_converts_what_changed(tmp
 def test_a_page_that_is_loaded_anew_stands_where_it_stood(
     tmp_path: Path,
     kept: Path,
-    browser: Browser,  # noqa: F811
+    browser: Browser,
 ) -> None:
     folder = write_project(tmp_path, SILENT, kept=kept)
     record, shown = folder / RECORD, "cases/falling-box/index.html"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 import subprocess
 import sys
@@ -23,21 +22,6 @@ def run(root: Path, *command: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, "-m", *command], cwd=root, env=ENVIRONMENT, check=False, capture_output=True, text=True
     )
-
-
-@pytest.fixture(scope="module")
-def site(root: Path, tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Path:
-    """The strict build, made once for all modules and workers of a session."""
-    base = tmp_path_factory.getbasetemp()
-    out = (base if worker_id == "master" else base.parent) / "built"
-    out.mkdir(exist_ok=True)
-    with open(out / "lock", "w", encoding="utf-8") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not (out / "site").exists():
-            done = run(root, "mkdocs", "build", "--strict", "--site-dir", str(out / "new"))
-            assert done.returncode == 0, done.stderr
-            (out / "new").rename(out / "site")
-    return out / "site"
 
 
 @pytest.fixture(scope="module")

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import itertools
 import json
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -35,6 +36,7 @@ from clinic.yamlmap import Lines, Where, YamlError, dotted, read_yaml
 
 MOST_POINTS = 1000
 MOST_POINTS_OF_A_SCRIPT = 200
+LIKE = 0.8
 
 
 @dataclass(frozen=True)
@@ -256,6 +258,7 @@ def _unknown(word: str, known: Iterable[str], kind: str) -> tuple[str, str, str]
 
 
 def _relation_problems(cases: list[Case], slugs: set[str]) -> Iterator[Problem]:
+    yield from _tag_problems(cases)
     numbers: dict[int, str] = {}
     for case in cases:
         number = case.record.number
@@ -271,3 +274,17 @@ def _relation_problems(cases: list[Case], slugs: set[str]) -> Iterator[Problem]:
                 others = sorted(slugs - {case.slug})
                 this = (f"{slug}, this very case", f"a case: {listed(others, 30)}", "remove it")
                 yield case.problem(("see", index), *(this if slug == case.slug else _unknown(slug, others, "case")))
+
+
+def _tag_problems(cases: list[Case]) -> Iterator[Problem]:
+    """Any word is a tag, but one that a single case has is no misspelling of one that several have."""
+    users = Counter(tag for case in cases for tag in case.record.tags)
+    shared = [tag for tag, count in users.items() if count > 1]
+    for case in cases:
+        for index, tag in enumerate(case.record.tags):
+            if users[tag] == 1 and (guess := closest(tag, shared, LIKE)):
+                found, wanted = (
+                    f"{tag}, which no other case has",
+                    f"a topic: {listed(sorted(shared), 30)}, or a new one",
+                )
+                yield case.problem(("tags", index), found, wanted, f"write {guess}")

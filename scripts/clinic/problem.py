@@ -52,9 +52,9 @@ class CaseError(Exception):
         return "\n".join(str(problem) for problem in self.problems)
 
 
-def closest(word: str, known: Iterable[str]) -> str | None:
-    """The member of `known` that `word` most likely misspells, or None."""
-    matches = difflib.get_close_matches(word, list(known), n=1, cutoff=0.6)
+def closest(word: str, known: Iterable[str], likeness: float = 0.6) -> str | None:
+    """The member of `known` that `word` most likely misspells, or None if none is as like it, from 0 to 1."""
+    matches = difflib.get_close_matches(word, list(known), n=1, cutoff=likeness)
     return matches[0] if matches else None
 
 

@@ -16,6 +16,7 @@ from clinic.problem import CaseError, LackError, Problem
 from clinic.render import RenderError
 
 MANY = 10
+STAGES = 4  # of many tasks, at whose ends it is said how many are done
 log = logging.getLogger("mkdocs.clinic")
 
 
@@ -36,12 +37,15 @@ def run_tasks(tasks: list[Task], cache: Cache) -> tuple[dict[str, Files], list[P
     """
     done = {task.key: files for task in tasks if (files := cache.get(task.key)) is not None}
     missing = [task for task in tasks if task.key not in done]
-    if len(missing) >= MANY:
+    many = len(missing) >= MANY
+    if many:
         log.info("%d cases are run and drawn: of a whole site that takes minutes, once", len({t.slug for t in missing}))
     problems: list[Problem] = []
     unseen: set[str] = set()
     failed: set[str] = set()
-    for k, (files, wrong, blind) in parallel(_attempt, list(enumerate(missing))):
+    for count, (k, (files, wrong, blind)) in enumerate(parallel(_attempt, list(enumerate(missing))), start=1):
+        if many and count * STAGES // len(missing) > (count - 1) * STAGES // len(missing):
+            log.info("%d of %d parts are made", count, len(missing))
         done[missing[k].key] = files
         if wrong:
             problems += wrong

@@ -1,0 +1,34 @@
+"""Pages for the playground."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, Page, ViewportSize
+
+SMALL: ViewportSize = {"width": 600, "height": 600}  # drawing without a graphics card takes a processor
+QUIET: Any = {"reduced_motion": "reduce"}  # nothing moves before it is asked to
+
+
+def opened(browser: Browser) -> Iterator[Page]:
+    context = browser.new_context(**QUIET, viewport=SMALL)
+    yield context.new_page()
+    context.close()
+
+
+tab = pytest.fixture(scope="module")(opened)
+fresh = pytest.fixture(opened)
+
+
+@pytest.fixture
+def page(tab: Page, served: str) -> Page:
+    """The page of the test before, which has forgotten everything: a new one takes Chromium as long as the engine."""
+    tab.goto("about:blank")
+    tab.set_viewport_size(SMALL)
+    tab.emulate_media(**QUIET, color_scheme="null")
+    session = tab.context.new_cdp_session(tab)
+    session.send("Storage.clearDataForOrigin", {"origin": served.rstrip("/"), "storageTypes": "all"})
+    session.detach()
+    return tab

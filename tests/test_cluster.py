@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 from clinic.cache import source_digest
 from clinic.cluster import ADDRESS, ClusterError, _checked, _examine, here, jobs, parallel
+from helpers import SWEEP, changed
 from project import run, settings, write_project
 
 pytestmark = pytest.mark.xdist_group("cluster")
@@ -24,18 +25,7 @@ with LocalCluster(n_workers=workers, threads_per_worker=threads, dashboard_addre
     print(made.scheduler_address, flush=True)
     sys.stdin.read()
 """
-SWEEP = """\
-sweep:
-  fall:
-    title: Gravity and the fall
-    text: At {{ sweep.fall.points }} points.
-    vary:
-      - {name: g, find: '<option timestep="0.002"/>', replace: '<option timestep="0.002" gravity="0 0 -{}"/>',
-         start: 1, stop: 8, count: 100}
-    outcome: {signal: height}
-    prediction:
-      {label: exact, expr: 0.06 - g * 0.2 * 0.198 / 2, within: 1.0e-9, relative: false}
-"""
+MANY_POINTS = changed(SWEEP, ("values: [1, 2, 4, 8]", "start: 1, stop: 8, count: 100"))
 RUN = """
 import hashlib, sys
 from pathlib import Path
@@ -66,7 +56,7 @@ def cluster(folder: Path, workers: int, threads: int = 1, **environment: str) ->
 @pytest.fixture(scope="module")
 def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The small project, with a sweep of more than one task."""
-    return write_project(tmp_path_factory.mktemp("project"), ("no_sweep: The masks are not a number.\n", SWEEP))
+    return write_project(tmp_path_factory.mktemp("project"), ("no_sweep: The masks are not a number.\n", MANY_POINTS))
 
 
 @pytest.fixture(scope="module")

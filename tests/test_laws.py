@@ -227,6 +227,10 @@ def test_a_fix_that_does_not_last(tmp_path: Path) -> None:
     ]
 
 
+def test_a_fix_that_does_not_hold_at_all_is_not_blamed_for_not_lasting(tmp_path: Path) -> None:
+    assert robust(tiny_case(tmp_path, ("between: [0.045, 0.051]", "below: 0.045")), "lasting") == []
+
+
 def test_a_verdict_that_hangs_on_the_start(tmp_path: Path) -> None:
     case = tiny_case(tmp_path, ("between: [0.045, 0.051]", "take: first, equals: 0.06, within: 0.0002"))
     _, fixed, *_ = robust(case, "steady")

@@ -91,7 +91,7 @@ def warned(case: Case, evidence: Evidence) -> Iterator[Problem]:
 def lasting(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 6, first half. A fix still holds after ten times its duration."""
     for name, robust in evidence.robustness.items():
-        if robust.longer is False:
+        if robust.longer is False and evidence.variants[name].well:
             found = f"{name}: no longer holds after ten times the duration"
             repair = "repair what builds up, or say in `exempt: {lasting: ...}` why it must"
             yield case.problem(_place(case, name), found, "a fix that holds", repair)

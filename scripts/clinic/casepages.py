@@ -80,8 +80,7 @@ def shown_cases(
 
 def unproven(case: Case, evidence: Evidence, alike: Matrix | None) -> Iterator[Problem]:
     """What a build refuses to publish: claims that the runs do not bear out."""
-    for law in (*AT_ONCE, "lasting", "steady", "swept"):
-        yield from breaches(case, evidence, law)
+    yield from breaches(case, evidence, *AT_ONCE, "lasting", "steady", "swept")
     if alike is not None:
         yield from unclear(case, alike)
 

@@ -74,7 +74,7 @@ def judge_folder(folder: Path, neighbours: Neighbours, cache: Cache, tell: Tell 
         return Judgement(slug, case, None, tuple(sorted({*problems, *error.problems})), ())
     evidence = evidence_of(files)
     tell("laws")
-    broken = [each for law in LAWS for each in breaches(case, evidence, law)]
+    broken = breaches(case, evidence, *LAWS)
     made = None
     if case.record.alike is not None and not problems:
         try:

@@ -127,7 +127,7 @@ def interim(root: Path, cache: Cache, whole: Site) -> Site | None:
         if EVIDENCE not in found.get(case.slug, {}):
             return None
         folder, evidence = FOLDER.format(slug=case.slug), evidence_of(found[case.slug])
-        wrong = [each for law in AT_ONCE for each in breaches(case, evidence, law)]
+        wrong = breaches(case, evidence, *AT_ONCE)
         page = interim_page(case, evidence)
         files[PAGE.format(slug=case.slug)] = (marked(page, wrong) if wrong else page).encode()
         files |= {f"{folder}/{name}": (root / folder / name).read_bytes() for name in (RECORD, *case.texts)}

@@ -149,13 +149,17 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
 }
 
 
-def breaches(case: Case, evidence: Evidence, law: str) -> list[Problem]:
-    """Where the case breaks a law, after exemptions (law 8): one that is no longer needed is a breach itself."""
-    found = list(LAWS[law](case, evidence))
-    if law not in case.record.exempt:
-        return found
-    where, wanted = ("exempt", law), "an exemption from a law that the case breaks"
-    return [] if found else [case.problem(where, "a law that it obeys", wanted, "remove it")]
+def breaches(case: Case, evidence: Evidence, *laws: str) -> list[Problem]:
+    """Where the case breaks the laws, after exemptions (law 8): one that is no longer needed is a breach itself."""
+    made = []
+    for law in laws:
+        found = list(LAWS[law](case, evidence))
+        if law not in case.record.exempt:
+            made += found
+        elif not found:
+            where, wanted = ("exempt", law), "an exemption from a law that the case breaks"
+            made.append(case.problem(where, "a law that it obeys", wanted, "remove it"))
+    return made
 
 
 def passes(case: Case, edits: tuple[Edit, ...]) -> bool:

@@ -1,7 +1,7 @@
 """What MkDocs keeps from one build to the next while it serves; `scripts/hooks.py` hands these events to it.
 
-A page whose Markdown is the same, among the same files, is not converted and not indexed again, and the theme's
-templates are compiled once. A page that the browser loads anew stands where it stood. A single build has none of this.
+A page whose Markdown is the same, among the same files, is not converted and not indexed again. A page that the
+browser loads anew stands where it stood. A single build has none of this.
 """
 
 from __future__ import annotations
@@ -12,8 +12,6 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from jinja2 import BytecodeCache, Environment
-from jinja2.bccache import Bucket
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.plugins import CombinedEvent, event_priority
 from mkdocs.structure.files import Files
@@ -36,25 +34,8 @@ class Converted:
     links: dict[str, dict[str, str]]
 
 
-class Templates(BytecodeCache):
-    """Compiled templates, in memory."""
-
-    def __init__(self) -> None:
-        self.made: dict[str, bytes] = {}
-
-    def load_bytecode(self, bucket: Bucket) -> None:
-        """Fills the bucket with what was kept for it."""
-        if bucket.key in self.made:
-            bucket.bytecode_from_string(self.made[bucket.key])
-
-    def dump_bytecode(self, bucket: Bucket) -> None:
-        """Keeps what the bucket holds."""
-        self.made[bucket.key] = bucket.bytecode_to_string()
-
-
 SCRIPT = Path(__file__).parent / "templates" / "served.js"
 _scripts: list[str] = []
-_templates = Templates()
 _digest: dict[str, object] = {}
 _converted: dict[Key, Converted] = {}
 _asked: dict[str, tuple[Key, str]] = {}
@@ -71,12 +52,6 @@ def on_startup(command: str, dirty: bool) -> None:
 def on_post_page(output: str, page: Page, config: MkDocsConfig) -> str:
     """Adds SCRIPT at the end of a page."""
     return output.replace("</body>", f"{''.join(_scripts)}</body>")
-
-
-def on_env(env: Environment, config: MkDocsConfig, files: Files) -> Environment:
-    """Lets the theme's templates be compiled once."""
-    env.bytecode_cache = _templates
-    return env
 
 
 @event_priority(-100)  # when the Markdown is final

@@ -44,7 +44,7 @@ class Physics:
     def __init__(self) -> None:
         self.steps, self.bare, self.ours = 0, 0.0, 0.0
 
-    def simulate(self, model: mujoco.MjModel, spec: Any, paths: Any, nudge: Any = None) -> Any:
+    def simulate(self, model: mujoco.MjModel, spec: Any, paths: Any, nudge: Any = None, *how: Any) -> Any:
         """What `clinic.simulate.simulate` gives."""
         data, steps = start(model, spec, nudge), step_count(model, spec)
         drive = controls(model, spec, steps)
@@ -55,7 +55,7 @@ class Physics:
         self.steps += steps
         begun = time.perf_counter()
         try:
-            return clinic.simulate.simulate(model, spec, paths, nudge)
+            return clinic.simulate.simulate(model, spec, paths, nudge, *how)
         finally:
             self.ours += time.perf_counter() - begun
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mujoco
 from clinic.robust import STARTS, robustness, state
 from clinic.simulate import compile_model
 from helpers import tiny_case
@@ -33,6 +34,6 @@ def test_the_timestep_is_put_back(tmp_path) -> None:
     case = tiny_case(tmp_path)
     model = compile_model(case.text)
 
-    state(case.record, model, shrink=0.5)
+    state(case.record, model, mujoco.MjData(model), shrink=0.5)
 
     assert model.opt.timestep == 0.002

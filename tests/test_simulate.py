@@ -65,6 +65,36 @@ def test_two_runs_are_bitwise_equal() -> None:
 
 
 @pytest.mark.parametrize(
+    ("xml", "fields", "paths"),
+    [
+        pytest.param(BALL, {}, {"height": "body(ball).xpos[2]", "timestep": "model.opt.timestep"}, id="left-alone"),
+        pytest.param(EXPLODING, {}, {"bad": "warning(BADQACC)", "x": "qpos[0]"}, id="explodes"),
+        pytest.param(
+            EXPLODING, {"ctrl": {"motor": 5}, "duration": 0.52}, {"x": "qpos[0]"}, id="explodes-with-a-control"
+        ),
+        pytest.param(
+            EXPLODING, {"ctrl": {"motor": [[0, 1], [0.03, 0]]}, "duration": 0.03}, {"x": "qpos[0]"}, id="driven"
+        ),
+        pytest.param(BALL, {"duration": 0.001}, {"height": "qpos[2]"}, id="one-step"),
+        pytest.param(BALL, {"duration": 0.002}, {"height": "qpos[2]"}, id="two-steps"),
+    ],
+)
+def test_the_last_sample_alone_is_that_of_the_whole_run(xml: str, fields: Any, paths: dict[str, str]) -> None:
+    model, asked = compile_model(xml), {name: parse_path(path) for name, path in paths.items()}
+    used = start(model, spec())
+    for _ in range(7):
+        mujoco.mj_step(model, used)
+
+    whole = simulate(model, spec(**fields), asked)
+    last = simulate(model, spec(**fields), asked, data=used, last=True)
+
+    assert (last.steps, last.warnings, last.messages) == (whole.steps, whole.warnings, whole.messages)
+    for name, trace in whole.traces.items():
+        assert last.traces[name].time.tobytes() == trace.time[-1:].tobytes()
+        assert last.traces[name].value.tobytes() == trace.value[-1:].tobytes()
+
+
+@pytest.mark.parametrize(
     ("fields", "position", "velocity"),
     [
         pytest.param({}, 0, 0, id="nothing-given"),

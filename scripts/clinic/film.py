@@ -24,6 +24,7 @@ from clinic.simulate import captured_messages, compile_model, controls, start, s
 from clinic.variant import variants
 
 WIDTH, HEIGHT, FPS = 320, 240, 20
+DRAWN, SHADOW_SIZE = (480, 360), 512  # larger, then averaged: as smooth as four samples a pixel, and a third cheaper
 MAX_FRAMES = 160
 STRIP = 4
 STILL = 1e-4
@@ -83,7 +84,8 @@ def frames(model: mujoco.MjModel, run: RunSpec, spec: Film, camera: str) -> Iter
     if "body_frames" in spec.overlays:
         option.frame = mujoco.mjtFrame.mjFRAME_BODY
     made, image, halted, drawn = 0, None, "", data.qpos.copy()
-    with captured_messages(), renderer(model, WIDTH, HEIGHT) as draw:
+    model.vis.quality.offsamples, model.vis.quality.shadowsize = 0, SHADOW_SIZE
+    with captured_messages(), renderer(model, *DRAWN) as draw:
         mujoco.mj_forward(model, data)
         for k in range(count):
             time = k / FPS * spec.speed
@@ -94,8 +96,13 @@ def frames(model: mujoco.MjModel, run: RunSpec, spec: Film, camera: str) -> Iter
                     halted = f"reset at {number(made * model.opt.timestep, 2)} s"
             if image is None or (not halted and np.max(np.abs(data.qpos - drawn), initial=0) > STILL):
                 mujoco.mj_kinematics(model, data)  # a step leaves the positions of its start
-                image, drawn = draw.render(data, camera, option), data.qpos.copy()
+                image, drawn = averaged(draw.render(data, camera, option)), data.qpos.copy()
             yield image, halted or f"{time:.2f} s"
+
+
+def averaged(image: Image) -> Image:
+    """The image at the film's size, each pixel the mean of the area it takes the place of."""
+    return np.asarray(Pictures.fromarray(image).resize((WIDTH, HEIGHT), Pictures.Resampling.BOX))
 
 
 def beside(left: tuple[Image, str], right: tuple[Image, str], titles: tuple[str, str]) -> Image:

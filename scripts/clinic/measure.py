@@ -46,14 +46,18 @@ def measure_model(
     spec: RunSpec,
     wanted: Collection[str] | None = None,
     nudge: Nudge | None = None,
+    data: mujoco.MjData | None = None,
+    last: bool = False,
 ) -> tuple[Run, dict[str, Trace]]:
     """Simulates the model and gives the run with every signal of the record, or with those in `wanted`.
+
+    `nudge`, `data` and `last` are as `simulate` takes them.
 
     Raises:
         RunError, SignalError: If the run or a signal does not fit the model.
         RenderError: If a signal asks for an image, and this machine cannot draw it.
     """
-    run = simulate(model, spec, paths(record, wanted), nudge)
+    run = simulate(model, spec, paths(record, wanted), nudge, data, last)
     traces = with_expressions(record, run.traces)
     names = [name for name in record.signals if wanted is None or name in wanted]
     for name in names:
@@ -99,12 +103,13 @@ def with_expressions(record: Record, traces: Mapping[str, Trace]) -> dict[str, T
 def fraction_of_starts(record: Record, signal: StartsSignal, model: mujoco.MjModel, spec: RunSpec) -> float:
     """The share of evenly spaced start positions from which `signal.holds` holds, 0 to 1."""
     path = {signal.holds.signal: paths(record)[signal.holds.signal]}
+    kept = mujoco.MjData(model)
 
     def held_from(offset: float) -> bool:
         def nudge(_: mujoco.MjModel, data: mujoco.MjData) -> None:
             data.joint(signal.joint).qpos[signal.index] += offset
 
-        return judge(signal.holds, simulate(model, spec, path, nudge).traces).holds
+        return judge(signal.holds, simulate(model, spec, path, nudge, kept, signal.holds.last).traces).holds
 
     held = [held_from(offset) for offset in np.linspace(*signal.offset, signal.count)]
     return math.fsum(held) / signal.count

@@ -52,33 +52,41 @@ def robustness(case: Case) -> dict[str, Robustness]:
     made: dict[str, Robustness] = {}
     for variant in variants(case):
         model = compile_model(variant.text)
-        nominal = state(record, model)
+        data = mujoco.MjData(model)
+        nominal = state(record, model, data)
         rng = np.random.default_rng(SEED)
         nudges = [
             nudged(rng.uniform(-NUDGE, NUDGE, model.nv), rng.uniform(-NUDGE, NUDGE, model.nv)) for _ in range(STARTS)
         ]
-        seen = [state(record, model, nudge=nudge) for nudge in nudges]
+        seen = [state(record, model, data, nudge=nudge) for nudge in nudges]
         if variant.kind != "refuted":
-            seen += [state(record, model, shrink=0.5, nudge=nudge) for nudge in nudges]
+            seen += [state(record, model, data, shrink=0.5, nudge=nudge) for nudge in nudges]
         made[variant.id] = Robustness(
             runs=len(seen),
             same=sum((s == "well") == (nominal == "well") if variant.kind == "refuted" else s == nominal for s in seen),
-            longer=state(record, model, longer=LONGER) == "well" if variant.kind == "fix" else None,
-            shrunk={f"{s:g}": state(record, model, shrink=s) for s in SHRINK if variant.kind == "broken"},
+            longer=state(record, model, data, longer=LONGER) == "well" if variant.kind == "fix" else None,
+            shrunk={f"{s:g}": state(record, model, data, shrink=s) for s in SHRINK if variant.kind == "broken"},
         )
     return made
 
 
 def state(
-    record: Record, model: mujoco.MjModel, shrink: float = 1.0, longer: float = 1.0, nudge: Nudge | None = None
+    record: Record,
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    shrink: float = 1.0,
+    longer: float = 1.0,
+    nudge: Nudge | None = None,
 ) -> State:
-    """The verdict of one run: `well` if every fixed check holds, `broken` if every broken one does."""
+    """The verdict of one run, made in `data`: `well` if every fixed check holds, `broken` if every broken one does."""
     assert record.run is not None
+    wanted = single_run(record)
+    asked = [check for check in record.checks.broken + record.checks.fixed if check.signal in wanted]
     timestep = model.opt.timestep
     model.opt.timestep = timestep * shrink
     try:
         spec = record.run.model_copy(update={"duration": record.run.duration * longer})
-        _, traces = measure_model(record, model, spec, single_run(record), nudge)
+        _, traces = measure_model(record, model, spec, wanted, nudge, data, last=all(check.last for check in asked))
     finally:
         model.opt.timestep = timestep
 

@@ -82,13 +82,21 @@ def compile_model(xml: str) -> mujoco.MjModel:
     return model
 
 
-def start(model: mujoco.MjModel, spec: RunSpec, nudge: Nudge | None = None) -> mujoco.MjData:
+def start(
+    model: mujoco.MjModel, spec: RunSpec, nudge: Nudge | None = None, data: mujoco.MjData | None = None
+) -> mujoco.MjData:
     """The data at the run's start: keyframe, then named positions and velocities, then `nudge` applied to them.
+
+    Args:
+        data: Of the same model, to be reset and used: a new one takes as long as 300 steps of a small model.
 
     Raises:
         RunError: If the model lacks a keyframe or joint that the run names.
     """
-    data = mujoco.MjData(model)
+    if data is None:
+        data = mujoco.MjData(model)
+    else:
+        mujoco.mj_resetData(model, data)
     if spec.keyframe is not None:
         _require(model, "key", spec.keyframe, ("keyframe",))
         mujoco.mj_resetDataKeyframe(model, data, model.key(spec.keyframe).id)
@@ -106,40 +114,60 @@ def start(model: mujoco.MjModel, spec: RunSpec, nudge: Nudge | None = None) -> m
     return data
 
 
-def simulate(model: mujoco.MjModel, spec: RunSpec, paths: Mapping[str, Path], nudge: Nudge | None = None) -> Run:
+def simulate(
+    model: mujoco.MjModel,
+    spec: RunSpec,
+    paths: Mapping[str, Path],
+    nudge: Nudge | None = None,
+    data: mujoco.MjData | None = None,
+    last: bool = False,
+) -> Run:
     """Steps the model for `spec.duration` and reads every path after each step.
 
     The loop is bounded by steps, never by `data.time`, which an automatic reset turns back.
+
+    Args:
+        data: As `start` takes it.
+        last: Reads every path after the last step alone.
 
     Raises:
         RunError: If the run cannot start or would take more than MAX_STEPS steps.
         SignalError: If a path cannot be bound to the model.
     """
     timestep, steps = model.opt.timestep, step_count(model, spec)
-    data = start(model, spec, nudge)
+    data = start(model, spec, nudge, data)
     readers = {name: bind(path, model, data) for name, path in paths.items()}
     moving = [name for name in readers if not paths[name].model]
     reading = [readers[name] for name in moving]
     drive = controls(model, spec, steps)
     steered = drive.changes(steps)
     counts = np.zeros(len(data.warning), dtype=int)
-    rows = []
+    rows, made = [], 0
     with captured_messages() as messages:
-        for i in range(steps):
+        if last and steps > 1 and not any(steered[1:]):
+            step(model, data, drive, 0)
+            mujoco.mj_step(model, data, nstep=steps - 2)
+            made = steps - 1
+            if messages:  # then every step matters
+                start(model, spec, nudge, data)
+                messages.clear()
+                made = 0
+        for i in range(made, steps):
             if steered[i] or messages:  # an automatic reset undoes controls too
                 step(model, data, drive, i)
             else:
                 mujoco.mj_step(model, data)
-            rows.append([read() for read in reading])
+            if not last or i == steps - 1:
+                rows.append([read() for read in reading])
             if messages:  # a type's first warning is printed, also after a reset: until then nothing is counted
                 np.maximum(counts, data.warning.number, out=counts)
-    values = dict(zip(moving, np.array(rows, dtype=float).reshape(steps, len(moving)).T, strict=True))
-    time = np.arange(1, steps + 1) * timestep
+    values = dict(zip(moving, np.array(rows, dtype=float).reshape(len(rows), len(moving)).T, strict=True))
+    time = np.arange(steps + 1 - len(rows), steps + 1) * timestep
     return Run(
         timestep=timestep,
         steps=steps,
         traces={
-            name: Trace(time, values[name] if name in values else np.full(steps, readers[name]())) for name in paths
+            name: Trace(time, values[name] if name in values else np.full(len(rows), readers[name]())) for name in paths
         },
         warnings={mujoco.mjtWarning(k).name.removeprefix("mjWARN_"): int(n) for k, n in enumerate(counts) if n},
         messages=tuple(dict.fromkeys(messages)),

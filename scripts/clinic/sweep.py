@@ -209,7 +209,7 @@ def _measure(case: Case, sweep: Sweep, base: Variant, at: dict[str, float]) -> P
     if record.run is not None:
         model = compile_model(text)
         spec = record.run.model_copy(update={"duration": sweep.duration} if sweep.duration else {})
-        _, traces = measure_model(record, model, spec, signals)
+        _, traces = measure_model(record, model, spec, signals, last=sweep.outcome.last)
         values = {n: MODEL_NUMBERS[n](model) for n in set().union(*(numbers for _, numbers, _ in needed.values()))}
     else:
         traces = measure_output(record, run_script(text, case.texts, name=record.source))

@@ -62,7 +62,7 @@ def followed(root: Path, copy: Path, environment: dict[str, str]) -> list[tuple[
         if not command.startswith(NOT_HERE):
             cache = str(copy / ".cache" / "clinic") if command.startswith("clinic cache") else kept
             own = environment | {"PYTHONPATH": str(copy / "scripts"), "CLINIC_CACHE": cache}
-            script = f"source .venv/bin/activate\n{command}\n"
+            script = f"source .venv/bin/activate\n{command}\nexit"  # or this shell would become the command
             run = subprocess.run(["bash", "-c", script], cwd=copy, env=own, check=False, capture_output=True, text=True)
             done.append((command, run.returncode, run.stdout + run.stderr))
     return done

@@ -15,6 +15,8 @@ export MUJOCO_GL ?= egl
 # MkDocs' and Material's notices about the end of their lines: CONTRIBUTING.md says what the way out is.
 export NO_MKDOCS_2_WARNING := 1
 export DISABLE_MKDOCS_2_WARNING := true
+# Compiled modules are kept, whatever is usual here: each of a hundred processes would compile them again.
+unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
 .PHONY: help setup serve site test bench growth lint lock audit clean

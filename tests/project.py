@@ -36,7 +36,7 @@ def write_project(folder: Path, *changes: tuple[str, str], kept: Path | None = N
         copy = shutil.copytree if (ROOT / name).is_dir() else shutil.copy
         copy(ROOT / name, target)
     package = Path(clinic.__file__).parent  # a copy, so that nothing hangs on what happens to the checkout meanwhile
-    shutil.copytree(package, folder / "scripts" / "clinic", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(package, folder / "scripts" / "clinic")
     (folder / "docs" / "triage.md").write_text(TRIAGE, encoding="utf-8")
     (folder / "CONTRIBUTING.md").write_text("# Add a case\n\nPrint it with `clinic reference`.\n", encoding="utf-8")
     write_case(folder, ("duration: 0.4", "duration: 0.2"), *changes)

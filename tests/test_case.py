@@ -19,6 +19,7 @@ from helpers import (
     MODEL,
     RECORD,
     SLUG,
+    SWEEP,
     changed,
     page_of,
     script_case,
@@ -680,6 +681,28 @@ def test_wrong_reference(tmp_path: Path, changes: list[Change], message: str) ->
 # Wrong relations between cases
 
 
+@pytest.mark.parametrize("unit", ["mm", "cm", "deg", "ms", "mm/s", "°"])
+def test_a_unit_that_mujoco_does_not_compute_in(tmp_path: Path, unit: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        tiny_case(tmp_path, ('body(box).xpos[2]", unit: m', f'body(box).xpos[2]", unit: {unit}'))
+    assert [problem.where for problem in caught.value.problems] == ["signals.height.unit"]
+
+
+@pytest.mark.parametrize("numbers", ["start: 0, stop: 8, count: 3", "start: -5, stop: 8, count: 3", "values: [0, 1]"])
+def test_a_logarithmic_scale_has_no_zero(tmp_path: Path, numbers: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        tiny_case(
+            tmp_path,
+            ("no_sweep: The masks are not a number.\n", SWEEP),
+            ("values: [1, 2, 4, 8]", f"{numbers}, scale: log"),
+        )
+    [problem] = caught.value.problems
+    assert (problem.where, problem.found) == (
+        "sweep.fall.vary[0]",
+        "a logarithmic scale from or to zero or less",
+    )
+
+
 def test_number_used_twice(tmp_path: Path) -> None:
     write_case(tmp_path, slug="a-box")
     write_case(tmp_path, slug="b-box")
@@ -687,7 +710,7 @@ def test_number_used_twice(tmp_path: Path) -> None:
         cases/b-box/case.yaml:1: number
           found:    1, the number of a-box
           expected: a number of its own
-          repair:   take 2
+          repair:   let the newer of the two take 2
         """)
 
 

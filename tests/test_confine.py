@@ -176,6 +176,36 @@ def test_a_script_that_opens_a_socket(act: str) -> None:
     assert "not permitted" in refusal(f"import socket\n{act}")
 
 
+@pytest.mark.skipif(not confine.LINUX, reason="only Linux refuses these calls")
+@pytest.mark.parametrize(
+    "act",
+    [
+        "resource.prlimit(os.getppid(), resource.RLIMIT_CPU, (1, 1))",
+        "os.setpriority(os.PRIO_PROCESS, os.getppid(), 19)",
+        "os.sched_setaffinity(os.getppid(), {0})",
+        "os.memfd_create('beside')",
+        "assert libc.shmget(0x7E57C1, 1 << 20, 0o1666) != -1, os.strerror(ctypes.get_errno())",
+        "assert libc.semget(0x7E57C1, 1, 0o1666) != -1, os.strerror(ctypes.get_errno())",
+        "assert libc.msgget(0x7E57C1, 0o1666) != -1, os.strerror(ctypes.get_errno())",
+    ],
+)
+def test_a_script_that_reaches_for_other_processes_or_memory_beside_its_own(act: str) -> None:
+    said = refusal(f"import ctypes, os, resource\nlibc = ctypes.CDLL(None, use_errno=True)\n{act}")
+    assert "not permitted" in said or "not implemented" in said
+
+
+@pytest.mark.skipif(not confine.LINUX, reason="only Linux refuses these calls")
+def test_a_script_may_limit_itself() -> None:
+    code = "import resource\nresource.setrlimit(resource.RLIMIT_NOFILE, (64, 64))\nprint('x =', 1)"
+    assert run_python(code, {}).text.split() == ["x", "=", "1"]
+
+
+def test_what_a_script_says_at_its_end_is_short_and_without_controls() -> None:
+    said = refusal('raise ValueError("\\x1b]0;pwn\\x07\\u202e" + 100_000 * "A")')
+    assert said.startswith("ValueError: ]0;pwnAAA")
+    assert len(said) < 400
+
+
 def test_a_script_sees_nothing_of_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("A_SECRET_TOKEN", "x")
     seen = run_python("import os\nprint(*sorted(os.environ))\nprint(os.environ['HOME'] == os.getcwd())", {}).text

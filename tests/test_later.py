@@ -176,6 +176,22 @@ def test_the_server_shows_the_numbers_and_then_the_page(project: Path, tmp_path:
     assert 0 < numbers < whole
 
 
+@pytest.mark.parametrize("meanwhile", [False, True])
+def test_what_was_saved_during_the_first_build_is_built(
+    project: Path, served: Later, monkeypatch: pytest.MonkeyPatch, meanwhile: bool
+) -> None:
+    monkeypatch.chdir(project)
+    monkeypatch.setattr(module, "LATER", served)
+    site(served, project)
+    if meanwhile:
+        edit(project, RECORD, "Look at the masks.", "Look at all masks.")
+    config = load_config(str(project / "mkdocs.yml"))
+    server = LiveReloadServer(lambda: None, "127.0.0.1", 0, str(project))
+    module.on_serve(server, config=config)
+    assert server._want_rebuild is meanwhile
+    server.server_close()
+
+
 def test_the_server_looks_often_at_all_that_it_watched_before(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("CLINIC_CACHE", str(project / "cache"))
     monkeypatch.setattr(module, "LATER", Later())

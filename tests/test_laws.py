@@ -264,8 +264,8 @@ def swept(folder: Path, *changes: tuple[str, str]) -> list[str]:
 
 def test_a_prediction_that_misses(tmp_path: Path) -> None:
     assert swept(tmp_path, ("* 0.398 / 2", "* 0.4 / 2"), ("within: 0.005", "within: 0.001")) == [
-        f"sweep.fall.prediction: misses 4 of 4 points; most at g = 8, by 0.00320{SPACE}m; expected a prediction "
-        "that misses none; correct its `expr`"
+        f"sweep.fall.prediction: misses 4 of 4 points; most at g = 8, by 0.00320{SPACE}m: it says -0.58, and "
+        "-0.5768 is measured; expected a prediction that misses none; correct its `expr`"
     ]
 
 

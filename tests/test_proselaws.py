@@ -24,6 +24,12 @@ def test_a_quotation_that_no_variant_has(tmp_path) -> None:
     assert (problem.expected, problem.repair) == ("an attribute that some variant has", "correct the quotation")
 
 
+def test_a_problem_of_prose_stands_at_the_line_of_its_words(tmp_path) -> None:
+    case, evidence = case_with(tmp_path, 'One line.\n  Another.\n  It falls 3 m, and `axis="0"` is wrong.')
+    lines = {problem.line - case.lines.at(("lesson",)) for law in (typed, quoted) for problem in law(case, evidence)}
+    assert lines == {3}
+
+
 @pytest.mark.parametrize("text", ["It falls 3 m.", "After 20ms it", "turned by 90°", "by 90 degrees", "weighs 3.9 N."])
 def test_a_number_typed_by_hand(tmp_path, text: str) -> None:
     (problem,) = typed(*case_with(tmp_path, text))

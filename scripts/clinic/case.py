@@ -16,9 +16,10 @@ from __future__ import annotations
 
 import itertools
 import json
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from pydantic import ValidationError
@@ -34,6 +35,7 @@ from clinic.signals import WARNINGS
 from clinic.wording import word_problems
 from clinic.yamlmap import Lines, Where, YamlError, dotted, read_yaml
 
+SCALED = re.compile(r"(?:[mck]m|[mµ]s|[mk]N|g|deg|°)(?![A-Za-z])")
 MOST_POINTS = 1000
 MOST_POINTS_OF_A_SCRIPT = 200
 LIKE = 0.8
@@ -65,9 +67,10 @@ class Case:
         """The record's path as shown to the author."""
         return f"cases/{self.slug}/{RECORD}"
 
-    def problem(self, where: Where, found: str, expected: str, repair: str) -> Problem:
-        """A problem at the field `where` of this case's record."""
-        return Problem(self.file, self.lines.at(where), dotted(where), found, expected, repair)
+    def problem(self, where: Where, found: str, expected: str, repair: str, quoted: str = "") -> Problem:
+        """A problem at the field `where` of this case's record, and there at the words `quoted`, if given."""
+        line = self.lines.holding(where, quoted) if quoted else self.lines.at(where)
+        return Problem(self.file, line, dotted(where), found, expected, repair)
 
 
 def load_case(folder: Path) -> Case:
@@ -90,19 +93,10 @@ def load_case(folder: Path) -> Case:
         raise CaseError(field_problems(file, lines, error.errors(), data)) from None
     texts = {path.name: path.read_text(encoding="utf-8") for path in sorted(folder.iterdir()) if path.name != RECORD}
     case = Case(slug, record, texts, lines)
-    words = (
-        replace(case.problem(*told), line=_line_of(text, lines.at(told[0]), told[1])) for told in word_problems(record)
-    )
+    words = (case.problem(*told, quoted=told[1]) for told in word_problems(record))
     if problems := [*_file_problems(case), *_reference_problems(case), *words]:
         raise CaseError(problems)
     return case
-
-
-def _line_of(text: str, line: int, found: str) -> int:
-    """The first line from `line` on that holds the beginning of what was found, else `line`."""
-    beginning = found.partition("\n")[0][:20]
-    rows = text.split("\n")[line - 1 :]
-    return next((line + k for k, row in enumerate(rows) if beginning in row), line)
 
 
 def load_cases(root: Path) -> list[Case]:
@@ -179,6 +173,11 @@ def _reference_problems(case: Case) -> Iterator[Problem]:
             yield case.problem((*where, "signal"), *_unknown(check.signal, record.signals, "signal"))
     paths = [name for name, signal in record.signals.items() if isinstance(signal, PathSignal)]
     for name, signal in record.signals.items():
+        scaled = isinstance(signal, PathSignal) and not signal.path.startswith(("printed(", "model."))
+        if scaled and SCALED.match(signal.unit):
+            told = "the unit that MuJoCo computes in, such as m, rad, s, kg, N"
+            repair = "write it; convert in prose, `{{ broken.x.final | mm }}`, or by `expr`"
+            yield case.problem(("signals", name, "unit"), signal.unit, told, repair)
         if isinstance(signal, StartsSignal) and signal.holds.signal in record.signals.keys() - set(paths):
             yield case.problem(
                 ("signals", name, "holds", "signal"), *_unknown(signal.holds.signal, paths, "path signal")
@@ -265,9 +264,8 @@ def _relation_problems(cases: list[Case], slugs: set[str]) -> Iterator[Problem]:
         if number in numbers:
             taken = {other.record.number for other in cases}
             free = next(n for n in itertools.count(1) if n not in taken)
-            yield case.problem(
-                ("number",), f"{number}, the number of {numbers[number]}", "a number of its own", f"take {free}"
-            )
+            found, repair = f"{number}, the number of {numbers[number]}", f"let the newer of the two take {free}"
+            yield case.problem(("number",), found, "a number of its own", repair)
         numbers.setdefault(number, case.slug)
         for index, slug in enumerate(case.record.see):
             if slug == case.slug or slug not in slugs:

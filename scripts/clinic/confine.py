@@ -2,7 +2,8 @@
 
 Run as a file, it takes orders on stdin, a line each, and prints what became of each, both JSON. With `--keep` it first
 imports what nearly every script imports, and runs Python scripts in forks of itself, which then need not.
-The program writes only below its folder (by Landlock), and makes no processes and no sockets (by a seccomp filter);
+The program writes only below its folder (by Landlock), and makes no processes and no sockets, sets no limit of
+another process and holds no memory beside its own (by a seccomp filter);
 where the kernel does neither, its children, those that detach themselves too, end with it.
 """
 
@@ -38,9 +39,24 @@ DEVICES = ("null", "zero", "dri", "nvidia*", "kfd")  # those of OpenGL too
 
 LOAD, EQUAL, AT_LEAST, ANY_BIT, RETURN = 0x20, 0x15, 0x35, 0x45, 0x06  # of a seccomp filter
 ALLOW, REFUSE, OTHER_CALLS = 0x7FFF0000, 0x00050000, 0x40000000
-SYSTEMS = {  # by machine: its number, `clone`, and the calls that make processes and sockets
-    "x86_64": (0xC000003E, 56, {57: EPERM, 58: EPERM, 435: ENOSYS, 41: EPERM, 425: ENOSYS}),
-    "aarch64": (0xC00000B7, 220, {435: ENOSYS, 198: EPERM, 425: ENOSYS}),
+SYSTEMS = {  # by machine: its number, `clone`, `prlimit64`, and the calls that make processes and sockets,
+    # that set how processes are scheduled, and that hold memory which no process or folder shows
+    "x86_64": (
+        0xC000003E,
+        56,
+        302,
+        {57: EPERM, 58: EPERM, 435: ENOSYS, 41: EPERM, 425: ENOSYS}
+        | dict.fromkeys((141, 142, 144, 203, 251, 314), EPERM)
+        | dict.fromkeys((29, 64, 68, 319), ENOSYS),
+    ),
+    "aarch64": (
+        0xC00000B7,
+        220,
+        261,
+        {435: ENOSYS, 198: EPERM, 425: ENOSYS}
+        | dict.fromkeys((140, 118, 119, 122, 30, 274), EPERM)
+        | dict.fromkeys((194, 190, 186, 279), ENOSYS),
+    ),
 }
 
 
@@ -218,15 +234,16 @@ def _landlock(libc: Any, folder: str) -> None:
 
 
 def _seccomp(libc: Any) -> None:
-    """No processes but threads, and no sockets."""
+    """No processes but threads, no sockets, no limits for others, no memory that nobody counts."""
     if os.uname().machine not in SYSTEMS:
         return
-    system, clone, refused = SYSTEMS[os.uname().machine]
+    system, clone, prlimit, refused = SYSTEMS[os.uname().machine]
     steps = [(LOAD, 0, 0, 4), (EQUAL, 1, 0, system), (RETURN, 0, 0, REFUSE | EPERM)]
     steps += [(LOAD, 0, 0, 0), (AT_LEAST, 0, 1, OTHER_CALLS), (RETURN, 0, 0, REFUSE | EPERM)]
     for call, error in refused.items():
         steps += [(EQUAL, 0, 1, call), (RETURN, 0, 0, REFUSE | error)]
     steps += [(EQUAL, 0, 3, clone), (LOAD, 0, 0, 16), (ANY_BIT, 1, 0, CLONE_THREAD), (RETURN, 0, 0, REFUSE | EPERM)]
+    steps += [(EQUAL, 0, 3, prlimit), (LOAD, 0, 0, 16), (EQUAL, 1, 0, 0), (RETURN, 0, 0, REFUSE | EPERM)]  # 0: itself
     steps += [(RETURN, 0, 0, ALLOW)]
     made = (Instruction * len(steps))(*(Instruction(*step) for step in steps))
     if libc.prctl(PR_SET_SECCOMP, SECCOMP_FILTER, ctypes.byref(Program(len(steps), made)), 0, 0):

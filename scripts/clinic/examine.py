@@ -13,7 +13,7 @@ from clinic.mjcf import ModelError, check_alone, probe
 from clinic.problem import CaseError, Problem, article, closest, listed
 from clinic.record import PathSignal, RowSignal, StartsSignal
 from clinic.signals import SignalError, bind, element_names, parse_path
-from clinic.simulate import RunError, compile_model, controls, start, step_count
+from clinic.simulate import MAX_STEPS, RunError, compile_model, controls, start, step_count
 from clinic.sweep import grid, substituted
 from clinic.variant import EditError, Variant, remedies, variants
 from clinic.yamlmap import Where
@@ -116,6 +116,9 @@ def _variant_problems(case: Case, variant: Variant, place: Where) -> Iterator[Pr
             prepare(model, record.run)
         except RunError as error:
             yield case.problem(("run", *error.where), error.found, error.expected, error.repair)
+    if record.picture.time > MAX_STEPS * model.opt.timestep > 0:
+        expected = f"{MAX_STEPS * model.opt.timestep:g} s at most, which is {MAX_STEPS:,} steps"
+        yield case.problem(("picture", "time"), f"{record.picture.time:g} s", expected, "show an earlier moment")
     data = mujoco.MjData(model)
     for name, signal in record.signals.items():
         if isinstance(signal, PathSignal):

@@ -204,8 +204,11 @@ def _worst(sweep: Sweep, found: SweepEvidence) -> str:
         return ""
     point, error = max(missed, key=lambda each: each[1])
     at = ", ".join(f"{key} = {value:g}" for key, value in point.at.items())
-    by = f", by {quantity(error, found.agreement['prediction'].unit)}" if isfinite(error) else ""
-    return f"; most at {at}{by}"
+    if not isfinite(error) or point.outcome is None:
+        return f"; most at {at}"
+    unit, said = found.agreement["prediction"].unit, point.predicted["prediction"]
+    by = f"{error:.3g} of it" if sweep.prediction.relative else quantity(error, unit)
+    return f"; most at {at}, by {by}: it says {said:.4g}, and {point.outcome:.4g} is measured"
 
 
 def _place(case: Case, variant: str) -> Where:

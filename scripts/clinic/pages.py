@@ -233,7 +233,7 @@ def _field_problems(case: Case, evidence: Evidence) -> Iterable[Problem]:
     texts |= {(*where, "why"): getattr(remedy, "why", "") for where, _, remedy in remedies(case)}
     for where, text in texts.items():
         for error in field_errors(text, evidence):
-            yield case.problem(where, error.found, error.expected, error.repair)
+            yield case.problem(where, error.found, error.expected, error.repair, quoted=error.found)
 
 
 def _opening(text: str, length: int = 150) -> str:

@@ -29,7 +29,8 @@ def quoted(case: Case, evidence: Evidence) -> Iterator[Problem]:
     for where, text in prose_of(case):
         for attribute in (found for span in SPAN.findall(text) for found in ATTRIBUTE.findall(span)):
             if not any(attribute in known for known in texts):
-                yield case.problem(where, attribute, "an attribute that some variant has", "correct the quotation")
+                wanted, repair = "an attribute that some variant has", "correct the quotation"
+                yield case.problem(where, attribute, wanted, repair, quoted=attribute)
 
 
 def typed(case: Case, evidence: Evidence) -> Iterator[Problem]:
@@ -37,7 +38,8 @@ def typed(case: Case, evidence: Evidence) -> Iterator[Problem]:
     for where, text in prose_of(case):
         for found in TYPED.findall(FORMULA.sub("", FIELD.sub("", CODE.sub("", text)))):
             repair = "write a field such as {{ broken.signal.final }}"
-            yield case.problem(where, f"{found.strip()!r}, typed by hand", "what a run gave", repair)
+            number = found.strip()
+            yield case.problem(where, f"{number!r}, typed by hand", "what a run gave", repair, quoted=number)
 
 
 def prose_of(case: Case) -> Iterator[tuple[Where, str]]:

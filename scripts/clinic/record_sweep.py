@@ -32,6 +32,9 @@ class Parameter(Strict):
         spaced = [value is not None for value in (self.start, self.stop, self.count)]
         if bool(self.values) == all(spaced) or any(spaced) != all(spaced):
             raise ValueError("no numbers, or two kinds||`values`, or all of start, stop, count||keep one of the two")
+        ends = [end for end in (self.start, self.stop, *self.values) if end is not None]
+        if self.scale == "log" and min(ends) <= 0:
+            raise ValueError("a logarithmic scale from or to zero or less||numbers above zero||write `scale: linear`")
         if "{}" not in self.replace:
             raise ValueError(f"{self.replace}||`{{}}` where the number goes||write `{{}}` for the number")
         return self

@@ -13,8 +13,10 @@ import numpy as np
 from clinic import node
 from clinic.checks import Trace
 from clinic.limits import Done, LimitError, Limits, ProgramError, run, written
+from clinic.yamlmap import CONTROL
 
 TIME_LIMIT = 20.0
+LONGEST = 300  # characters of an error
 BY_HAND = "run it by hand and mend it"
 REFUSED = "let it write in its own folder only, start no program and open no socket"
 PRINTED = re.compile(
@@ -103,6 +105,8 @@ def _process(program: str, folder: Path, name: str, time_limit: float | None, sc
         raise ScriptError(error.found, error.repair) from None
 
 
-def _failed(found: str, line: str | None, name: str) -> ScriptError:
+def _failed(said: str, line: str | None, name: str) -> ScriptError:
+    found = CONTROL.sub("", said)
+    found = found if len(found) <= LONGEST else found[:LONGEST] + " ..."
     repair = REFUSED if re.search("permi(tted|ssion denied)|EACCES|EPERM", found, re.IGNORECASE) else BY_HAND
     return ScriptError(found + (f" (line {line} of {name})" if line else ""), repair)

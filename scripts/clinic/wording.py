@@ -18,7 +18,7 @@ from clinic.yamlmap import Where
 
 LINES = ("title", "label", "unit", "phrases", "says", "yes", "no")
 PROSE = ("symptom", "diagnosis", "cause", "fix", "lesson", "why", "text", "exempt")
-FIELD = re.compile(r"\{\{.*?\}\}", re.DOTALL)
+FIELD = re.compile(r"\{\{.{0,300}?\}\}", re.DOTALL)
 
 
 def word_problems(record: Record) -> Iterator[tuple[Where, str, str, str]]:

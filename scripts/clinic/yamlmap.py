@@ -30,15 +30,22 @@ class YamlError(Exception):
 
 @dataclass(frozen=True)
 class Lines:
-    """The line, counted from 1, of every field by its path."""
+    """The line, counted from 1, of every field by its path; `text` is the file's."""
 
     by_path: dict[Where, int]
+    text: str = ""
 
     def at(self, where: Where) -> int:
         """The line of the field, or of its nearest ancestor that stands in the file."""
         while where and where not in self.by_path:
             where = where[:-1]
         return self.by_path.get(where, 1)
+
+    def holding(self, where: Where, words: str) -> int:
+        """The first line from the field's on that holds the beginning of the words, else the field's."""
+        line, beginning = self.at(where), words.partition("\n")[0][:20]
+        rows = self.text.split("\n")[line - 1 :]
+        return next((line + k for k, row in enumerate(rows) if beginning in row), line)
 
 
 def dotted(where: Where) -> str:
@@ -69,13 +76,17 @@ def read_yaml(text: str) -> tuple[Any, Lines]:
     try:
         return _read(text, yaml.SafeLoader)
     except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
-        raise YamlError(
-            _line(mark),
+        line = _line(error.problem_mark or error.context_mark)
+        found, repair = (
             str(error.problem or error.context),
-            "valid YAML",
             "quote text that holds `: `, `#`, `{` or `[`; indent by two spaces",
-        ) from None
+        )
+        if "\t" in text.split("\n")[line - 1]:
+            found, repair = "a tab", "write spaces in its place"
+        elif found.startswith("expected <block end>"):
+            begun = f" in line {_line(error.context_mark)}" if error.context_mark else ""
+            found, repair = f"a line that does not go on with what began{begun}", "indent it like those it belongs to"
+        raise YamlError(line, found, "valid YAML", repair) from None
     except yaml.reader.ReaderError as error:
         line = text.count("\n", 0, error.position) + 1
         raise YamlError(line, named(chr(error.character)), "text that can be read", "delete it") from None
@@ -92,7 +103,7 @@ def _read(text: str, loader: Any) -> tuple[Any, Lines]:
         raise YamlError(1, "no mapping", "`field: value` lines", "start with `number:` and `title:`")
     by_path: dict[Where, int] = {}
     _walk(node, (), by_path)
-    return _plain(node, yaml.SafeLoader("")), Lines(by_path)
+    return _plain(node, yaml.SafeLoader("")), Lines(by_path, text)
 
 
 def _step(event: yaml.Event) -> int:
@@ -131,6 +142,10 @@ def _walk(node: yaml.Node, where: Where, by_path: dict[Where, int]) -> None:
                     _line(key.start_mark), "a key that is no text", "`field: value` lines", "write one word"
                 )
             _shown(key)
+            if "\n" in key.value:
+                raise YamlError(
+                    _line(key.start_mark), "a key of several lines", "`field: value` lines", "write one word"
+                )
             path = (*where, key.value)
             if path in by_path:
                 raise YamlError(

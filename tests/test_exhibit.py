@@ -89,7 +89,7 @@ def test_a_case_is_run_again_when_its_model_changes(tmp_path: Path) -> None:
     "change",
     [
         pytest.param(("label: height of the box", "label: height"), id="label"),
-        pytest.param(("unit: m,", "unit: cm,"), id="unit"),
+        pytest.param(("unit: m,", "unit: metre,"), id="unit"),
         pytest.param(("duration: 0.4", "duration: 0.3"), id="run"),
     ],
 )

@@ -678,9 +678,6 @@ def test_wrong_reference(tmp_path: Path, changes: list[Change], message: str) ->
     assert message_of(lambda: load_case(folder)) == message
 
 
-# Wrong relations between cases
-
-
 @pytest.mark.parametrize("unit", ["mm", "cm", "deg", "ms", "mm/s", "°"])
 def test_a_unit_that_mujoco_does_not_compute_in(tmp_path: Path, unit: str) -> None:
     with pytest.raises(CaseError) as caught:
@@ -701,6 +698,9 @@ def test_a_logarithmic_scale_has_no_zero(tmp_path: Path, numbers: str) -> None:
         "sweep.fall.vary[0]",
         "a logarithmic scale from or to zero or less",
     )
+
+
+# Wrong relations between cases
 
 
 def test_number_used_twice(tmp_path: Path) -> None:

@@ -101,13 +101,27 @@ def test_a_plain_link_is_left(tmp_path: Path, link: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        pytest.param("It rises to {{ broken.height.final }.", "a field that is closed: {{ ... }}", id="one-brace"),
+        pytest.param("{{" * 40_000, "a field that is closed: {{ ... }}", id="braces-without-end"),
+        pytest.param("``````````<b>`````````", "fewer", id="ten-backticks"),
+        pytest.param(" ".join("`" * k for k in range(1, 400)), "fewer", id="more-and-more-backticks"),
+    ],
+)
+def test_what_would_be_searched_for_an_end_again_and_again(tmp_path: Path, text: str, expected: str) -> None:
+    told = only_problem(write_case(tmp_path, ("lesson: Look at the masks.", f"lesson: |\n  {text}")))
+    assert (told.where, told.expected) == ("lesson", expected)
+
+
+@pytest.mark.parametrize(
     "formula",
     [
         r"\text{<script>alert(1)</script>}",
         r"\href{javascript:alert(1)}{x}",
         r"\style{color:red}{x}",
         r"\frac{",
-        "{" * 3000,
+        r"\sqrt{" * 3000,
     ],
 )
 def test_a_formula_that_is_more(tmp_path: Path, formula: str) -> None:

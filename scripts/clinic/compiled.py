@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from functools import lru_cache
 from importlib.metadata import version
 
 from jinja2 import BytecodeCache, Environment
@@ -44,17 +45,17 @@ class Templates(BytecodeCache):
             self.cache.put(self.key, self.kept)
 
 
-_templates: list[Templates] = []
+@lru_cache
+def _templates() -> Templates:
+    return Templates(Cache(cache_folder(project_root())))
 
 
 def on_env(env: Environment, config: MkDocsConfig, files: Files) -> Environment:
     """Lets a template be compiled once."""
-    if not _templates:
-        _templates.append(Templates(Cache(cache_folder(project_root()))))
-    env.bytecode_cache = _templates[0]
+    env.bytecode_cache = _templates()
     return env
 
 
 def on_post_build(config: MkDocsConfig) -> None:
     """Stores what this build compiled."""
-    _templates[0].keep()
+    _templates().keep()

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 
 CODE = re.compile(
     r"(?P<fenced>^(?P<indent> *)(?P<fence>```+|~~~+)(?P<head>[^\n]*)\n(?P<body>.*?)^ *(?P=fence) *$|"
-    r"(?P<tick>`{1,9})(?!`)(?P<span>(?:(?!\n *\n).)+?)(?<!`)(?P=tick)(?!`))",
+    r"(?P<tick>`+)(?!`)(?P<span>(?:(?!\n *\n).)+?)(?<!`)(?P=tick)(?!`))",
     re.DOTALL | re.MULTILINE,
 )
 LANGUAGE = re.compile(r"[a-z]+")

@@ -21,7 +21,7 @@ from watchdog.observers.polling import PollingObserver
 
 from clinic.cache import LOADED, Cache
 from clinic.checkout import cache_folder, project_root
-from clinic.finished import Site, Stamp, finished, kept_site, key_of_site, stamps
+from clinic.finished import Site, finished, kept_site, key_of_site
 from clinic.sources import source_digest
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ class Later:
     Attributes:
         whole: The last site that was shown whole.
         key: What the process makes, or made, the site of.
-        began: The files as they were when the last site was asked for.
+        asked: What the last site that was asked for was to be made of.
         teller: Waits for the process, to change a file in `folder`.
         folder: Watched by the server; None where everything is waited for.
     """
@@ -45,7 +45,7 @@ class Later:
     def __init__(self) -> None:
         self.whole: Site | None = None
         self.key = ""
-        self.began: list[Stamp] = []
+        self.asked = ""
         self.process: subprocess.Popen[bytes] | None = None
         self.teller: threading.Thread | None = None
         self.folder: Path | None = None
@@ -53,8 +53,7 @@ class Later:
 
     def site(self, root: Path, cache: Cache) -> Site:
         """The site, whole; or, in a folder that is watched, with a case's numbers and the rest as it was."""
-        self.began = list(stamps(root))
-        key = key_of_site(root)
+        key = self.asked = key_of_site(root)
         made = kept_site(cache, key)
         if made is None and (early := self._early(root, cache, key)) is not None:
             return early
@@ -167,7 +166,7 @@ def on_serve(server: LiveReloadServer, config: MkDocsConfig, **_: object) -> Liv
         folder.mkdir(parents=True, exist_ok=True)
         LATER.folder = folder
         server.watch(str(folder))
-    if LATER.began and LATER.began != list(stamps(project_root())):  # saved during the first build: nobody watched
+    if LATER.asked and LATER.asked != key_of_site(project_root()):  # saved during the first build: nobody watched
         server._want_rebuild = True
     return server
 

@@ -11,7 +11,7 @@ from clinic.formula import formulas
 from clinic.inert import harmless, outside_code
 from clinic.problem import closest, listed
 
-FIELD = re.compile(r"\{\{(.{0,300}?)\}\}", re.DOTALL)
+FIELD = re.compile(r"\{\{(.*?)\}\}", re.DOTALL)
 CONVERSIONS = {
     "mm": ("m", 1e3, "mm"),
     "cm": ("m", 1e2, "cm"),

@@ -18,7 +18,8 @@ from clinic.yamlmap import Where
 
 LINES = ("title", "label", "unit", "phrases", "says", "yes", "no")
 PROSE = ("symptom", "diagnosis", "cause", "fix", "lesson", "why", "text", "exempt")
-FIELD = re.compile(r"\{\{.{0,300}?\}\}", re.DOTALL)
+MOST_TICKS = 10
+FIELD = re.compile(r"\{\{.*?\}\}", re.DOTALL)
 
 
 def word_problems(record: Record) -> Iterator[tuple[Where, str, str, str]]:
@@ -39,6 +40,12 @@ def word_problems(record: Record) -> Iterator[tuple[Where, str, str, str]]:
 
 
 def _prose_problems(where: Where, text: str) -> Iterator[tuple[Where, str, str, str]]:
+    if (begun := text.rfind("{{")) > text.rfind("}}"):
+        yield where, text[begun:].partition("\n")[0][:40], "a field that is closed: {{ ... }}", "close it with }}"
+        return  # what follows would look for its end from every brace anew
+    if "`" * MOST_TICKS in text:
+        yield where, f"{MOST_TICKS} backticks in a row", "fewer", "write fewer"
+        return
     for error in formula_errors(FIELD.sub("1", text)):
         yield where, error.found, error.expected, error.repair
     for link in strange_links(FORMULA.sub("", text)):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from functools import lru_cache
 from xml.etree import ElementTree
 
 import latex2mathml.converter
@@ -58,6 +59,7 @@ def formula_errors(text: str) -> Iterator[FormulaError]:
             yield error
 
 
+@lru_cache(4096)
 def mathml(source: str, display: str) -> str:
     """One formula.
 

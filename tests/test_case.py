@@ -228,6 +228,36 @@ def test_accepted(tmp_path: Path, change: Change) -> None:
             """,
         ),
         wrong(
+            "number-that-yaml-takes-for-text",
+            [("equals: 0", "equals: -1e3")],
+            """
+            cases/falling-box/case.yaml:17: checks.broken[0].equals
+              found:    "-1e3"
+              expected: a number
+              repair:   write -1.0e+3
+            """,
+        ),
+        wrong(
+            "title-of-nothing-that-is-seen",
+            [("title: A box falls through the floor", 'title: " \\u200b"')],
+            """
+            cases/falling-box/case.yaml:2: title
+              found:    " \u200b"
+              expected: text that is not empty
+              repair:   correct the value
+            """,
+        ),
+        wrong(
+            "files-beside-a-model",
+            [("model: model.xml", "model: model.xml\nfiles: [mesh.xml]")],
+            """
+            cases/falling-box/case.yaml:1:
+              found:    files beside model: mesh.xml
+              expected: `files` beside `script`
+              repair:   remove `files`; write out in the model what they hold
+            """,
+        ),
+        wrong(
             "empty-field",
             [("lesson: Look at the masks.", "lesson:")],
             """
@@ -707,10 +737,14 @@ def test_number_used_twice(tmp_path: Path) -> None:
     write_case(tmp_path, slug="a-box")
     write_case(tmp_path, slug="b-box")
     assert message_of(lambda: load_cases(tmp_path / "cases")) == says("""
+        cases/a-box/case.yaml:1: number
+          found:    1, the number of b-box
+          expected: a number of its own
+          repair:   let the newer take 2
         cases/b-box/case.yaml:1: number
           found:    1, the number of a-box
           expected: a number of its own
-          repair:   let the newer of the two take 2
+          repair:   let the newer take 2
         """)
 
 

@@ -149,6 +149,13 @@ def test_a_model_with_a_doctype(tmp_path: Path, text: str) -> None:
     assert (told.file, told.line, told.found) == ("cases/falling-box/model.xml", 1, "a DOCTYPE")
 
 
+def test_a_name_in_a_model_that_turns_the_reading_direction(tmp_path: Path) -> None:
+    told = only_problem(
+        write_case(tmp_path, model='<mujoco>\n<worldbody><geom name="a&#x202e;b"/></worldbody></mujoco>')
+    )
+    assert (told.line, told.found) == (2, "the character U+202E in name of <geom>")
+
+
 def test_an_edit_that_adds_a_doctype(tmp_path: Path) -> None:
     told = only_problem(write_case(tmp_path, (EDIT, "{find: '<mujoco>', replace: '<!DOCTYPE m><mujoco>'}")))
     assert told.found == "after these edits: a DOCTYPE"

@@ -22,6 +22,13 @@ def test_further_lines_are_aligned_under_the_first() -> None:
     assert str(problem(found="\none\ntwo\n")).splitlines()[1:3] == ["  found:    one", "            two"]
 
 
+def test_a_name_does_not_speak_to_the_terminal() -> None:
+    assert str(problem(file="cases/\x1b[31mred\u202e", found="a\x07")).splitlines()[:2] == [
+        "cases/?[31mred?:3: run",
+        "  found:    a?",
+    ]
+
+
 def test_error_holds_each_problem_once_sorted_by_file_then_line() -> None:
     late, early, other = problem(line=10), problem(line=9), problem(file="cases/b/case.yaml", line=1)
 

@@ -155,6 +155,13 @@ def test_a_script_prints_the_same_alone_and_in_a_process_that_stays() -> None:
     assert run_python(TELLING, {}).text == alone.stdout
 
 
+def test_folders_in_folders_by_the_thousand_are_deleted() -> None:
+    with written({}) as folder:
+        run_in = "import os\nfor _ in range(3000):\n    os.mkdir('d')\n    os.chdir('d')\n"
+        subprocess.run([sys.executable, "-c", run_in], cwd=folder, check=True)
+    assert not os.path.lexists(folder)
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="no process stays elsewhere")
 def test_a_process_that_stays_is_replaced_when_it_is_gone() -> None:
     parent = "import os\nprint(os.getppid())"

@@ -88,6 +88,10 @@ def test_dotted(where: Where, text: str) -> None:
         pytest.param("text\n", 1, "no mapping", id="scalar"),
         pytest.param("a: 2024-13-45\n", 1, None, id="impossible-date"),
         pytest.param("a: \x07\n", 1, "the character U+0007", id="bell"),
+        pytest.param("a: 1\nb: [1:30]\n", 2, "1:30, read as 90", id="to-base-60"),
+        pytest.param("a: 012\n", 1, "012, read as 10", id="to-base-8"),
+        pytest.param("a: 0x1F\n", 1, "0x1F, read as 31", id="to-base-16"),
+        pytest.param("a: 1_000.5\n", 1, "1_000.5, read as 1000.5", id="underscore"),
         pytest.param("a: !!python/name:os.system\n", 1, None, id="python-object"),
     ],
 )
@@ -97,6 +101,11 @@ def test_refused(text: str, line: int, found: str | None) -> None:
     assert caught.value.line == line
     if found is not None:
         assert caught.value.found == found
+
+
+@pytest.mark.parametrize("number", ["0", "-0", "+1", "10", "1.", "-0.5", "1.0e-3", "2.5E+7", ".5"])
+def test_a_decimal_number(number: str) -> None:
+    assert read_yaml(f"a: {number}")[0] == {"a": float(number)}
 
 
 def test_lines_of_nothing_are_the_first() -> None:

@@ -17,7 +17,7 @@ from __future__ import annotations
 import itertools
 import json
 import re
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -258,15 +258,15 @@ def _unknown(word: str, known: Iterable[str], kind: str) -> tuple[str, str, str]
 
 def _relation_problems(cases: list[Case], slugs: set[str]) -> Iterator[Problem]:
     yield from _tag_problems(cases)
-    numbers: dict[int, str] = {}
+    users: dict[int, list[str]] = defaultdict(list)
+    for case in cases:
+        users[case.record.number].append(case.slug)
+    free = next(n for n in itertools.count(1) if n not in users)
     for case in cases:
         number = case.record.number
-        if number in numbers:
-            taken = {other.record.number for other in cases}
-            free = next(n for n in itertools.count(1) if n not in taken)
-            found, repair = f"{number}, the number of {numbers[number]}", f"let the newer of the two take {free}"
+        if others := [slug for slug in users[number] if slug != case.slug]:
+            found, repair = f"{number}, the number of {listed(others)}", f"let the newer take {free}"
             yield case.problem(("number",), found, "a number of its own", repair)
-        numbers.setdefault(number, case.slug)
         for index, slug in enumerate(case.record.see):
             if slug == case.slug or slug not in slugs:
                 others = sorted(slugs - {case.slug})

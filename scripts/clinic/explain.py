@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -55,6 +56,7 @@ EXPECTED = {
     "less_than_equal": "a number of {le:g} at most",
     "literal_error": "{expected}",
 }
+NUMBER = re.compile(r"(?P<whole>[-+]?\d+(?:\.\d*)?)(?:[eE](?P<power>[-+]?\d+))?")
 PATTERNS = {
     "^[a-z][a-z0-9]*(?:-[a-z0-9]+)*$": "lower-case words joined by hyphens",
     "^[a-z][a-z0-9_]*$": "a lower-case word; underscores allowed",
@@ -113,7 +115,12 @@ def _explained(error: ErrorDetails, where: Where, tag: str) -> tuple[str, str, s
                 "say where the number comes from",
             )
         case "string_pattern_mismatch":
-            return _shown(error["input"]), PATTERNS[error["ctx"]["pattern"]], "rename it"
+            wanted = PATTERNS.get(error["ctx"]["pattern"])
+            return (
+                _shown(error["input"]),
+                wanted or EXPECTED["string_too_short"],
+                "rename it" if wanted else "correct the value",
+            )
     if error["input"] is None:
         return "nothing", "a value", "write one, or remove the key"
     if where[:2] == ("run", "ctrl"):
@@ -121,8 +128,13 @@ def _explained(error: ErrorDetails, where: Where, tag: str) -> tuple[str, str, s
     else:
         words = EXPECTED.get(error["type"])
         expected = words.format(**error.get("ctx", {})) if words else message[0].lower() + message[1:]
-    unquote = error["type"] in ("int_type", "float_type") and str(error["input"]).replace(".", "", 1).isdigit()
-    return _shown(error["input"]), expected, "write it without quotes" if unquote else "correct the value"
+    repair = "correct the value"
+    if error["type"] in ("int_type", "float_type") and (number := NUMBER.fullmatch(str(error["input"]))):
+        whole, power = number["whole"], number["power"]
+        repair = (
+            f"write {whole if '.' in whole else whole + '.0'}e{int(power):+d}" if power else "write it without quotes"
+        )
+    return _shown(error["input"]), expected, repair
 
 
 def _model_at(where: Where, tag: str) -> type[BaseModel]:

@@ -13,7 +13,8 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -143,14 +144,21 @@ def environment(folder: Path) -> dict[str, str]:
     return {"PATH": os.defpath, "LANG": "C.UTF-8", **kept, **own}
 
 
-def written(files: Mapping[str, str]) -> tempfile.TemporaryDirectory[str]:
+@contextmanager
+def written(files: Mapping[str, str]) -> Iterator[str]:
     """A temporary folder that holds `files`."""
     made = tempfile.TemporaryDirectory(prefix="clinic-")
-    for file, text in files.items():
-        path = Path(made.name, file)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
-    return made
+    try:
+        for file, text in files.items():
+            path = Path(made.name, file)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        yield made.name
+    finally:
+        try:
+            made.cleanup()
+        except RecursionError:  # folders in folders, by the thousand
+            subprocess.run(["rm", "-rf", made.name], check=False, capture_output=True)
 
 
 def _text(said: str) -> str:

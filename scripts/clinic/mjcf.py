@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from xml.parsers import expat
 
 from clinic.keeper import Keeper
+from clinic.yamlmap import CONTROL, named
 
 SECONDS = 20
 MEMORY = 2 * 2**30
@@ -56,11 +57,14 @@ def references(xml: str) -> list[Reference]:
     """Every attribute of a text that makes the engine read something else, as far as the text can be read.
 
     Raises:
-        ModelError: For a DOCTYPE.
+        ModelError: For a DOCTYPE, or a character that cannot be shown.
     """
     found: list[Reference] = []
     for line, element, attributes in _elements(xml):
         for name, value in attributes.items():
+            if strange := CONTROL.search(value):
+                told = f"{named(strange[0])} in {name} of <{element}>"
+                raise ModelError(line, told, "text that can be read", "delete it")
             if name.startswith("file") or name in FOLDERS:
                 found.append(Reference(line, element, name, value))
     return found

@@ -6,6 +6,8 @@ import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from clinic.yamlmap import CONTROL
+
 
 @dataclass(frozen=True, order=True)
 class Problem:
@@ -29,11 +31,12 @@ class Problem:
 
     def __str__(self) -> str:
         place = f"{self.file}:{self.line}:" + (f" {self.where}" if self.where else "")
-        return (
+        return CONTROL.sub(
+            "?",
             f"{place}\n"
             f"  found:    {_indent(self.found)}\n"
             f"  expected: {_indent(self.expected)}\n"
-            f"  repair:   {_indent(self.repair)}"
+            f"  repair:   {_indent(self.repair)}",
         )
 
 

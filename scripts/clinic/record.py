@@ -243,6 +243,9 @@ class Record(Strict):
                 ("model without run", "add `run: {duration: 1}`") if self.model else ("script with run", "remove `run`")
             )
             raise ValueError(f"{found}||`run` beside `model`, and only there||{repair}")
+        if self.model is not None and self.files:
+            found = f"files beside model: {', '.join(self.files)}"
+            raise ValueError(f"{found}||`files` beside `script`||remove `files`; write out in the model what they hold")
         if self.script is not None and not self.script.endswith((".py", ".mjs")):
             raise ValueError(f"{self.script}||a script in Python, .py, or for Node, .mjs||rename the script")
         return self

@@ -8,7 +8,8 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 Identifier = Annotated[str, Field(pattern=r"^[a-z][a-z0-9]*(?:-[a-z0-9]+)*$")]
 Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
-Text = Annotated[str, Field(min_length=1)]
+VISIBLE = r"[^\s\u200b-\u200f\u2060\ufeff]"
+Text = Annotated[str, Field(min_length=1, pattern=VISIBLE)]
 Interval = tuple[float, float]
 Take = Literal["final", "first", "min", "max", "mean", "span", "onset"]
 

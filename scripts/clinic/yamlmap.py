@@ -15,6 +15,7 @@ MAX_DEPTH = 20
 CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]")
 """Characters that no text needs: controls but for tab and line feed, and those that turn the reading direction."""
 
+DECIMAL = re.compile(r"[-+]?(?:(?:0|[1-9]\d*)(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?|[-+]?\.(?:inf|nan)", re.IGNORECASE)
 FAST = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
@@ -124,6 +125,10 @@ def _plain(node: yaml.Node, loader: yaml.SafeLoader) -> Any:
         return [_plain(value, loader) for value in node.value]
     try:
         value = loader.construct_object(node)
+        if type(value) in (int, float) and not DECIMAL.fullmatch(node.value):
+            raise YamlError(
+                _line(node.start_mark), f"{node.value}, read as {value}", "a decimal number", "write its digits plainly"
+            )
         json.dumps(value, default=str)  # fails for a whole number of thousands of digits
         return value
     except (ValueError, TypeError, OverflowError) as error:

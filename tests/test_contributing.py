@@ -16,7 +16,7 @@ from clinic.checkout import cache_folder
 
 pytestmark = pytest.mark.xdist_group("contributing")
 FENCE = re.compile(r"^```(?P<kind>\w+)?\n(?P<code>.*?)^```$", re.MULTILINE | re.DOTALL)
-PARTS = ("cases", "docs", "scripts", "CONTRIBUTING.md", "pyproject.toml", "Makefile", ".gitignore")
+PARTS = ("cases", "docs", "scripts", "tests", "CONTRIBUTING.md", "pyproject.toml", "Makefile", ".gitignore")
 CLUSTER = ("dask ", "MUJOCO_GL=egl dask ", "CLINIC_DASK=")
 NOT_HERE = ("git clone", "make ", "bash .ci/run", "clinic view", "cd ", *CLUSTER)
 """What is slow, opens a window, or belongs to a fresh clone or a cluster; each is asked for in a test of its own."""

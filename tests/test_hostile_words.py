@@ -37,7 +37,7 @@ ACTS = [
     "<javascript:alert(1)>",
     "`\n\n<script>alert(1)</script>\n\n`",
     "\\`<script>alert(1)</script>\\`",
-    "```\n<script>alert(1)</script>",
+    "```a`b\n<script>alert(1)</script>",
     "   ~~~\n<script>alert(1)</script>\n   ~~~",
     "```{.x onclick=alert(1)}\ncode\n```",
     "> ```\n> <script>alert(1)</script>\n> ```",
@@ -104,9 +104,18 @@ def test_a_plain_link_is_left(tmp_path: Path, link: str) -> None:
     ("text", "expected"),
     [
         pytest.param("It rises to {{ broken.height.final }.", "a field that is closed: {{ ... }}", id="one-brace"),
-        pytest.param("{{" * 40_000, "a field that is closed: {{ ... }}", id="braces-without-end"),
+        pytest.param("{{" * 2400, "a field that is closed: {{ ... }}", id="braces-without-end"),
         pytest.param("``````````<b>`````````", "fewer", id="ten-backticks"),
-        pytest.param(" ".join("`" * k for k in range(1, 400)), "fewer", id="more-and-more-backticks"),
+        pytest.param("\n  ".join("~" * k for k in range(10, 90)), "fewer", id="more-and-more-tildes"),
+        pytest.param("```\n  <script>alert(1)</script>", "a block of code that is closed", id="fence-without-end"),
+        pytest.param("~~~~x\n  " * 500, "a block of code that is closed", id="fences-without-end"),
+        pytest.param("*" * 1000 + "a" + "*_" * 1500, "text", id="emphasis-in-emphasis"),
+        pytest.param("1. " * 1000, "text", id="list-in-a-list"),
+        pytest.param("[" * 4000, "text", id="brackets"),
+        pytest.param("[a " * 1500, "200 at most", id="brackets-apart"),
+        pytest.param("a" * 5001, "5000 at most", id="long"),
+        pytest.param(f"See ${'a+' * 600}a$.", "a LaTeX formula", id="long-formula"),
+        pytest.param(" ".join("`" * k for k in range(1, 90)), "fewer", id="more-and-more-backticks"),
     ],
 )
 def test_what_would_be_searched_for_an_end_again_and_again(tmp_path: Path, text: str, expected: str) -> None:
@@ -121,7 +130,12 @@ def test_what_would_be_searched_for_an_end_again_and_again(tmp_path: Path, text:
         r"\href{javascript:alert(1)}{x}",
         r"\style{color:red}{x}",
         r"\frac{",
-        r"\sqrt{" * 3000,
+        r"\text{<!--><img/src/onerror=alert(1)>-->}",
+        r"\text{<![CDATA[<img/src/onerror=alert(1)>]]>}",
+        r"\text{<?x?>}",
+        r"\color{a>[x](/onmouseover=alert(1)//)}b",
+        r"\color{a onmouseover=alert(1)}b",
+        r"\sqrt{" * 160,
     ],
 )
 def test_a_formula_that_is_more(tmp_path: Path, formula: str) -> None:

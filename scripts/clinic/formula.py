@@ -12,12 +12,18 @@ import latex2mathml.converter
 from clinic.inert import CODE, reference
 
 FORMULA = re.compile(r"\$\$(?P<block>.+?)\$\$|(?<![\\$\w])\$(?P<inline>[^\s$](?:[^$]*[^\s$\\])?)\$(?![\d$])", re.DOTALL)
-SPACE = "{http://www.w3.org/1998/Math/MathML}"
+SPACE = "http://www.w3.org/1998/Math/MathML"
+LONGEST = 1000  # characters; setting one takes as long as it is long, squared
 ELEMENTS = re.compile(
     "math|menclose|mfenced|mfrac|mi|mmultiscripts|mn|mo|mover|mpadded|mphantom|mprescripts|mroot|mrow|mspace|msqrt|"
     "mstyle|msub|msubsup|msup|mtable|mtd|mtext|mtr|munder|munderover|none"
 )
-HARMFUL = re.compile(r"on|style|class|id|href|xlink|src", re.IGNORECASE)
+ATTRIBUTES = re.compile(
+    "accent|columnalign|columnlines|columnspacing|depth|display|displaystyle|fence|form|height|linebreak|linethickness|"
+    "lspace|mathbackground|mathcolor|mathsize|mathvariant|maxsize|minsize|movablelimits|notation|rowlines|rowspacing|"
+    "rspace|scriptlevel|separator|stretchy|voffset|width"
+)
+VALUE = re.compile(r"[\w.#% +-]*", re.ASCII)
 ENTITY = re.compile(r"&(?:#\d+|#x[0-9A-Fa-f]+|[a-z]+);")
 
 
@@ -67,16 +73,23 @@ def mathml(source: str, display: str) -> str:
         FormulaError: If it is no LaTeX, or would put something else than a formula on the page.
     """
     source = " ".join(source.split())
+    if len(source) > LONGEST:
+        raise FormulaError(source[:40] + " ...", f"{len(source)} characters, of {LONGEST} at most")
     try:
         made: str = latex2mathml.converter.convert(source, display=display)
         root = ElementTree.fromstring(made)
     except (Exception, RecursionError) as error:  # the converter raises many kinds
         raise FormulaError(source, str(error) or type(error).__name__) from None
+    if "<!" in made or "<?" in made:  # what the parser passes over
+        raise FormulaError(source, "it makes more than a formula")
     for element in root.iter():
-        known = ELEMENTS.fullmatch(element.tag.removeprefix(SPACE))
-        if not known or any(HARMFUL.match(name) for name in element.attrib):
+        element.tag = element.tag.removeprefix(f"{{{SPACE}}}")
+        known = ELEMENTS.fullmatch(element.tag) and all(map(ATTRIBUTES.fullmatch, element.attrib))
+        if not known or not all(map(VALUE.fullmatch, element.attrib.values())):
             raise FormulaError(source, "it makes more than a formula")
-    return re.sub(r"(?<=>)[^<>]+(?=<)", lambda match: _text(match[0]), made)
+    root.attrib = {"xmlns": SPACE, **root.attrib}
+    read = ElementTree.tostring(root, encoding="unicode")  # as it was read, whatever was written
+    return re.sub(r"(?<=>)[^<>]+(?=<)", lambda match: _text(match[0]), read)
 
 
 def _text(text: str) -> str:

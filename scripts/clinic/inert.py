@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Iterator
 
 CODE = re.compile(
-    r"(?P<fenced>^(?P<indent> *)(?P<fence>```+|~~~+)(?P<head>[^\n]*)\n(?P<body>.*?)^ *(?P=fence) *$|"
+    r"(?P<fenced>^(?P<indent> *)(?P<fence>```+|~~~+)(?P<head>[^\n`]*)\n(?P<body>.*?)^ *(?P=fence) *$|"
     r"(?P<tick>`+)(?!`)(?P<span>(?:(?!\n *\n).)+?)(?<!`)(?P=tick)(?!`))",
     re.DOTALL | re.MULTILINE,
 )
@@ -42,7 +42,7 @@ def fence(text: str, language: str = "text") -> str:
 
 def line(text: str) -> str:
     """A title, a label or a phrase, which is no Markdown but may hold spans of code."""
-    return outside_code(re.sub(r"\s*\n\s*", " ", text), lambda part: re.sub(r"[<\[\]{}|\\]", _referred, part))
+    return outside_code(re.sub(r"\s*\n\s*", " ", text), lambda part: re.sub(r"[<\[\]{}|\\`]", _referred, part))
 
 
 def outside_code(text: str, change: Callable[[str], str]) -> str:

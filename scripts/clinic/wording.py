@@ -12,13 +12,17 @@ from collections.abc import Iterator
 from typing import Any
 
 from clinic.formula import FORMULA, formula_errors
-from clinic.inert import strange_links
+from clinic.inert import CODE, strange_links
 from clinic.record import Record
 from clinic.yamlmap import Where
 
 LINES = ("title", "label", "unit", "phrases", "says", "yes", "no")
 PROSE = ("symptom", "diagnosis", "cause", "fix", "lesson", "why", "text", "exempt")
-MOST_TICKS = 10
+LONGEST_LINE, LONGEST_PROSE, MOST_BRACKETS = 300, 5000, 200
+MARKS = 10
+ROW = re.compile(rf"[][*_!(]{{{MARKS}}}|^ *(?:(?:\d+[.)]|[-*+>]) *){{{MARKS}}}", re.MULTILINE)
+TICKS = re.compile(rf"([`~])\1{{{MARKS - 1}}}")
+FENCE = re.compile(r" *(`{3,}|~{3,})[^`]*")
 FIELD = re.compile(r"\{\{.*?\}\}", re.DOTALL)
 
 
@@ -27,7 +31,9 @@ def word_problems(record: Record) -> Iterator[tuple[Where, str, str, str]]:
     for where, text in _texts(record.model_dump(mode="json"), ()):
         names = {part for part in where[-2:] if isinstance(part, str)}
         if names & set(LINES):
-            if found := re.search("[<\n]", text.rstrip("\n")):
+            if len(text) > LONGEST_LINE:
+                yield where, f"{len(text)} characters", f"{LONGEST_LINE} at most", "say it in fewer words"
+            elif found := re.search("[<\n]", text.rstrip("\n")):
                 shown = "a line break" if found[0] == "\n" else found[0]
                 yield (
                     where,
@@ -40,17 +46,38 @@ def word_problems(record: Record) -> Iterator[tuple[Where, str, str, str]]:
 
 
 def _prose_problems(where: Where, text: str) -> Iterator[tuple[Where, str, str, str]]:
-    if (begun := text.rfind("{{")) > text.rfind("}}"):
-        yield where, text[begun:].partition("\n")[0][:40], "a field that is closed: {{ ... }}", "close it with }}"
-        return  # what follows would look for its end from every brace anew
-    if "`" * MOST_TICKS in text:
-        yield where, f"{MOST_TICKS} backticks in a row", "fewer", "write fewer"
+    if told := _endless(text):
+        yield where, *told
         return
     for error in formula_errors(FIELD.sub("1", text)):
         yield where, error.found, error.expected, error.repair
     for link in strange_links(FORMULA.sub("", text)):
         expected = "an address of the web, https://..., or of a page here; an image from here"
         yield where, link, f"[text](address): {expected}", "correct the address; write code between backticks"
+
+
+def _endless(text: str) -> tuple[str, str, str] | None:
+    """What is found, expected and to do, where reading the text as Markdown would take too long or too deep."""
+    if len(text) > LONGEST_PROSE:
+        return f"{len(text)} characters", f"{LONGEST_PROSE} at most", "say it in fewer words"
+    if (begun := text.rfind("{{")) > text.rfind("}}"):
+        return text[begun:].partition("\n")[0][:40], "a field that is closed: {{ ... }}", "close it with }}"
+    if row := TICKS.search(text):
+        return f"{MARKS} times {row[1]} in a row", "fewer", "write fewer"
+    fence = ""
+    for line in text.split("\n"):
+        if not fence and (opened := FENCE.fullmatch(line)):
+            fence = opened[1]
+        elif line.strip(" ") == fence:
+            fence = ""
+    if fence:
+        return f"{fence} that nothing ends", "a block of code that is closed", f"write {fence} on a line after it"
+    rest = FORMULA.sub("", CODE.sub("", text))
+    if row := ROW.search(rest):
+        return f"{row[0]} in a row", "text", "write code between backticks"
+    if (count := rest.count("[")) > MOST_BRACKETS:
+        return f"{count} times [ outside code", f"{MOST_BRACKETS} at most", "write code between backticks"
+    return None
 
 
 def _texts(value: Any, where: Where) -> Iterator[tuple[Where, str]]:

@@ -238,6 +238,26 @@ def test_accepted(tmp_path: Path, change: Change) -> None:
             """,
         ),
         wrong(
+            "number-beyond-all-measure",
+            [("number: 1", "number: 100000")],
+            """
+            cases/falling-box/case.yaml:1: number
+              found:    100000
+              expected: a number of 99999 at most
+              repair:   correct the value
+            """,
+        ),
+        wrong(
+            "label-beyond-all-measure",
+            [("label: height of the box", f"label: {'a' * 301}")],
+            """
+            cases/falling-box/case.yaml:13: signals.height.label
+              found:    301 characters
+              expected: 300 at most
+              repair:   say it in fewer words
+            """,
+        ),
+        wrong(
             "title-of-nothing-that-is-seen",
             [("title: A box falls through the floor", 'title: " \\u200b"')],
             """
@@ -706,6 +726,25 @@ def test_file_that_is_not_utf_8(tmp_path: Path) -> None:
 def test_wrong_reference(tmp_path: Path, changes: list[Change], message: str) -> None:
     folder = write_case(tmp_path, *changes)
     assert message_of(lambda: load_case(folder)) == message
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("evil.html", "a name with .csv, .json, .mjs, .py, .txt, .xml or .yaml"),
+        ("evil.svg", "a name with .csv, .json, .mjs, .py, .txt, .xml or .yaml"),
+        ("index.md", "a name with .csv, .json, .mjs, .py, .txt, .xml or .yaml"),
+        ("evidence.json", "a name that the site does not use itself"),
+        ("playground.json", "a name that the site does not use itself"),
+    ],
+)
+def test_a_file_that_the_site_would_publish_as_its_own(tmp_path: Path, name: str, expected: str) -> None:
+    folder = write_script_case(tmp_path, ("script: script.py", f"script: script.py\nfiles: [{name}]"))
+    (folder / name).write_text("{}", encoding="utf-8")
+    with pytest.raises(CaseError) as caught:
+        load_case(folder)
+    (told,) = caught.value.problems
+    assert (told.where, told.expected) == ("files[0]", expected)
 
 
 @pytest.mark.parametrize("unit", ["mm", "cm", "deg", "ms", "mm/s", "°"])

@@ -170,12 +170,12 @@ def test_cache_is_shown_and_cleared(project: Path, monkeypatch: pytest.MonkeyPat
     monkeypatch.setenv("CLINIC_CACHE", str(kept.folder))
     assert run("cache").stdout == f"0 entries, 0.0 MB, in {kept.folder}\n"
     kept.folder.mkdir()
-    kept.path("a").write_bytes(bytes(1_000_000))
-    kept.path("b").write_bytes(bytes(500_000))
-    (kept.folder / "note.txt").touch()
+    kept.path("a" * 32).write_bytes(bytes(1_000_000))
+    kept.path("b" * 32).write_bytes(bytes(500_000))
+    (kept.folder / "firmware.bin").touch()
     assert run("cache").stdout == f"2 entries, 1.5 MB, in {kept.folder}\n"
     assert run("cache", "--clear").stdout == f"2 entries, 1.5 MB, cleared from {kept.folder}\n"
-    assert [path.name for path in kept.folder.iterdir()] == ["note.txt"]
+    assert [path.name for path in kept.folder.iterdir()] == ["firmware.bin"]
 
 
 def test_new_writes_a_case_with_the_next_number_and_the_schema(project: Path) -> None:
@@ -273,7 +273,7 @@ def test_build_writes_generated_pages_beside_those_written_by_hand(project: Path
     (project / "docs" / "about.md").write_text("# About\n", encoding="utf-8")
     (project / "CONTRIBUTING.md").write_text("# Add a case\n", encoding="utf-8")
     out = tmp_path / "out"
-    out.mkdir()
+    assert run("build", "--out", str(out)).exit_code == 0
     (out / "stale.md").touch()
 
     result = run("build", "--out", str(out))
@@ -293,6 +293,19 @@ def test_build_does_not_delete_what_it_needs(project: Path) -> None:
         assert run("build", "--out", str(folder)).exit_code != 0
     assert (project / "cases" / "odd-script" / "script.py").is_file()
     assert (project / "docs" / "triage.md").is_file()
+
+
+@pytest.mark.parametrize("made", ["folder", "file", "link"])
+def test_build_deletes_nothing_that_no_build_wrote(project: Path, tmp_path: Path, made: str) -> None:
+    thesis = tmp_path / "mine" / "thesis.txt"
+    thesis.parent.mkdir()
+    thesis.touch()
+    (tmp_path / "link").symlink_to(thesis.parent)
+    out = {"folder": thesis.parent, "file": thesis, "link": tmp_path / "link"}[made]
+    result = run("build", "--out", str(out))
+    assert result.exit_code == 2
+    assert "Invalid value" in result.output
+    assert thesis.is_file()
 
 
 def test_the_module_is_the_command(project: Path) -> None:

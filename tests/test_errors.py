@@ -40,7 +40,7 @@ EXAMPLES = [
     ProgramError("exit code 1", "mend it"),
     RenderError("no OpenGL"),
     RunError(("qpos", "elbow"), "x", "y", "z"),
-    SampleError("error", {"a": 1, "b": 2}),
+    SampleError("error", "samples that do not pair up", "as many", "print each"),
     ScriptError("KeyError: 'x'", "mend it"),
     SignalError("bodi(x)", "a path", "write body(x)"),
     UnavailableError("no Node"),

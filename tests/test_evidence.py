@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from clinic.checks import Trace
 from clinic.evidence import MAX_SAMPLES, Evidence, collect, comparison, samples
+from clinic.problem import CaseError
 from clinic.record import Check
 from helpers import GRAVITY, script_case, tiny_case
 
@@ -129,3 +130,11 @@ def test_holes_are_none() -> None:
 def test_comparison_is_what_the_check_says() -> None:
     check = Check(signal="x", take="max", equals=1, within=0.5)
     assert comparison(check) == {"equals": 1, "within": 0.5}
+
+
+def test_a_run_that_takes_too_long_is_a_problem_of_the_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("clinic.simulate.MOST_SECONDS", -1.0)
+    with pytest.raises(CaseError) as caught:
+        collect(tiny_case(tmp_path))
+    assert {problem.where for problem in caught.value.problems} == {"run.duration"}
+    assert {problem.expected for problem in caught.value.problems} == {"a run that comes to an end"}

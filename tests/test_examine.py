@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from clinic.examine import examine
 from clinic.problem import CaseError
-from helpers import MODEL, script_case, tiny_case
+from helpers import MODEL, only_problem, script_case, tiny_case, write_case
 
 STARTS = (
     "{{measure: fraction_of_starts, joint: {}, index: {}, offset: [0, 1], count: 2, "
@@ -87,3 +87,10 @@ def test_a_remedy_may_bring_the_name_that_the_broken_model_lacks_but_not_only_it
 def test_measures_of_a_model_are_refused_in_a_script_case(tmp_path: Path, measure: str) -> None:
     case = script_case(tmp_path, ("{path: printed(error), unit: m}", "{path: printed(error)}\n  share: " + measure))
     assert places(examine, case) == ["signals.share"]
+
+
+def test_a_line_of_the_engine_s_own_source_is_none_of_the_model(tmp_path: Path) -> None:
+    model = MODEL.replace("<worldbody>", '<size memory="200"/>\n<worldbody>', 1)
+    told = only_problem(write_case(tmp_path, model=model))
+    assert "line" in told.found
+    assert told.line == 1

@@ -68,7 +68,7 @@ LANGUAGE = "numbers, names, + - * / **, parentheses and functions"
         pytest.param("", "arithmetic that can be parsed", id="empty"),
         pytest.param("1 +", "arithmetic that can be parsed", id="unfinished"),
         pytest.param("a = 1", "arithmetic that can be parsed", id="assignment"),
-        pytest.param("(" * 500 + "1" + ")" * 500, "arithmetic that can be parsed", id="too-deep"),
+        pytest.param("(" * 500 + "1" + ")" * 500, "300 characters at most", id="too-deep"),
         pytest.param("a if b else 0", LANGUAGE, id="condition"),
         pytest.param("a < b", LANGUAGE, id="comparison"),
         pytest.param("a and b", LANGUAGE, id="logic"),
@@ -93,6 +93,27 @@ def test_refused(text: str, expected: str) -> None:
     with pytest.raises(ExpressionError) as caught:
         parse(text)
     assert str(caught.value) == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        pytest.param("1 + " * 100 + "1", "300 characters at most", id="long"),
+        pytest.param("9e299 * 1e301", "numbers of 1e.300 at most", id="large-as-a-power"),
+    ],
+)
+def test_expression_beyond_all_measure(text: str, expected: str) -> None:
+    with pytest.raises(ExpressionError, match=expected):
+        parse(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["servo_sag(0, 0)", "bits(1 / 0, 2)", "bits(trace, 2)", "upright_time(1,1,1,1,0,1,1,1)"]
+)
+def test_function_that_cannot_take_its_numbers(text: str) -> None:
+    told = pytest.raises(ExpressionError, match=r"^numbers that (servo_sag|bits|upright_time) can take: ")
+    with np.errstate(all="ignore"), told:
+        evaluate(parse(text), {"trace": np.array([1.0, 2.0])})
 
 
 @pytest.mark.parametrize("text", ["__import__('os')", "eval(a)", "square(a)"])

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+import yaml
 from clinic.case import Case, load_cases
 from clinic.evidence import Evidence, collect
 from clinic.pages import Card, card, home_page
@@ -132,3 +134,17 @@ def test_symptom_on_a_card_holds_no_html_of_its_own(tmp_path: Path) -> None:
     case = tiny_case(tmp_path, ("It falls to", "The <geom/> falls <b>to"))
     made = card(case, collect(case), {})
     assert "<" not in home_page([made], "4.0.0").split('class="cases"')[1].split(made.title)[1].split("</div>")[0]
+
+
+def test_tags_are_words_whatever_yaml_makes_of_them(made: tuple[Case, Evidence]) -> None:
+    case, evidence = made
+    tags = ["joint", "null", "true", "on"]
+    page = page_of(replace(case, record=case.record.model_copy(update={"tags": tags})), evidence)
+    assert yaml.safe_load(page.split("---\n")[1])["tags"] == tags
+
+
+def test_a_backtick_alone_in_a_title_is_no_code(made: tuple[Case, Evidence]) -> None:
+    case, evidence = made
+    fix = case.record.fixes[0].model_copy(update={"title": "Relax ` the mask"})
+    page = page_of(replace(case, record=case.record.model_copy(update={"fixes": [fix]})), evidence)
+    assert "**Relax &#96; the mask** (`share-a-bit`)" in page

@@ -261,3 +261,11 @@ def test_state_at_is_the_state_of_the_run_brought_up_to_date(time: float) -> Non
     height = 1 - GRAVITY * 0.001**2 * n * (n + 1) / 2
     assert data.time == pytest.approx(time)
     assert data.body("ball").xpos[2] == pytest.approx(height, abs=1e-12)
+
+
+def test_a_run_that_takes_too_long_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("clinic.simulate.MOST_SECONDS", -1.0)
+    with pytest.raises(
+        RunError, match=r"^duration: 500 steps, of which 0 take -1 s; expected a run that comes to an end"
+    ):
+        run(BALL, spec())

@@ -73,6 +73,15 @@ def test_number_is_the_next_free_one_though_a_record_is_broken(checkout: Path) -
     assert free_number(checkout) == 3
 
 
+def test_number_is_found_beside_what_is_no_record(checkout: Path) -> None:
+    for name in ("a-pipe", "a-folder", "a-number"):
+        (checkout / "cases" / name).mkdir()
+    os.mkfifo(checkout / "cases" / "a-pipe" / "case.yaml")
+    (checkout / "cases" / "a-folder" / "case.yaml").mkdir()
+    (checkout / "cases" / "a-number" / "case.yaml").write_text("number: " + "1" * 5000 + "\n", encoding="utf-8")
+    assert free_number(checkout) == 1
+
+
 @pytest.mark.parametrize(
     ("name", "repair"),
     [
@@ -96,7 +105,9 @@ def test_slug_that_is_taken_is_refused_and_its_folder_left_alone(checkout: Path)
     assert {path: path.read_bytes() for path in folder.iterdir()} == before
 
 
-@pytest.mark.parametrize("title", ["", "  ", "It moves.", "x" * (MAX_TITLE + 1)])
+@pytest.mark.parametrize(
+    "title", ["", "  ", "It moves.", "x" * (MAX_TITLE + 1), "It \x1b[31mmoves", "\u202eIt", "\udcff", "\u200b"]
+)
 def test_bad_title_is_refused(checkout: Path, title: str) -> None:
     assert len(problems_of(checkout, "it-moves", title)) == 1
 

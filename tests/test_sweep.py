@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -143,3 +144,19 @@ def refused(read: Callable[[], Case]) -> Problem:
         read()
     (found,) = caught.value.problems
     return found
+
+
+@pytest.mark.parametrize(("name", "where"), [("prediction", "prediction"), ("rivals", "rivals[0]")])
+def test_a_prediction_that_cannot_be_computed_is_told(tmp_path: Path, name: str, where: str) -> None:
+    case = falling(tmp_path)
+    sweep = case.record.sweep["fall"]
+    form = sweep.prediction if name == "prediction" else sweep.rivals[0]
+    wrong = form.model_copy(update={"expr": "servo_sag(-1, g)"})
+    sweep = sweep.model_copy(update={name: wrong if name == "prediction" else [wrong]})
+    case = replace(case, record=case.record.model_copy(update={"sweep": {"fall": sweep}}))
+    with pytest.raises(CaseError) as caught:
+        measure_points(case, sweep, grid(sweep))
+    (told,) = caught.value.problems
+    assert told.where == f"sweep.fall.{where}.expr"
+    assert told.found.startswith("servo_sag(-1, g) with g = ")
+    assert told.expected == "numbers that servo_sag can take: kp above 0 and a load of 0 or more"

@@ -9,6 +9,7 @@ import json
 import logging
 import os
 import platform
+import re
 import tempfile
 import time
 import zipfile
@@ -22,6 +23,7 @@ from clinic.sources import Sources, source_digest
 Files = dict[str, bytes]
 ENGINES = ("mujoco", "numpy", "matplotlib", "kiwisolver", "pillow", "av")
 SETTINGS = ("MUJOCO_GL", "MUJOCO_EGL_DEVICE_ID", "PYOPENGL_PLATFORM", "LIBGL_ALWAYS_SOFTWARE", "GALLIUM_DRIVER")
+ENTRY = re.compile(r"[0-9a-f]{32}\.bin")
 CHECKSUM = hashlib.sha256().digest_size
 EPOCH = (1980, 1, 1, 0, 0, 0)
 ORPHANED = 3600.0
@@ -92,6 +94,10 @@ class Cache:
             files = make()
             self.put(key, files)
         return files
+
+    def entries(self) -> list[Path]:
+        """Every archive."""
+        return [path for path in self.folder.glob("*.bin") if ENTRY.fullmatch(path.name)]
 
     def tidy(self) -> None:
         """Removes what builds that were killed left half written: what has not changed for ORPHANED s."""

@@ -39,6 +39,7 @@ SCALED = re.compile(r"(?:[mck]m|[mµ]s|[mk]N|g|deg|°)(?![A-Za-z])")
 MOST_POINTS = 1000
 MOST_POINTS_OF_A_SCRIPT = 200
 LIKE = 0.8
+PUBLISHED = (RECORD, "evidence.json", "playground.json")
 
 
 @dataclass(frozen=True)
@@ -139,6 +140,10 @@ def _file_problems(case: Case) -> Iterator[Problem]:
         if name not in case.texts:
             there = f"a file of the folder: {listed(case.texts)}"
             yield case.problem(where, f"{name}, which does not exist", there, "correct the name, or add the file")
+    for index, name in enumerate(record.files):
+        if name in PUBLISHED:
+            expected = "a name that the site does not use itself"
+            yield case.problem(("files", index), f"{name}, which stands beside the page", expected, "rename the file")
     for name in case.texts.keys() - named.keys():
         yield Problem(
             f"cases/{case.slug}/{name}",

@@ -25,7 +25,7 @@ def project_root() -> Path:
 
 def cache_folder(root: Path) -> Path:
     """Where finished work is kept: CLINIC_CACHE, or `.cache/clinic` in the checkout."""
-    return Path(os.environ.get("CLINIC_CACHE", root / ".cache" / "clinic"))
+    return Path(os.environ.get("CLINIC_CACHE") or root / ".cache" / "clinic")
 
 
 def slugs(root: Path) -> list[str]:

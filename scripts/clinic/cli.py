@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 import sys
+import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -140,7 +141,7 @@ def cache(clear: Annotated[bool, typer.Option("--clear", help="Forget everything
     from clinic.cache import Cache
 
     kept = Cache(cache_folder(project_root()))
-    entries = list(kept.folder.glob(kept.path("*").name))
+    entries = kept.entries()
     size = sum(entry.stat().st_size for entry in entries)
     if clear:
         for entry in entries:
@@ -151,20 +152,28 @@ def cache(clear: Annotated[bool, typer.Option("--clear", help="Forget everything
 @app.command()
 def build(out: Annotated[Path, typer.Option(help="The folder to write; made anew.")]) -> None:
     """Write the site's pages as real files, beside those written by hand."""
+    from clinic.schema import FILE as SCHEMA
     from clinic.site import build as build_site
 
     root = project_root()
-    own = [root / name for name in ("docs", "cases", "scripts", "tests", ".git")]
+    own = [root / name for name in ("docs", "cases", "scripts", "tests", ".git", ".venv", "node_modules")]
     if root.is_relative_to(out.resolve()) or any(out.resolve().is_relative_to(folder) for folder in own):
         raise typer.BadParameter(f"{out} holds the project's own files and would be deleted; name another folder")
+    if out.is_symlink() or (out.exists() and not out.is_dir()):
+        raise typer.BadParameter(f"{out} is no folder; name one")
+    if out.exists() and any(out.iterdir()) and not (out / SCHEMA).is_file():
+        raise typer.BadParameter(f"{out} holds what no build wrote, and would be deleted; name another folder")
     made = build_site(root)
-    if out.exists():
-        shutil.rmtree(out)
-    shutil.copytree(root / "docs", out)
-    for name, content in made.items():
-        path = out / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content)
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=f"{out.name}-", dir=out.parent) as work:
+        whole = Path(shutil.copytree(root / "docs", Path(work, "whole")))
+        for name, content in made.items():
+            path = whole / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
+        if out.exists():
+            shutil.rmtree(out)
+        whole.rename(out)
     print(f"{len(made)} files in {out}")
 
 

@@ -7,6 +7,7 @@ what the results hang on as this process has it, and one thread, for MuJoCo's wa
 from __future__ import annotations
 
 import os
+import re
 import socket
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -18,7 +19,7 @@ from clinic import node
 from clinic.cache import origin
 from clinic.problem import listed
 
-ADDRESS = "CLINIC_DASK"
+ADDRESS, JOBS = "CLINIC_DASK", "CLINIC_JOBS"
 PATIENCE = 5.0  # s
 T = TypeVar("T")
 Origin = dict[str, str | None]
@@ -50,9 +51,14 @@ def parallel(work: Callable[..., T], tasks: Sequence[tuple[Any, ...]]) -> Iterat
 
 
 def jobs() -> int:
-    """How many processes of this machine to use: CLINIC_JOBS, or one a processor."""
-    given = os.environ.get("CLINIC_JOBS")
-    if given:
+    """How many processes of this machine to use: CLINIC_JOBS, or one a processor; -1 is all, -2 all but one.
+
+    Raises:
+        ClusterError: If CLINIC_JOBS is no such number.
+    """
+    if given := os.environ.get(JOBS):
+        if not re.fullmatch(r"-?[1-9][0-9]{0,3}", given):
+            raise ClusterError(f"{JOBS} is {given}: give how many processes to use, or nothing for one a processor")
         return int(given)
     import joblib
 

@@ -20,7 +20,7 @@ from clinic.record import Check, PathSignal, RowSignal
 from clinic.render import blindness
 from clinic.robust import Robustness
 from clinic.script import Output, ScriptError, run_script
-from clinic.simulate import compile_model
+from clinic.simulate import RunError, compile_model
 from clinic.sweep import SweepEvidence, asked_of
 from clinic.variant import Variant, remedies, variants
 from clinic.yamlmap import Where
@@ -127,8 +127,9 @@ def collect(case: Case) -> Evidence:
             problems.append(_script_problem(case, variant, error))
         except SampleError as error:
             where = ("signals", error.signal, "expr")
-            expected, repair = "signals with equally many samples", "print each as often as the others"
-            problems.append(case.problem(where, error.found, expected, repair))
+            problems.append(case.problem(where, error.found, error.expected, error.repair))
+        except RunError as error:
+            problems.append(case.problem(("run", *error.where), error.found, error.expected, error.repair))
     problems += _unprinted(case, observed)
     try:
         snippet = None if case.record.snippet is None else run_snippet(case)

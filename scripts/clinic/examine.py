@@ -168,5 +168,7 @@ def _compile_problem(case: Case, name: str, place: Where, error: ValueError) -> 
         repair = "correct `replace`" if place else "correct the model"
     if place:
         return case.problem((*place, "edits"), f"after these edits: {said}", expected, repair)
-    line = re.search(r"line(?: number)?[ =](\d+)", str(error), re.IGNORECASE)
-    return Problem(f"cases/{case.slug}/{name}", int(line[1]) if line else 1, "", said, expected, repair)
+    told = re.search(r"line(?: number)?[ =](\d{1,6})", str(error), re.IGNORECASE)
+    line = int(told[1]) if told else 1
+    inside = line <= case.texts[name].count("\n") + 1  # else it is one of MuJoCo's own source
+    return Problem(f"cases/{case.slug}/{name}", line if inside else 1, "", said, expected, repair)

@@ -60,7 +60,7 @@ NUMBER = re.compile(r"(?P<whole>[-+]?\d+(?:\.\d*)?)(?:[eE](?P<power>[-+]?\d+))?"
 PATTERNS = {
     "^[a-z][a-z0-9]*(?:-[a-z0-9]+)*$": "lower-case words joined by hyphens",
     "^[a-z][a-z0-9_]*$": "a lower-case word; underscores allowed",
-    "^[A-Za-z0-9_-]+\\.[a-z]+$": "a plain file name with an ending",
+    "^[A-Za-z0-9_-]+\\.(?:csv|json|mjs|py|txt|xml|yaml)$": "a name with .csv, .json, .mjs, .py, .txt, .xml or .yaml",
     "^[A-Za-z0-9_/]+\\.html(?:#[a-z0-9-]+)?$": "a page of the manual, as XMLreference.html#body-geom-contype",
 }
 

@@ -41,6 +41,10 @@ BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
 }
 
 
+LONGEST = 300  # characters
+LARGEST = 1e300
+
+
 class ExpressionError(ValueError):
     """Text that is no expression; the message says what was expected."""
 
@@ -51,6 +55,8 @@ def parse(text: str) -> ast.expr:
     Raises:
         ExpressionError: For anything else.
     """
+    if len(text) > LONGEST:
+        raise ExpressionError(f"{LONGEST} characters at most")
     try:
         tree = ast.parse(text.strip(), mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -67,7 +73,11 @@ def names(tree: ast.expr) -> set[str]:
 
 
 def evaluate(tree: ast.expr, values: Mapping[str, Value]) -> Value:
-    """The expression's value; arrays are combined element by element."""
+    """The expression's value; arrays are combined element by element.
+
+    Raises:
+        ExpressionError: If a function cannot take what it is given.
+    """
     match tree:
         case ast.Constant(value=int() | float() as value):
             return float(value)
@@ -81,13 +91,19 @@ def evaluate(tree: ast.expr, values: Mapping[str, Value]) -> Value:
             result: Value = BINARY[type(op)](evaluate(left, values), evaluate(right, values))
             return result
         case ast.Call(func=ast.Name(id=name), args=args):
-            return FUNCTIONS[name](*(evaluate(arg, values) for arg in args))  # type: ignore[no-any-return]
+            given = [evaluate(arg, values) for arg in args]
+            try:
+                return FUNCTIONS[name](*given)  # type: ignore[no-any-return]
+            except (ArithmeticError, TypeError, ValueError) as error:
+                raise ExpressionError(f"numbers that {name} can take: {error}") from None
     raise AssertionError(ast.dump(tree))
 
 
 def _allow(node: ast.AST) -> None:
     match node:
         case ast.Constant(value=value) if isinstance(value, int | float) and not isinstance(value, bool):
+            if value > LARGEST:
+                raise ExpressionError(f"numbers of {LARGEST:g} at most")
             return
         case ast.UnaryOp(op=ast.USub()) | ast.USub() | ast.Name() | ast.Load():
             return

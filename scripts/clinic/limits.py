@@ -2,8 +2,8 @@
 
 On Linux a program can start no other, open no socket (x86-64, ARM64), and change nothing outside its folder (with
 Landlock, 5.13 or newer). What cannot be kept from it without being root: reading what the user can read, changing the
-mode of the user's files, and filling its own folder until its time is up. Elsewhere only the limits on time, output and
-the size of a file hold.
+mode and the times of the user's files, and filling its own folder until its time is up. Elsewhere only the limits on
+time, output and the size of a file hold.
 """
 
 from __future__ import annotations
@@ -157,7 +157,7 @@ def written(files: Mapping[str, str]) -> Iterator[str]:
     finally:
         try:
             made.cleanup()
-        except RecursionError:  # folders in folders, by the thousand
+        except (OSError, RecursionError):  # what cannot be deleted; folders in folders, by the thousand
             subprocess.run(["rm", "-rf", made.name], check=False, capture_output=True)
 
 

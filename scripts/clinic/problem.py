@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 from clinic.yamlmap import CONTROL
 
+LONGEST = 2000  # characters of what was found, as it is printed
+
 
 @dataclass(frozen=True, order=True)
 class Problem:
@@ -74,4 +76,5 @@ def listed(names: Iterable[str], limit: int = 8) -> str:
 
 
 def _indent(text: str) -> str:
-    return text.strip("\n").replace("\n", "\n            ")
+    shown = text if len(text) <= LONGEST else text[:LONGEST] + " ..."
+    return shown.strip("\n").replace("\n", "\n            ")

@@ -12,7 +12,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from clinic.record_parts import Edit, Identifier, Interval, Name, Strict, Take, Taken, Text
 from clinic.record_sweep import Sweep
 
-FileName = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]+\.[a-z]+$")]
+FileName = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]+\.(?:csv|json|mjs|py|txt|xml|yaml)$")]
 Look = Literal[
     "nothing-moves",
     "moves-wrong",
@@ -190,7 +190,7 @@ class Refuted(Remedy):
 class Record(Strict):
     """One broken simulation: what is seen, what is wrong, what repairs it, and the proof."""
 
-    number: int = Field(ge=1, description="Unique; readers say *case 7*.")
+    number: int = Field(ge=1, le=99_999, description="Unique; readers say *case 7*.")
     title: Text = Field(max_length=90, description="The symptom as a sentence, without a full stop.")
     model: FileName | None = Field(default=None, description="The broken model. Exactly one of `model`, `script`.")
     script: FileName | None = Field(

@@ -73,7 +73,7 @@ def run_python(code: str, files: Mapping[str, str], time_limit: float | None = N
         done = _process(sys.executable, Path(folder), name, time_limit, name)
     if done.code:
         last = done.stderr.strip().splitlines()[-1:] or [f"exit code {done.code}"]
-        at = re.findall(rf'File ".*{re.escape(name)}", line (\d+)', done.stderr)
+        at = re.findall(rf'File "[^"\n]*{re.escape(name)}", line (\d+)', done.stderr)
         raise _failed(last[0], at[-1] if at else None, name)
     return Output(done.stdout)
 

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import pairwise
+from time import process_time
 
 import mujoco
 import numpy as np
@@ -21,6 +22,7 @@ from clinic.signals import Path, bind, element_names
 
 MAX_STEPS = 2_000_000
 MOST = 10_000
+MOST_SECONDS = 60.0  # of the processor
 Nudge = Callable[[mujoco.MjModel, mujoco.MjData], None]
 _log = threading.Lock()
 
@@ -145,7 +147,7 @@ def simulate(
         last: Reads every path after the last step alone.
 
     Raises:
-        RunError: If the run cannot start or would take more than MAX_STEPS steps.
+        RunError: If the run cannot start, or takes more than MAX_STEPS steps or MOST_SECONDS.
         SignalError: If a path cannot be bound to the model.
     """
     timestep, steps = model.opt.timestep, step_count(model, spec)
@@ -166,7 +168,11 @@ def simulate(
                 start(model, spec, nudge, data)
                 messages.clear()
                 made = 0
+        begun = process_time()
         for i in range(made, steps):
+            if (not i & i - 1 or not i % 64) and process_time() - begun > MOST_SECONDS:
+                found, expected = f"{steps} steps, of which {i} take {MOST_SECONDS:g} s", "a run that comes to an end"
+                raise RunError(("duration",), found, expected, "make the model smaller, or the run shorter")
             if steered[i] or messages:  # an automatic reset undoes controls too
                 step(model, data, drive, i)
             else:
@@ -176,12 +182,13 @@ def simulate(
             if messages:  # a type's first warning is printed, also after a reset: until then nothing is counted
                 np.maximum(counts, data.warning.number, out=counts)
     values = dict(zip(moving, np.array(rows, dtype=float).reshape(len(rows), len(moving)).T, strict=True))
-    time = np.arange(steps + 1 - len(rows), steps + 1) * timestep
+    moments = np.arange(steps + 1 - len(rows), steps + 1) * timestep
     return Run(
         timestep=timestep,
         steps=steps,
         traces={
-            name: Trace(time, values[name] if name in values else np.full(len(rows), readers[name]())) for name in paths
+            name: Trace(moments, values[name] if name in values else np.full(len(rows), readers[name]()))
+            for name in paths
         },
         warnings={mujoco.mjtWarning(k).name.removeprefix("mjWARN_"): int(n) for k, n in enumerate(counts) if n},
         messages=tuple(dict.fromkeys(messages)),

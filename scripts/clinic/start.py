@@ -13,11 +13,13 @@ import jinja2
 import yaml
 
 from clinic.checkout import slugs
-from clinic.folder import SLUG
+from clinic.folder import SLUG, unreadable
 from clinic.problem import CaseError, Problem
+from clinic.record_parts import VISIBLE
 from clinic.schema import MODELINE
+from clinic.yamlmap import CONTROL, named
 
-NUMBER = re.compile(r"^number:\s*(\d+)\s*(?:#.*)?$", re.MULTILINE)
+NUMBER = re.compile(r"^number: *(\d{1,6}) *(?:#.*)?$", re.MULTILINE)
 MAX_TITLE, MAX_SLUG = 90, 60
 TEMPLATES = jinja2.Environment(
     loader=jinja2.PackageLoader("clinic", "templates/new"),
@@ -86,7 +88,8 @@ def free_number(root: Path) -> int:
     """The smallest number that no case has, be the rest of its record as it may."""
     taken: set[int] = set()
     for record in (root / "cases").glob("*/case.yaml"):
-        taken |= {int(found) for found in NUMBER.findall(record.read_text(encoding="utf-8", errors="replace"))}
+        text = "" if unreadable(record) else record.read_text(encoding="utf-8")
+        taken |= set(map(int, NUMBER.findall(text)))
     return next(number for number in range(1, len(taken) + 2) if number not in taken)
 
 
@@ -110,5 +113,9 @@ def title_problems(slug: str, title: str) -> Iterable[Problem]:
     if not 1 <= length <= MAX_TITLE:
         found, repair = f"a title of {length} characters", "say what is seen, in one short sentence"
         yield Problem(file, 1, "title", found, f"1 to {MAX_TITLE} characters", repair)
+    elif strange := CONTROL.search(title):
+        yield Problem(file, 1, "title", named(strange[0]), "text that can be read", "delete it")
+    elif not re.search(VISIBLE, title):
+        yield Problem(file, 1, "title", "nothing that is seen", "the symptom as a sentence", "say what is seen")
     elif title.strip().endswith("."):
         yield Problem(file, 1, "title", title.strip(), "a sentence without a full stop", "remove the full stop")

@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict
 
 from clinic.case import Case
 from clinic.checks import take
-from clinic.expression import evaluate, names, parse
+from clinic.expression import ExpressionError, evaluate, names, parse
 from clinic.measure import measure_model, measure_output
 from clinic.predictions import MODEL_NUMBERS
 from clinic.problem import CaseError
@@ -103,7 +103,7 @@ def measure_points(case: Case, sweep: Sweep, points: Sequence[Mapping[str, float
     """The outcome and the predictions at each of the points.
 
     Raises:
-        CaseError: If a point's script does not end well.
+        CaseError: If a point's script does not end well, or a prediction cannot be computed there.
         EditError, ValueError: If a point's text cannot be made or compiled.
     """
     base = next(variant for variant in variants(case) if variant.id == sweep.base)
@@ -215,14 +215,28 @@ def _measure(case: Case, sweep: Sweep, base: Variant, at: dict[str, float]) -> P
         traces = measure_output(record, run_script(text, case.texts, name=record.source))
     values |= {name: take(traces[name], "final") for name in signals} | at
     outcome = take(traces[sweep.outcome.signal], sweep.outcome.take, sweep.outcome.window)
-    with np.errstate(all="ignore"):
-        predicted = {key: float(evaluate(parse(p.expr), values)) for key, p in predictions.items()}
+    predicted = {key: _predicted(case, sweep, key, form, values) for key, form in predictions.items()}
     return Point(
         at=at,
         outcome=outcome if math.isfinite(outcome) else None,
         holds=None if sweep.holds is None else _holds(sweep.holds, outcome),
         predicted={key: value if math.isfinite(value) else None for key, value in predicted.items()},
     )
+
+
+def _predicted(case: Case, sweep: Sweep, key: str, form: Prediction, values: Mapping[str, float]) -> float:
+    try:
+        with np.errstate(all="ignore"):
+            return float(evaluate(parse(form.expr), values))
+    except ExpressionError as error:
+        name = next(name for name, other in case.record.sweep.items() if other is sweep)
+        part: tuple[str | int, ...] = ("prediction",)
+        if key != "prediction":
+            part = ("rivals", [rival.id for rival in sweep.rivals].index(key))
+        given = ", ".join(f"{read} = {values[read]:g}" for read in sorted(names(parse(form.expr))))
+        found = form.expr + (f" with {given}" if given else "")
+        repair = "correct the expression"
+        raise CaseError([case.problem(("sweep", name, *part, "expr"), found, str(error), repair)]) from None
 
 
 def _holds(side: Side, outcome: float) -> bool:

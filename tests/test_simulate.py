@@ -269,3 +269,11 @@ def test_a_run_that_takes_too_long_is_refused(monkeypatch: pytest.MonkeyPatch) -
         RunError, match=r"^duration: 500 steps, of which 0 take -1 s; expected a run that comes to an end"
     ):
         run(BALL, spec())
+
+
+@pytest.mark.parametrize("timestep", [1e-9, 1e-320, 0.0, -1.0, math.nan])
+def test_a_timestep_that_makes_no_run(timestep: float) -> None:
+    model = compile_model(BALL)
+    model.opt.timestep = timestep
+    with pytest.raises(RunError, match=f"expected 1 to {MAX_STEPS} steps"):
+        step_count(model, spec())

@@ -103,7 +103,8 @@ def test_check_reports_all_that_is_wrong_with_all_cases(project: Path) -> None:
     assert found["falling-box"]["breaches"][0]["where"] == "checks.broken[0]"
 
 
-def test_check_keeps_its_work_in_the_project(project: Path) -> None:
+def test_check_keeps_its_work_in_the_project(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("CLINIC_CACHE", raising=False)
     run("check")
     assert list((project / ".cache" / "clinic").iterdir())
 

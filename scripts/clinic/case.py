@@ -20,6 +20,7 @@ import re
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 from pydantic import ValidationError
@@ -80,11 +81,17 @@ def load_case(folder: Path) -> Case:
     Raises:
         CaseError: With all problems found by the first stage that found any.
     """
-    slug, file = folder.name, f"cases/{folder.name}/{RECORD}"
     if problems := list(folder_problems(folder)):
         raise CaseError(problems)
+    texts = {path.name: path.read_text(encoding="utf-8") for path in sorted(folder.iterdir())}
+    return _validated(folder.name, texts.pop(RECORD), tuple(texts.items()))
+
+
+@lru_cache(2048)
+def _validated(slug: str, text: str, texts: tuple[tuple[str, str], ...]) -> Case:
+    """The case of a folder with these texts: a served site reads every case at every save."""
+    file = f"cases/{slug}/{RECORD}"
     try:
-        text = (folder / RECORD).read_text(encoding="utf-8")
         data, lines = read_yaml(text)
     except YamlError as error:
         raise CaseError([Problem(file, error.line, "", error.found, error.expected, error.repair)]) from None
@@ -92,8 +99,7 @@ def load_case(folder: Path) -> Case:
         record = Record.model_validate_json(json.dumps(data, default=str))
     except ValidationError as error:
         raise CaseError(field_problems(file, lines, error.errors(), data)) from None
-    texts = {path.name: path.read_text(encoding="utf-8") for path in sorted(folder.iterdir()) if path.name != RECORD}
-    case = Case(slug, record, texts, lines)
+    case = Case(slug, record, dict(texts), lines)
     words = (case.problem(*told, quoted=told[1]) for told in word_problems(record))
     if problems := [*_file_problems(case), *_reference_problems(case), *words]:
         raise CaseError(problems)

@@ -90,7 +90,8 @@ def _alike(case: Case, cases: Mapping[str, Case], cache: Cache) -> tuple[Matrix 
     if case.record.alike is None:
         return None, []
     members = group(case, cases)
-    key = key_of("alike", [[m.slug, m.text, m.record.model_dump(mode="json")] for m in members], of=["lookalike"])
+    asked = [[m.slug, m.text, m.record.model_dump(mode="json", include={"run", "alike"})] for m in members]
+    key = key_of("alike", asked, of=["lookalike"])
     try:
         files = cache.remember(key, partial(_matrix_file, members))
     except ValueError as error:  # a path that one of the models lacks

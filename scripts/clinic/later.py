@@ -58,8 +58,10 @@ class Later:
         if made is None and (early := self._early(root, cache, key)) is not None:
             return early
         self.stop()
-        self.whole = made or finished(root, cache, survey)
-        return self.whole
+        if made is None:  # of an edited site nothing is kept but its parts: the next edit makes another
+            made = survey(root, cache) if self.folder else finished(root, cache, survey)
+        self.whole = made
+        return made
 
     def stop(self) -> None:
         """Ends the process and all that it started."""

@@ -62,7 +62,7 @@ def named(character: str) -> str:
     return f"the character U+{ord(character):04X}"
 
 
-@lru_cache(maxsize=2048)
+@lru_cache(64)
 def read_yaml(text: str) -> tuple[Any, Lines]:
     """The document's data and the line of each of its fields.
 

@@ -13,13 +13,13 @@ import jinja2
 import yaml
 
 from clinic.checkout import slugs
-from clinic.folder import SLUG, unreadable
+from clinic.folder import SLUG
 from clinic.problem import CaseError, Problem
 from clinic.record_parts import VISIBLE
 from clinic.schema import MODELINE
+from clinic.ward import read_name
 from clinic.yamlmap import CONTROL, named
 
-NUMBER = re.compile(r"^number: *(\d{1,6}) *(?:#.*)?$", re.MULTILINE)
 MAX_TITLE, MAX_SLUG = 90, 60
 TEMPLATES = jinja2.Environment(
     loader=jinja2.PackageLoader("clinic", "templates/new"),
@@ -86,10 +86,7 @@ def files(slug: str, title: str, kind: Kind, number: int) -> dict[str, str]:
 
 def free_number(root: Path) -> int:
     """The smallest number that no case has, be the rest of its record as it may."""
-    taken: set[int] = set()
-    for record in (root / "cases").glob("*/case.yaml"):
-        text = "" if unreadable(record) else record.read_text(encoding="utf-8")
-        taken |= set(map(int, NUMBER.findall(text)))
+    taken = {read_name(root / "cases" / slug).number for slug in slugs(root)}
     return next(number for number in range(1, len(taken) + 2) if number not in taken)
 
 

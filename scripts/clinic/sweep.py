@@ -22,6 +22,7 @@ from clinic.record_sweep import Parameter, Prediction, Rival, Side, Sweep
 from clinic.script import ScriptError, run_script
 from clinic.simulate import compile_model
 from clinic.variant import Variant, apply_edits, variants
+from clinic.yamlmap import Where
 
 
 class Plain(BaseModel):
@@ -194,10 +195,11 @@ def _attempt(case: Case, sweep: Sweep, base: Variant, at: dict[str, float]) -> P
     try:
         return _measure(case, sweep, base, at)
     except ScriptError as error:
-        name = next(name for name, other in case.record.sweep.items() if other is sweep)
         point = ", ".join(f"{key} = {value:g}" for key, value in at.items())
         found = f"at {point}: {error.found}"
-        raise CaseError([case.problem(("sweep", name), found, "a script that ends by itself", error.repair)]) from None
+        raise CaseError(
+            [case.problem(_place(case, sweep), found, "a script that ends by itself", error.repair)]
+        ) from None
 
 
 def _measure(case: Case, sweep: Sweep, base: Variant, at: dict[str, float]) -> Point:
@@ -229,14 +231,18 @@ def _predicted(case: Case, sweep: Sweep, key: str, form: Prediction, values: Map
         with np.errstate(all="ignore"):
             return float(evaluate(parse(form.expr), values))
     except ExpressionError as error:
-        name = next(name for name, other in case.record.sweep.items() if other is sweep)
-        part: tuple[str | int, ...] = ("prediction",)
+        part: Where = ("prediction",)
         if key != "prediction":
             part = ("rivals", [rival.id for rival in sweep.rivals].index(key))
         given = ", ".join(f"{read} = {values[read]:g}" for read in sorted(names(parse(form.expr))))
         found = form.expr + (f" with {given}" if given else "")
         repair = "correct the expression"
-        raise CaseError([case.problem(("sweep", name, *part, "expr"), found, str(error), repair)]) from None
+        raise CaseError([case.problem((*_place(case, sweep), *part, "expr"), found, str(error), repair)]) from None
+
+
+def _place(case: Case, sweep: Sweep) -> Where:
+    """Where the sweep stands in the record."""
+    return "sweep", next(name for name, other in case.record.sweep.items() if other is sweep)
 
 
 def _holds(side: Side, outcome: float) -> bool:

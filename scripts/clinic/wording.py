@@ -62,13 +62,13 @@ def _endless(text: str) -> tuple[str, str, str] | None:
         return f"{len(text)} characters", f"{LONGEST_PROSE} at most", "say it in fewer words"
     if (begun := text.rfind("{{")) > text.rfind("}}"):
         return text[begun:].partition("\n")[0][:40], "a field that is closed: {{ ... }}", "close it with }}"
-    if row := TICKS.search(text):
-        return f"{MARKS} times {row[1]} in a row", "fewer", "write fewer"
+    if ticks := TICKS.search(text):
+        return f"{MARKS} times {ticks[1]} in a row", "fewer", "write fewer"
     fence = ""
     for line in text.split("\n"):
         if not fence and (opened := FENCE.fullmatch(line)):
             fence = opened[1]
-        elif line.strip(" ") == fence:
+        elif fence and line.strip(" ") == fence:
             fence = ""
     if fence:
         return f"{fence} that nothing ends", "a block of code that is closed", f"write {fence} on a line after it"

@@ -31,7 +31,7 @@ $(VENV)/.ready: requirements.txt requirements-parity.txt pyproject.toml package-
 	@touch $@
 
 # What an editor asks while a record is typed; see the first line of a new case.
-case.schema.json: $(VENV)/.ready $(wildcard scripts/clinic/record*.py) scripts/clinic/schema.py
+case.schema.json: $(VENV)/.ready $(wildcard scripts/clinic/record/*.py) scripts/clinic/pages/schema.py
 	@$(BIN)/clinic schema --write
 	@touch $@
 
@@ -55,6 +55,7 @@ lint: setup
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
+	$(BIN)/lint-imports --no-logo
 	PATH="$(CURDIR)/$(BIN):$$PATH" npx --no-install tsc -p docs/playground/jsconfig.json
 
 lock: setup

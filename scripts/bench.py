@@ -17,13 +17,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import clinic.measure
+import clinic.engine.measure
 import mujoco
-from clinic.case import Case, load_cases
-from clinic.checkout import project_root
-from clinic.exhibit import assembled, evidence_task, figure_task, measuring_tasks
-from clinic.simulate import captured_messages, controls, start, step_count
-from clinic.task import Task
+from clinic.engine.simulate import captured_messages, controls, start, step_count
+from clinic.pages.exhibits import assembled, evidence_task, figure_task, measuring_tasks
+from clinic.record.case import Case, load_cases
+from clinic.record.checkout import project_root
+from clinic.work.task import Task
 from measured import copied, finished, machine, markdown, put, python, show, surroundings, timed, write
 
 REPEATS, PAIRS = 3, 7
@@ -45,7 +45,7 @@ class Physics:
         self.steps, self.bare, self.ours = 0, 0.0, 0.0
 
     def simulate(self, model: mujoco.MjModel, spec: Any, paths: Any, nudge: Any = None, *how: Any) -> Any:
-        """What `clinic.simulate.simulate` gives."""
+        """What `clinic.engine.simulate.simulate` gives."""
         data, steps = start(model, spec, nudge), step_count(model, spec)
         drive = controls(model, spec, steps)
         if len(drive.actuators):
@@ -55,7 +55,7 @@ class Physics:
         self.steps += steps
         begun = time.perf_counter()
         try:
-            return clinic.simulate.simulate(model, spec, paths, nudge, *how)
+            return clinic.engine.simulate.simulate(model, spec, paths, nudge, *how)
         finally:
             self.ours += time.perf_counter() - begun
 
@@ -64,7 +64,7 @@ def parts(cases: list[Case]) -> tuple[dict[str, float], Physics]:
     """Seconds of each kind of work, made anew one after the other in this process, and the physics in it."""
     spent: dict[str, float] = defaultdict(float)
     physics = Physics()
-    clinic.measure.simulate = physics.simulate
+    clinic.engine.measure.simulate = physics.simulate
 
     def run(task: Task) -> dict[str, bytes]:
         begun, bare, ours = time.perf_counter(), physics.bare, physics.ours
@@ -82,7 +82,7 @@ def parts(cases: list[Case]) -> tuple[dict[str, float], Physics]:
                 rest |= run(task)
             run(figure_task(case, assembled(case, first, rest)))
     finally:
-        clinic.measure.simulate = clinic.simulate.simulate
+        clinic.engine.measure.simulate = clinic.engine.simulate.simulate
     return dict(spent), physics
 
 

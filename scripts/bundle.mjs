@@ -1,4 +1,4 @@
-// Bundles the playground's modules into the folder given as the first argument. Called by scripts/clinic/bundle.py.
+// Bundles the playground's modules into the folder given as the first argument. Called by scripts/clinic/publish/bundle.py.
 
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";

@@ -1,5 +1,5 @@
 """What mkdocs-gen-files calls: the site's pages, written into the build."""
 
-from clinic.mkdocs import write
+from clinic.publish.mkdocs import write
 
 write()

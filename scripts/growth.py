@@ -25,12 +25,12 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import yaml
-from clinic.cache import Cache, Files
-from clinic.case import Case, load_cases
-from clinic.checkout import project_root
-from clinic.exhibit import EVIDENCE, assembled, evidence_of, evidence_task, figure_task, measuring_tasks
-from clinic.overviews import screening_tasks
-from clinic.task import Task
+from clinic.pages.exhibits import EVIDENCE, assembled, evidence_of, evidence_task, figure_task, measuring_tasks
+from clinic.pages.overviews import screening_tasks
+from clinic.record.case import Case, load_cases
+from clinic.record.checkout import project_root
+from clinic.work.cache import Cache, Files
+from clinic.work.task import Task
 from measured import copied, machine, markdown, put, python, show, write
 from playwright.sync_api import sync_playwright
 

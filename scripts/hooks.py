@@ -2,9 +2,9 @@
 takes long.
 """
 
-from clinic.compiled import on_env, on_post_build
-from clinic.later import on_serve
-from clinic.serving import on_page_content, on_page_context, on_page_markdown, on_post_page, on_startup
+from clinic.publish.later import on_serve
+from clinic.publish.serving import on_page_content, on_page_context, on_page_markdown, on_post_page, on_startup
+from clinic.publish.theme_templates import on_env, on_post_build
 
 __all__ = [
     "on_env",

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import mujoco
 import yaml
-from clinic.cluster import jobs
+from clinic.work.parallel import jobs
 from mkdocs.utils.yaml import get_yaml_loader
 from rich.console import Console
 from rich.table import Table
@@ -74,7 +74,7 @@ def plain_settings(folder: Path, pages: Path) -> Path:
 FINISHED = """
 import sys, yaml
 from pathlib import Path
-from clinic.site import survey
+from clinic.publish.site import survey
 out = Path(sys.argv[1])
 made = survey(Path())
 for name, content in made.files.items():

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import growth
 import pytest
-from clinic.cache import Cache
-from clinic.case import Case, load_case
-from clinic.checkout import cache_folder
-from clinic.evidence import Evidence
-from clinic.exhibit import evidence_of, exhibits
+from clinic.pages.exhibits import evidence_of, exhibits
+from clinic.proof.evidence import Evidence
+from clinic.record.case import Case, load_case
+from clinic.record.checkout import cache_folder
+from clinic.work.cache import Cache
 from playwright.sync_api import Browser, Page, sync_playwright
 from project import SILENT, run, write_project
 

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import mujoco
 import pytest
-from clinic.case import Case, load_case
-from clinic.evidence import Evidence, VariantEvidence
-from clinic.examine import examine
-from clinic.pages import case_page
-from clinic.problem import CaseError, Problem
+from clinic.pages.case_page import case_page
+from clinic.proof.evidence import Evidence, VariantEvidence
+from clinic.proof.examine import examine
+from clinic.record.case import Case, load_case
+from clinic.record.problem import CaseError, Problem
 
 GRAVITY = 9.81
 SLUG = "falling-box"

@@ -12,12 +12,12 @@ from pathlib import Path
 from typing import Any
 
 import mujoco
-from clinic.case import load_case
-from clinic.checks import TAKES, Verdict, judge, take
-from clinic.measure import measure_model
-from clinic.record import Edit, RowSignal, StartsSignal
-from clinic.simulate import compile_model
-from clinic.variant import apply_edits
+from clinic.engine.checks import TAKES, Verdict, judge, take
+from clinic.engine.measure import measure_model
+from clinic.engine.simulate import compile_model
+from clinic.engine.variant import apply_edits
+from clinic.record.case import load_case
+from clinic.record.fields import Edit, RowSignal, StartsSignal
 
 
 def plain(value: float) -> float | None:

@@ -11,10 +11,10 @@ import growth
 import measured
 import pytest
 import yaml
-from clinic.cache import Cache
-from clinic.case import load_case, load_cases
-from clinic.exhibit import all_exhibits, evidence_of
-from clinic.site import survey
+from clinic.pages.exhibits import all_exhibits, evidence_of
+from clinic.publish.site import survey
+from clinic.record.case import load_case, load_cases
+from clinic.work.cache import Cache
 from helpers import tiny_case
 from project import SILENT, write_project
 
@@ -87,7 +87,7 @@ def test_variations_are_cases_that_need_no_run(project: Path, tmp_path: Path, mo
         assert not tasks
         return []
 
-    monkeypatch.setattr("clinic.task.parallel", none)
+    monkeypatch.setattr("clinic.work.task.parallel", none)
     made = survey(copy, cache)
     assert not made.problems
     shown = all_exhibits([load_case(copy / "cases" / "falling-box-2")], cache)

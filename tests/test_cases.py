@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from clinic.case import load_cases
-from clinic.laws import LAWS, breaches
+from clinic.proof.laws import LAWS, breaches
+from clinic.record.case import load_cases
 
 
 @pytest.mark.parametrize("law", LAWS)

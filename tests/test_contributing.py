@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from clinic.checkout import cache_folder
+from clinic.record.checkout import cache_folder
 
 pytestmark = pytest.mark.xdist_group("contributing")
 FENCE = re.compile(r"^```(?P<kind>\w+)?\n(?P<code>.*?)^```$", re.MULTILINE | re.DOTALL)

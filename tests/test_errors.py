@@ -9,21 +9,21 @@ import pkgutil
 
 import clinic
 import pytest
-from clinic.bundle import UnavailableError
-from clinic.cluster import ClusterError
-from clinic.expression import ExpressionError
-from clinic.formula import FormulaError
-from clinic.limits import LimitError, ProgramError
-from clinic.measure import SampleError
-from clinic.mjcf import ModelError
-from clinic.problem import CaseError, LackError, Problem
-from clinic.prose import FieldError
-from clinic.render import RenderError
-from clinic.script import ScriptError
-from clinic.signals import SignalError
-from clinic.simulate import RunError
-from clinic.variant import EditError
-from clinic.yamlmap import YamlError
+from clinic.engine.limits import LimitError, ProgramError
+from clinic.engine.measure import SampleError
+from clinic.engine.mjcf import ModelError
+from clinic.engine.render import RenderError
+from clinic.engine.script import ScriptError
+from clinic.engine.signals import SignalError
+from clinic.engine.simulate import RunError
+from clinic.engine.variant import EditError
+from clinic.pages.text.prose import FieldError
+from clinic.publish.bundle import UnavailableError
+from clinic.record.expression import ExpressionError
+from clinic.record.formula import FormulaError
+from clinic.record.problem import CaseError, LackError, Problem
+from clinic.record.yaml_lines import YamlError
+from clinic.work.parallel import ClusterError
 
 EXAMPLES = [
     CaseError(

@@ -7,8 +7,8 @@ import shutil
 from pathlib import Path
 
 import pytest
-from clinic import confine
-from clinic.folder import LARGE
+from clinic.engine import confine
+from clinic.record.folder import LARGE
 from helpers import MODEL, SCRIPT_RECORD, changed, only_problem, write_case, write_folder
 
 EDIT = "{find: ' contype=\"2\" conaffinity=\"2\"', replace: ''}"
@@ -201,7 +201,7 @@ def test_a_model_that_asks_for_too_much(tmp_path: Path, element: str) -> None:
 
 
 def test_a_model_that_never_compiles(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("clinic.mjcf.SECONDS", 1)
+    monkeypatch.setattr("clinic.engine.mjcf.SECONDS", 1)
     endless = '<replicate count="2000000000"><geom size=".1"/></replicate>'
     told = only_problem(write_case(tmp_path, model=changed(MODEL, ("<worldbody>", f"<worldbody>{endless}"))))
     assert told.found == "a model that takes more than 1 s"

@@ -11,15 +11,15 @@ from typing import Any
 
 import pytest
 import yaml
-from clinic.case import load_case
-from clinic.evidence import Evidence, collect
-from clinic.examine import examine
-from clinic.pages import card, home_page
-from clinic.playground import playground
-from clinic.plots import figures
-from clinic.problem import CaseError
-from clinic.site import navigation
-from clinic.ward import error_page, read_name
+from clinic.pages.case_page import card, home_page
+from clinic.pages.error_page import error_page, read_name
+from clinic.pages.figures.plots import figures
+from clinic.pages.playground import playground
+from clinic.proof.evidence import Evidence, collect
+from clinic.proof.examine import examine
+from clinic.publish.site import navigation
+from clinic.record.case import load_case
+from clinic.record.problem import CaseError
 from helpers import MODEL, RECORD, only_problem, page_of, script_case, tiny_case, write_case, write_folder
 from markup import ROOT, active, elements, extensions, rendered
 from mkdocs.commands.build import build

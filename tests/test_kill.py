@@ -8,16 +8,16 @@ import sys
 from pathlib import Path
 
 import pytest
-from clinic.cache import Cache
+from clinic.work.cache import Cache
 from project import SILENT, bytes_of, run, settings, write_project
 
 BUILD = """
 import os, signal, sys
 from pathlib import Path
-from clinic.cache import Cache
-from clinic.case import load_cases
-from clinic.checkout import cache_folder
-from clinic.exhibit import all_exhibits
+from clinic.work.cache import Cache
+from clinic.record.case import load_cases
+from clinic.record.checkout import cache_folder
+from clinic.pages.exhibits import all_exhibits
 
 last, half, made, replace = int(sys.argv[1]), sys.argv[2] == "half", 0, os.replace
 

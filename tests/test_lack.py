@@ -9,16 +9,16 @@ from pathlib import Path
 
 import mujoco
 import pytest
-from clinic import node, render
-from clinic.cache import Cache
-from clinic.case import Case, load_case
-from clinic.checkout import project_root
-from clinic.evidence import draws, lack
-from clinic.exhibit import evidence_task, exhibits, possible_exhibits
-from clinic.problem import CaseError
-from clinic.site import survey
-from clinic.task import say_lack
-from clinic.ward import lacking_page
+from clinic.engine import node, render
+from clinic.pages.error_page import lacking_page
+from clinic.pages.exhibits import evidence_task, exhibits, possible_exhibits
+from clinic.proof.evidence import draws, lack
+from clinic.publish.site import survey
+from clinic.record.case import Case, load_case
+from clinic.record.checkout import project_root
+from clinic.record.problem import CaseError
+from clinic.work.cache import Cache
+from clinic.work.task import say_lack
 from helpers import SCRIPT, script_case, tiny_case
 from project import write_project
 

@@ -13,14 +13,14 @@ SAYS = "<mujoco><worldbody><body><freejoint/><geom size='1' user='nan'/></body><
 STEPPED = f"""
 import mujoco
 def say(_=0):
-    import clinic.simulate
+    import clinic.engine.simulate
     model = mujoco.MjModel.from_xml_string({SAYS!r})
     data = mujoco.MjData(model)
     data.qvel[:] = 1e30
     mujoco.mj_step(model, data)
 """
 LISTENED = """
-from clinic.simulate import captured_messages
+from clinic.engine.simulate import captured_messages
 with captured_messages() as messages:
     say()
 assert len(messages) == 2, messages
@@ -39,7 +39,7 @@ def left_behind(folder: Path, *command: str) -> tuple[str, bool]:
 
 
 def test_mujoco_left_alone_writes_one(tmp_path: Path) -> None:
-    alone = STEPPED.replace("import clinic.simulate", "pass")
+    alone = STEPPED.replace("import clinic.engine.simulate", "pass")
     assert left_behind(tmp_path, "-c", f"{alone}\nsay()")[1]
 
 

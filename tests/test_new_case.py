@@ -6,11 +6,11 @@ import shutil
 from pathlib import Path
 
 import pytest
-from clinic.cache import Cache
-from clinic.checkout import cache_folder
-from clinic.judgement import Neighbours, judge_folder
-from clinic.site import survey
-from clinic.start import Kind, start
+from clinic.commands.judgement import Neighbours, judge_folder
+from clinic.commands.scaffold import Kind, start
+from clinic.publish.site import survey
+from clinic.record.checkout import cache_folder
+from clinic.work.cache import Cache
 from helpers import MODEL, RECORD, write_case
 
 pytestmark = pytest.mark.xdist_group("site")

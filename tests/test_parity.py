@@ -12,10 +12,10 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
-from clinic.bundle import node
-from clinic.case import Case, load_cases
-from clinic.expression import evaluate, parse
-from clinic.playground import playground
+from clinic.pages.playground import playground
+from clinic.publish.bundle import node
+from clinic.record.case import Case, load_cases
+from clinic.record.expression import evaluate, parse
 
 pytestmark = pytest.mark.xdist_group("parity")
 TOLERANCE = 1e-9

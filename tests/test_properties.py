@@ -14,14 +14,14 @@ from typing import Any
 
 import pytest
 import yaml
-from clinic.case import load_case
-from clinic.examine import examine
-from clinic.formula import FormulaError, formulas
-from clinic.inert import harmless, line, outside_code, strange_links
-from clinic.mjcf import probe
-from clinic.problem import CaseError, Problem
-from clinic.record import Record
-from clinic.simulate import compile_model
+from clinic.engine.mjcf import probe
+from clinic.engine.simulate import compile_model
+from clinic.proof.examine import examine
+from clinic.record.case import load_case
+from clinic.record.fields import Record
+from clinic.record.formula import FormulaError, formulas
+from clinic.record.markup import harmless, line, outside_code, strange_links
+from clinic.record.problem import CaseError, Problem
 from helpers import MODEL, write_folder
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st

@@ -24,7 +24,7 @@ cli(["build", "--strict"])
 """
 EVIDENCE = """
 from pathlib import Path
-from clinic.site import build
+from clinic.publish.site import build
 print(build(Path())["cases/falling-box/evidence.json"].decode())
 """
 RC = "font.size: 20\nlines.linewidth: 5\nsvg.fonttype: none\nsavefig.dpi: 30\npath.simplify: False\n"

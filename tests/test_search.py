@@ -6,8 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from clinic.case import load_cases
-from clinic.messages import load_messages
+from clinic.pages.messages import load_messages
+from clinic.record.case import load_cases
 from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.xdist_group("site")

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from clinic import casepages
-from clinic.cache import Cache
-from clinic.problem import CaseError
-from clinic.site import Site, build, survey
+from clinic.pages import cases as casepages
+from clinic.publish.site import Site, build, survey
+from clinic.record.problem import CaseError
+from clinic.work.cache import Cache
 from helpers import changed
 from project import SILENT, run, write_project
 
@@ -116,21 +116,11 @@ def test_a_task_that_raises_what_nobody_foresaw_is_a_problem_of_its_case(
         raise ZeroDivisionError("by 0")
 
     monkeypatch.setenv("CLINIC_JOBS", "1")
-    monkeypatch.setattr("clinic.exhibit.robustness", fail)
+    monkeypatch.setattr("clinic.pages.exhibits.robustness", fail)
     with caplog.at_level(logging.CRITICAL):
         made = survey(whole[0], Cache(tmp_path / "cache"))
     assert [(problem.file, problem.found) for problem in made.problems] == [(RECORD, "ZeroDivisionError: by 0")]
     assert made.files[OTHER] == whole[1].files[OTHER]
-
-
-def test_a_package_that_changed_meanwhile_is_told(whole: tuple[Path, Site]) -> None:
-    code = (
-        "from clinic import sources\nsources.source_digest = str\nfrom mkdocs.__main__ import cli\ncli(['build', '-s'])"
-    )
-    done = run(whole[0], "-c", code)
-    assert done.returncode == 1
-    assert "start it again" in " ".join(done.stderr.split())
-    assert not list((whole[0] / "cache").glob("*.part"))
 
 
 def test_a_folder_that_is_renamed_while_the_site_is_made_is_told(

@@ -1,4 +1,4 @@
-// The types of `playground.json`, as scripts/clinic/playground.py writes it. See the record's reference for their meaning.
+// The types of `playground.json`, as scripts/clinic/pages/playground.py writes it. See the record's reference for their meaning.
 
 /**
  * @typedef {{find: string, replace: string}} Edit

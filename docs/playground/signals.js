@@ -1,5 +1,5 @@
 // Signals: paths into MuJoCo's named access, parsed and bound to a model, never evaluated as code.
-// The paths are those of scripts/clinic/signals.py.
+// The paths are those of scripts/clinic/engine/signals.py.
 
 /** @import {DoubleBuffer, MainModule, MjData, MjModel} from "@mujoco/mujoco" */
 /** @import {PathSignal} from "./record.js" */

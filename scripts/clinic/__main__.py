@@ -1,5 +1,5 @@
 """`python -m clinic` is the command `clinic`."""
 
-from clinic.cli import main
+from clinic.commands.cli import main
 
 main()

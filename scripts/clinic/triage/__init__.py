@@ -1,4 +1,6 @@
-"""Triage that runs: six steps on a model, cheapest first, each of which says what it saw.
+"""A reader's model in six steps, cheapest first: a model with its start goes in, what each step saw comes out.
+
+It may import `record`, `engine`, `work` and `proof`.
 
 run      the model with its start and controls, recorded under a budget of time
 watch    the one run that most steps look at

@@ -12,7 +12,7 @@ import threading
 from collections.abc import Iterator
 from pathlib import Path
 
-from clinic.problem import CaseError, Problem
+from clinic.record.problem import CaseError, Problem
 from clinic.triage.run import Budget
 from clinic.triage.steps import SECONDS, STEPS, report, subject_of, triage
 

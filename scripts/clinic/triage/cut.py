@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from clinic.record import RunSpec
-from clinic.simulate import captured_messages
+from clinic.engine.simulate import captured_messages
+from clinic.record.fields import RunSpec
 from clinic.triage.run import Recording, Subject, record
 from clinic.triage.watch import Trial, Watch
 

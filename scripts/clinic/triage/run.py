@@ -11,8 +11,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from clinic.record import RunSpec
-from clinic.simulate import Drive, captured_messages, controls, start, step, step_count
+from clinic.engine.simulate import Drive, captured_messages, controls, start, step, step_count
+from clinic.record.fields import RunSpec
 
 Array = NDArray[np.float64]
 SAMPLES = 100

@@ -14,11 +14,11 @@ import mujoco
 import numpy as np
 from pydantic import BaseModel, ConfigDict
 
-from clinic.case import Case, load_case
-from clinic.folder import RECORD
-from clinic.problem import CaseError, Problem
-from clinic.record import RunSpec
-from clinic.simulate import RunError, captured_messages
+from clinic.engine.simulate import RunError, captured_messages
+from clinic.record.case import Case, load_case
+from clinic.record.fields import RunSpec
+from clinic.record.folder import RECORD
+from clinic.record.problem import CaseError, Problem
 from clinic.triage import model as compiled
 from clinic.triage import motion, reduce, scene
 from clinic.triage.run import Budget, Subject

@@ -8,12 +8,12 @@ from functools import partial
 
 from pydantic import BaseModel, ConfigDict
 
-from clinic.cache import Files, key_of
-from clinic.case import Case
-from clinic.task import Task
+from clinic.engine.variant import variants
+from clinic.record.case import Case
 from clinic.triage import model, scene
 from clinic.triage.steps import STEPS, Finding, Observation, subject_of_case, triage
-from clinic.variant import variants
+from clinic.work.cache import Files, key_of
+from clinic.work.task import Task
 
 FILE = "triage.json"
 MARK = "The table is made by the build."
@@ -47,7 +47,7 @@ def screening_tasks(cases: Iterable[Case]) -> Iterator[Task]:
     for case in cases:
         if case.record.run is not None:
             run, texts = case.record.run.model_dump(mode="json"), [variant.text for variant in variants(case)[:2]]
-            key = key_of("triage", case.record.number, case.record.title, run, texts, of=["triage.table"])
+            key = key_of("triage", case.record.number, case.record.title, run, texts, of="triage")
             yield Task(case.slug, "triage", key, partial(screen, case))
 
 

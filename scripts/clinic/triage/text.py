@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from clinic.prose import quantity
+from clinic.record.prose import quantity
 
 
 def shown(value: float, unit: str, digits: int = 3) -> str:

@@ -1,0 +1,140 @@
+"""Films: the broken model beside the first fix, same camera, same clock, with MuJoCo's own overlays."""
+
+from __future__ import annotations
+
+import io
+import math
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import av
+import mujoco
+import numpy as np
+from PIL import Image as Pictures
+from PIL import ImageDraw, ImageFont
+
+from clinic.engine.render import Image, renderer
+from clinic.engine.simulate import captured_messages, compile_model, controls, start, step
+from clinic.engine.variant import variants
+from clinic.record.case import Case
+from clinic.record.fields import Film, RunSpec
+from clinic.record.prose import number
+from clinic.work.cache import Files
+
+WIDTH, HEIGHT, FPS = 320, 240, 20
+DRAWN, SHADOW_SIZE = (480, 360), 512  # larger, then averaged: as smooth as four samples a pixel, and a third cheaper
+MAX_FRAMES = 160
+STRIP = 4
+STILL = 1e-4
+FLAGS = {
+    "contact_points": mujoco.mjtVisFlag.mjVIS_CONTACTPOINT,
+    "contact_forces": mujoco.mjtVisFlag.mjVIS_CONTACTFORCE,
+    "joint_axes": mujoco.mjtVisFlag.mjVIS_JOINT,
+    "actuators": mujoco.mjtVisFlag.mjVIS_ACTUATOR,
+    "transparent": mujoco.mjtVisFlag.mjVIS_TRANSPARENT,
+    "cameras": mujoco.mjtVisFlag.mjVIS_CAMERA,
+}
+
+
+def film(case: Case) -> Files:
+    """`film.mp4`, its `poster.webp`, and `strip.webp`: four moments for paper and previews.
+
+    Raises:
+        RenderError: If images cannot be drawn on this machine.
+    """
+    record = case.record
+    assert record.film is not None
+    assert record.run is not None
+    broken, fixed, *_ = variants(case)
+    sides = [
+        list(frames(compile_model(variant.text), record.run, record.film, record.film.camera or record.picture.camera))
+        for variant in (broken, fixed)
+    ]
+    pictures = [beside(left, right, ("broken", "repaired")) for left, right in zip(*sides, strict=True)]
+    moments = np.linspace(0, len(pictures) - 1, STRIP).round().astype(int)
+    at = round(min(record.picture.time / filmed(record.film, record.run), 1.0) * (len(pictures) - 1))
+    return {
+        "film.mp4": encode(pictures),
+        "poster.webp": webp(pictures[at]),
+        "strip.webp": webp(np.vstack([np.hstack([pictures[i] for i in moments[k : k + 2]]) for k in (0, 2)])),
+    }
+
+
+def filmed(spec: Film, run: RunSpec) -> float:
+    """The simulated time that is filmed, in s."""
+    return min(spec.duration or run.duration, MAX_FRAMES / FPS * spec.speed)
+
+
+def frames(model: mujoco.MjModel, run: RunSpec, spec: Film, camera: str) -> Iterator[tuple[Image, str]]:
+    """The images of a run, shape (HEIGHT, WIDTH, 3), each with the text of its clock.
+
+    A state that has moved by less than STILL, in m or rad, is not drawn anew.
+
+    From the first warning of a diverging run on, the last image before it stays: a state that is reset every few
+    steps would flash.
+    """
+    count = max(2, math.floor(filmed(spec, run) / spec.speed * FPS) + 1)
+    last = round((count - 1) / FPS * spec.speed / model.opt.timestep)
+    data, drive, option = start(model, run), controls(model, run, last), mujoco.MjvOption()
+    for name in spec.overlays:
+        if name in FLAGS:
+            option.flags[FLAGS[name]] = True
+    if "body_frames" in spec.overlays:
+        option.frame = mujoco.mjtFrame.mjFRAME_BODY
+    made, image, halted, drawn = 0, None, "", data.qpos.copy()
+    model.vis.quality.offsamples, model.vis.quality.shadowsize = 0, SHADOW_SIZE
+    with captured_messages(), renderer(model, *DRAWN) as draw:
+        mujoco.mj_forward(model, data)
+        for k in range(count):
+            time = k / FPS * spec.speed
+            while made < round(time / model.opt.timestep) and not halted:
+                step(model, data, drive, made)
+                made += 1
+                if any(warning.number for warning in data.warning):
+                    halted = f"reset at {number(made * model.opt.timestep, 2)} s"
+            if image is None or (not halted and np.max(np.abs(data.qpos - drawn), initial=0) > STILL):
+                mujoco.mj_kinematics(model, data)  # a step leaves the positions of its start
+                image, drawn = averaged(draw.render(data, camera, option)), data.qpos.copy()
+            yield image, halted or f"{time:.2f} s"
+
+
+def averaged(image: Image) -> Image:
+    """The image at the film's size, each pixel the mean of the area it takes the place of."""
+    return np.asarray(Pictures.fromarray(image).resize((WIDTH, HEIGHT), Pictures.Resampling.BOX))
+
+
+def beside(left: tuple[Image, str], right: tuple[Image, str], titles: tuple[str, str]) -> Image:
+    """Two images side by side, each with its title and clock."""
+    whole = Pictures.fromarray(np.hstack([left[0], right[0]]))
+    ink = ImageDraw.Draw(whole)
+    font: Any = ImageFont.load_default(size=14)
+    for x, title, clock in ((0, titles[0], left[1]), (WIDTH, titles[1], right[1])):
+        for place, text, anchor in (((x + 8, 6), title, "la"), ((x + WIDTH - 8, 6), clock, "ra")):
+            box = ink.textbbox(place, text, font=font, anchor=anchor)
+            ink.rectangle((box[0] - 4, box[1] - 3, box[2] + 4, box[3] + 3), fill=(20, 24, 28))
+            ink.text(place, text, font=font, anchor=anchor, fill=(255, 255, 255))
+    ink.line((WIDTH, 0, WIDTH, HEIGHT), fill=(20, 24, 28), width=2)
+    return np.asarray(whole)
+
+
+def encode(pictures: list[Image]) -> bytes:
+    """The images as H.264 in MP4; the same images give the same bytes."""
+    with tempfile.TemporaryDirectory(prefix="clinic-") as folder:
+        path = Path(folder, "film.mp4")
+        with av.open(str(path), "w", options={"movflags": "faststart", "fflags": "+bitexact"}) as container:
+            stream = container.add_stream("libx264", rate=FPS, options={"crf": "27", "preset": "slow", "threads": "1"})
+            stream.height, stream.width = pictures[0].shape[:2]
+            stream.pix_fmt = "yuv420p"
+            for picture in pictures:
+                container.mux(stream.encode(av.VideoFrame.from_ndarray(np.ascontiguousarray(picture), format="rgb24")))
+            container.mux(stream.encode())
+        return path.read_bytes()
+
+
+def webp(pixels: Image) -> bytes:
+    """The image, compressed."""
+    out = io.BytesIO()
+    Pictures.fromarray(pixels).save(out, format="webp", quality=82, method=6)
+    return out.getvalue()

@@ -1,0 +1,118 @@
+"""What the playground in the browser needs to run and judge a model case: `playground.json`, one file a case.
+
+The browser and the tests of its modules read the same file; its types are in `docs/playground/record.js`.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from clinic.engine.signals import Path, parse_path
+from clinic.engine.simulate import compile_model
+from clinic.pages.text.claim import claim
+from clinic.record.case import Case
+from clinic.record.expression import names, parse
+from clinic.record.fields import Check, ExpressionSignal, PathSignal, Remedy, Signal
+
+FILE = "playground.json"
+
+
+def playground(case: Case, engine: str, cases: Iterable[Case]) -> bytes:
+    """The file of a model case.
+
+    Args:
+        case: A case with a model.
+        engine: The version of MuJoCo that made the evidence.
+        cases: All cases; those that name a MuJoCo warning explain it.
+    """
+    record = case.record
+    assert record.model is not None
+    assert record.run is not None
+    made: dict[str, Any] = {
+        "case": case.slug,
+        "number": record.number,
+        "title": record.title,
+        "engine": engine,
+        "name": record.model,
+        "text": case.text,
+        "run": record.run.model_dump(mode="json"),
+        "signals": {name: _signal(case, name, signal) for name, signal in record.signals.items()},
+        "checks": {
+            "broken": [_check(check) for check in record.checks.broken],
+            "fixed": [_check(check) for check in record.checks.fixed],
+        },
+        "fixes": [_remedy(fix) for fix in record.fixes],
+        "refuted": [_remedy(refuted) for refuted in record.refuted],
+        "camera": record.picture.camera,
+        "speed": record.film.speed if record.film else 1.0,
+        "telling": record.film.overlays if record.film else [],
+        "hints": _hints(case),
+        "explained": _explained(cases),
+    }
+    return (json.dumps(made, ensure_ascii=False, allow_nan=False) + "\n").encode()
+
+
+def _signal(case: Case, name: str, signal: Signal) -> dict[str, Any]:
+    made = signal.model_dump(mode="json", exclude_none=True)
+    made["label"] = signal.label or name
+    if isinstance(signal, PathSignal):
+        made["columns"] = _columns(parse_path(signal.path), case.text)
+    return made
+
+
+def _columns(path: Path, xml: str) -> list[int]:
+    """The lengths of all dimensions of a plain field but the first: the browser's arrays are flat."""
+    if path.kind:
+        return []
+    model = compile_model(xml)
+    value: Any = model if path.model else mujoco.MjData(model)
+    for part in path.field.split("."):
+        value = getattr(value, part)
+    return [int(n) for n in np.shape(value)[1:]]
+
+
+def _check(check: Check) -> dict[str, Any]:
+    return check.model_dump(mode="json", exclude_none=True)
+
+
+def _remedy(remedy: Remedy) -> dict[str, Any]:
+    return remedy.model_dump(mode="json", include={"id", "title", "edits"})
+
+
+def _hints(case: Case) -> list[dict[str, str]]:
+    """The symptom and its repair in numbers, then what to measure; the third rung is the page's Diagnosis."""
+    checks = case.record.checks
+    broken, fixed = ("; ".join(claim(case, check) for check in kind) for kind in (checks.broken, checks.fixed))
+    return [
+        {"title": "The symptom in numbers", "text": f"as it is, {broken}. Repaired, {fixed}."},
+        {"title": "What to measure", "text": f"after every step, {'; '.join(_measured(case))}."},
+    ]
+
+
+def _measured(case: Case) -> list[str]:
+    """What the checks read, each with its path where it has one."""
+    record = case.record
+    read: set[str] = set()
+    for check in [*record.checks.broken, *record.checks.fixed]:
+        signal = record.signals[check.signal]
+        read |= names(parse(signal.expr)) if isinstance(signal, ExpressionSignal) else {check.signal}
+    return [
+        (signal.label or name) + (f", {signal.path}" if isinstance(signal, PathSignal) else "")
+        for name, signal in record.signals.items()
+        if name in read
+    ]
+
+
+def _explained(cases: Iterable[Case]) -> dict[str, list[dict[str, str]]]:
+    """The pages of the cases that raise a warning, by warning; addresses as seen from a case's page."""
+    made: dict[str, list[dict[str, str]]] = {}
+    for case in cases:
+        for name in case.record.warnings:
+            page = {"href": f"../{case.slug}/index.html", "title": f"{case.record.number}. {case.record.title}"}
+            made.setdefault(name, []).append(page)
+    return made

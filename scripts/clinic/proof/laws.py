@@ -1,0 +1,216 @@
+"""The laws that every case obeys. Each law gives where the record breaks it, and what to do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import combinations
+from math import isfinite
+from typing import Literal
+
+from clinic.engine.checks import expected, judge
+from clinic.engine.measure import measure_model, measure_output
+from clinic.engine.script import run_script
+from clinic.engine.simulate import compile_model
+from clinic.engine.variant import EditError, apply_edits, changed_lines, remedies, variants
+from clinic.proof.evidence import Evidence, VariantEvidence, observe
+from clinic.proof.prose_laws import quoted, typed
+from clinic.proof.sweep import SweepEvidence, agreement, misses
+from clinic.record.case import Case
+from clinic.record.fields import Check, Fix
+from clinic.record.parts import Edit
+from clinic.record.problem import Problem, listed
+from clinic.record.prose import quantity
+from clinic.record.sweep import Sweep
+from clinic.record.yaml_lines import Where
+
+MAX_CHANGED_LINES = 5
+
+
+def verdicts(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 1. Broken: all of `checks.broken`, not all of `checks.fixed`. A fix: the other way round.
+
+    A refuted remedy: not all of `checks.fixed`.
+    """
+    for name, variant in evidence.variants.items():
+        if variant.kind != "refuted":
+            yield from _failing(case, name, variant, "broken" if variant.kind == "broken" else "fixed")
+        if variant.kind == "broken" and variant.well:
+            yield _lax(case, name, "fixed", "a check that the broken variant fails")
+        if variant.kind == "fix" and variant.broken:
+            yield _lax(case, name, "broken", "a check that the repair fails")
+        if variant.kind == "refuted" and variant.well:
+            found, wanted = "passes every check of `fixed`", "a refuted remedy that fails one"
+            yield case.problem(_place(case, name), found, wanted, "move it to `fixes`, or tighten a check")
+
+
+def ablation(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 2. Of a fix with several edits, no proper subset passes `fixed`, or `redundant` says why."""
+    for index, fix in enumerate(case.record.fixes):
+        where: Where = ("fixes", index)
+        enough = [subset for subset in _subsets(fix) if passes(case, subset)]
+        if enough and fix.redundant is None:
+            part = " and ".join(f"{edit.find!r}" for edit in enough[0])
+            found, repair = f"the edit of {part} alone repairs it", "drop the other edits, or say why in `redundant`"
+            yield case.problem((*where, "edits"), found, "edits of which none can be spared", repair)
+        if not enough and fix.redundant is not None:
+            found = "a reason, though every edit is necessary"
+            yield case.problem((*where, "redundant"), found, "a reason for an edit that can be spared", "remove it")
+
+
+def small_edits(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 3. Every remedy changes at most a handful of lines (that edits match once is checked on loading)."""
+    for variant in variants(case)[1:]:
+        count = changed_lines(case.text, variant.text)
+        if not 1 <= count <= MAX_CHANGED_LINES:
+            place, wanted = (*_place(case, variant.id), "edits"), f"1 to {MAX_CHANGED_LINES}"
+            yield case.problem(place, f"{count} changed lines", wanted, "change the lines that matter, and no others")
+
+
+def repeatable(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 4, first half. A second run of a variant gives bitwise the same evidence."""
+    for variant in variants(case):
+        if observe(case, variant) != evidence.variants[variant.id]:
+            found, wanted = f"{variant.id}: two runs that differ", "the same numbers from every run"
+            yield case.problem(_place(case, variant.id), found, wanted, "seed what is random, and bound loops by steps")
+
+
+def warned(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 4, second half. A fix raises no MuJoCo warning; the broken variant exactly those in `warnings`."""
+    for name, variant in evidence.variants.items():
+        raised, named = sorted(variant.warnings), sorted(case.record.warnings)
+        if variant.kind == "fix" and raised:
+            wanted, repair = "a fix that raises no warning", "repair the model until it is silent"
+            yield case.problem(_place(case, name), f"{name}: raises {listed(raised)}", wanted, repair)
+        if variant.kind == "broken" and raised != named:
+            repair = f"write `warnings: [{', '.join(raised)}]`" if raised else "remove `warnings`"
+            yield case.problem(
+                ("warnings",), listed(named), f"what the broken variant raises: {listed(raised)}", repair
+            )
+
+
+def lasting(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 6, first half. A fix still holds after ten times its duration."""
+    for name, robust in evidence.robustness.items():
+        if robust.longer is False and evidence.variants[name].well:
+            found = f"{name}: no longer holds after ten times the duration"
+            repair = "repair what builds up, or say in `exempt: {lasting: ...}` why it must"
+            yield case.problem(_place(case, name), found, "a fix that holds", repair)
+
+
+def steady(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 6, second half. Small changes of the start, and half the timestep, leave every verdict."""
+    for name, robust in evidence.robustness.items():
+        if robust.same < robust.runs:
+            found = f"{name}: keeps its verdict in {robust.same} of {robust.runs} slightly changed runs"
+            repair = "widen a bound, or say in `exempt: {steady: ...}` why it must"
+            yield case.problem(_place(case, name), found, "the same verdict in all of them", repair)
+
+
+def swept(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """The cause is a law: each prediction agrees, moved by 5 % it does not, and rivals miss; or `no_sweep` says why."""
+    record = case.record
+    if bool(record.sweep) == (record.no_sweep is not None):
+        given = "both" if record.sweep else "neither"
+        yield case.problem(
+            ("sweep",), given, "`sweep`, or the reason why there is none in `no_sweep`", "give one of them"
+        )
+    for name, sweep in record.sweep.items():
+        where: Where = ("sweep", name)
+        found = evidence.sweep[name]
+        own = found.agreement["prediction"]
+        if own.judged == 0:
+            said, repair = "held against no point", "widen its `over`, or correct its `expr`"
+            yield case.problem((*where, "prediction"), said, "points that it can miss", repair)
+        if own.wrong:
+            said = f"misses {own.wrong} of {own.judged} points" + _worst(sweep, found)
+            yield case.problem((*where, "prediction"), said, "a prediction that misses none", "correct its `expr`")
+        telling = "choose points that can tell"
+        for factor in (0.95, 1.05):
+            if not agreement(sweep, sweep.prediction, "prediction", found.points, factor).wrong:
+                said, wanted = f"agrees when multiplied by {factor} too", "a prediction that then misses"
+                yield case.problem((*where, "prediction"), said, wanted, telling)
+        for index, rival in enumerate(sweep.rivals):
+            if not found.agreement[rival.id].wrong:
+                place, repair = (*where, "rivals", index), f"remove it, or {telling}"
+                yield case.problem(place, f"{rival.id}: never misses", "a rival that misses somewhere", repair)
+
+
+def filmed(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """A model case has a film, a code case none."""
+    if case.record.model is not None and case.record.film is None:
+        yield case.problem(("film",), "nothing", "a film of the model", "add `film`")
+    if case.record.model is None and case.record.film is not None:
+        yield case.problem(("film",), "a film of a script", "none: there is nothing to see", "remove `film`")
+
+
+LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
+    law.__name__: law
+    for law in (verdicts, ablation, small_edits, repeatable, warned, quoted, typed, lasting, steady, swept, filmed)
+}
+
+
+def breaches(case: Case, evidence: Evidence, *laws: str) -> list[Problem]:
+    """Where the case breaks the laws, after exemptions (law 8): one that is no longer needed is a breach itself."""
+    made = []
+    for law in laws:
+        found = list(LAWS[law](case, evidence))
+        if law not in case.record.exempt:
+            made += found
+        elif not found:
+            where, wanted = ("exempt", law), "an exemption from a law that the case breaks"
+            made.append(case.problem(where, "a law that it obeys", wanted, "remove it"))
+    return made
+
+
+def passes(case: Case, edits: tuple[Edit, ...]) -> bool:
+    """Whether the broken text after these edits passes every check of `fixed`."""
+    try:
+        text = apply_edits(case.text, edits)
+        if case.record.run is not None:
+            _, traces = measure_model(case.record, compile_model(text), case.record.run)
+        else:
+            traces = measure_output(case.record, run_script(text, case.texts, name=case.record.source))
+    except (EditError, ValueError):
+        return False
+    return all(judge(check, traces).holds for check in case.record.checks.fixed)
+
+
+def _subsets(fix: Fix) -> Iterator[tuple[Edit, ...]]:
+    for size in range(1, len(fix.edits)):
+        yield from combinations(fix.edits, size)
+
+
+def _failing(case: Case, name: str, variant: VariantEvidence, kind: Literal["broken", "fixed"]) -> Iterator[Problem]:
+    for index, result in enumerate(variant.checks[kind]):
+        if not result.holds:
+            unit = "s" if result.take == "onset" else variant.traces[result.signal].unit
+            value = "nothing" if result.measured is None else quantity(result.measured, unit, 6)
+            check = Check.model_validate(
+                {"signal": result.signal, "take": result.take, **result.expected}, strict=False
+            )
+            found = f"{name}: {result.signal} ({result.take}) = {value}"
+            wanted = f"{expected(check)} {unit}".rstrip()
+            yield case.problem(("checks", kind, index), found, wanted, "correct the bound, the edits, or the model")
+
+
+def _lax(case: Case, name: str, kind: str, wanted: str) -> Problem:
+    return case.problem(("checks", kind), f"{name}: passes every check", wanted, "tighten one")
+
+
+def _worst(sweep: Sweep, found: SweepEvidence) -> str:
+    """Where the prediction misses most."""
+    missed = misses(sweep, sweep.prediction, "prediction", found.points)
+    if not missed:
+        return ""
+    point, error = max(missed, key=lambda each: each[1])
+    at = ", ".join(f"{key} = {value:g}" for key, value in point.at.items())
+    if not isfinite(error) or point.outcome is None:
+        return f"; most at {at}"
+    unit, said = found.agreement["prediction"].unit, point.predicted["prediction"]
+    by = f"{error:.3g} of it" if sweep.prediction.relative else quantity(error, unit)
+    return f"; most at {at}, by {by}: it says {said:.4g}, and {point.outcome:.4g} is measured"
+
+
+def _place(case: Case, variant: str) -> Where:
+    """Where the record speaks of a variant: its remedy, or the checks."""
+    return next((where for where, _, remedy in remedies(case) if remedy.id == variant), ("checks",))

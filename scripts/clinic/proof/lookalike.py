@@ -1,0 +1,98 @@
+"""Look-alikes: cases with the same symptom, and one measurement a case that holds for it alone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+from pydantic import BaseModel, ConfigDict
+
+from clinic.engine.checks import satisfies, take
+from clinic.engine.signals import SignalError, parse_path
+from clinic.engine.simulate import compile_model, simulate
+from clinic.record.case import Case
+from clinic.record.problem import Problem
+
+
+class Matrix(BaseModel):
+    """Measurements by cases: `measured[i][j]` is what case i's measurement gives for case j.
+
+    Attributes:
+        cases: The cases' slugs.
+        measured: The numbers; None where nothing could be measured.
+        holds: Whether each satisfies the measurement's bound; wanted on the diagonal alone.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    cases: list[str]
+    measured: list[list[float | None]]
+    holds: list[list[bool]]
+
+
+def group(case: Case, cases: Mapping[str, Case]) -> list[Case]:
+    """The case and those it names as alike, by number."""
+    assert case.record.alike is not None
+    named = [case, *(cases[slug] for slug in case.record.alike.cases)]
+    return sorted(named, key=lambda member: member.record.number)
+
+
+def alike_problems(cases: Mapping[str, Case]) -> Iterator[Problem]:
+    """What is wrong with the cases' `alike` before anything is run."""
+    for case in cases.values():
+        if case.record.alike is None:
+            continue
+        if case.record.run is None:
+            yield case.problem(("alike",), "a script", "a model case", "remove `alike`")
+        for index, slug in enumerate(case.record.alike.cases):
+            other = cases.get(slug)
+            where = ("alike", "cases", index)
+            if other is None or other.record.run is None or slug == case.slug:
+                yield case.problem(where, slug, "the folder of another model case", "correct the name")
+            elif other.record.alike is None or case.slug not in other.record.alike.cases:
+                yield case.problem(
+                    where, f"{slug}, which does not name {case.slug}", "cases that name each other", f"add it in {slug}"
+                )
+        try:
+            parse_path(case.record.alike.path)
+        except SignalError as error:
+            yield case.problem(("alike", "path"), error.found, error.expected, error.repair)
+
+
+def matrix(members: list[Case]) -> Matrix:
+    """Every member's measurement, run on the broken variant of every member.
+
+    Raises:
+        SignalError: If a model lacks what a path names.
+    """
+    measured = [[_measure(of, on) for on in members] for of in members]
+    bounds = [member.record.alike for member in members]
+    return Matrix(
+        cases=[member.slug for member in members],
+        measured=measured,
+        holds=[
+            [bound is not None and value is not None and satisfies(bound, value) for value in row]
+            for bound, row in zip(bounds, measured, strict=True)
+        ],
+    )
+
+
+def unclear(case: Case, made: Matrix) -> Iterator[Problem]:
+    """Every cell that is not as it should be."""
+    for i, row in enumerate(made.holds):
+        for j, holds in enumerate(row):
+            if holds != (i == j):
+                state = "holds for" if holds else "does not hold for"
+                value = made.measured[i][j]
+                seen = "nothing" if value is None else f"{value:.4g}"
+                found = f"the measurement of {made.cases[i]} {state} {made.cases[j]} ({seen})"
+                wanted = "measurements that hold for their own case alone"
+                yield case.problem(("alike",), found, wanted, "correct its `path`, `take` or bound")
+
+
+def _measure(of: Case, on: Case) -> float | None:
+    assert of.record.alike is not None
+    assert on.record.run is not None
+    run = simulate(compile_model(on.text), on.record.run, {"x": parse_path(of.record.alike.path)})
+    value = take(run.traces["x"], of.record.alike.take)
+    return None if math.isnan(value) else value

@@ -1,0 +1,59 @@
+"""The checkout: where it is, and which cases its folders hold. Nothing here runs or reads a case."""
+
+from __future__ import annotations
+
+import difflib
+import os
+from collections.abc import Iterable
+from pathlib import Path
+
+from clinic.record.problem import CaseError, Problem, listed
+
+
+def project_root() -> Path:
+    """The folder that holds `cases/`: the working directory or the nearest one above it.
+
+    Raises:
+        FileNotFoundError: If there is none.
+    """
+    here = Path.cwd()
+    for folder in (here, *here.parents):
+        if (folder / "cases").is_dir() and (folder / "pyproject.toml").is_file():
+            return folder
+    raise FileNotFoundError(f"no folder with cases/ and pyproject.toml at or above {here}")
+
+
+def cache_folder(root: Path) -> Path:
+    """Where finished work is kept: CLINIC_CACHE, or `.cache/clinic` in the checkout."""
+    return Path(os.environ.get("CLINIC_CACHE") or root / ".cache" / "clinic")
+
+
+def slugs(root: Path) -> list[str]:
+    """The names of the folders in `cases/`, in order."""
+    return sorted(path.name for path in (root / "cases").iterdir() if path.is_dir())
+
+
+def folders(root: Path, wanted: Iterable[str]) -> list[Path]:
+    """The folders of the cases named, each once; of all cases when none is named.
+
+    Raises:
+        CaseError: With every name that no case has, and the names nearest to it.
+    """
+    known = slugs(root)
+    names = list(dict.fromkeys(name.removeprefix("cases/").rstrip("/") for name in wanted)) or known
+    if problems := [_unknown(name, known) for name in names if name not in known]:
+        raise CaseError(problems)
+    return [root / "cases" / name for name in names]
+
+
+def nearest(word: str, known: Iterable[str], count: int = 3) -> list[str]:
+    """The slugs that `word` most likely means, best first: those that hold it, then those spelt alike."""
+    known = list(known)
+    holding = [slug for slug in known if word and word in slug]
+    return list(dict.fromkeys([*holding, *difflib.get_close_matches(word, known, n=count, cutoff=0.6)]))[:count]
+
+
+def _unknown(name: str, known: list[str]) -> Problem:
+    near = nearest(name, known)
+    repair = f"write {' or '.join(near)}" if near else "`clinic list` names them all"
+    return Problem(f"cases/{name}", 1, "", f"no case {name}", f"the folder of a case: {listed(known, 30)}", repair)

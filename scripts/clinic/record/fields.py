@@ -1,0 +1,263 @@
+"""The record of a case: the fields of `case.yaml`, their types and their meaning.
+
+The descriptions below are the record's reference; `clinic reference` prints them as Markdown.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Discriminator, Field, Tag, model_validator
+
+from clinic.record.parts import Edit, Identifier, Interval, Name, Strict, Take, Taken, Text
+from clinic.record.sweep import Sweep
+
+FileName = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]+\.(?:csv|json|mjs|py|txt|xml|yaml)$")]
+Look = Literal[
+    "nothing-moves",
+    "moves-wrong",
+    "passes-through",
+    "explodes",
+    "oscillates",
+    "sags",
+    "picture-wrong",
+    "numbers-wrong",
+    "worked-yesterday",
+]
+ManualPage = Annotated[str, Field(pattern=r"^[A-Za-z0-9_/]+\.html(?:#[a-z0-9-]+)?$")]
+
+
+class Comparison(Strict):
+    """A bound for a number."""
+
+    above: float | None = Field(default=None, description="Holds when the number is greater.")
+    below: float | None = Field(default=None, description="Holds when the number is smaller.")
+    between: Interval | None = Field(default=None, description="Holds when low <= number <= high.")
+    equals: float | None = Field(default=None, description="Holds when |number - equals| <= within.")
+    within: float | None = Field(default=None, ge=0, description="The tolerance of `equals`; 0 when absent.")
+
+    @model_validator(mode="after")
+    def _one_comparison(self) -> Comparison:
+        given = [name for name in ("above", "below", "between", "equals") if getattr(self, name) is not None]
+        if len(given) != 1:
+            found = " and ".join(given) or "no comparison"
+            raise ValueError(f"{found}||exactly one of above, below, between, equals||keep one comparison a check")
+        if self.within is not None and self.equals is None:
+            raise ValueError("within without equals||`within` beside `equals`||add `equals`, or remove `within`")
+        for name in ("between", "window"):
+            pair: Interval | None = getattr(self, name, None)
+            if pair is not None and pair[0] >= pair[1]:
+                raise ValueError(f"{name}: {list(pair)}||a low bound below the high bound||swap the two numbers")
+        return self
+
+
+class Check(Taken, Comparison):
+    """One number taken from a signal, compared with a bound."""
+
+
+class Alike(Comparison):
+    """What tells a case from those that look like it: one measurement that holds for this case alone."""
+
+    cases: list[Identifier] = Field(min_length=1, description="Model cases with the same symptom; each names this one.")
+    path: Text = Field(description="A signal path that the models of all of them have.")
+    take: Take = Field(default="final", description="As in a check.")
+    says: Text = Field(description="What it means when it holds, as a short sentence.")
+
+
+class Described(Strict):
+    """What every signal has besides its source."""
+
+    unit: str = Field(default="", description="Unit as it is printed: m, rad, N, N m, s; empty for a pure number.")
+    label: str = Field(default="", description="What a plot's axis and the table call it; the name when absent.")
+
+
+class PathSignal(Described):
+    """A number read from MuJoCo after every step, or printed by a script."""
+
+    path: Text = Field(description="A path into MuJoCo's named access; see *Signal paths*.")
+
+
+class ExpressionSignal(Described):
+    """A number computed from other signals, sample by sample."""
+
+    expr: Text = Field(description="Arithmetic over names of path signals: `2 * friction * squeeze`.")
+
+
+class StartsSignal(Described):
+    """The share of start positions, 0 to 1, from which a check holds."""
+
+    measure: Literal["fraction_of_starts"] = Field(description="The kind of measurement.")
+    joint: Text = Field(description="The joint whose start position is varied.")
+    index: int = Field(default=0, ge=0, description="Which of the joint's qpos entries is varied.")
+    offset: Interval = Field(description="Offsets added to the start position, from and to, in the unit of qpos.")
+    count: int = Field(ge=2, le=1000, description="How many evenly spaced offsets, both ends included.")
+    holds: Check = Field(description="The check, over a path signal, asked of every start.")
+
+
+class RowSignal(Described):
+    """Where a geom stands in a camera's image: the mean row of its pixels, 0 the top edge, 1 the bottom."""
+
+    measure: Literal["image_row"] = Field(description="The kind of measurement.")
+    camera: Text = Field(description="The camera that renders the image.")
+    geom: Text = Field(description="The geom whose visible pixels are averaged.")
+
+
+def _kind(value: Any) -> str | None:
+    if not isinstance(value, dict):
+        return getattr(value, "measure", None) or ("expr" if hasattr(value, "expr") else "path")
+    for key in ("path", "expr"):
+        if key in value:
+            return key
+    return value["measure"] if isinstance(value.get("measure"), str) else None
+
+
+Signal = Annotated[
+    Annotated[PathSignal, Tag("path")]
+    | Annotated[ExpressionSignal, Tag("expr")]
+    | Annotated[StartsSignal, Tag("fraction_of_starts")]
+    | Annotated[RowSignal, Tag("image_row")],
+    Discriminator(_kind),
+]
+
+
+class RunSpec(Strict):
+    """How to start the simulation and drive it."""
+
+    duration: float = Field(gt=0, le=120, description="Simulated time in s; the run is duration / timestep steps.")
+    keyframe: str | None = Field(default=None, description="The keyframe to start from; qpos0 when absent.")
+    qpos: dict[str, float] = Field(default={}, description="Start positions by joint, for joints with one qpos.")
+    qvel: dict[str, float] = Field(default={}, description="Start velocities by joint, for joints with one dof.")
+    ctrl: dict[str, float | list[Interval]] = Field(
+        default={},
+        description="Control by actuator: a constant, or [time in s, value] pairs, linear in between and "
+        "constant outside.",
+    )
+
+
+class Picture(Strict):
+    """The still image of a case."""
+
+    camera: Text = Field(description="The camera to render from.")
+    time: float = Field(default=0.0, ge=0, description="When, in s of simulated time.")
+    scene: FileName | None = Field(default=None, description="Code cases: the scene to render, from its keyframe 0.")
+
+
+Overlay = Literal[
+    "contact_points", "contact_forces", "joint_axes", "body_frames", "actuators", "transparent", "cameras"
+]
+
+
+class Film(Strict):
+    """The film of the broken model beside the first fix: same camera, same clock."""
+
+    camera: str | None = Field(default=None, description="The camera to film from; the picture's when absent.")
+    duration: float | None = Field(default=None, gt=0, description="Simulated time filmed, in s; the run's by default.")
+    speed: float = Field(
+        default=1.0, gt=0, le=10, description="Simulated seconds a second of film; below 1 is slow motion."
+    )
+    overlays: list[Overlay] = Field(default=[], description="What MuJoCo draws over the scene to show the cause.")
+
+
+class Checks(Strict):
+    """What `it is broken` and `it is well` mean, measured."""
+
+    broken: list[Check] = Field(min_length=1, description="All hold for the broken variant, not for a fix.")
+    fixed: list[Check] = Field(min_length=1, description="All hold for every fix; one fails for the others.")
+
+
+class Remedy(Strict):
+    """A named set of edits."""
+
+    id: Identifier = Field(description="Lower-case words joined by hyphens; unique in the record.")
+    title: Text = Field(description="What the edits do, in the imperative.")
+    edits: list[Edit] = Field(min_length=1, max_length=5, description="Applied to the broken text, in order.")
+
+
+class Fix(Remedy):
+    """A repair: makes `checks.fixed` true and `checks.broken` false."""
+
+    redundant: str | None = Field(
+        default=None, description="Why a proper subset of the edits also repairs; otherwise that is an error."
+    )
+
+
+class Refuted(Remedy):
+    """A remedy people try, shown not to work."""
+
+    why: Text = Field(description="Why it does not work, for the page; may hold measured numbers.")
+
+
+class Record(Strict):
+    """One broken simulation: what is seen, what is wrong, what repairs it, and the proof."""
+
+    number: int = Field(ge=1, le=99_999, description="Unique; readers say *case 7*.")
+    title: Text = Field(max_length=90, description="The symptom as a sentence, without a full stop.")
+    model: FileName | None = Field(default=None, description="The broken model. Exactly one of `model`, `script`.")
+    script: FileName | None = Field(
+        default=None, description="The broken script, for bugs that live in code: Python, or for Node `.mjs`."
+    )
+    files: list[FileName] = Field(default=[], description="Further files of the folder that the script reads.")
+    symptom: Text = Field(description="What is seen, before anything is known. The only field shown unfolded.")
+    diagnosis: Text = Field(description="What to measure, and what it says.")
+    snippet: str | None = Field(
+        default=None,
+        description="Code run in the case's folder, in the language of the script; printed under Diagnosis.",
+    )
+    cause: Text = Field(description="Why it happens.")
+    fix: Text = Field(description="How to repair it.")
+    lesson: Text = Field(description="What to remember.")
+    tags: list[Identifier] = Field(min_length=1, description="Topics: contact, joint, actuator, camera, units, ...")
+    phrases: list[Text] = Field(min_length=1, description="What people type into a search engine; feeds the search.")
+    looks: list[Look] = Field(
+        default=[], description="Where *Find your symptom* puts the case; found by the words of `phrases` when absent."
+    )
+    manual: list[ManualPage] = Field(
+        default=[],
+        description="Sections of MuJoCo's manual, as `XMLreference.html#body-geom-contype`; linked in the page's foot.",
+    )
+    see: list[Identifier] = Field(default=[], description="Related cases, by folder name.")
+    alike: Alike | None = Field(default=None, description="What tells this case from those that look like it.")
+    exempt: dict[Literal["lasting", "steady", "typed"], Text] = Field(
+        default={}, description="Laws that this case need not obey, each with the reason."
+    )
+    run: RunSpec | None = Field(default=None, description="How to start and drive a model; none for a script.")
+    signals: dict[Name, Signal] = Field(min_length=1, description="Named measurements; the first one is plotted.")
+    checks: Checks = Field(description="The pair of predicates for every variant.")
+    warnings: list[str] = Field(
+        default=[], description="MuJoCo warnings that the broken model raises: BADQACC, CONTACTFULL, ..."
+    )
+    fixes: list[Fix] = Field(min_length=1, description="At least one repair; the first is the one plotted.")
+    refuted: list[Refuted] = Field(default=[], description="Remedies people try that do not work.")
+    sweep: dict[Identifier, Sweep] = Field(default={}, description="Sweeps by name.")
+    no_sweep: str | None = Field(default=None, description="Why no sweep would tell anything; without one, required.")
+    film: Film | None = Field(default=None, description="Required for a model.")
+    picture: Picture = Field(description="The still image on the page and on the home page's card.")
+
+    @model_validator(mode="after")
+    def _model_or_script(self) -> Record:
+        if (self.model is None) == (self.script is None):
+            found = "both model and script" if self.model else "neither model nor script"
+            raise ValueError(f"{found}||exactly one of `model`, `script`||name the file that holds the bug")
+        if (self.model is None) != (self.run is None):
+            found, repair = (
+                ("model without run", "add `run: {duration: 1}`") if self.model else ("script with run", "remove `run`")
+            )
+            raise ValueError(f"{found}||`run` beside `model`, and only there||{repair}")
+        if self.model is not None and self.files:
+            found = f"files beside model: {', '.join(self.files)}"
+            raise ValueError(f"{found}||`files` beside `script`||remove `files`; write out in the model what they hold")
+        if self.script is not None and not self.script.endswith((".py", ".mjs")):
+            raise ValueError(f"{self.script}||a script in Python, .py, or for Node, .mjs||rename the script")
+        return self
+
+    @property
+    def language(self) -> Literal["python", "javascript"]:
+        """The language of the script and of the snippet."""
+        return "javascript" if self.source.endswith(".mjs") else "python"
+
+    @property
+    def source(self) -> str:
+        """The name of the file that the edits change."""
+        name = self.model or self.script
+        assert name is not None
+        return name

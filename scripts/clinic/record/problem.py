@@ -1,0 +1,80 @@
+"""What is wrong with an author's input: where, what was found, what was expected, how to mend it."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from clinic.record.yaml_lines import CONTROL
+
+LONGEST = 2000  # characters of what was found, as it is printed
+
+
+@dataclass(frozen=True, order=True)
+class Problem:
+    """One mistake in one file.
+
+    Args:
+        file: Path as the author knows it, relative to the project.
+        line: Line in `file`, counted from 1.
+        where: The field, as a path into the record (`fixes[0].edits[1].find`), or empty.
+        found: What stands there.
+        expected: What should stand there.
+        repair: What to do about it.
+    """
+
+    file: str
+    line: int
+    where: str
+    found: str
+    expected: str
+    repair: str
+
+    def __str__(self) -> str:
+        place = f"{self.file}:{self.line}:" + (f" {self.where}" if self.where else "")
+        return CONTROL.sub(
+            "?",
+            f"{place}\n"
+            f"  found:    {_indent(self.found)}\n"
+            f"  expected: {_indent(self.expected)}\n"
+            f"  repair:   {_indent(self.repair)}",
+        )
+
+
+class LackError(RuntimeError):
+    """What this machine lacks, not the author's mistake."""
+
+
+class CaseError(Exception):
+    """All problems of one or more cases, sorted by file and line."""
+
+    def __init__(self, problems: Iterable[Problem]) -> None:
+        self.problems = tuple(sorted(set(problems)))
+        super().__init__(self.problems)
+
+    def __str__(self) -> str:
+        return "\n".join(str(problem) for problem in self.problems)
+
+
+def closest(word: str, known: Iterable[str], likeness: float = 0.6) -> str | None:
+    """The member of `known` that `word` most likely misspells, or None if none is as like it, from 0 to 1."""
+    matches = difflib.get_close_matches(word, list(known), n=1, cutoff=likeness)
+    return matches[0] if matches else None
+
+
+def article(noun: str) -> str:
+    """The noun with `a` or `an`."""
+    return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
+
+
+def listed(names: Iterable[str], limit: int = 8) -> str:
+    """`a, b, c`, cut after `limit` names; `none` when there are none."""
+    names = list(names)
+    shown = ", ".join(names[:limit]) or "none"
+    return shown + (f", and {len(names) - limit} more" if len(names) > limit else "")
+
+
+def _indent(text: str) -> str:
+    shown = text if len(text) <= LONGEST else text[:LONGEST] + " ..."
+    return shown.strip("\n").replace("\n", "\n            ")

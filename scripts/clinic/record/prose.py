@@ -1,0 +1,48 @@
+"""What prose may hold: code, formulas, and fields that become numbers with their units, as people read them."""
+
+from __future__ import annotations
+
+import math
+import re
+
+CODE = re.compile(
+    r"(?P<fenced>^(?P<indent> *)(?P<fence>```+|~~~+)(?P<head>[^\n`]*)\n(?P<body>.*?)^ *(?P=fence) *$|"
+    r"(?P<tick>`+)(?!`)(?P<span>(?:(?!\n *\n).)+?)(?<!`)(?P=tick)(?!`))",
+    re.DOTALL | re.MULTILINE,
+)
+FORMULA = re.compile(r"\$\$(?P<block>.+?)\$\$|(?<![\\$\w])\$(?P<inline>[^\s$](?:[^$]*[^\s$\\])?)\$(?![\d$])", re.DOTALL)
+FIELD = re.compile(r"\{\{(.*?)\}\}", re.DOTALL)
+CONVERSIONS = {
+    "mm": ("m", 1e3, "mm"),
+    "cm": ("m", 1e2, "cm"),
+    "ms": ("s", 1e3, "ms"),
+    "deg": ("rad", 180 / math.pi, "°"),
+    "percent": ("", 100.0, "%"),
+}
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def quantity(value: float, unit: str, digits: int = 3) -> str:
+    """The number with significant digits and its unit: `49.9 mm`, `3.0 × 10⁻² m`."""
+    space = "" if unit in ("", "°") else "\u00a0"
+    return number(value, digits) + space + unit.replace(" ", "\u00a0")
+
+
+def plain(value: float) -> str:
+    """The number as it was written in a record, with a real minus and powers of ten: `8 × 10⁻⁶`."""
+    mantissa, _, exponent = f"{value:g}".partition("e")
+    power = f"\u00a0×\u00a010{str(int(exponent)).translate(SUPERSCRIPT)}" if exponent else ""
+    return mantissa.replace("-", "\u2212") + power
+
+
+def number(value: float, digits: int = 3) -> str:
+    """The number with significant digits; whole numbers below 100,000 as they are."""
+    if value == int(value) and abs(value) < 1e5:
+        text = str(int(value))
+    elif 1e-3 <= abs(value) < 1e5:
+        places = max(0, digits - 1 - math.floor(math.log10(abs(float(f"{value:.{digits - 1}e}")))))
+        text = f"{value:.{places}f}"
+    else:
+        mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+        text = f"{mantissa}\u00a0×\u00a010{str(int(exponent)).translate(SUPERSCRIPT)}"
+    return text.replace("-", "\u2212")

@@ -1,0 +1,324 @@
+"""The command `clinic`."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from clinic.commands import cli
+from clinic.commands.cli import app
+from clinic.pages.reference import reference
+from clinic.pages.schema import FILE, schema_text
+from clinic.work.cache import Cache
+from helpers import RECORD, changed, write_case, write_script_case
+from typer.testing import CliRunner, Result
+
+COMMANDS = ("new", "check", "list", "show", "view", "cache", "build", "triage", "reference", "schema")
+FOUND = ("tags: [code]", "tags: [code]\nlooks: [numbers-wrong]")
+
+
+@pytest.fixture
+def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A project with a script case, and the working directory inside of it."""
+    (tmp_path / "pyproject.toml").touch()
+    write_script_case(tmp_path, FOUND)
+    (tmp_path / "docs").mkdir()
+    monkeypatch.chdir(tmp_path / "docs")
+    monkeypatch.setenv("CLINIC_JOBS", "1")
+    return tmp_path
+
+
+def run(*arguments: str) -> Result:
+    return CliRunner().invoke(app, list(arguments))
+
+
+def main_with(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> object:
+    """What `main` passes to sys.exit."""
+    monkeypatch.setattr(sys, "argv", ["clinic", *arguments])
+    with pytest.raises(SystemExit) as caught:
+        cli.main()
+    return caught.value.code
+
+
+@pytest.mark.usefixtures("project")
+def test_check_of_all_cases_is_a_row_each() -> None:
+    result = run("check")
+    assert result.exit_code == 0, result.output
+    assert re.search(r"2 │ odd-script │ 2 +│ 4 +│ sound", result.stdout)
+    assert result.stderr == ""
+
+
+@pytest.mark.usefixtures("project")
+def test_check_of_a_case_named_shows_every_check() -> None:
+    result = run("check", "odd-script")
+    assert result.exit_code == 0, result.output
+    assert "2. A script prints an error" in result.stdout
+    assert "error, last printed: above 0.1 m" in result.stdout
+    assert "no-error" in result.stdout
+    assert result.stderr == ""
+
+
+def test_check_of_a_case_that_breaks_a_law(project: Path) -> None:
+    record = project / "cases" / "odd-script" / "case.yaml"
+    record.write_text(changed(record.read_text(encoding="utf-8"), ("above: 0.1", "below: 0.1")), encoding="utf-8")
+
+    result = run("check", "odd-script")
+
+    assert result.exit_code == 1
+    assert "2 broken laws" in result.stdout
+    assert result.stderr.splitlines() == [
+        "cases/odd-script/case.yaml:15: checks.broken",
+        "  found:    no-error: passes every check",
+        "  expected: a check that the repair fails",
+        "  repair:   tighten one",
+        "cases/odd-script/case.yaml:16: checks.broken[0]",
+        "  found:    broken: error (final) = 0.500000\u00a0m",
+        "  expected: below 0.1 m",
+        "  repair:   correct the bound, the edits, or the model",
+    ]
+
+
+def test_check_reports_all_that_is_wrong_with_all_cases(project: Path) -> None:
+    write_script_case(project, ("number: 2", "number: two"), ("title: A", "titel: A"), slug="misspelt")
+    write_case(project, ("equals: 0}", "equals: 1}"), ("number: 1", "number: 3"))
+
+    result = run("check", "--json")
+
+    assert result.exit_code == 1
+    found = {case["case"]: case for case in json.loads(result.stdout)}
+    assert {slug: case["sound"] for slug, case in found.items()} == {
+        "falling-box": False,
+        "misspelt": False,
+        "odd-script": True,
+    }
+    assert {problem["where"] for problem in found["misspelt"]["problems"]} == {"number", "titel", "title"}
+    assert found["misspelt"]["variants"] == {}
+    (check,) = found["falling-box"]["variants"]["broken"]["checks"]["broken"]
+    assert (check["measured"], check["expected"], check["holds"]) == (0, {"equals": 1}, False)
+    assert found["falling-box"]["breaches"][0]["where"] == "checks.broken[0]"
+
+
+def test_check_keeps_its_work_in_the_project(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("CLINIC_CACHE", raising=False)
+    run("check")
+    assert list((project / ".cache" / "clinic").iterdir())
+
+
+def test_mistake_of_an_author_ends_with_its_message(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    record = project / "cases" / "odd-script" / "case.yaml"
+    record.write_text(changed(record.read_text(encoding="utf-8"), ("number: 2", "number: two")), encoding="utf-8")
+
+    message = main_with(monkeypatch, "show", "odd-script")
+
+    assert isinstance(message, str)
+    assert message.startswith('cases/odd-script/case.yaml:1: number\n  found:    "two"\n')
+
+
+@pytest.mark.usefixtures("project")
+@pytest.mark.parametrize("command", ["check", "show", "view"])
+def test_case_that_does_not_exist_is_named_with_the_closest(command: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert main_with(monkeypatch, command, "old-script") == (
+        "cases/old-script:1:\n"
+        "  found:    no case old-script\n"
+        "  expected: the folder of a case: odd-script\n"
+        "  repair:   write odd-script"
+    )
+
+
+@pytest.mark.usefixtures("project")
+def test_list_has_a_row_a_case() -> None:
+    assert re.search(r"2 │ odd-script │ A script prints an error │ code", run("list").stdout)
+    assert json.loads(run("list", "--json").stdout) == [
+        {"number": 2, "case": "odd-script", "title": "A script prints an error", "tags": ["code"]}
+    ]
+
+
+def test_list_names_the_others_beside_a_broken_one(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write_script_case(project, ("number: 2", "number: two"), slug="misspelt")
+    assert "cases/misspelt/case.yaml:1: number" in str(main_with(monkeypatch, "list"))
+    assert "odd-script" in run("list").stdout
+
+
+@pytest.mark.usefixtures("project")
+def test_show_keeps_the_folds_closed() -> None:
+    assert "It prints 0.500 m." in run("show", "odd-script").stdout.replace("\u00a0", " ")
+    assert "Write another number." not in run("show", "odd-script").stdout
+    assert "Write another number." in run("show", "odd-script", "--answer").stdout
+    assert json.loads(run("show", "odd-script", "--json", "--answer").stdout)["fix"] == "Write another number."
+
+
+@pytest.mark.usefixtures("project")
+def test_view_of_a_script_says_why_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert "found:    a bug in script.py, a script" in str(main_with(monkeypatch, "view", "odd-script"))
+
+
+def test_view_without_a_display_says_so(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write_case(project)
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr(sys, "platform", "linux")
+    said = str(main_with(monkeypatch, "view", "falling-box", "--fix", "share-a-bit"))
+    assert said.startswith("clinic: no display here")
+
+
+def test_cache_is_shown_and_cleared(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    kept = Cache(project / "kept")
+    monkeypatch.setenv("CLINIC_CACHE", str(kept.folder))
+    assert run("cache").stdout == f"0 entries, 0.0 MB, in {kept.folder}\n"
+    kept.folder.mkdir()
+    kept.path("a" * 32).write_bytes(bytes(1_000_000))
+    kept.path("b" * 32).write_bytes(bytes(500_000))
+    (kept.folder / "firmware.bin").touch()
+    assert run("cache").stdout == f"2 entries, 1.5 MB, in {kept.folder}\n"
+    assert run("cache", "--clear").stdout == f"2 entries, 1.5 MB, cleared from {kept.folder}\n"
+    assert [path.name for path in kept.folder.iterdir()] == ["firmware.bin"]
+
+
+def test_new_writes_a_case_with_the_next_number_and_the_schema(project: Path) -> None:
+    result = run("new", "it-moves", "--title", "It moves", "--kind", "python")
+    assert result.exit_code == 0, result.output
+    assert result.stdout.splitlines()[:3] == [
+        f"cases/it-moves/{name}" for name in ("case.yaml", "scene.xml", "script.py")
+    ]
+    assert "\nnumber: 1\n" in (project / "cases" / "it-moves" / "case.yaml").read_text(encoding="utf-8")
+    assert (project / FILE).read_text(encoding="utf-8") == schema_text()
+
+
+def test_new_asks_at_a_terminal_for_what_is_not_given(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cli, "_asks", lambda: True)
+    result = CliRunner().invoke(app, ["new", "it-moves"], input="It moves\n\n")
+    assert result.exit_code == 0, result.output
+    assert (project / "cases" / "it-moves" / "model.xml").is_file()
+    assert "\ntitle: It moves\n" in (project / "cases" / "it-moves" / "case.yaml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("it-moves",), "--title"),
+        (("it-moves", "--title", "It moves", "--kind", "rust"), "none of model, python, javascript"),
+    ],
+)
+def test_new_without_a_terminal_says_what_to_give(project: Path, arguments: tuple[str, ...], said: str) -> None:
+    result = run("new", *arguments)
+    assert result.exit_code == 2
+    assert said in result.stderr
+    assert not (project / "cases" / "it-moves").exists()
+
+
+def test_new_refuses_a_slug_that_is_taken(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    message = main_with(monkeypatch, "new", "odd-script", "--title", "It moves")
+    assert "found:    a folder that is there" in str(message)
+    assert (project / "cases" / "odd-script" / "script.py").is_file()
+
+
+def test_schema_is_printed_or_written(project: Path) -> None:
+    assert run("schema").stdout == schema_text()
+    assert not (project / FILE).exists()
+    assert run("schema", "--write").stdout == ""
+    assert (project / FILE).read_text(encoding="utf-8") == schema_text()
+
+
+@pytest.mark.usefixtures("project")
+def test_slugs_complete_in_the_shell() -> None:
+    assert cli.complete("odd") == ["odd-script"]
+    assert cli.complete("x") == []
+    words = {"_CLINIC_COMPLETE": "complete_bash", "COMP_WORDS": "clinic show od", "COMP_CWORD": "2"}
+    done = subprocess.run(
+        [Path(sys.executable).parent / "clinic"],
+        env={**os.environ, **words},
+        check=False,
+        capture_output=True,
+        text=True,
+    )
+    assert done.stdout.split() == ["odd-script"], done.stderr
+
+
+def test_completion_outside_a_project_is_empty(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert cli.complete("") == []
+
+
+def test_help_and_completion_import_nothing_that_is_slow() -> None:
+    code = (
+        "import sys, clinic.cli; print([m for m in ('mujoco', 'numpy', 'pydantic', 'matplotlib') if m in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert done.stdout == "[]\n"
+
+
+def test_outside_a_project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main_with(monkeypatch, "check") == f"clinic: no folder with cases/ and pyproject.toml at or above {tmp_path}"
+
+
+def test_reference_is_printed() -> None:
+    result = run("reference")
+    assert result.exit_code == 0
+    assert result.stdout == reference() + "\n"
+
+
+def test_help_names_the_commands() -> None:
+    result = run("--help")
+    assert result.exit_code == 0
+    assert [name for name in COMMANDS if name not in result.stdout] == []
+
+
+def test_build_writes_generated_pages_beside_those_written_by_hand(project: Path, tmp_path: Path) -> None:
+    (project / "docs" / "triage.md").write_text("# Triage\n\n```python run\nprint(6 * 7)\n```\n", encoding="utf-8")
+    (project / "docs" / "about.md").write_text("# About\n", encoding="utf-8")
+    (project / "CONTRIBUTING.md").write_text("# Add a case\n", encoding="utf-8")
+    out = tmp_path / "out"
+    assert run("build", "--out", str(out)).exit_code == 0
+    (out / "stale.md").touch()
+
+    result = run("build", "--out", str(out))
+
+    assert result.exit_code == 0, result.output
+    assert "\n42\n" in (out / "triage.md").read_text(encoding="utf-8")
+    assert (out / "about.md").is_file()
+    assert not (out / "stale.md").exists()
+    assert "# 2. A script prints an error" in (out / "cases/odd-script/index.md").read_text(encoding="utf-8")
+    assert (out / "cases/odd-script/script.py").read_bytes() == (project / "cases/odd-script/script.py").read_bytes()
+
+
+def test_build_does_not_delete_what_it_needs(project: Path) -> None:
+    (project / "docs" / "triage.md").touch()
+    (project / "CONTRIBUTING.md").touch()
+    for folder in (project, project / "docs", project / "cases"):
+        assert run("build", "--out", str(folder)).exit_code != 0
+    assert (project / "cases" / "odd-script" / "script.py").is_file()
+    assert (project / "docs" / "triage.md").is_file()
+
+
+@pytest.mark.parametrize("made", ["folder", "file", "link"])
+def test_build_deletes_nothing_that_no_build_wrote(project: Path, tmp_path: Path, made: str) -> None:
+    thesis = tmp_path / "mine" / "thesis.txt"
+    thesis.parent.mkdir()
+    thesis.touch()
+    (tmp_path / "link").symlink_to(thesis.parent)
+    out = {"folder": thesis.parent, "file": thesis, "link": tmp_path / "link"}[made]
+    result = run("build", "--out", str(out))
+    assert result.exit_code == 2
+    assert "Invalid value" in result.output
+    assert thesis.is_file()
+
+
+def test_the_module_is_the_command(project: Path) -> None:
+    (project / "cases" / "odd-script" / "case.yaml").write_text(changed(RECORD, ("number: 1", "number: 0")), "utf-8")
+    done = subprocess.run(
+        [sys.executable, "-m", "clinic", "check"],
+        cwd=project,
+        env=os.environ,
+        check=False,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 1
+    assert "cases/odd-script/case.yaml:1: number\n" in done.stderr
+    assert "Traceback" not in done.stderr

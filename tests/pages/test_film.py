@@ -1,0 +1,60 @@
+"""Films: what is on them, and what an exploding run looks like."""
+
+from __future__ import annotations
+
+import io
+
+import av
+import numpy as np
+from clinic.engine.simulate import compile_model
+from clinic.pages.figures.film import FPS, HEIGHT, WIDTH, encode, film, frames
+from clinic.record.fields import Film, RunSpec
+from helpers import tiny_case
+
+EXPLODING = """
+<mujoco>
+  <option timestep="0.01"/>
+  <worldbody>
+    <camera name="side" pos="0 -2 0" xyaxes="1 0 0 0 0 1"/>
+    <light pos="0 0 2"/>
+    <body>
+      <joint name="spring" axis="0 1 0" stiffness="100000"/>
+      <geom type="capsule" size="0.05" fromto="0 0 0 0.5 0 0" mass="0.1"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+
+
+def decoded(content: bytes) -> list[np.ndarray]:
+    with av.open(io.BytesIO(content)) as container:
+        return [frame.to_ndarray(format="rgb24") for frame in container.decode(video=0)]
+
+
+def test_a_film_shows_both_variants_for_the_filmed_time(tmp_path) -> None:
+    made = film(tiny_case(tmp_path))
+
+    pictures = decoded(made["film.mp4"])
+    assert len(pictures) == 0.4 * FPS + 1
+    assert pictures[0].shape == (HEIGHT, 2 * WIDTH, 3)
+    left, right = pictures[-1][30:, :WIDTH].astype(int), pictures[-1][30:, WIDTH:].astype(int)
+    assert np.abs(left - right).max() > 50, "the box has fallen on one side alone"
+
+
+def test_the_same_images_give_the_same_bytes() -> None:
+    rng = np.random.default_rng(0)
+    pictures = [rng.integers(0, 255, (48, 64, 3), dtype=np.uint8) for _ in range(5)]
+
+    assert encode(pictures) == encode(pictures)
+
+
+def test_an_exploding_run_stops_at_its_last_picture_and_says_when() -> None:
+    run = RunSpec(duration=1, qpos={"spring": 0.1})
+
+    seen = list(frames(compile_model(EXPLODING), run, Film(), "side"))
+
+    clocks = [clock for _, clock in seen]
+    first = next(k for k, clock in enumerate(clocks) if clock.startswith("reset at"))
+    assert 0 < first < 5
+    assert len(set(clocks[first:])) == 1
+    assert all(np.array_equal(picture, seen[first][0]) for picture, _ in seen[first:])

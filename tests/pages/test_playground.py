@@ -1,0 +1,50 @@
+"""What the playground is given, and how fine it draws."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+
+from clinic.pages.playground import playground
+from clinic.publish.bundle import node
+from helpers import tiny_case
+
+ROOT = Path(__file__).parent.parent
+
+
+def test_the_file_holds_what_the_browser_needs(tmp_path: Path) -> None:
+    spin = ("  contacts: {path: ncon}\n", "  contacts: {path: ncon}\n  spin: {path: 'cvel[1][2]', unit: rad/s}\n")
+    case = tiny_case(tmp_path, spin, ("picture: {camera: side}", "picture: {camera: side}\nwarnings: [BADQACC]"))
+
+    made = json.loads(playground(case, "4.0.0", [case]))
+
+    assert made["text"] == case.text
+    assert made["signals"]["spin"] == {"path": "cvel[1][2]", "unit": "rad/s", "label": "spin", "columns": [6]}
+    assert made["signals"]["contacts"]["columns"] == []
+    assert made["checks"]["fixed"] == [{"signal": "height", "take": "final", "between": [0.045, 0.051]}]
+    assert made["explained"] == {
+        "BADQACC": [{"href": "../falling-box/index.html", "title": "1. A box falls through the floor"}]
+    }
+    symptom, measure = made["hints"]
+    assert symptom["text"].endswith("Repaired, height of the box, at the end: between 0.045 and 0.051 m.")
+    assert measure["text"] == "after every step, height of the box, body(box).xpos[2]; contacts, ncon."
+
+
+def test_a_late_picture_gets_coarser_and_an_early_one_finer_again() -> None:
+    code = """
+      const { Pace } = await import("./docs/playground/pace.js");
+      const pace = new Pace(1.5);
+      let now = 0;
+      const after = (frames, interval) => {
+        for (let i = 0; i < frames; i++) pace.drawn((now += interval));
+        return pace.ratio;
+      };
+      const seen = [after(16, 16), after(160, 40), after(200, 27), after(1600, 16), after(200, 600)];
+      console.log(JSON.stringify(seen));
+    """
+    done = subprocess.run(
+        [node(), "--input-type=module", "-e", code], cwd=ROOT, check=True, capture_output=True, text=True
+    )
+
+    assert json.loads(done.stdout) == [1.5, 0.5, 0.5, 1.5, 1.5]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from clinic.engine.script import ScriptError, run_python
+from clinic.engine.script import ScriptError, run_script
 from clinic.record.case import Case
 from clinic.record.problem import CaseError, Problem
 from clinic.work.cache import Cache, key_of
@@ -42,7 +42,7 @@ def run_fences(file: str, text: str, cases: Mapping[str, Case], cache: Cache) ->
 
 
 def _run(code: str, files: dict[str, str]) -> dict[str, bytes]:
-    return {"output": run_python(code, files, name="snippet.py").text.encode()}
+    return {"output": run_script(code, files, name="snippet.py").text.encode()}
 
 
 def _files(code: str, cases: Mapping[str, Case]) -> dict[str, str]:

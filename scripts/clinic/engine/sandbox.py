@@ -13,6 +13,7 @@ from __future__ import annotations
 import atexit
 import json
 import os
+import re
 import resource
 import runpy
 import signal
@@ -31,13 +32,14 @@ SECONDS = 20.0  # on the clock
 OUTPUT = 256_000  # bytes, of stdout and of stderr
 MIB = 2**20
 LIMITS = {resource.RLIMIT_DATA: 2048 * MIB, resource.RLIMIT_FSIZE: 64 * MIB, resource.RLIMIT_CORE: 0}
-DRAWING = ("MUJOCO_GL", "PYOPENGL_", "LIBGL_", "EGL_", "__EGL_", "__GLX_", "MESA_", "GALLIUM_")
+SEEN = re.compile("PATH|LANG|LD_LIBRARY_PATH|MUJOCO_GL|PYOPENGL_|LIBGL_|EGL_|__EGL_|__GLX_|MESA_|GALLIUM_")
 FORKS = sys.platform == "linux"  # elsewhere a fork may not use what MuJoCo's import has loaded
+QUIET = "ignore:This process:DeprecationWarning"  # Python warns of forks beside threads; those of NumPy bear it
 _one_at_a_time = threading.Lock()
 
 
 @dataclass(frozen=True)
-class Done:
+class Result:
     """How a script ended.
 
     Args:
@@ -54,7 +56,7 @@ class Done:
     limit: str
 
 
-def run(command: Sequence[str], files: Mapping[str, str | Path], seconds: float = SECONDS) -> Done:
+def run(command: Sequence[str], files: Mapping[str, str | Path], seconds: float = SECONDS) -> Result:
     """Runs a script in a temporary folder, which is its home too, without input.
 
     Args:
@@ -62,32 +64,28 @@ def run(command: Sequence[str], files: Mapping[str, str | Path], seconds: float 
         files: What the folder holds, by path: texts, and what is linked to.
         seconds: How long the script may take, on the clock.
     """
-    with tempfile.TemporaryDirectory(prefix="clinic-", ignore_cleanup_errors=True) as made:
-        folder = Path(made, "folder")
+    with tempfile.TemporaryDirectory(prefix="clinic-", ignore_cleanup_errors=True) as folder:
+        home = Path(folder, "home")
         for name, content in files.items():
-            path = folder / name
+            path = home / name
             path.parent.mkdir(parents=True, exist_ok=True)
             if isinstance(content, Path):
                 path.symlink_to(content)
             else:
                 path.write_text(content, encoding="utf-8")
-        order = {"command": list(command), "made": made, "seconds": seconds, "environment": _environment(folder)}
+        order = {"command": list(command), "folder": folder, "seconds": seconds, "environment": _environment(home)}
         code = _ask(json.dumps(order))
-        printed = [Path(made, stream).read_bytes() for stream in ("stdout", "stderr")]
+        printed = [Path(folder, stream).read_bytes() for stream in ("stdout", "stderr")]
     limit = "time" if code == -signal.SIGALRM else ""
     if len(max(printed, key=len)) > OUTPUT:
         limit = "output"
     out, err = (text[:OUTPUT].decode(errors="replace") for text in printed)
-    return Done(code, out, err, limit)
+    return Result(code, out, err, limit)
 
 
 def _environment(home: Path) -> dict[str, str]:
     """What a script sees of this process's environment: where programs and OpenGL are, and no more."""
-    seen = {
-        name: value
-        for name, value in os.environ.items()
-        if name.startswith(("PATH", "LANG", "LD_LIBRARY_PATH", *DRAWING))
-    }
+    seen = {name: value for name, value in os.environ.items() if SEEN.match(name)}
     own = {"HOME": str(home), "TMPDIR": str(home), "PYTHONHASHSEED": "0", "PYTHONDONTWRITEBYTECODE": "1"}
     return {"PATH": os.defpath, "LANG": "C.UTF-8", "MUJOCO_GL": "egl", **seen, **own}
 
@@ -112,7 +110,7 @@ def _ask(order: str) -> int:
 def _starter(owner: int) -> subprocess.Popen[str]:
     """The process that starts scripts for the process `owner`, which is this one: a fork must not share it."""
     starter = subprocess.Popen(
-        [sys.executable, "-P", "-s", __file__],
+        [sys.executable, "-P", "-s", "-W", QUIET, __file__],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         env=_environment(Path(tempfile.gettempdir())),
@@ -141,14 +139,15 @@ def _wait_for_order() -> dict[str, Any]:
     sys.exit()
 
 
-def _start(command: list[str], made: str, seconds: float, environment: dict[str, str]) -> None:
+def _start(command: list[str], folder: str, seconds: float, environment: dict[str, str]) -> None:
     """Turns this process into the script's."""
     os.setsid()
-    for number, file in enumerate((os.devnull, f"{made}/stdout", f"{made}/stderr")):
+    for number, file in enumerate((os.devnull, f"{folder}/stdout", f"{folder}/stderr")):
         os.dup2(os.open(file, os.O_RDWR | os.O_CREAT), number)
-    os.chdir(f"{made}/folder")
+    os.chdir(f"{folder}/home")
     for kind, limit in LIMITS.items():
-        resource.setrlimit(kind, (limit, limit))
+        with suppress(ValueError):  # a lower one holds already
+            resource.setrlimit(kind, (limit, limit))
     signal.setitimer(signal.ITIMER_REAL, seconds)  # SIGALRM ends it
     os.environ.clear()
     os.environ.update(environment)

@@ -15,10 +15,6 @@ NAMES_A_FILE = [
 ]
 
 
-def test_a_model_alone_is_accepted() -> None:
-    check_text(MODEL)
-
-
 @pytest.mark.parametrize(
     ("text", "line", "found"),
     [

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import pytest
 from clinic.engine import node
 from clinic.engine.script import Output, ScriptError, run_script
@@ -128,7 +126,3 @@ def test_without_node_a_script_in_javascript_says_so(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(node, "program", lambda: None)
     with pytest.raises(ScriptError, match="no Node on this machine"):
         run_script("", {}, name="script.mjs")
-
-
-def test_numbers_survive_printing() -> None:
-    assert run_script("import math\nprint('pi =', repr(math.pi))", {}).traces()["pi"].value[0] == math.pi

@@ -19,11 +19,11 @@ class ModelError(ValueError):
         super().__init__(line, found, expected, repair)
 
     def __str__(self) -> str:
-        return f"{self.found}, line {self.line}"
+        return f"line {self.line}: {self.found}"
 
 
 def check_text(xml: str, beside: Collection[str] = ()) -> None:
-    """Refuses a text that is not well-formed XML, or names a file; MuJoCo's own parser accepts some that is neither.
+    """Refuses a text that is not well-formed XML, of which MuJoCo's own parser accepts some, or that names a file.
 
     Args:
         xml: The text of a model.

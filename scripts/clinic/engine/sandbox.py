@@ -122,6 +122,7 @@ def _starter(owner: int) -> subprocess.Popen[str]:
 
 
 def _end(starter: subprocess.Popen[str]) -> None:
+    """Kills the process that starts scripts; one that still runs ends by itself when its time is up."""
     starter.kill()
     starter.communicate()
 

@@ -1,4 +1,4 @@
-"""The pages for contributors, followed by a machine: their quick commands are run, in order, in a copy of the checkout."""
+"""The pages for contributors, followed by a machine: their quick commands are run, in order, in a copy."""
 
 from __future__ import annotations
 

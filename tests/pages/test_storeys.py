@@ -21,7 +21,7 @@ FILES = {
 
 
 def words(picture: str) -> list[str]:
-    svg = picture[picture.index("<svg") : picture.index("</figure>")]
+    svg = picture[picture.index("<svg") : picture.index("</div>")]
     return [text.text or "" for text in ElementTree.fromstring(svg).iter("text")]
 
 

@@ -11,9 +11,10 @@ from html import escape
 
 import grimp
 
-WIDTH, BOX, LANE, ROW = 420, 250, 21, 15  # px
-LETTERS = 42  # of a line of modules
-BOLD, LINE = 'font-weight="bold"', 'fill="none" stroke="currentColor"'
+BOX, LANE, ROW = 246, 20, 16  # px
+LETTERS = 36  # of a line of modules
+FONT, BOLD = 'font-family="sans-serif" font-size="12"', 'font-weight="bold"'
+LINE = 'fill="none" stroke="currentColor"'
 
 
 @lru_cache
@@ -34,8 +35,10 @@ def storeys(package: str, folders: tuple[str, ...]) -> str:
         for imported in graph.find_modules_directly_imported_by(module)
     )
     rows = {folder: _lines(package, folder, modules) for folder in folders}
-    said = {folder: importlib.import_module(f"{package}.{folder}").__doc__ or "" for folder in folders}
-    meanings = [f"- `{folder}`: {' '.join(text.partition(chr(10) * 2)[0].split())}" for folder, text in said.items()]
+    said = {
+        folder: (importlib.import_module(f"{package}.{folder}").__doc__ or "").split("\n\n")[0] for folder in folders
+    }
+    meanings = [f"- `{folder}`: {' '.join(text.split())}" for folder, text in said.items()]
     return "\n".join([*_picture(rows, imports), "", *meanings])
 
 
@@ -58,7 +61,8 @@ def _picture(rows: dict[str, list[str]], imports: Counter[tuple[str, str]]) -> I
     folders, tops, y = list(rows), {}, 4
     for folder, lines in rows.items():
         tops[folder], y = y, y + ROW * (len(lines) + 2)
-    yield f'<figure class="storeys"><svg viewBox="0 0 {WIDTH} {y}" role="img" font-family="sans-serif" font-size="11">'
+    wide = BOX + LANE * len(folders)
+    yield f'<div><svg viewBox="0 0 {wide} {y}" style="max-width: 30rem" width="100%" role="img" {FONT}>'
     yield f"<title>The storeys {', '.join(folders)}: each imports only from those before it.</title>"
     for folder, lines in rows.items():
         yield f'<rect x="1" y="{tops[folder]}" width="{BOX}" height="{ROW * (len(lines) + 1) + 8}" rx="4" {LINE}/>'
@@ -70,7 +74,7 @@ def _picture(rows: dict[str, list[str]], imports: Counter[tuple[str, str]]) -> I
         yield f'<path d="M{BOX + 2} {at}l8 -4v8z" fill="currentColor"/>'
         yield f'<path d="M{BOX + 8} {at}H{x}V{last}" stroke-opacity="0.5" {LINE}/>'
         yield from (_words(x + 2, tops[user] + ROW, str(imports[user, folder])) for user in users)
-    yield "</svg></figure>"
+    yield "</svg></div>"
 
 
 def _words(x: float, y: float, text: str, style: str = "") -> str:

@@ -12,6 +12,7 @@ import numpy as np
 from clinic.engine import node, sandbox
 from clinic.engine.checks import Trace
 
+BY_HAND = "run it by hand and mend it"
 PRINTED = re.compile(
     r"^\s*(?P<name>[a-z](?:[a-z0-9 _,()-]*[a-z0-9_,()-])?)\s*="
     r"\s*(?P<value>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?![\w.])"
@@ -75,7 +76,7 @@ def run_script(
     if done.code:
         message, line = (node.failure if javascript else _failure)(done.stderr, name)
         at = f" (line {line} of {name})" if line else ""
-        raise ScriptError((message or f"exit code {done.code}") + at, "run it by hand and mend it")
+        raise ScriptError((message or f"exit code {done.code}") + at, BY_HAND)
     return Output(done.stdout)
 
 

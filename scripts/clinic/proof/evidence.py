@@ -8,33 +8,28 @@ from typing import Any, Literal
 
 import mujoco
 import numpy as np
-from pydantic import BaseModel, ConfigDict
+from pydantic import Field
 
 from clinic.engine import node
 from clinic.engine.checks import TAKES, Trace, Verdict, judge, take
-from clinic.engine.measure import SampleError, measure_model, measure_output
+from clinic.engine.measure import measure_model, measure_output
 from clinic.engine.render import blindness
 from clinic.engine.script import Output, ScriptError, run_script
 from clinic.engine.simulate import RunError, compile_model
-from clinic.engine.variant import Variant, remedies, variants
+from clinic.engine.variant import Variant, place_of, variants
 from clinic.proof.examine import examine
 from clinic.proof.robustness import Robustness
-from clinic.proof.sweep import SweepEvidence, asked_of
+from clinic.proof.sweep import SweepEvidence, names_read
 from clinic.record.case import Case
 from clinic.record.fields import Check, PathSignal, RowSignal
+from clinic.record.parts import Strict
 from clinic.record.problem import CaseError, LackError, Problem, listed
 from clinic.record.yaml_lines import Where
 
 MAX_SAMPLES = 400
 
 
-class Plain(BaseModel):
-    """Frozen data without unknown fields."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-
-class CheckResult(Plain):
+class CheckResult(Strict):
     """A check with its measured number; None where nothing could be measured."""
 
     signal: str
@@ -45,7 +40,7 @@ class CheckResult(Plain):
     holds: bool
 
 
-class Samples(Plain):
+class Samples(Strict):
     """At most MAX_SAMPLES samples of a signal, evenly spread over the run, the first and last included."""
 
     unit: str
@@ -53,7 +48,7 @@ class Samples(Plain):
     value: list[float | None]
 
 
-class VariantEvidence(Plain):
+class VariantEvidence(Strict):
     """What one variant showed.
 
     Attributes:
@@ -65,11 +60,11 @@ class VariantEvidence(Plain):
     kind: Literal["broken", "fix", "refuted"]
     title: str
     edits: list[dict[str, str]]
-    timestep: float | None
-    steps: int | None
-    warnings: dict[str, int]
-    messages: list[str]
-    output: str | None
+    timestep: float | None = None
+    steps: int | None = None
+    warnings: dict[str, int] = Field(default={})
+    messages: list[str] = Field(default=[])
+    output: str | None = None
     checks: dict[Literal["broken", "fixed"], list[CheckResult]]
     values: dict[str, dict[str, float | None]]
     traces: dict[str, Samples]
@@ -85,7 +80,7 @@ class VariantEvidence(Plain):
         return all(check.holds for check in self.checks["broken"])
 
 
-class Evidence(Plain):
+class Evidence(Strict):
     """Everything measured for one case.
 
     Attributes:
@@ -103,8 +98,8 @@ class Evidence(Plain):
     package: str = "mujoco"
     snippet: str | None
     variants: dict[str, VariantEvidence]
-    sweep: dict[str, SweepEvidence] = {}
-    robustness: dict[str, Robustness] = {}
+    sweep: dict[str, SweepEvidence] = Field(default={})
+    robustness: dict[str, Robustness] = Field(default={})
 
 
 def collect(case: Case) -> Evidence:
@@ -125,11 +120,8 @@ def collect(case: Case) -> Evidence:
             observed[variant.id] = observe(case, variant)
         except ScriptError as error:
             problems.append(_script_problem(case, variant, error))
-        except SampleError as error:
-            where = ("signals", error.signal, "expr")
-            problems.append(case.problem(where, error.found, error.expected, error.repair))
         except RunError as error:
-            problems.append(case.problem(("run", *error.where), error.found, error.expected, error.repair))
+            problems.append(case.problem(error.where, error.found, error.expected, error.repair))
     problems += _unprinted(case, observed)
     try:
         snippet = None if case.record.snippet is None else run_snippet(case)
@@ -191,17 +183,11 @@ def observe(case: Case, variant: Variant) -> VariantEvidence:
     details: dict[str, Any]
     if record.run is not None:
         run, traces = measure_model(record, compile_model(variant.text), record.run)
-        details = {
-            "timestep": run.timestep,
-            "steps": run.steps,
-            "warnings": run.warnings,
-            "messages": list(run.messages),
-            "output": None,
-        }
+        details = {"timestep": run.timestep, "steps": run.steps, "warnings": run.warnings, "messages": [*run.messages]}
     else:
         output = run_script(variant.text, case.texts, name=record.source)
         traces = measure_output(record, output)
-        details = {"timestep": None, "steps": None, "warnings": {}, "messages": [], "output": output.text}
+        details = {"output": output.text}
     return VariantEvidence(
         kind=variant.kind,
         title=variant.title,
@@ -235,26 +221,23 @@ def comparison(check: Check) -> dict[str, float | tuple[float, float]]:
 
 def _unprinted(case: Case, observed: dict[str, VariantEvidence]) -> Iterator[Problem]:
     """Signals of a script that no variant prints, but for those that only a sweep's text prints."""
-    swept = {name for sweep in case.record.sweep.values() for name in asked_of(sweep)}
+    if case.record.script is None or not observed:
+        return
+    swept = {name for sweep in case.record.sweep.values() for name in names_read(sweep)}
+    printed = sorted({key for variant in observed.values() for key in Output(variant.output or "").traces()})
     for name, signal in case.record.signals.items():
         seen = any(variant.values[name]["final"] is not None for variant in observed.values())
-        if isinstance(signal, PathSignal) and case.record.script and observed and not seen and name not in swept:
-            printed = sorted({key for v in observed.values() for key in Output(v.output or "").traces()})
-            yield case.problem(
-                ("signals", name, "path"),
-                f"{signal.path}, which no variant prints",
-                f"printed(...) of: {listed(printed)}",
-                "correct the name, or print `name = value` on a line of its own",
-            )
+        if isinstance(signal, PathSignal) and not seen and name not in swept:
+            found, expected = f"{signal.path}, which no variant prints", f"printed(...) of: {listed(printed)}"
+            repair = "correct the name, or print `name = value` on a line of its own"
+            yield case.problem(("signals", name, "path"), found, expected, repair)
 
 
 def _script_problem(case: Case, variant: Variant, error: ScriptError) -> Problem:
-    places = {remedy.id: where for where, _, remedy in remedies(case)}
-    where: Where = (*places[variant.id], "edits") if variant.id in places else ("script",)
-    after = " after these edits" if variant.id in places else ""
-    return case.problem(
-        where, f"{case.record.source}{after}: {error.found}", "a script that ends by itself", error.repair
-    )
+    place = place_of(case, variant.id)
+    where: Where = (*place, "edits") if place else ("script",)
+    found = f"{case.record.source}{' after these edits' if place else ''}: {error.found}"
+    return case.problem(where, found, "a script that ends by itself", error.repair)
 
 
 def _result(verdict: Verdict) -> CheckResult:

@@ -7,16 +7,12 @@ from itertools import combinations
 from math import isfinite
 from typing import Literal
 
-from clinic.engine.checks import expected, judge
-from clinic.engine.measure import measure_model, measure_output
-from clinic.engine.script import run_script
-from clinic.engine.simulate import compile_model
-from clinic.engine.variant import EditError, apply_edits, changed_lines, remedies, variants
+from clinic.engine.checks import expected
+from clinic.engine.variant import Variant, apply_edits, changed_lines, place_of, variants
 from clinic.proof.evidence import Evidence, VariantEvidence, observe
 from clinic.proof.prose_laws import quoted, typed
-from clinic.proof.sweep import SweepEvidence, agreement, misses
+from clinic.proof.sweep import SweepEvidence, agreement, errors_at
 from clinic.record.case import Case
-from clinic.record.fields import Check, Fix
 from clinic.record.parts import Edit
 from clinic.record.problem import Problem, listed
 from clinic.record.prose import quantity
@@ -47,7 +43,8 @@ def ablation(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 2. Of a fix with several edits, no proper subset passes `fixed`, or `redundant` says why."""
     for index, fix in enumerate(case.record.fixes):
         where: Where = ("fixes", index)
-        enough = [subset for subset in _subsets(fix) if passes(case, subset)]
+        subsets = (subset for size in range(1, len(fix.edits)) for subset in combinations(fix.edits, size))
+        enough = [subset for subset in subsets if passes(case, subset)]
         if enough and fix.redundant is None:
             part = " and ".join(f"{edit.find!r}" for edit in enough[0])
             found, repair = f"the edit of {part} alone repairs it", "drop the other edits, or say why in `redundant`"
@@ -126,7 +123,7 @@ def swept(case: Case, evidence: Evidence) -> Iterator[Problem]:
             yield case.problem((*where, "prediction"), said, "a prediction that misses none", "correct its `expr`")
         telling = "choose points that can tell"
         for factor in (0.95, 1.05):
-            if not agreement(sweep, sweep.prediction, "prediction", found.points, factor).wrong:
+            if not agreement(sweep, "prediction", found.points, factor).wrong:
                 said, wanted = f"agrees when multiplied by {factor} too", "a prediction that then misses"
                 yield case.problem((*where, "prediction"), said, wanted, telling)
         for index, rival in enumerate(sweep.rivals):
@@ -163,31 +160,18 @@ def breaches(case: Case, evidence: Evidence, *laws: str) -> list[Problem]:
 
 
 def passes(case: Case, edits: tuple[Edit, ...]) -> bool:
-    """Whether the broken text after these edits passes every check of `fixed`."""
+    """Whether the broken text after these edits runs, and passes every check of `fixed`."""
     try:
-        text = apply_edits(case.text, edits)
-        if case.record.run is not None:
-            _, traces = measure_model(case.record, compile_model(text), case.record.run)
-        else:
-            traces = measure_output(case.record, run_script(text, case.texts, name=case.record.source))
-    except (EditError, ValueError):
+        return observe(case, Variant("fix", "", "", edits, apply_edits(case.text, edits))).well
+    except ValueError:
         return False
-    return all(judge(check, traces).holds for check in case.record.checks.fixed)
-
-
-def _subsets(fix: Fix) -> Iterator[tuple[Edit, ...]]:
-    for size in range(1, len(fix.edits)):
-        yield from combinations(fix.edits, size)
 
 
 def _failing(case: Case, name: str, variant: VariantEvidence, kind: Literal["broken", "fixed"]) -> Iterator[Problem]:
-    for index, result in enumerate(variant.checks[kind]):
+    for index, (check, result) in enumerate(zip(getattr(case.record.checks, kind), variant.checks[kind], strict=True)):
         if not result.holds:
             unit = "s" if result.take == "onset" else variant.traces[result.signal].unit
             value = "nothing" if result.measured is None else quantity(result.measured, unit, 6)
-            check = Check.model_validate(
-                {"signal": result.signal, "take": result.take, **result.expected}, strict=False
-            )
             found = f"{name}: {result.signal} ({result.take}) = {value}"
             wanted = f"{expected(check)} {unit}".rstrip()
             yield case.problem(("checks", kind, index), found, wanted, "correct the bound, the edits, or the model")
@@ -199,10 +183,7 @@ def _lax(case: Case, name: str, kind: str, wanted: str) -> Problem:
 
 def _worst(sweep: Sweep, found: SweepEvidence) -> str:
     """Where the prediction misses most."""
-    missed = misses(sweep, sweep.prediction, "prediction", found.points)
-    if not missed:
-        return ""
-    point, error = max(missed, key=lambda each: each[1])
+    point, error = max(errors_at(sweep, "prediction", found.points), key=lambda each: each[1])
     at = ", ".join(f"{key} = {value:g}" for key, value in point.at.items())
     if not isfinite(error) or point.outcome is None:
         return f"; most at {at}"
@@ -213,4 +194,4 @@ def _worst(sweep: Sweep, found: SweepEvidence) -> str:
 
 def _place(case: Case, variant: str) -> Where:
     """Where the record speaks of a variant: its remedy, or the checks."""
-    return next((where for where, _, remedy in remedies(case) if remedy.id == variant), ("checks",))
+    return place_of(case, variant) or ("checks",)

@@ -10,7 +10,6 @@ import pkgutil
 import clinic
 import pytest
 from clinic.engine.limits import LimitError, ProgramError
-from clinic.engine.measure import SampleError
 from clinic.engine.mjcf import ModelError
 from clinic.engine.render import RenderError
 from clinic.engine.script import ScriptError
@@ -40,7 +39,6 @@ EXAMPLES = [
     ProgramError("exit code 1", "mend it"),
     RenderError("no OpenGL"),
     RunError(("qpos", "elbow"), "x", "y", "z"),
-    SampleError("error", "samples that do not pair up", "as many", "print each"),
     ScriptError("KeyError: 'x'", "mend it"),
     SignalError("bodi(x)", "a path", "write body(x)"),
     UnavailableError("no Node"),

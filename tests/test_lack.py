@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import logging
-import threading
 from collections.abc import Callable
 from pathlib import Path
 
 import mujoco
 import pytest
-from clinic.engine import node, render
+from clinic.engine import node
 from clinic.pages.error_page import lacking_page
 from clinic.pages.exhibits import evidence_task, exhibits, possible_exhibits
 from clinic.proof.evidence import draws, lack
@@ -46,8 +45,7 @@ def blind(monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object) -> None:
         raise RuntimeError("no display")
 
-    monkeypatch.setattr(mujoco, "GLContext", fail)
-    monkeypatch.setattr(render, "_own", threading.local())
+    monkeypatch.setattr(mujoco, "Renderer", fail)
     monkeypatch.setenv("CLINIC_JOBS", "1")
     say_lack.cache_clear()
 

@@ -133,7 +133,7 @@ def test_comparison_is_what_the_check_says() -> None:
 
 
 def test_a_run_that_takes_too_long_is_a_problem_of_the_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("clinic.engine.simulate.MOST_SECONDS", -1.0)
+    monkeypatch.setattr("clinic.engine.simulate.MAX_SECONDS", -1.0)
     with pytest.raises(CaseError) as caught:
         collect(tiny_case(tmp_path))
     assert {problem.where for problem in caught.value.problems} == {"run.duration"}

@@ -43,7 +43,7 @@ def test_a_prediction_moved_by_a_twentieth_is_wrong(tmp_path: Path) -> None:
     points = measure_points(case, sweep, grid(sweep))
 
     for factor in (0.95, 1.05):
-        assert agreement(sweep, sweep.prediction, "prediction", points, factor).wrong == 4
+        assert agreement(sweep, "prediction", points, factor).wrong == 4
 
 
 def test_a_yes_or_no_is_judged_off_the_line(tmp_path: Path) -> None:

@@ -53,7 +53,8 @@ def measure_model(
         if isinstance(signal, StartsSignal):
             traces[name] = Trace(np.zeros(1), np.array([fraction_of_starts(record, signal, model, spec)]))
         elif isinstance(signal, RowSignal):
-            traces[name] = Trace(np.zeros(1), np.array([image_row(signal, model, spec)]))
+            row = geom_row(model, data_at(model, spec, 0.0), signal.camera, signal.geom)
+            traces[name] = Trace(np.zeros(1), np.array([row]))
     return run, {name: traces[name] for name in names}
 
 
@@ -104,8 +105,3 @@ def fraction_of_starts(record: Record, signal: StartsSignal, model: mujoco.MjMod
         return judge(signal.holds, simulate(model, spec, path, nudge).traces).holds
 
     return math.fsum(map(holds_from, np.linspace(*signal.offset, signal.count))) / signal.count
-
-
-def image_row(signal: RowSignal, model: mujoco.MjModel, spec: RunSpec) -> float:
-    """The mean row of a geom's pixels at the start of the run; 0 is the image's top edge, 1 its bottom."""
-    return geom_row(model, data_at(model, spec, 0.0), signal.camera, signal.geom)

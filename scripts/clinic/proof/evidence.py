@@ -123,10 +123,13 @@ def collect(case: Case) -> Evidence:
         except RunError as error:
             problems.append(case.problem(error.where, error.found, error.expected, error.repair))
     problems += _unprinted(case, observed)
-    try:
-        snippet = None if case.record.snippet is None else run_snippet(case)
-    except ScriptError as error:
-        problems.append(case.problem(("snippet",), error.found, "code that runs as it stands", error.repair))
+    snippet = None
+    if case.record.snippet is not None:
+        name = "snippet.mjs" if case.record.language == "javascript" else "snippet.py"
+        try:
+            snippet = run_script(case.record.snippet, case.texts, name=name).text
+        except ScriptError as error:
+            problems.append(case.problem(("snippet",), error.found, "code that runs as it stands", error.repair))
     if problems:
         raise CaseError(problems)
     return Evidence(
@@ -164,17 +167,6 @@ def engine(case: Case) -> tuple[str, str]:
     version = node.version(node.MUJOCO)
     assert version is not None
     return node.MUJOCO, version
-
-
-def run_snippet(case: Case) -> str:
-    """What the diagnosis snippet prints, run beside the case's files and in the language of its script.
-
-    Raises:
-        ScriptError: If it does not end well.
-    """
-    assert case.record.snippet is not None
-    name = "snippet.mjs" if case.record.language == "javascript" else "snippet.py"
-    return run_script(case.record.snippet, case.texts, name=name).text
 
 
 def observe(case: Case, variant: Variant) -> VariantEvidence:

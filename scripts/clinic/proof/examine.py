@@ -11,8 +11,7 @@ import mujoco
 from clinic.engine.mjcf import ModelError, check_alone, probe, references
 from clinic.engine.signals import SignalError, bind, element_names, missing_element, parse_path
 from clinic.engine.simulate import RunError, compile_model, controls, initial_data, step_count
-from clinic.engine.variant import EditError, Variant, place_of, variants
-from clinic.proof.sweep import grid, substituted
+from clinic.engine.variant import Variant, place_of, variants
 from clinic.record.case import Case
 from clinic.record.fields import PathSignal, Record, RowSignal, StartsSignal
 from clinic.record.problem import CaseError, Problem, listed
@@ -38,8 +37,6 @@ def examine(case: Case) -> None:
         problems += _model_problems(case, made)
     elif case.record.picture.scene is not None:
         problems += _scene_problems(case, case.record.picture.scene)
-    if not problems:
-        problems = list(_sweep_problems(case, made))
     if problems:
         raise CaseError(problems)
 
@@ -55,27 +52,6 @@ def _outside_problems(case: Case, name: str, text: str) -> Iterator[Problem]:
                 yield Problem(file, found.line, "", str(found), expected, repair)
     except ModelError as error:
         yield Problem(file, error.line, "", error.found, error.expected, error.repair)
-
-
-def _sweep_problems(case: Case, made: list[Variant]) -> Iterator[Problem]:
-    """The first and the last point of every sweep, written and compiled."""
-    for name, sweep in case.record.sweep.items():
-        base = next(variant for variant in made if variant.id == sweep.base)
-        for at in (grid(sweep)[0], grid(sweep)[-1]):
-            try:
-                text = substituted(base.text, sweep, at)
-                if case.record.run is not None:
-                    _compiled(text)
-            except EditError as error:
-                k = error.index - len(sweep.edits)
-                place: Where = ("edits", error.index, "find") if k < 0 else ("vary", k, "find")
-                found = f"text that occurs {error.count} times in the text of {base.id}"
-                yield case.problem(("sweep", name, *place), found, "text that occurs exactly once", "correct `find`")
-                break
-            except ValueError as error:
-                found = f"at {at}: {' '.join(str(error).split())}"
-                yield case.problem(("sweep", name, "vary"), found, "XML that MuJoCo compiles", "correct `replace`")
-                break
 
 
 def _model_problems(case: Case, made: list[Variant]) -> list[Problem]:

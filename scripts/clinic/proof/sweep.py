@@ -9,11 +9,11 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from clinic.engine.checks import satisfies, take
+from clinic.engine.checks import Trace, satisfies, take
 from clinic.engine.measure import measure_model, measure_output
-from clinic.engine.script import ScriptError, run_script
+from clinic.engine.script import run_script
 from clinic.engine.simulate import compile_model
-from clinic.engine.variant import Variant, apply_edits, variants
+from clinic.engine.variant import EditError, Variant, apply_edits, variants
 from clinic.record.case import Case
 from clinic.record.expression import ExpressionError, evaluate, names, parse
 from clinic.record.fields import Comparison
@@ -107,10 +107,9 @@ def measure_points(case: Case, sweep: Sweep, points: Sequence[Mapping[str, float
     """Measures the outcome and computes the predictions at each of the points.
 
     Raises:
-        CaseError: If a point's script does not end well, or a prediction cannot be computed there.
-        EditError, ValueError: If a point's text cannot be made or compiled.
+        CaseError: If a point's text cannot be made or run, or a prediction cannot be computed there.
     """
-    base = next(variant for variant in variants(case) if variant.id == sweep.base)
+    base = next(variant.text for variant in variants(case) if variant.id == sweep.base)
     return [_measure(case, sweep, base, dict(at)) for at in points]
 
 
@@ -173,22 +172,18 @@ def marks(case: Case, sweep: Sweep) -> dict[str, dict[str, float]]:
     return made
 
 
-def _measure(case: Case, sweep: Sweep, base: Variant, at: dict[str, float]) -> Point:
-    record, text, read = case.record, substituted(base.text, sweep, at), names_read(sweep)
-    values: dict[str, float] = {}
-    if record.run is not None:
-        model = compile_model(text)
-        spec = record.run.model_copy(update={"duration": sweep.duration} if sweep.duration else {})
-        _, traces = measure_model(record, model, spec, read & record.signals.keys())
-        values = {name: MODEL_NUMBERS[name](model) for name in read & MODEL_NUMBERS.keys()}
-    else:
-        try:
-            traces = measure_output(record, run_script(text, case.texts, name=record.source))
-        except ScriptError as error:
-            found = f"at {_listed(at)}: {error.found}"
-            problem = case.problem(_place(case, sweep), found, "a script that ends by itself", error.repair)
-            raise CaseError([problem]) from None
-    values |= {name: take(traces[name], "final") for name in read & traces.keys()} | at
+def _measure(case: Case, sweep: Sweep, base: str, at: dict[str, float]) -> Point:
+    try:
+        traces, values = _run(case, sweep, substituted(base, sweep, at))
+    except EditError as error:
+        k = error.index - len(sweep.edits)
+        place: Where = ("edits", error.index, "find") if k < 0 else ("vary", k, "find")
+        found, expected = f"text that occurs {error.count} times in the text of {sweep.base}", "text that occurs once"
+        raise _error(case, sweep, place, found, expected, "correct `find`") from None
+    except ValueError as error:
+        found = f"at {_listed(at)}: {' '.join(str(error).split())}"
+        raise _error(case, sweep, ("vary",), found, "a text that runs to its end", "correct `replace`") from None
+    values |= at
     outcome = take(traces[sweep.outcome.signal], sweep.outcome.take, sweep.outcome.window)
     predicted = {key: _predicted(case, sweep, key, values) for key in predictions(sweep)}
     return Point(
@@ -197,6 +192,20 @@ def _measure(case: Case, sweep: Sweep, base: Variant, at: dict[str, float]) -> P
         holds=None if sweep.holds is None else satisfies(Comparison(**sweep.holds.model_dump()), outcome),
         predicted={key: value if math.isfinite(value) else None for key, value in predicted.items()},
     )
+
+
+def _run(case: Case, sweep: Sweep, text: str) -> tuple[dict[str, Trace], dict[str, float]]:
+    """The signals of a text, and the numbers that predictions may read: their last values, and the model's numbers."""
+    record, read = case.record, names_read(sweep)
+    numbers = {}
+    if record.run is not None:
+        model = compile_model(text)
+        spec = record.run.model_copy(update={"duration": sweep.duration} if sweep.duration else {})
+        _, traces = measure_model(record, model, spec, read & record.signals.keys())
+        numbers = {name: MODEL_NUMBERS[name](model) for name in read & MODEL_NUMBERS.keys()}
+    else:
+        traces = measure_output(record, run_script(text, case.texts, name=record.source))
+    return traces, numbers | {name: take(traces[name], "final") for name in read & traces.keys()}
 
 
 def _predicted(case: Case, sweep: Sweep, key: str, values: Mapping[str, float]) -> float:
@@ -209,17 +218,18 @@ def _predicted(case: Case, sweep: Sweep, key: str, values: Mapping[str, float]) 
         given = _listed({name: values[name] for name in sorted(names(tree))})
         found = prediction.expr + (f" with {given}" if given else "")
         index = list(predictions(sweep)).index(key)
-        where = (*_place(case, sweep), *(("rivals", index - 1) if index else ("prediction",)), "expr")
-        raise CaseError([case.problem(where, found, str(error), "correct the expression")]) from None
+        place: Where = ("rivals", index - 1, "expr") if index else ("prediction", "expr")
+        raise _error(case, sweep, place, found, str(error), "correct the expression") from None
+
+
+def _error(case: Case, sweep: Sweep, place: Where, found: str, expected: str, repair: str) -> CaseError:
+    """A problem at a place of the sweep."""
+    name = next(name for name, other in case.record.sweep.items() if other is sweep)
+    return CaseError([case.problem(("sweep", name, *place), found, expected, repair)])
 
 
 def _listed(values: Mapping[str, float]) -> str:
     return ", ".join(f"{name} = {value:g}" for name, value in values.items())
-
-
-def _place(case: Case, sweep: Sweep) -> Where:
-    """Where the sweep stands in the record."""
-    return "sweep", next(name for name, other in case.record.sweep.items() if other is sweep)
 
 
 def _mark(parameter: Parameter, variant: Variant) -> float | None:

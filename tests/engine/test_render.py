@@ -76,10 +76,6 @@ def test_row_agrees_with_the_image() -> None:
     assert geom_row(*scene(), "front", "red") == pytest.approx(row_of_colour(image(*scene(), "front"), 0), abs=0.01)
 
 
-def test_rows_of_geoms_at_mirrored_places_add_up_to_one() -> None:
-    assert geom_row(*scene(), "front", "red") + geom_row(*scene(), "front", "green") == pytest.approx(1, abs=1e-6)
-
-
 def test_a_geom_out_of_sight_has_no_row() -> None:
     assert np.isnan(geom_row(*scene(), "front", "behind"))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from clinic.engine.variant import EditError, apply_edits, changed_lines, diff, remedies, variants
+from clinic.engine.variant import EditError, apply_edits, changed_lines, diff, place_of, variants
 from clinic.record.parts import Edit
 from clinic.record.problem import CaseError
 from helpers import MODEL, tiny_case
@@ -71,9 +71,9 @@ def test_edits_that_do_not_match_are_reported_for_all_remedies(tmp_path: Path) -
     ]
 
 
-def test_remedies_have_their_place_in_the_record(tmp_path: Path) -> None:
-    places = {remedy.id: where for where, _, remedy in remedies(tiny_case(tmp_path))}
-    assert places == {"share-a-bit": ("fixes", 0), "small-step": ("refuted", 0)}
+def test_a_remedy_has_its_place_in_the_record(tmp_path: Path) -> None:
+    case = tiny_case(tmp_path)
+    assert [place_of(case, v.id) for v in variants(case)] == [(), ("fixes", 0), ("refuted", 0)]
 
 
 BEFORE = "one\ntwo\nthree\nfour\n"

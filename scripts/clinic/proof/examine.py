@@ -55,19 +55,16 @@ def _outside_problems(case: Case, name: str, text: str) -> Iterator[Problem]:
 
 
 def _model_problems(case: Case, made: list[Variant]) -> list[Problem]:
-    """The broken model's problems, then those that only the edits of a remedy bring."""
-    broken, *others = made
-    problems = list(_variant_problems(case, broken))
-    if any(problem.file != case.file for problem in problems):
-        return problems  # It does not compile.
-    known = {problem.where for problem in problems}
-    for variant in others:
+    """The broken model's problems, then those that only the edits of a remedy bring; one at each place."""
+    problems: dict[str, Problem] = {}
+    for variant in made:
         for problem in _variant_problems(case, variant):
-            if problem.where.endswith(".edits"):
-                problems.append(problem)
-            elif problem.where not in known:
-                problems.append(replace(problem, found=f"after the edits of {variant.id}: {problem.found}"))
-    return problems
+            told = variant.kind == "broken" or problem.where.endswith(".edits")
+            found = problem.found if told else f"after the edits of {variant.id}: {problem.found}"
+            problems.setdefault(problem.where, replace(problem, found=found))
+        if any(problem.file != case.file for problem in problems.values()):
+            break  # The broken model does not compile.
+    return list(problems.values())
 
 
 def _scene_problems(case: Case, scene: str) -> Iterator[Problem]:

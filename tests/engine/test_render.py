@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import threading
 
 import mujoco
 import numpy as np
@@ -32,26 +31,11 @@ def scene(xyaxes: str = UPRIGHT) -> tuple[mujoco.MjModel, mujoco.MjData]:
     return compiled(SCENE.format(xyaxes=xyaxes))
 
 
-def row_of_colour(pixels: np.ndarray, channel: int) -> float:
-    """The mean row of the pixels in which one channel stands out, 0 the top and 1 the bottom."""
-    others = np.delete(pixels, channel, axis=2).max(axis=2)
-    rows = np.nonzero((pixels[..., channel] > 200) & (others < 50))[0]
-    return float((rows.mean() + 0.5) / len(pixels))
-
-
-def test_image_has_its_size_and_shows_what_the_camera_sees() -> None:
+def test_image_shows_what_the_camera_sees() -> None:
     pixels = image(*scene(), "front")
+    red, green, _ = (pixels[: HEIGHT // 2].mean(axis=(0, 1)) > pixels[HEIGHT // 2 :].mean(axis=(0, 1))).tolist()
     assert (pixels.shape, pixels.dtype) == ((HEIGHT, WIDTH, 3), np.uint8)
-    assert row_of_colour(pixels, 0) < 0.45
-    assert row_of_colour(pixels, 1) > 0.55
-
-
-def test_image_is_the_same_in_any_thread() -> None:
-    drawn: list[bytes] = []
-    thread = threading.Thread(target=lambda: drawn.append(image(*scene(), "front").tobytes()))
-    thread.start()
-    thread.join()
-    assert drawn == [image(*scene(), "front").tobytes()]
+    assert (red, green) == (True, False)
 
 
 def test_image_does_not_hang_on_the_models_own_buffer_size() -> None:
@@ -70,10 +54,6 @@ def test_image_does_not_hang_on_the_models_own_buffer_size() -> None:
 )
 def test_row_of_a_geom(xyaxes: str, geom: str, low: float, high: float) -> None:
     assert low < geom_row(*scene(xyaxes), "front", geom) < high
-
-
-def test_row_agrees_with_the_image() -> None:
-    assert geom_row(*scene(), "front", "red") == pytest.approx(row_of_colour(image(*scene(), "front"), 0), abs=0.01)
 
 
 def test_a_geom_out_of_sight_has_no_row() -> None:

@@ -79,17 +79,6 @@ def test_script_case(tmp_path: Path) -> None:
     assert (broken.broken, fix.well) == (True, True)
 
 
-def test_what_could_not_be_measured_is_none_and_holds_for_nothing(tmp_path: Path) -> None:
-    to_error = ("'0.5', replace: '0.0'", "other, replace: error")
-    made = collect(script_case(tmp_path, to_error, script='print("other = 0.5")\n'))
-    broken = made.variants["broken"]
-    assert broken.values["error"] == dict.fromkeys(broken.values["error"])
-    assert broken.traces["error"].value == []
-    assert [check.measured for check in broken.checks["broken"] + broken.checks["fixed"]] == [None, None]
-    assert not broken.broken
-    assert not broken.well
-
-
 @pytest.mark.parametrize(
     ("count", "kept"),
     [

@@ -171,7 +171,7 @@ def test_a_breach_tells_file_and_line(tmp_path: Path) -> None:
             "swept",
             [SWEPT, ("* 0.398 / 2", "* 0.4 / 2"), STRICT],
             [
-                f"sweep.fall.prediction: misses 4 of 4 points; most at g = 8, by 0.00320{SPACE}m: it says -0.58, and "
+                "sweep.fall.prediction: misses 4 of 4 points; most at g = 8: it says -0.58, and "
                 "-0.5768 is measured; expected a prediction that misses none; correct its `expr`"
             ],
             id="a-prediction-that-misses",

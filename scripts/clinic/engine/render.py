@@ -39,8 +39,8 @@ def renderer(model: mujoco.MjModel, width: int = WIDTH, height: int = HEIGHT) ->
         yield made
 
 
-def blindness() -> str:
-    """Why images cannot be drawn on this machine; empty when they can."""
+def why_no_images() -> str:
+    """Says why images cannot be drawn on this machine; empty when they can."""
     try:
         with renderer(mujoco.MjModel.from_xml_string("<mujoco/>"), 8, 8):
             return ""

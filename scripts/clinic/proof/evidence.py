@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, Literal
 
 import mujoco
@@ -11,9 +11,9 @@ import numpy as np
 from pydantic import Field
 
 from clinic.engine import node
-from clinic.engine.checks import TAKES, Trace, Verdict, judge, take
+from clinic.engine.checks import TAKES, Trace, judge, take
 from clinic.engine.measure import measure_model, measure_output
-from clinic.engine.render import blindness
+from clinic.engine.render import why_no_images
 from clinic.engine.script import Output, ScriptError, run_script
 from clinic.engine.simulate import RunError, compile_model
 from clinic.engine.variant import Variant, place_of, variants
@@ -24,7 +24,6 @@ from clinic.record.case import Case
 from clinic.record.fields import Check, PathSignal, RowSignal
 from clinic.record.parts import Strict
 from clinic.record.problem import CaseError, LackError, Problem, listed
-from clinic.record.yaml_lines import Where
 
 MAX_SAMPLES = 400
 
@@ -119,7 +118,10 @@ def collect(case: Case) -> Evidence:
         try:
             observed[variant.id] = observe(case, variant)
         except ScriptError as error:
-            problems.append(_script_problem(case, variant, error))
+            edited = (*place_of(case, variant.id), "edits") if variant.edits else ()
+            found = f"{case.record.source}{' after these edits' if edited else ''}: {error.found}"
+            expected = "a script that ends by itself"
+            problems.append(case.problem(edited or ("script",), found, expected, error.repair))
         except RunError as error:
             problems.append(case.problem(error.where, error.found, error.expected, error.repair))
     problems += _unprinted(case, observed)
@@ -145,7 +147,7 @@ def collect(case: Case) -> Evidence:
 def lack(case: Case) -> Problem | None:
     """What this machine lacks to measure the case."""
     where = "script" if case.record.script else "signals"
-    if draws(case) and (reason := blindness()):
+    if needs_images(case) and (reason := why_no_images()):
         needed = "OpenGL: this case is measured in images"
         return case.problem((where,), reason, needed, "judge it on a machine that draws")
     if case.record.language == "javascript" and (node.program() is None or node.version(node.MUJOCO) is None):
@@ -154,19 +156,17 @@ def lack(case: Case) -> Problem | None:
     return None
 
 
-def draws(case: Case) -> bool:
-    """Whether the runs draw images: for a signal, in the script or in the snippet."""
+def needs_images(case: Case) -> bool:
+    """Whether images are drawn while the case is measured: for a signal, in the script or in the snippet."""
     code = case.text + (case.record.snippet or "")
     return "Renderer(" in code or any(isinstance(signal, RowSignal) for signal in case.record.signals.values())
 
 
 def engine(case: Case) -> tuple[str, str]:
-    """The package that brings MuJoCo to the case's source, and its version; that one must be installed."""
-    if case.record.language != "javascript":
+    """The package that brings MuJoCo to the case's source, and its version."""
+    if case.record.language == "python":
         return "mujoco", mujoco.__version__
-    version = node.version(node.MUJOCO)
-    assert version is not None
-    return node.MUJOCO, version
+    return node.MUJOCO, node.version(node.MUJOCO) or "not installed"
 
 
 def observe(case: Case, variant: Variant) -> VariantEvidence:
@@ -185,8 +185,8 @@ def observe(case: Case, variant: Variant) -> VariantEvidence:
         title=variant.title,
         edits=[edit.model_dump() for edit in variant.edits],
         checks={
-            "broken": [_result(judge(check, traces)) for check in record.checks.broken],
-            "fixed": [_result(judge(check, traces)) for check in record.checks.fixed],
+            "broken": [_result(check, traces) for check in record.checks.broken],
+            "fixed": [_result(check, traces) for check in record.checks.fixed],
         },
         values={name: {which: _number(take(trace, which)) for which in TAKES} for name, trace in traces.items()},
         traces={name: samples(trace, record.signals[name].unit) for name, trace in traces.items()},
@@ -206,11 +206,6 @@ def samples(trace: Trace, unit: str) -> Samples:
     )
 
 
-def comparison(check: Check) -> dict[str, float | tuple[float, float]]:
-    """The check's comparison as data: `{"below": 0.1}`."""
-    return check.model_dump(include={"above", "below", "between", "equals", "within"}, exclude_none=True)
-
-
 def _unprinted(case: Case, observed: dict[str, VariantEvidence]) -> Iterator[Problem]:
     """Signals of a script that no variant prints, but for those that only a sweep's text prints."""
     if case.record.script is None or not observed:
@@ -225,20 +220,14 @@ def _unprinted(case: Case, observed: dict[str, VariantEvidence]) -> Iterator[Pro
             yield case.problem(("signals", name, "path"), found, expected, repair)
 
 
-def _script_problem(case: Case, variant: Variant, error: ScriptError) -> Problem:
-    place = place_of(case, variant.id)
-    where: Where = (*place, "edits") if place else ("script",)
-    found = f"{case.record.source}{' after these edits' if place else ''}: {error.found}"
-    return case.problem(where, found, "a script that ends by itself", error.repair)
-
-
-def _result(verdict: Verdict) -> CheckResult:
-    check = verdict.check
+def _result(check: Check, traces: Mapping[str, Trace]) -> CheckResult:
+    verdict = judge(check, traces)
+    bounds = {"above", "below", "between", "equals", "within"}
     return CheckResult(
         signal=check.signal,
         take=check.take,
         window=check.window,
-        expected=comparison(check),
+        expected=check.model_dump(include=bounds, exclude_none=True),
         measured=_number(verdict.measured),
         holds=verdict.holds,
     )

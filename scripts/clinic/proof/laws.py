@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import combinations
-from math import isfinite
 from typing import Literal
 
 from clinic.engine.checks import expected
 from clinic.engine.variant import Variant, apply_edits, changed_lines, place_of, variants
 from clinic.proof.evidence import Evidence, VariantEvidence, observe
 from clinic.proof.prose_laws import quoted, typed
-from clinic.proof.sweep import SweepEvidence, agreement, errors_at
+from clinic.proof.sweep import SweepEvidence, agreement, errors_at, with_names
 from clinic.record.case import Case
 from clinic.record.parts import Edit
 from clinic.record.problem import Problem, listed
@@ -31,9 +30,9 @@ def verdicts(case: Case, evidence: Evidence) -> Iterator[Problem]:
         if variant.kind != "refuted":
             yield from _failing(case, name, variant, "broken" if variant.kind == "broken" else "fixed")
         if variant.kind == "broken" and variant.well:
-            yield _lax(case, name, "fixed", "a check that the broken variant fails")
+            yield _too_loose(case, name, "fixed", "a check that the broken variant fails")
         if variant.kind == "fix" and variant.broken:
-            yield _lax(case, name, "broken", "a check that the repair fails")
+            yield _too_loose(case, name, "broken", "a check that the repair fails")
         if variant.kind == "refuted" and variant.well:
             found, wanted = "passes every check of `fixed`", "a refuted remedy that fails one"
             yield case.problem(_place(case, name), found, wanted, "move it to `fixes`, or tighten a check")
@@ -147,7 +146,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
 
 
 def breaches(case: Case, evidence: Evidence, *laws: str) -> list[Problem]:
-    """Where the case breaks the laws, after exemptions (law 8): one that is no longer needed is a breach itself."""
+    """Where the case breaks the laws, after exemptions (law 11): one that is no longer needed is a breach itself."""
     made = []
     for law in laws:
         found = list(LAWS[law](case, evidence))
@@ -177,19 +176,15 @@ def _failing(case: Case, name: str, variant: VariantEvidence, kind: Literal["bro
             yield case.problem(("checks", kind, index), found, wanted, "correct the bound, the edits, or the model")
 
 
-def _lax(case: Case, name: str, kind: str, wanted: str) -> Problem:
+def _too_loose(case: Case, name: str, kind: str, wanted: str) -> Problem:
     return case.problem(("checks", kind), f"{name}: passes every check", wanted, "tighten one")
 
 
 def _worst(sweep: Sweep, found: SweepEvidence) -> str:
     """Where the prediction misses most."""
-    point, error = max(errors_at(sweep, "prediction", found.points), key=lambda each: each[1])
-    at = ", ".join(f"{key} = {value:g}" for key, value in point.at.items())
-    if not isfinite(error) or point.outcome is None:
-        return f"; most at {at}"
-    unit, said = found.agreement["prediction"].unit, point.predicted["prediction"]
-    by = f"{error:.3g} of it" if sweep.prediction.relative else quantity(error, unit)
-    return f"; most at {at}, by {by}: it says {said:.4g}, and {point.outcome:.4g} is measured"
+    point, _ = max(errors_at(sweep, "prediction", found.points), key=lambda each: each[1])
+    said, seen = ("nothing" if n is None else f"{n:.4g}" for n in (point.predicted["prediction"], point.outcome))
+    return f"; most at {with_names(point.at)}: it says {said}, and {seen} is measured"
 
 
 def _place(case: Case, variant: str) -> Where:

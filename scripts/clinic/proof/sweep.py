@@ -160,15 +160,13 @@ def errors_at(sweep: Sweep, key: str, points: Sequence[Point], factor: float = 1
 
 def marks(case: Case, sweep: Sweep) -> dict[str, dict[str, float]]:
     """Where the broken variant and the fixes stand: where the record says so, or the sweep has the variant's text."""
-    made = {}
-    texts = {variant.id: variant.text for variant in variants(case)}
+    made, texts = {}, {variant.id: variant.text for variant in variants(case)}
     for variant in variants(case):
         at = {p.name: value for p in sweep.vary if (value := _mark(p, variant)) is not None}
-        if variant.kind == "refuted" or len(at) < len(sweep.vary):
-            continue
-        told = any(variant.id in parameter.marks for parameter in sweep.vary)
-        if told or _differ_in_numbers_alone(sweep, substituted(texts[sweep.base], sweep, at), variant.text):
-            made[variant.id] = at
+        if variant.kind != "refuted" and len(at) == len(sweep.vary):
+            told = any(variant.id in parameter.marks for parameter in sweep.vary)
+            if told or substituted(texts[sweep.base], sweep, at) == variant.text:
+                made[variant.id] = at
     return made
 
 
@@ -181,7 +179,7 @@ def _measure(case: Case, sweep: Sweep, base: str, at: dict[str, float]) -> Point
         found, expected = f"text that occurs {error.count} times in the text of {sweep.base}", "text that occurs once"
         raise _error(case, sweep, place, found, expected, "correct `find`") from None
     except ValueError as error:
-        found = f"at {_listed(at)}: {' '.join(str(error).split())}"
+        found = f"at {with_names(at)}: {' '.join(str(error).split())}"
         raise _error(case, sweep, ("vary",), found, "a text that runs to its end", "correct `replace`") from None
     values |= at
     outcome = take(traces[sweep.outcome.signal], sweep.outcome.take, sweep.outcome.window)
@@ -215,7 +213,7 @@ def _predicted(case: Case, sweep: Sweep, key: str, values: Mapping[str, float]) 
         with np.errstate(all="ignore"):
             return float(evaluate(tree, values))
     except ExpressionError as error:
-        given = _listed({name: values[name] for name in sorted(names(tree))})
+        given = with_names({name: values[name] for name in sorted(names(tree))})
         found = prediction.expr + (f" with {given}" if given else "")
         index = list(predictions(sweep)).index(key)
         place: Where = ("rivals", index - 1, "expr") if index else ("prediction", "expr")
@@ -228,25 +226,15 @@ def _error(case: Case, sweep: Sweep, place: Where, found: str, expected: str, re
     return CaseError([case.problem(("sweep", name, *place), found, expected, repair)])
 
 
-def _listed(values: Mapping[str, float]) -> str:
+def with_names(values: Mapping[str, float]) -> str:
+    """Numbers in words: `g = 9.81, h = 0.002`."""
     return ", ".join(f"{name} = {value:g}" for name, value in values.items())
 
 
 def _mark(parameter: Parameter, variant: Variant) -> float | None:
+    """The parameter's number in a variant: the record's mark, or what stands in the text, once or always the same."""
     if variant.id in parameter.marks:
         return parameter.marks[variant.id]
-    found = set(_written(parameter).findall(variant.text))
-    return float(found.pop()) if len(found) == 1 else None
-
-
-def _written(parameter: Parameter) -> re.Pattern[str]:
-    """The text that a parameter's number is written in, the same number wherever it occurs in it."""
     first, *rest = (re.escape(part) for part in parameter.replace.split("{}"))
-    return re.compile(first + r"([-+0-9.eE]+)" + r"\1".join(rest))
-
-
-def _differ_in_numbers_alone(sweep: Sweep, *texts: str) -> bool:
-    """Whether the texts are the same but for the parameters' numbers."""
-    for parameter in sweep.vary:
-        texts = tuple(_written(parameter).sub(parameter.name, text) for text in texts)
-    return len(set(texts)) == 1
+    found = set(re.findall(first + r"([-+0-9.eE]+)" + r"\1".join(rest), variant.text))
+    return float(found.pop()) if len(found) == 1 else None

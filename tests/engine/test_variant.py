@@ -46,13 +46,15 @@ def test_edit_must_match_once(text: str, changes: list[tuple[str, str]], index: 
 
 
 def test_variants_are_the_broken_one_then_fixes_then_refuted(tmp_path: Path) -> None:
-    broken, fix, refuted = variants(tiny_case(tmp_path))
+    case = tiny_case(tmp_path)
+    broken, fix, refuted = variants(case)
 
     assert [(v.kind, v.id) for v in (broken, fix, refuted)] == [
         ("broken", "broken"),
         ("fix", "share-a-bit"),
         ("refuted", "small-step"),
     ]
+    assert [place_of(case, v.id) for v in (broken, fix, refuted)] == [(), ("fixes", 0), ("refuted", 0)]
     assert broken.text == MODEL
     assert fix.text == MODEL.replace(' contype="2" conaffinity="2"', "")
     assert refuted.text == MODEL.replace("0.002", "0.001")
@@ -69,11 +71,6 @@ def test_edits_that_do_not_match_are_reported_for_all_remedies(tmp_path: Path) -
         "fixes[0].edits[0].find",
         "refuted[0].edits[0].find",
     ]
-
-
-def test_a_remedy_has_its_place_in_the_record(tmp_path: Path) -> None:
-    case = tiny_case(tmp_path)
-    assert [place_of(case, v.id) for v in variants(case)] == [(), ("fixes", 0), ("refuted", 0)]
 
 
 BEFORE = "one\ntwo\nthree\nfour\n"

@@ -16,7 +16,7 @@ from PIL import Image as Pictures
 from PIL import ImageDraw, ImageFont
 
 from clinic.engine.render import Image, renderer
-from clinic.engine.simulate import captured_messages, compile_model, controls, start, step
+from clinic.engine.simulate import captured_messages, compile_model, controls, initial_data, step
 from clinic.engine.variant import variants
 from clinic.record.case import Case
 from clinic.record.fields import Film, RunSpec
@@ -77,7 +77,7 @@ def frames(model: mujoco.MjModel, run: RunSpec, spec: Film, camera: str) -> Iter
     """
     count = max(2, math.floor(filmed(spec, run) / spec.speed * FPS) + 1)
     last = round((count - 1) / FPS * spec.speed / model.opt.timestep)
-    data, drive, option = start(model, run), controls(model, run, last), mujoco.MjvOption()
+    data, drive, option = initial_data(model, run), controls(model, run, last), mujoco.MjvOption()
     for name in spec.overlays:
         if name in FLAGS:
             option.flags[FLAGS[name]] = True
@@ -96,7 +96,8 @@ def frames(model: mujoco.MjModel, run: RunSpec, spec: Film, camera: str) -> Iter
                     halted = f"reset at {number(made * model.opt.timestep, 2)} s"
             if image is None or (not halted and np.max(np.abs(data.qpos - drawn), initial=0) > STILL):
                 mujoco.mj_kinematics(model, data)  # a step leaves the positions of its start
-                image, drawn = averaged(draw.render(data, camera, option)), data.qpos.copy()
+                draw.update_scene(data, camera, option)
+                image, drawn = averaged(draw.render()), data.qpos.copy()
             yield image, halted or f"{time:.2f} s"
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import mujoco
 
 from clinic.engine.render import Image, image
-from clinic.engine.simulate import compile_model, state_at
+from clinic.engine.simulate import compile_model, data_at
 from clinic.engine.variant import Variant, variants
 from clinic.pages.figures.film import webp
 from clinic.record.case import Case
@@ -29,7 +29,7 @@ def still(case: Case, variant: Variant) -> Image:
     record = case.record
     assert record.run is not None
     model = compile_model(variant.text)
-    return image(model, state_at(model, record.run, record.picture.time), record.picture.camera)
+    return image(model, data_at(model, record.run, record.picture.time), record.picture.camera)
 
 
 def scene_image(case: Case) -> Image:

@@ -8,8 +8,8 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from clinic.pages.figures.palette import BROKEN, DARK, FIXED, GRID, INK
-from clinic.pages.figures.plots import figures, plot
+from clinic.pages.figures.palette import BROKEN, FIXED, GRID, INK
+from clinic.pages.figures.plots import plots
 from clinic.proof.evidence import Evidence, VariantEvidence
 from clinic.proof.sweep import Point, summarise
 from clinic.record.case import Case
@@ -30,7 +30,7 @@ def heights(broken: list[float | None], *fixes: list[float | None]) -> Evidence:
 
 
 def drawn(case: Case, evidence: Evidence) -> str:
-    return plot(case, evidence)
+    return plots(case, evidence)["plot.svg"].decode()
 
 
 def texts(svg: str) -> list[str]:
@@ -50,21 +50,18 @@ def curves(svg: str) -> list[tuple[str, list[tuple[float, float]]]]:
     return found
 
 
-def test_a_figure_for_each_theme(case: Case) -> None:
-    assert set(figures(case, heights(RAMP, RAMP))) == {"plot-light.svg", "plot-dark.svg"}
-
-
-def test_a_dark_figure_has_none_of_the_light_ones_colours_and_differs_in_nothing_else(case: Case) -> None:
-    light, dark = (svg.decode() for svg in figures(case, heights(RAMP, RAMP[::-1])).values())
-    colour = re.compile("#[0-9a-f]{6}")
-    assert {INK, GRID, BROKEN, FIXED[0]} <= set(colour.findall(light)) <= {*DARK, "#000000", "#ffffff"}
-    assert not set(colour.findall(dark)) & DARK.keys()
-    assert colour.sub("", light) == colour.sub("", dark)
+def test_every_colour_of_a_figure_has_another_on_a_dark_page(case: Case) -> None:
+    svg = drawn(case, heights(RAMP, RAMP[::-1]))
+    rules, styles = svg.partition("</style>")[0], "".join(re.findall(r'style="([^"]*)"', svg.partition("</style>")[2]))
+    assert {INK, GRID, BROKEN, FIXED[0]} <= set(re.findall("#[0-9a-f]{6}", styles))
+    for colour in re.findall(r"(?:fill|stroke): #[0-9a-f]{6}", styles):
+        assert f'[style*="{colour}"]' in rules
 
 
 def test_the_same_evidence_gives_the_same_bytes(case: Case) -> None:
-    first, second = (figures(case, heights(RAMP, RAMP[::-1])) for _ in range(2))
+    first, second = (plots(case, heights(RAMP, RAMP[::-1])) for _ in range(2))
     assert first == second
+    assert set(first) == {"plot.svg"}
 
 
 def test_nothing_is_loaded_from_elsewhere_and_no_date_is_written(case: Case) -> None:
@@ -125,7 +122,7 @@ def swept_texts(tmp_path: Path, *values: float) -> list[str]:
     points = [Point(at={"x": x}, outcome=x, holds=None, predicted={"prediction": x}) for x in values]
     evidence = evidence_of_variants(broken=variant_evidence(error_m=[0.5]))
     evidence = evidence.model_copy(update={"sweep": {"size": summarise(case, case.record.sweep["size"], points)}})
-    return texts(figures(case, evidence)["sweep-size-light.svg"].decode())
+    return texts(plots(case, evidence)["sweep-size.svg"].decode())
 
 
 def test_numbers_at_the_axes_of_a_sweep_are_plain(tmp_path: Path) -> None:

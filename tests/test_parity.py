@@ -180,7 +180,7 @@ EXPRESSIONS = [
 def test_expressions_have_the_same_values(root: Path) -> None:
     values = {"a": 3.25, "b": 0.75}
     code = """
-      const { parse, evaluate, names } = await import("./docs/playground/expression.js");
+      const { parse, evaluate, names } = await import("./docs/playground/record/expression.js");
       const [texts, values] = JSON.parse(process.argv[1]);
       console.log(JSON.stringify(texts.map((text) => evaluate(parse(text), (name) => values[name]))));
     """
@@ -194,7 +194,7 @@ def test_expressions_have_the_same_values(root: Path) -> None:
 @pytest.mark.parametrize("text", ["", "a +", "(a", "a b", "alert(1)", "a.b", "a[0]", "constructor(1)", "'x'"])
 def test_what_is_no_expression_is_refused(root: Path, text: str) -> None:
     code = """
-      const { parse, ExpressionError } = await import("./docs/playground/expression.js");
+      const { parse, ExpressionError } = await import("./docs/playground/record/expression.js");
       try { parse(process.argv[1]); console.log('"parsed"'); }
       catch (error) { console.log(JSON.stringify(error instanceof ExpressionError ? "refused" : String(error))); }
     """

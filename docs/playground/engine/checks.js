@@ -1,6 +1,6 @@
 // Checks: one number taken from a signal, compared with a bound.
 
-/** @import {Check, Comparison, Take} from "./record.js" */
+/** @import {Check, Comparison, Take} from "../record/types.js" */
 
 /**
  * A signal's samples: simulated time in s, increasing, and values; NaN where there was nothing to read.

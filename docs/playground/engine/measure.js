@@ -1,50 +1,23 @@
 // All signals of a model: read from runs, computed from each other, or measured over many runs.
 
 import { judge } from "./checks.js";
-import { evaluate, names, parse } from "./expression.js";
+import { evaluate, names, parse } from "../record/expression.js";
 import { requireId } from "./signals.js";
 import { simulate, start } from "./simulate.js";
 
 /** @import {MainModule, MjModel} from "@mujoco/mujoco" */
-/** @import {Trace, Verdict} from "./checks.js" */
-/** @import {PathSignal, Playground, RowSignal, Signal, StartsSignal} from "./record.js" */
+/** @import {Trace} from "./checks.js" */
+/** @import {PathSignal, CaseRecord, RowSignal, Signal, StartsSignal} from "../record/types.js" */
 /** @import {Nudge, Run} from "./simulate.js" */
 
 /** The image that `image_row` looks at, in rays: as wide for its height as the site's images. */
 const [COLUMNS, ROWS] = [160, 120];
 
 /**
- * What `Check my fix` finds.
- * @typedef {object} Judgement
- * @property {Verdict[]} broken
- * @property {Verdict[]} fixed
- * @property {Record<string, number>} warnings what MuJoCo raised during the run
- * @property {boolean} well every `fixed` check holds, some `broken` check does not, and MuJoCo raised no warning
- * @property {number} steps of the run
- */
-
-/**
- * Runs a model and judges it by the record's checks. Yields now and then.
- * @param {MainModule} mujoco
- * @param {MjModel} model
- * @param {Playground} record
- * @returns {Generator<undefined, Judgement>}
- */
-export function* examine(mujoco, model, record) {
-  const { broken, fixed } = record.checks;
-  const wanted = new Set([...broken, ...fixed].map((check) => check.signal));
-  const { run, traces } = yield* measure(mujoco, model, record, wanted);
-  const verdicts = { broken: broken.map((check) => judge(check, traces)), fixed: fixed.map((check) => judge(check, traces)) };
-  const repaired = verdicts.fixed.every(({ holds }) => holds) && !verdicts.broken.every(({ holds }) => holds);
-  const { warnings, steps } = run;
-  return { ...verdicts, warnings, steps, well: repaired && Object.keys(warnings).length === 0 };
-}
-
-/**
  * Simulates the model and measures the wanted signals.
  * @param {MainModule} mujoco
  * @param {MjModel} model
- * @param {Playground} record
+ * @param {CaseRecord} record
  * @param {Set<string>} wanted
  * @returns {Generator<undefined, {run: Run, traces: Record<string, Trace>}>}
  */
@@ -67,7 +40,7 @@ export function* measure(mujoco, model, record, wanted) {
 
 /**
  * The path signals that the wanted signals need.
- * @param {Playground} record
+ * @param {CaseRecord} record
  * @param {Iterable<string>} wanted
  * @returns {Record<string, PathSignal>}
  */
@@ -98,7 +71,7 @@ function computed(expr, traces) {
  * The share of evenly spaced start positions from which `signal.holds` holds, 0 to 1.
  * @param {MainModule} mujoco
  * @param {MjModel} model
- * @param {Playground} record
+ * @param {CaseRecord} record
  * @param {StartsSignal} signal
  * @returns {Generator<undefined, number>}
  */
@@ -127,7 +100,7 @@ function* fractionOfStarts(mujoco, model, record, signal) {
  * that no graphics card is needed: the two agree to about the height of a pixel.
  * @param {MainModule} mujoco
  * @param {MjModel} model
- * @param {Playground} record
+ * @param {CaseRecord} record
  * @param {RowSignal} signal
  */
 function imageRow(mujoco, model, record, signal) {
@@ -160,17 +133,4 @@ function imageRow(mujoco, model, record, signal) {
   }
   for (const used of [hits, distances, data]) used.delete();
   return count > 0 ? (sum / count + 0.5) / ROWS : NaN;
-}
-
-/**
- * Runs a generator to its end at once.
- * @template T
- * @param {Generator<undefined, T>} work
- * @returns {T}
- */
-export function finish(work) {
-  for (;;) {
-    const turn = work.next();
-    if (turn.done) return turn.value;
-  }
 }

@@ -3,7 +3,7 @@
 const KEY = "mujoco-clinic";
 
 /** @returns {string[]} */
-export function solved() {
+function solved() {
   try {
     return JSON.parse(localStorage.getItem(KEY) ?? "[]");
   } catch {
@@ -11,8 +11,11 @@ export function solved() {
   }
 }
 
-/** @param {string} slug */
-export function solve(slug) {
+/**
+ * Remembers that a case has been solved.
+ * @param {string} slug
+ */
+export function markSolved(slug) {
   try {
     localStorage.setItem(KEY, JSON.stringify([...new Set([...solved(), slug])]));
   } catch {

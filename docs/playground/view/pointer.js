@@ -17,9 +17,8 @@ const TURN = 0.008; // rad a pixel
  * @param {HTMLCanvasElement} canvas
  * @param {Scene} scene
  * @param {Pull} pull
- * @param {() => void} moved called when the view has changed
  */
-export function listen(canvas, scene, pull, moved) {
+export function listenToPointer(canvas, scene, pull) {
   /** @type {Map<number, PointerEvent>} */
   const down = new Map();
   let pulling = false;
@@ -49,11 +48,11 @@ export function listen(canvas, scene, pull, moved) {
     } else if (down.size === 2) {
       const was = spread();
       down.set(event.pointerId, event);
-      scene.eye.zoom(was / Math.max(spread(), 1));
-      moved();
+      scene.camera.approach(was / Math.max(spread(), 1));
+      scene.render();
     } else {
-      scene.eye.orbit(TURN * (event.clientX - before.clientX), TURN * (event.clientY - before.clientY));
-      moved();
+      scene.camera.orbit(TURN * (event.clientX - before.clientX), TURN * (event.clientY - before.clientY));
+      scene.render();
     }
     down.set(event.pointerId, event);
   });
@@ -70,8 +69,8 @@ export function listen(canvas, scene, pull, moved) {
     (event) => {
       if (!event.ctrlKey) return; // a wheel alone scrolls the page
       event.preventDefault();
-      scene.eye.zoom(Math.exp(0.002 * event.deltaY));
-      moved();
+      scene.camera.approach(Math.exp(0.002 * event.deltaY));
+      scene.render();
     },
     { passive: false },
   );

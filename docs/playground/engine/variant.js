@@ -1,6 +1,6 @@
 // A variant: the broken text of a case after named text edits.
 
-/** @import {Edit} from "./record.js" */
+/** @import {Edit} from "../record/types.js" */
 
 /** An edit whose text does not occur exactly once. */
 export class EditError extends Error {

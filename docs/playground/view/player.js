@@ -1,31 +1,32 @@
 // What is seen and moved: the scene and the chart in time with the screen, the camera, the pull on a body.
 
+import { el } from "../page/elements.js";
 import { Chart } from "./chart.js";
-import { el } from "./dom.js";
-import { listen } from "./pointer.js";
+import { viewControls } from "./controls.js";
+import { listenToPointer } from "./pointer.js";
 import { Scene } from "./scene.js";
 
-/** @import {Assets} from "./assets.js" */
-/** @import {Engine} from "./client.js" */
-/** @import {Frame} from "./live.js" */
-/** @import {Panel} from "./panel.js" */
-/** @import {Playground} from "./record.js" */
+/** @import {Assets} from "../engine/assets.js" */
+/** @import {Engine} from "../engine/client.js" */
+/** @import {Frame} from "../engine/interactive.js" */
+/** @import {CaseRecord} from "../record/types.js" */
 
 const LONGEST = 0.1; // s of the reader's time that a frame may stand for
 const CHART_FRAMES = 4; // frames between two drawings of the chart
 const PULL = { frames: 20, share: 0.4 }; // how long a pressed pull lasts, how far of the model's extent it reaches
 
-/** The running model, as the reader sees it. */
-export class Stage {
+/** Plays the model: asks the engine for frames, draws them, and passes on what the reader does. */
+export class Player {
   /**
-   * @param {Panel} panel
-   * @param {Playground} record
+   * @param {CaseRecord} record
    * @param {Engine} engine
+   * @param {() => void} startEngine called when the reader asks for what only the engine can do
    * @throws {Error} if there is no WebGL
    */
-  constructor(panel, record, engine) {
-    this.panel = panel;
+  constructor(record, engine, startEngine) {
     this.record = record;
+    this.startEngine = startEngine;
+    this.controls = viewControls(record, this);
     this.engine = engine;
     this.speed = record.speed;
     this.running = false;
@@ -43,16 +44,16 @@ export class Stage {
     /** @type {[number, number] | null} where a pressed pull goes, in the view */
     this.towards = null;
     this.pulled = 0;
-    this.scene = new Scene(panel.canvas);
-    this.chart = new Chart(panel.signals.chart, record.signals, panel.signals.first);
+    this.scene = new Scene(this.controls.canvas);
+    this.chart = new Chart(this.controls.signals.chart, record.signals, this.controls.signals.first);
     const pull = {
-      wanted: () => panel.pulls.getAttribute("aria-pressed") === "true",
+      wanted: () => this.controls.pulls.getAttribute("aria-pressed") === "true",
       grab: (/** @type {object} */ ray) => engine.post({ type: "grab", ...ray }),
       held: () => this.held?.point ?? null,
       drag: (/** @type {number[]} */ point) => engine.post({ type: "drag", point }),
       release: () => this.release(),
     };
-    listen(panel.canvas, this.scene, pull, () => this.move(() => {}));
+    listenToPointer(this.controls.canvas, this.scene, pull);
     this.palette = new MutationObserver(() => this.chart.restyle());
     this.palette.observe(document.body, { attributeFilter: ["data-md-color-scheme"] });
     this.request = requestAnimationFrame((now) => this.tick(now));
@@ -71,7 +72,7 @@ export class Stage {
   /** @param {number} now */
   ask(now) {
     const seconds = this.running ? Math.min((now - this.posted) / 1000, LONGEST) * this.speed : 0;
-    const overlays = this.panel.overlays.chosen();
+    const overlays = this.controls.overlays.chosen();
     this.engine.post({ type: "frame", seconds, steps: this.steps, overlays, camera: this.looking });
     this.posted = now;
     this.waiting = true;
@@ -87,7 +88,7 @@ export class Stage {
 
   /** @param {Frame} frame */
   draw(frame) {
-    const { clock, signals } = this.panel;
+    const { clock, signals } = this.controls;
     this.scene.draw(frame);
     this.chart.add(frame.samples);
     if (!this.running || this.scene.draws % CHART_FRAMES === 0) {
@@ -100,20 +101,28 @@ export class Stage {
     if (this.pulled > 0 && --this.pulled === 0) this.release();
   }
 
+  /** Runs, or pauses. */
+  toggle() {
+    this.startEngine();
+    this.play(!this.running);
+  }
+
   /** @param {boolean} running */
   play(running) {
     this.running = running;
-    this.panel.run.textContent = running ? "Pause" : "Run";
+    this.controls.run.textContent = running ? "Pause" : "Run";
   }
 
   /** Makes one step and stands still. */
   step() {
+    this.startEngine();
     this.play(false);
     this.steps += 1;
   }
 
   /** Back to the start of the run. */
   reset() {
+    this.startEngine();
     this.engine.post({ type: "reset" });
     this.clear();
   }
@@ -121,7 +130,7 @@ export class Stage {
   /** Forgets what was seen of a run. */
   clear() {
     this.chart.clear();
-    this.panel.warnings.replaceChildren();
+    this.controls.warnings.replaceChildren();
     this.dirty = true;
   }
 
@@ -138,8 +147,8 @@ export class Stage {
     if (first || this.looking >= assets.cameras.length) this.lookThrough(this.ownCamera());
   }
 
-  /** The engine is gone, and with it what was asked of it. */
-  lost() {
+  /** Forgets what was asked of the engine, which is gone. */
+  engineLost() {
     this.play(false);
     Object.assign(this, { waiting: false, held: null, towards: null, arrived: null, pulled: 0, dirty: true });
   }
@@ -148,7 +157,7 @@ export class Stage {
    * @param {Assets} assets
    */
   offer({ cameras, movable }) {
-    const { camera, body } = this.panel;
+    const { camera, body } = this.controls;
     const options = [["-1", "free"], ...cameras.map((name, i) => [String(i), name])];
     camera.select.replaceChildren(...options.map(([value, name]) => el("option", { value }, name)));
     camera.select.value = String(this.looking);
@@ -157,7 +166,7 @@ export class Stage {
 
   /** @param {Frame["warnings"]} warnings */
   warn(warnings) {
-    const list = this.panel.warnings;
+    const list = this.controls.warnings;
     if (warnings.every(({ name }) => list.querySelector(`[data-name="${name}"]`))) return;
     const triage = document.querySelector('a.md-nav__link[href*="triage"]');
     const general = triage instanceof HTMLAnchorElement ? [{ href: `${triage.href}#warnings`, title: "Triage: warnings" }] : [];
@@ -170,9 +179,19 @@ export class Stage {
     );
   }
 
-  /** @param {() => void} change of the view */
-  move(change) {
-    change();
+  /**
+   * Turns the view.
+   * @param {number} right in rad
+   * @param {number} up in rad
+   */
+  turn(right, up) {
+    this.scene.camera.orbit(right, up);
+    this.scene.render();
+  }
+
+  /** @param {number} factor below 1 is nearer */
+  zoom(factor) {
+    this.scene.camera.approach(factor);
     this.scene.render();
   }
 
@@ -184,9 +203,9 @@ export class Stage {
   /** @param {number} camera */
   lookThrough(camera) {
     this.looking = camera;
-    this.panel.camera.select.value = String(camera);
-    if (camera < 0) this.scene.eye.overview();
-    else this.scene.eye.free = false;
+    this.controls.camera.select.value = String(camera);
+    if (camera < 0) this.scene.camera.overview();
+    else this.scene.camera.free = false;
     this.dirty = true;
   }
 
@@ -196,7 +215,7 @@ export class Stage {
    * @param {number} up
    */
   pull(right, up) {
-    const body = Number(this.panel.body.select.value);
+    const body = Number(this.controls.body.select.value);
     if (!body) return;
     this.play(true);
     this.towards = [right, up];
@@ -209,7 +228,7 @@ export class Stage {
     if (!held || !this.towards) return;
     const reach = PULL.share * (this.assets?.size.extent ?? 1);
     const [right, up] = this.towards;
-    this.engine.post({ type: "drag", point: this.scene.eye.beside(held.point, right * reach, up * reach) });
+    this.engine.post({ type: "drag", point: this.scene.camera.beside(held.point, right * reach, up * reach) });
     this.pulled = PULL.frames;
   }
 

@@ -1,10 +1,10 @@
 // The answer to `Check my fix`: a sentence and a table of measured and expected values.
 
-import { expected, shown } from "./checks.js";
-import { el } from "./dom.js";
+import { expected, shown } from "../engine/checks.js";
+import { el } from "../page/elements.js";
 
-/** @import {Judgement} from "./measure.js" */
-/** @import {Check, Playground} from "./record.js" */
+/** @import {Judgement} from "./judgement.js" */
+/** @import {Check, CaseRecord} from "../record/types.js" */
 
 const TAKES = {
   final: "at the end",
@@ -17,7 +17,7 @@ const TAKES = {
 };
 
 /**
- * @param {Playground} record
+ * @param {CaseRecord} record
  * @param {Judgement} judgement
  * @param {boolean} ours whether the text is a fix of the record
  * @returns {{summary: string, table: HTMLElement}}
@@ -61,7 +61,7 @@ function missed(all, failed) {
 }
 
 /**
- * @param {Playground} record
+ * @param {CaseRecord} record
  * @param {Check} check
  */
 function what(record, check) {

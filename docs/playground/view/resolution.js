@@ -8,8 +8,8 @@ const PATIENCE = 4; // early averages in a row before the picture gets finer
 const STEP = 0.8;
 const LEAST = 0.5; // pixels a CSS pixel
 
-/** Pixels a CSS pixel: fewer where frames come late, more again where they come early. */
-export class Pace {
+/** Pixels drawn a CSS pixel: fewer where frames come late, more again where they come early. */
+export class Resolution {
   /** @param {number} most pixels a CSS pixel */
   constructor(most) {
     this.most = most;
@@ -20,11 +20,11 @@ export class Pace {
   }
 
   /**
-   * Notes a frame.
+   * Takes note of a frame.
    * @param {number} now in ms
    * @returns {number} pixels a CSS pixel from now on
    */
-  drawn(now) {
+  frameDrawn(now) {
     if (now - (this.times.at(-1) ?? now) > PAUSE) this.times = [];
     this.times.push(now);
     if (this.times.length <= FRAMES) return this.ratio;

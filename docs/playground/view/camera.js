@@ -2,29 +2,32 @@
 
 import { PerspectiveCamera, Quaternion, Vector3 } from "three";
 
-/** @import {Assets} from "./assets.js" */
+/** @import {Assets} from "../engine/assets.js" */
 
 const UP = new Vector3(0, 0, 1);
 const POLE = 0.985; // how straight up or down the free view may look, as |z| of its direction
 
-/** A camera that follows the model's until it is taken over. */
-export class Eye {
+/** A camera that follows the model's until the reader turns it. */
+export class ReaderCamera extends PerspectiveCamera {
   constructor() {
-    this.camera = new PerspectiveCamera();
-    this.camera.up.copy(UP);
+    super();
+    this.up.copy(UP);
     this.target = new Vector3();
     this.free = false;
   }
 
-  /** @param {Assets} assets */
-  fit(assets) {
+  /**
+   * Takes over the model's size and cameras.
+   * @param {Assets} assets
+   */
+  load(assets) {
     const { extent, centre } = assets.size;
     this.centre = new Vector3(...centre);
     this.extent = extent;
-    this.camera.near = Math.max(1e-4, assets.map.near * extent * 0.5);
-    this.camera.far = Math.max(assets.map.far * extent, 10 * extent);
+    this.near = Math.max(1e-4, assets.map.near * extent * 0.5);
+    this.far = Math.max(assets.map.far * extent, 10 * extent);
     this.fovy = assets.fovy;
-    this.lens(this.free || assets.cameras.length === 0 ? assets.fovy : this.camera.fov);
+    this.setFieldOfView(this.free || assets.cameras.length === 0 ? assets.fovy : this.fov);
     if (assets.cameras.length === 0) this.overview();
   }
 
@@ -33,9 +36,9 @@ export class Eye {
     const { centre = new Vector3(), extent = 1 } = this;
     this.free = true;
     this.target.copy(centre);
-    this.camera.position.copy(centre).add(new Vector3(0, -1.3, 0.75).multiplyScalar(extent));
-    this.camera.lookAt(centre);
-    this.lens(this.fovy ?? 45);
+    this.position.copy(centre).add(new Vector3(0, -1.3, 0.75).multiplyScalar(extent));
+    this.lookAt(centre);
+    this.setFieldOfView(this.fovy ?? 45);
   }
 
   /**
@@ -44,16 +47,15 @@ export class Eye {
    */
   follow(pose) {
     if (!pose || this.free) return;
-    const { camera } = this;
-    camera.position.fromArray(pose.pos);
-    const m = camera.matrix.elements;
+    this.position.fromArray(pose.pos);
+    const m = this.matrix.elements;
     for (let k = 0; k < 3; k++) [m[k], m[k + 4], m[k + 8]] = pose.mat.slice(3 * k, 3 * k + 3);
-    camera.quaternion.setFromRotationMatrix(camera.matrix);
-    this.lens(pose.fovy);
+    this.quaternion.setFromRotationMatrix(this.matrix);
+    this.setFieldOfView(pose.fovy);
     const ahead = this.ahead();
     const { centre = new Vector3(), extent = 1 } = this;
-    const distance = centre.clone().sub(camera.position).dot(ahead);
-    this.target.copy(camera.position).addScaledVector(ahead, Math.max(distance, 0.1 * extent));
+    const distance = centre.clone().sub(this.position).dot(ahead);
+    this.target.copy(this.position).addScaledVector(ahead, Math.max(distance, 0.1 * extent));
   }
 
   /**
@@ -63,20 +65,23 @@ export class Eye {
    */
   orbit(right, up) {
     this.free = true;
-    const { camera, target } = this;
-    const side = new Vector3(1, 0, 0).applyQuaternion(camera.quaternion);
+    const { target } = this;
+    const side = new Vector3(1, 0, 0).applyQuaternion(this.quaternion);
     const turn = new Quaternion().setFromAxisAngle(UP, -right);
     const tilt = new Quaternion().setFromAxisAngle(side, -up);
     const tilted = this.ahead().applyQuaternion(tilt);
     if (Math.abs(tilted.z) < POLE || Math.abs(tilted.z) < Math.abs(this.ahead().z)) turn.multiply(tilt);
-    camera.position.sub(target).applyQuaternion(turn).add(target);
-    camera.quaternion.premultiply(turn);
+    this.position.sub(target).applyQuaternion(turn).add(target);
+    this.quaternion.premultiply(turn);
   }
 
-  /** @param {number} factor below 1 is nearer */
-  zoom(factor) {
+  /**
+   * Moves towards the target, or away from it.
+   * @param {number} factor of the distance: below 1 is nearer
+   */
+  approach(factor) {
     this.free = true;
-    this.camera.position.sub(this.target).multiplyScalar(factor).add(this.target);
+    this.position.sub(this.target).multiplyScalar(factor).add(this.target);
   }
 
   /**
@@ -87,17 +92,18 @@ export class Eye {
    */
   beside(point, right, up) {
     const [x, y] = [new Vector3(), new Vector3()];
-    this.camera.matrixWorld.extractBasis(x, y, new Vector3());
+    this.matrixWorld.extractBasis(x, y, new Vector3());
     return new Vector3(...point).addScaledVector(x, right).addScaledVector(y, up).toArray();
   }
 
   /** @param {number} fov in degrees, vertical */
-  lens(fov) {
-    this.camera.fov = fov;
-    this.camera.updateProjectionMatrix();
+  setFieldOfView(fov) {
+    this.fov = fov;
+    this.updateProjectionMatrix();
   }
 
+  /** The direction of view, in the world. */
   ahead() {
-    return new Vector3(0, 0, -1).applyQuaternion(this.camera.quaternion);
+    return new Vector3(0, 0, -1).applyQuaternion(this.quaternion);
   }
 }

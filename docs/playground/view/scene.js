@@ -1,14 +1,14 @@
 // Draws what MuJoCo's own visualisation lists (mjvScene) with three.js: one instanced mesh for each shape and material.
 
 import * as THREE from "three";
-import { Eye } from "./camera.js";
-import { GEOM } from "./live.js";
-import { Pace } from "./pace.js";
-import { arrow, shapes } from "./shapes.js";
-import { dataTexture, Lights, sky } from "./surface.js";
+import { ReaderCamera } from "./camera.js";
+import { GEOM } from "../engine/interactive.js";
+import { Resolution } from "./resolution.js";
+import { arrow, geometries } from "./geometries.js";
+import { dataTexture, Lights, sky } from "./lighting.js";
 
-/** @import {Assets} from "./assets.js" */
-/** @import {Frame} from "./live.js" */
+/** @import {Assets} from "../engine/assets.js" */
+/** @import {Frame} from "../engine/interactive.js" */
 
 /** Numbers of mjtGeom. */
 const TYPE = {
@@ -21,7 +21,7 @@ const SOFTWARE = /swiftshader|llvmpipe|software|basic render/i;
 
 /**
  * Instances of one shape in one material.
- * @typedef {{mesh: THREE.InstancedMesh, count: number}} Bucket
+ * @typedef {{mesh: THREE.InstancedMesh, count: number}} Batch
  */
 
 /** A canvas with the scene. */
@@ -33,15 +33,15 @@ export class Scene {
   constructor(canvas) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !drawsInSoftware(), powerPreference: "low-power" });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // colours go out as they came in
-    this.pace = new Pace(Math.min(devicePixelRatio, MAX_RATIO));
-    this.renderer.setPixelRatio(this.pace.ratio);
+    this.resolution = new Resolution(Math.min(devicePixelRatio, MAX_RATIO));
+    this.renderer.setPixelRatio(this.resolution.ratio);
     this.renderer.setClearColor(new THREE.Color(0.2, 0.25, 0.3));
     this.root = new THREE.Scene();
-    this.eye = new Eye();
-    /** @type {Map<string, Bucket>} */
-    this.buckets = new Map();
+    this.camera = new ReaderCamera();
+    /** @type {Map<string, Batch>} */
+    this.batches = new Map();
     /** @type {Map<string, THREE.BufferGeometry>} */
-    this.shapes = new Map();
+    this.geometries = new Map();
     /** @type {(THREE.Texture | null)[]} */
     this.textures = [];
     this.lights = new Lights();
@@ -55,11 +55,11 @@ export class Scene {
   load(assets) {
     this.clear();
     this.assets = assets;
-    this.shapes = shapes(assets);
+    this.geometries = geometries(assets);
     this.textures = assets.textures.map((made) => made && dataTexture(made));
     if (assets.sky) this.root.add(sky(assets.sky));
     this.lights.load(assets.lights);
-    this.eye.fit(assets);
+    this.camera.load(assets);
   }
 
   /**
@@ -67,33 +67,33 @@ export class Scene {
    * @param {Frame} frame
    */
   draw(frame) {
-    this.eye.follow(frame.camera);
-    for (const bucket of this.buckets.values()) bucket.count = 0;
-    for (let at = 0; at < frame.geoms.length; at += GEOM.LENGTH) this.place(frame.geoms.subarray(at, at + GEOM.LENGTH));
-    for (const { mesh, count } of this.buckets.values()) {
+    this.camera.follow(frame.camera);
+    for (const batch of this.batches.values()) batch.count = 0;
+    for (let at = 0; at < frame.geoms.length; at += GEOM.LENGTH) this.addGeom(frame.geoms.subarray(at, at + GEOM.LENGTH));
+    for (const { mesh, count } of this.batches.values()) {
       mesh.count = count;
       mesh.visible = count > 0;
       mesh.instanceMatrix.needsUpdate = true;
       if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
     }
-    const ratio = this.pace.drawn(performance.now());
+    const ratio = this.resolution.frameDrawn(performance.now());
     if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio); // which empties the canvas
     this.render();
   }
 
-  /** Draws again what was drawn last, from where the eye is now. */
+  /** Draws again what was drawn last, from where the camera is now. */
   render() {
     const canvas = this.renderer.domElement;
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
     if (width === 0 || height === 0) return;
     const size = this.renderer.getSize(new THREE.Vector2());
     if (size.x !== width || size.y !== height) this.renderer.setSize(width, height, false);
-    const { camera } = this.eye;
+    const { camera } = this;
     if (camera.aspect !== width / height) {
       camera.aspect = width / height;
       camera.updateProjectionMatrix();
     }
-    this.lights.face(this.eye.ahead());
+    this.lights.aimHeadlight(this.camera.ahead());
     this.renderer.render(this.root, camera);
     this.draws += 1;
   }
@@ -104,7 +104,7 @@ export class Scene {
    * @param {number} y from -1, the bottom, to 1
    */
   ray(x, y) {
-    const { camera } = this.eye;
+    const { camera } = this;
     camera.updateMatrixWorld();
     const direction = new THREE.Vector3(x, y, 0.5).unproject(camera).sub(camera.position).normalize();
     return { origin: camera.position.toArray(), direction: direction.toArray() };
@@ -118,49 +118,49 @@ export class Scene {
    */
   pointAt(x, y, like) {
     const { origin, direction } = this.ray(x, y);
-    const ahead = this.eye.ahead();
-    const depth = new THREE.Vector3(...like).sub(this.eye.camera.position).dot(ahead);
+    const ahead = this.camera.ahead();
+    const depth = new THREE.Vector3(...like).sub(this.camera.position).dot(ahead);
     const along = depth / new THREE.Vector3(...direction).dot(ahead);
     return origin.map((start, k) => start + along * direction[k]);
   }
 
   /** @param {Float32Array} geom */
-  place(geom) {
+  addGeom(geom) {
     const [x, y, z] = geom.subarray(GEOM.SIZE, GEOM.SIZE + 3);
     const type = geom[GEOM.TYPE];
-    const put = (/** @type {string} */ shape, /** @type {number[]} */ scale, /** @type {number} */ lift = 0) =>
-      this.put(shape, geom, scale, lift);
+    const add = (/** @type {string} */ shape, /** @type {number[]} */ scale, /** @type {number} */ lift = 0) =>
+      this.addInstance(shape, geom, scale, lift);
     switch (type) {
       case TYPE.PLANE:
-        return put("plane", [x || FAR, y || FAR, 1]);
+        return add("plane", [x || FAR, y || FAR, 1]);
       case TYPE.SPHERE:
-        return put("sphere", [x, x, x]);
+        return add("sphere", [x, x, x]);
       case TYPE.ELLIPSOID:
-        return put("sphere", [x, y, z]);
+        return add("sphere", [x, y, z]);
       case TYPE.CAPSULE:
-        put("tube", [x, x, z]);
-        put("cap", [x, x, x], z);
-        return put("cap", [x, -x, -x], -z);
+        add("tube", [x, x, z]);
+        add("cap", [x, x, x], z);
+        return add("cap", [x, -x, -x], -z);
       case TYPE.CYLINDER:
-        return put("cylinder", [x, y, z]);
+        return add("cylinder", [x, y, z]);
       case TYPE.BOX:
-        return put("box", [x, y, z]);
+        return add("box", [x, y, z]);
       case TYPE.LINEBOX:
-        return put("box", [x, y, z]);
+        return add("box", [x, y, z]);
       case TYPE.MESH:
       case TYPE.SDF:
-        return put(`${geom[GEOM.DATA] & 1 ? "hull" : "mesh"}-${geom[GEOM.DATA] >> 1}`, [1, 1, 1]);
+        return add(`${geom[GEOM.DATA] & 1 ? "hull" : "mesh"}-${geom[GEOM.DATA] >> 1}`, [1, 1, 1]);
       case TYPE.HFIELD:
-        return put(`field-${geom[GEOM.DATA]}`, [1, 1, 1]);
+        return add(`field-${geom[GEOM.DATA]}`, [1, 1, 1]);
       case TYPE.ARROW:
       case TYPE.ARROW1:
-        return arrow(x, z, type === TYPE.ARROW).forEach(({ shape, scale, lift }) => put(shape, scale, lift));
+        return arrow(x, z, type === TYPE.ARROW).forEach(({ shape, scale, lift }) => add(shape, scale, lift));
       case TYPE.ARROW2:
-        put("cylinder", [x, x, z / 2 - x]);
-        put("cone", [x, x, x / 2], (z - x) / 2);
-        return put("cone", [x, -x, -x / 2], (x - z) / 2);
+        add("cylinder", [x, x, z / 2 - x]);
+        add("cone", [x, x, x / 2], (z - x) / 2);
+        return add("cone", [x, -x, -x / 2], (x - z) / 2);
       case TYPE.LINE:
-        return put("tube", [0.0015 * this.extent, 0.0015 * this.extent, z / 2], z / 2);
+        return add("tube", [0.0015 * this.extent, 0.0015 * this.extent, z / 2], z / 2);
     }
   }
 
@@ -175,11 +175,11 @@ export class Scene {
    * @param {number[]} scale
    * @param {number} lift along the geom's z axis, in m
    */
-  put(shape, geom, scale, lift) {
-    const geometry = this.shapes.get(shape);
+  addInstance(shape, geom, scale, lift) {
+    const geometry = this.geometries.get(shape);
     if (!geometry) return;
     const [r, g, b, a] = geom.subarray(GEOM.RGBA, GEOM.RGBA + 4);
-    const bucket = this.bucket(shape, geometry, geom, a, scale);
+    const batch = this.batch(shape, geometry, geom, a, scale);
     const m = geom.subarray(GEOM.MAT, GEOM.MAT + 9);
     const p = geom.subarray(GEOM.POS, GEOM.POS + 3);
     const [sx, sy, sz] = scale;
@@ -189,27 +189,27 @@ export class Scene {
       m[6] * sx, m[7] * sy, m[8] * sz, p[2] + m[8] * lift,
       0, 0, 0, 1,
     ); // prettier-ignore
-    bucket.mesh.setMatrixAt(bucket.count, matrix);
-    bucket.mesh.setColorAt(bucket.count, tint.setRGB(r, g, b));
-    bucket.count += 1;
+    batch.mesh.setMatrixAt(batch.count, matrix);
+    batch.mesh.setColorAt(batch.count, tint.setRGB(r, g, b));
+    batch.count += 1;
   }
 
   /**
-   * The bucket with room for one more instance.
+   * The batch with room for one more instance.
    * @param {string} shape
    * @param {THREE.BufferGeometry} geometry
    * @param {Float32Array} geom
    * @param {number} alpha
    * @param {number[]} scale
-   * @returns {Bucket}
+   * @returns {Batch}
    */
-  bucket(shape, geometry, geom, alpha, scale) {
+  batch(shape, geometry, geom, alpha, scale) {
     const opacity = Math.round(alpha * 20) / 20;
     const { map, repeat } = this.texture(shape === "plane" ? geom[GEOM.MATERIAL] : -1, Boolean(geom[GEOM.UNIFORM]), scale);
     const key = `${shape} ${opacity} ${map ? `${geom[GEOM.MATERIAL]} ${repeat}` : ""}`;
-    const found = this.buckets.get(key);
+    const found = this.batches.get(key);
     if (found && found.count < found.mesh.instanceMatrix.count) return found;
-    const material = found?.mesh.material ?? this.lights.surface({ opacity, twoSided: twoSided(shape), map, repeat });
+    const material = found?.mesh.material ?? this.lights.material({ opacity, twoSided: twoSided(shape), map, repeat });
     const mesh = new THREE.InstancedMesh(geometry, material, found ? 2 * found.count : 4);
     mesh.frustumCulled = false;
     mesh.renderOrder = opacity < 1 ? 2 : 0;
@@ -223,10 +223,10 @@ export class Scene {
       this.root.remove(found.mesh);
       found.mesh.dispose();
     }
-    const bucket = { mesh, count: found?.count ?? 0 };
+    const batch = { mesh, count: found?.count ?? 0 };
     this.root.add(mesh);
-    this.buckets.set(key, bucket);
-    return bucket;
+    this.batches.set(key, batch);
+    return batch;
   }
 
   /**
@@ -243,14 +243,14 @@ export class Scene {
   }
 
   clear() {
-    for (const { mesh } of this.buckets.values()) mesh.dispose();
+    for (const { mesh } of this.batches.values()) mesh.dispose();
     this.root.traverse((part) => {
       if (part instanceof THREE.Mesh) part.material.dispose();
       if (part instanceof THREE.Mesh) part.geometry.dispose();
     });
-    for (const geometry of this.shapes.values()) geometry.dispose();
+    for (const geometry of this.geometries.values()) geometry.dispose();
     for (const texture of this.textures) texture?.dispose();
-    this.buckets.clear();
+    this.batches.clear();
     this.root.clear();
   }
 

@@ -4,7 +4,7 @@ import { bind, requireId, warningStat } from "./signals.js";
 
 /** @import {MainModule, MjData, MjModel} from "@mujoco/mujoco" */
 /** @import {Trace} from "./checks.js" */
-/** @import {PathSignal, RunSpec} from "./record.js" */
+/** @import {PathSignal, RunSpec} from "../record/types.js" */
 
 export const MAX_STEPS = 2_000_000;
 const STEPS_A_TURN = 100;
@@ -172,4 +172,17 @@ function interpolate(points, moment) {
   if (next < 0) return points[points.length - 1][1];
   const [[t0, v0], [t1, v1]] = [points[next - 1], points[next]];
   return ((v1 - v0) / (t1 - t0)) * (moment - t0) + v0;
+}
+
+/**
+ * Runs a generator to its end at once.
+ * @template T
+ * @param {Generator<undefined, T>} work
+ * @returns {T}
+ */
+export function finish(work) {
+  for (;;) {
+    const turn = work.next();
+    if (turn.done) return turn.value;
+  }
 }

@@ -1,17 +1,17 @@
-// The model that the reader watches: stepped in time with the screen, sampled, pulled, and packed for drawing.
+// A simulation that the reader watches: stepped in time with the screen, sampled, pulled, and packed for drawing.
 
-import { evaluate, parse } from "./expression.js";
+import { evaluate, parse } from "../record/expression.js";
 import { pathSignals } from "./measure.js";
 import { bind } from "./signals.js";
 import { controls, raised, start, step } from "./simulate.js";
 
 /** @import {MainModule, MjData, MjModel, MjvCamera, MjvOption, MjvPerturb, MjvScene} from "@mujoco/mujoco" */
-/** @import {Playground} from "./record.js" */
+/** @import {CaseRecord} from "../record/types.js" */
 /** @import {Drive} from "./simulate.js" */
 
 const MAX_GEOMS = 2000;
 const SAMPLES_A_FRAME = 20;
-const BUDGET = 12; // ms of stepping a frame
+const STEPPING = 12; // ms a frame
 
 /** The numbers of a packed geom, in this order; see `pack`. */
 export const GEOM = {
@@ -53,11 +53,11 @@ export const OVERLAYS = /** @type {const} */ ({
  */
 
 /** A compiled model with its data and everything that draws it. */
-export class Live {
+export class InteractiveSimulation {
   /**
    * @param {MainModule} mujoco
    * @param {string} xml
-   * @param {Playground} record
+   * @param {CaseRecord} record
    * @throws {Error} with MuJoCo's message, if the XML does not compile
    */
   constructor(mujoco, xml, record) {
@@ -118,7 +118,7 @@ export class Live {
     const stride = Math.ceil(wanted / SAMPLES_A_FRAME);
     /** @type {Frame["samples"]} */
     const samples = { time: [], values: Object.fromEntries(this.signals.map(({ name }) => [name, []])) };
-    const deadline = performance.now() + BUDGET;
+    const deadline = performance.now() + STEPPING;
     let made = 0;
     while (made < wanted && (made === 0 || performance.now() < deadline)) {
       if (this.perturb.active) {

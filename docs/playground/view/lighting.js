@@ -1,9 +1,9 @@
-// How things are coloured: lit a vertex rather than a pixel, in the colours as they are given, as MuJoCo's own fixed
-// pipeline does. It keeps the fragments cheap, which is what a machine without a graphics card needs.
+// Lights, surfaces and sky. Surfaces are lit a vertex rather than a pixel, in the colours as they are given, as MuJoCo's
+// own fixed pipeline does: that is cheap, which is what a machine without a graphics card needs.
 
 import * as THREE from "three";
 
-/** @import {Light, Texture} from "./assets.js" */
+/** @import {Light, Texture} from "../engine/assets.js" */
 
 THREE.ColorManagement.enabled = false;
 
@@ -64,7 +64,10 @@ export class Lights {
     this.head = -1;
   }
 
-  /** @param {Light[]} lights */
+  /**
+   * Takes over the model's lights.
+   * @param {Light[]} lights
+   */
   load(lights) {
     const { ambient, diffuse, place, aim, cone } = this.uniforms;
     ambient.value.set(0, 0, 0);
@@ -82,18 +85,18 @@ export class Lights {
   }
 
   /**
-   * Points the head light.
+   * Points the headlight where the camera looks.
    * @param {THREE.Vector3} ahead
    */
-  face(ahead) {
+  aimHeadlight(ahead) {
     if (this.head >= 0) this.uniforms.aim.value[this.head].copy(ahead);
   }
 
   /**
-   * A material for instances.
+   * A material for instances that these lights shine on.
    * @param {{opacity: number, twoSided: boolean, map: THREE.Texture | null, repeat: [number, number]}} look
    */
-  surface({ opacity, twoSided, map, repeat }) {
+  material({ opacity, twoSided, map, repeat }) {
     return new THREE.ShaderMaterial({
       uniforms: { ...this.uniforms, opacity: { value: opacity }, map: { value: map }, repeat: { value: new THREE.Vector2(...repeat) } },
       defines: { TWO_SIDED: String(twoSided), ...(map ? { TEXTURED: "" } : {}) },

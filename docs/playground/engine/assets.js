@@ -24,7 +24,6 @@ const MAX_SIDE = 200; // of a height field, in drawn points
  * @property {{centre: number[], extent: number}} size of the model
  * @property {{near: number, far: number}} map in extents
  * @property {number} fovy of the free camera, in degrees
- * @property {number} timestep in s
  */
 
 /**
@@ -54,7 +53,6 @@ export function assets(mujoco, model, scene) {
     size: { centre: Array.from(model.stat.center), extent: model.stat.extent },
     map: { near: map.znear, far: map.zfar },
     fovy: global.fovy,
-    timestep: model.opt.timestep,
   };
 }
 

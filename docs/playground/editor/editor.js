@@ -77,7 +77,7 @@ export class Editor {
    * @param {string | null} message
    * @param {number | null} [line]
    */
-  complain(message, line = null) {
+  showError(message, line = null) {
     const { doc } = this.view.state;
     const place = doc.line(Math.min(Math.max(line ?? 1, 1), doc.lines));
     const found = message === null ? [] : [{ from: place.from, to: place.to, severity: /** @type {const} */ ("error"), message }];

@@ -2,7 +2,7 @@
 // The paths are those of scripts/clinic/engine/signals.py.
 
 /** @import {DoubleBuffer, MainModule, MjData, MjModel} from "@mujoco/mujoco" */
-/** @import {PathSignal} from "./record.js" */
+/** @import {PathSignal} from "../record/types.js" */
 
 /**
  * @typedef {object} Path

@@ -1,9 +1,9 @@
 // A signal over time, drawn while the model runs.
 
 import uPlot from "uplot";
-import { shown } from "./checks.js";
+import { shown } from "../engine/checks.js";
 
-/** @import {Signal} from "./record.js" */
+/** @import {Signal} from "../record/types.js" */
 
 const MAX_SAMPLES = 4000; // kept a signal; then every second one is dropped
 

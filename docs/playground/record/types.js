@@ -32,7 +32,7 @@
  * @property {Record<string, number>} qvel
  * @property {Record<string, number | [number, number][]>} ctrl
  *
- * @typedef {object} Playground
+ * @typedef {object} CaseRecord
  * @property {string} case
  * @property {number} number
  * @property {string} title

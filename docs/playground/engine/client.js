@@ -1,4 +1,4 @@
-// The page's side of the worker: a watchdog, generations, renewal.
+// The engine as the page sees it: a worker that is asked, watched, and started anew when it crashes or falls silent.
 
 const LIMIT = 6000; // ms without a sign of life
 const BOOT_LIMIT = 60000; // the engine is fetched over the reader's network
@@ -8,15 +8,15 @@ const PROGRESS = new Set(["judging"]);
 
 /** @typedef {"crashed" | "silent" | "unavailable"} Loss */
 
-/** A worker that is renewed when it crashes or falls silent. */
+/** The worker in which MuJoCo runs. */
 export class Engine {
   /** @param {{worker: string, wasm: string, record: object}} source */
   constructor(source) {
     this.source = source;
     /** @type {((message: any) => void) | null} called with every answer of the present generation */
-    this.hear = null;
+    this.onMessage = null;
     /** @type {((reason: Loss, message: string) => void) | null} called once the worker has been ended */
-    this.mourn = null;
+    this.onLost = null;
     /** @type {(() => void)[]} what there was to say before anyone listened */
     this.early = [];
     this.generation = 0;
@@ -30,17 +30,18 @@ export class Engine {
   }
 
   /**
-   * @param {(message: any) => void} hear
-   * @param {(reason: Loss, message: string) => void} mourn
+   * Sets who is told; what there was to tell before is told now.
+   * @param {(message: any) => void} onMessage
+   * @param {(reason: Loss, message: string) => void} onLost
    */
-  listen(hear, mourn) {
-    this.hear = hear;
-    this.mourn = mourn;
-    for (const say of this.early.splice(0)) say();
+  listen(onMessage, onLost) {
+    this.onMessage = onMessage;
+    this.onLost = onLost;
+    for (const tell of this.early.splice(0)) tell();
   }
 
   /** Whether failed compiles have used the module up. */
-  get worn() {
+  get wornOut() {
     return this.failures > MAX_FAILURES;
   }
 
@@ -90,10 +91,11 @@ export class Engine {
     if (!PROGRESS.has(message.type)) this.waiting -= 1;
     this.failures = message.failures ?? this.failures;
     this.watch();
-    if (this.hear) this.hear(message);
-    else this.early.push(() => this.hear?.(message));
+    if (this.onMessage) this.onMessage(message);
+    else this.early.push(() => this.onMessage?.(message));
   }
 
+  /** Waits for a sign of life, while an answer is owed. */
   watch() {
     clearTimeout(this.timer);
     if (this.waiting === 0) return;
@@ -101,12 +103,13 @@ export class Engine {
   }
 
   /**
+   * Ends the worker and tells why.
    * @param {Loss} reason
    * @param {string} message
    */
   lose(reason, message) {
     this.end();
-    if (this.mourn) this.mourn(reason, message);
-    else this.early.push(() => this.mourn?.(reason, message));
+    if (this.onLost) this.onLost(reason, message);
+    else this.early.push(() => this.onLost?.(reason, message));
   }
 }

@@ -2,16 +2,17 @@
 
 import * as THREE from "three";
 
-/** @import {Assets, Shape} from "./assets.js" */
+/** @import {Assets, Shape} from "../engine/assets.js" */
 
 const ROUND = 24; // segments about an axis
 const HEAD_WIDTH = 1.75; // of an arrow, in widths of its shaft
 
 /**
+ * The geometries by the names that `Scene` draws them by.
  * @param {Assets} assets
  * @returns {Map<string, THREE.BufferGeometry>}
  */
-export function shapes({ meshes, hulls, fields }) {
+export function geometries({ meshes, hulls, fields }) {
   const alongZ = (/** @type {THREE.BufferGeometry} */ made) => made.rotateX(Math.PI / 2);
   const made = new Map([
     ["plane", new THREE.PlaneGeometry(2, 2, 12, 12)],

@@ -1,30 +1,29 @@
 // The reader's text: edited, compiled while the last good model goes on, compared, shared.
 
-import { el } from "./dom.js";
+import { el } from "../page/elements.js";
+import { toFragment } from "../page/link.js";
+import { applyEdits } from "../engine/variant.js";
+import { editorControls } from "./controls.js";
 import { Editor } from "./editor.js";
-import { toFragment } from "./link.js";
-import { applyEdits } from "./variant.js";
 
-/** @import {Engine} from "./client.js" */
-/** @import {Panel} from "./panel.js" */
-/** @import {Playground} from "./record.js" */
+/** @import {Engine} from "../engine/client.js" */
+/** @import {CaseRecord} from "../record/types.js" */
 
 const TYPING = 350; // ms without a key before a text is compiled
 
 /** The text in the editor and what the engine makes of it. */
 export class Draft {
   /**
-   * @param {Panel} panel
-   * @param {Playground} record
+   * @param {CaseRecord} record
    * @param {Engine} engine
    * @param {string} text
-   * @param {() => void} changed called with every edit
+   * @param {{changed: () => void, check: () => void, stop: () => void}} act what an edit does, and the buttons of the check
    */
-  constructor(panel, record, engine, text, changed) {
-    this.panel = panel;
+  constructor(record, engine, text, act) {
+    this.controls = editorControls(record, this, act);
     this.record = record;
     this.engine = engine;
-    this.changed = changed;
+    this.changed = act.changed;
     /** The text that last compiled. */
     this.good = record.text;
     /** @type {string | null} the text that is being compiled */
@@ -33,8 +32,8 @@ export class Draft {
     this.next = null;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.typing = undefined;
-    const options = { label: `${record.name}, the model's XML`, describedBy: panel.help, changed: () => this.edited() };
-    this.editor = new Editor(panel.editor, text, options);
+    const options = { label: `${record.name}, the model's XML`, describedBy: this.controls.help, changed: () => this.edited() };
+    this.editor = new Editor(this.controls.editor, text, options);
   }
 
   get text() {
@@ -50,7 +49,7 @@ export class Draft {
   edited() {
     clearTimeout(this.typing);
     this.changed();
-    this.panel.fix.select.value = "";
+    this.controls.fix.select.value = "";
     this.typing = setTimeout(() => this.engine.worker && this.compile(this.text), TYPING);
   }
 
@@ -69,10 +68,10 @@ export class Draft {
 
   /** @param {string[]} missing what of the record's run and signals the model lacks */
   accepted(missing) {
-    this.good = this.settle();
+    this.good = this.compiled();
     if (this.good !== this.text) return; // what is said of the text in the editor still holds
-    this.editor.complain(null);
-    this.complain(missing.length > 0 ? `It compiles, but the case's run and signals need more: ${missing.join("; ")}.` : "");
+    this.editor.showError(null);
+    this.showError(missing.length > 0 ? `It compiles, but the case's run and signals need more: ${missing.join("; ")}.` : "");
   }
 
   /**
@@ -80,16 +79,16 @@ export class Draft {
    * @param {boolean} running whether a model that compiled goes on
    */
   refused(error, running) {
-    const text = this.settle();
-    this.editor.complain(error.message, error.line);
+    const text = this.compiled();
+    this.editor.showError(error.message, error.line);
     const newer = this.isOurs(text, true)
       ? ` MuJoCo ${this.record.engine}, which made the evidence, knows this; the engine of this page does not.`
       : "";
-    this.complain(refusal(error) + (running ? " (The last model that compiled goes on.)" : "") + newer);
+    this.showError(compileError(error) + (running ? " (The last model that compiled goes on.)" : "") + newer);
   }
 
-  /** What was compiled; has what was typed since compiled. @returns {string} */
-  settle() {
+  /** Ends the compilation, starts that of what was typed since, and gives the text that was compiled. @returns {string} */
+  compiled() {
     const [done, next] = [this.compiling ?? this.good, this.next];
     this.compiling = this.next = null;
     if (next !== null) this.compile(next);
@@ -97,36 +96,37 @@ export class Draft {
   }
 
   /**
-   * The engine is gone: goes back to a text that can be trusted.
+   * Goes back to a text that can be trusted, since the engine is gone.
    * @param {boolean} suspected whether a text that was being compiled or judged is to blame
    */
-  lost(suspected) {
+  engineLost(suspected) {
     this.compiling = this.next = null;
     if (!suspected) this.good = this.record.text;
   }
 
   /**
-   * @param {string} text
-   * @param {string | null} original to show the differences from
+   * Puts a remedy into the editor, with what it changes marked.
+   * @param {string} id of a fix or a refuted remedy
    */
-  put(text, original) {
-    this.editor.compare(null);
-    this.editor.text = text;
-    if (original !== null) this.editor.compare(original);
-  }
-
-  /** @param {string} id of a fix or a refuted remedy */
-  remedy(id) {
+  showRemedy(id) {
     const { text, fixes, refuted } = this.record;
     const remedy = [...fixes, ...refuted].find((one) => one.id === id);
     if (!remedy) return;
-    this.put(applyEdits(text, remedy.edits), text);
-    this.panel.fix.select.value = id;
+    this.editor.compare(null);
+    this.editor.text = applyEdits(text, remedy.edits);
+    this.editor.compare(text);
+    this.controls.fix.select.value = id;
   }
 
-  /** @param {string} text */
-  complain(text) {
-    this.panel.complaint.textContent = text;
+  /** Puts the case's own text back. */
+  restore() {
+    this.editor.compare(null);
+    this.editor.text = this.record.text;
+  }
+
+  /** @param {string} text about what is wrong with the text in the editor; empty when nothing is */
+  showError(text) {
+    this.controls.error.textContent = text;
   }
 
   download() {
@@ -136,8 +136,8 @@ export class Draft {
   }
 
   /** Puts a link to the text into the field below and, where the browser lets it, into the clipboard. */
-  async link() {
-    const { address, linked } = this.panel;
+  async copyLink() {
+    const { address, linked } = this.controls;
     address.value = new URL(await toFragment(this.text), location.href).href;
     address.hidden = false;
     address.select();
@@ -154,8 +154,11 @@ export class Draft {
   }
 }
 
-/** @param {{message: string, line: number | null}} error */
-export function refusal({ message, line }) {
+/**
+ * An error of the compiler in a line.
+ * @param {{message: string, line: number | null}} error
+ */
+export function compileError({ message, line }) {
   const said = message.replaceAll("\n", " ").trim();
   return line ? `Line ${line}: ${said}` : said;
 }

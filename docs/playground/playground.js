@@ -93,7 +93,10 @@ export class Playground {
     this.setStatus(`This runs in MuJoCo ${version}; ${differs}.`);
   }
 
-  /** @param {{message: string, line: number | null}} error */
+  /**
+   * Tells why a text does not compile, and goes on with the last one that did.
+   * @param {{message: string, line: number | null}} error
+   */
   refused(error) {
     const running = this.player.assets !== null;
     this.draft.refused(error, running);
@@ -107,6 +110,7 @@ export class Playground {
   }
 
   /**
+   * Tells what became of the engine, and starts another with the last text that can be trusted.
    * @param {Loss} reason
    * @param {string} message
    */

@@ -1,8 +1,8 @@
 // The reader's text: edited, compiled while the last good model goes on, compared, shared.
 
+import { applyEdits } from "../engine/variant.js";
 import { el } from "../page/elements.js";
 import { toFragment } from "../page/link.js";
-import { applyEdits } from "../engine/variant.js";
 import { editorControls } from "./controls.js";
 import { Editor } from "./editor.js";
 

@@ -27,6 +27,7 @@ const MAX_SIDE = 200; // of a height field, in drawn points
  */
 
 /**
+ * Reads them from a compiled model.
  * @param {MainModule} mujoco
  * @param {MjModel} model
  * @param {MjvScene} scene of the model, up to date

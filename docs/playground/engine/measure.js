@@ -1,13 +1,13 @@
 // All signals of a model: read from runs, computed from each other, or measured over many runs.
 
-import { judge } from "./checks.js";
 import { evaluate, names, parse } from "../record/expression.js";
+import { judge } from "./checks.js";
 import { requireId } from "./signals.js";
 import { simulate, start } from "./simulate.js";
 
 /** @import {MainModule, MjModel} from "@mujoco/mujoco" */
-/** @import {Trace} from "./checks.js" */
 /** @import {PathSignal, CaseRecord, RowSignal, Signal, StartsSignal} from "../record/types.js" */
+/** @import {Trace} from "./checks.js" */
 /** @import {Nudge, Run} from "./simulate.js" */
 
 /** The image that `image_row` looks at, in rays: as wide for its height as the site's images. */

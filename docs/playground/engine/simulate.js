@@ -3,8 +3,8 @@
 import { bind, requireId, warningStat } from "./signals.js";
 
 /** @import {MainModule, MjData, MjModel} from "@mujoco/mujoco" */
-/** @import {Trace} from "./checks.js" */
 /** @import {PathSignal, RunSpec} from "../record/types.js" */
+/** @import {Trace} from "./checks.js" */
 
 export const MAX_STEPS = 2_000_000;
 const STEPS_A_TURN = 100;

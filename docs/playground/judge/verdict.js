@@ -3,8 +3,8 @@
 import { expected, shown } from "../engine/checks.js";
 import { el } from "../page/elements.js";
 
-/** @import {Judgement} from "./judgement.js" */
 /** @import {Check, CaseRecord} from "../record/types.js" */
+/** @import {Judgement} from "./judgement.js" */
 
 const TAKES = {
   final: "at the end",

@@ -1,6 +1,7 @@
 // Small helpers for building elements. Text is always text, never HTML.
 
 /**
+ * An element.
  * @template {keyof HTMLElementTagNameMap} K
  * @param {K} tag
  * @param {Partial<Record<string, string | boolean>>} [attributes] `true` sets an attribute without a value, `false` none
@@ -18,6 +19,7 @@ export function el(tag, attributes = {}, ...children) {
 }
 
 /**
+ * A button.
  * @param {string} label
  * @param {() => void} pressed
  * @param {Partial<Record<string, string | boolean>>} [attributes]
@@ -44,6 +46,7 @@ export function choice(label, options, chosen, changed) {
 }
 
 /**
+ * A labelled box to tick.
  * @param {string} label
  * @param {() => void} changed
  */

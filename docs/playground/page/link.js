@@ -4,6 +4,7 @@ const KEY = "#model=";
 const MAX_TEXT = 1_000_000; // characters: a longer one is not read
 
 /**
+ * Packs a text into a fragment.
  * @param {string} text
  * @returns {Promise<string>} the fragment, with its `#`
  */
@@ -14,6 +15,7 @@ export async function toFragment(text) {
 }
 
 /**
+ * Unpacks the text of a fragment.
  * @param {string} fragment
  * @returns {Promise<string | null>} the text; null if there is none that can be read
  */

@@ -20,8 +20,6 @@ const OVERLAYS = {
 };
 const TURN = 0.15; // rad a press
 
-/** @typedef {ReturnType<typeof viewControls>} ViewControls */
-
 /**
  * @param {CaseRecord} record
  * @param {Player} player

@@ -1,4 +1,4 @@
-// What is seen and moved: the scene and the chart in time with the screen, the camera, the pull on a body.
+// The player of the running model: the scene and the chart in time with the screen, the camera, the pull on a body.
 
 import { el } from "../page/elements.js";
 import { Chart } from "./chart.js";
@@ -59,7 +59,10 @@ export class Player {
     this.request = requestAnimationFrame((now) => this.tick(now));
   }
 
-  /** @param {number} now */
+  /**
+   * Draws what has arrived and asks for what comes next, once a frame of the screen.
+   * @param {number} now in ms
+   */
   tick(now) {
     this.request = requestAnimationFrame((next) => this.tick(next));
     const frame = this.arrived;
@@ -69,7 +72,10 @@ export class Player {
     if (frame) this.draw(frame);
   }
 
-  /** @param {number} now */
+  /**
+   * Asks the engine for a frame.
+   * @param {number} now in ms
+   */
   ask(now) {
     const seconds = this.running ? Math.min((now - this.posted) / 1000, LONGEST) * this.speed : 0;
     const overlays = this.controls.overlays.chosen();

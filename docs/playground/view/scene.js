@@ -1,11 +1,11 @@
 // Draws what MuJoCo's own visualisation lists (mjvScene) with three.js: one instanced mesh for each shape and material.
 
 import * as THREE from "three";
-import { ReaderCamera } from "./camera.js";
 import { GEOM } from "../engine/interactive.js";
-import { Resolution } from "./resolution.js";
+import { ReaderCamera } from "./camera.js";
 import { arrow, geometries } from "./geometries.js";
 import { dataTexture, Lights, sky } from "./lighting.js";
+import { Resolution } from "./resolution.js";
 
 /** @import {Assets} from "../engine/assets.js" */
 /** @import {Frame} from "../engine/interactive.js" */

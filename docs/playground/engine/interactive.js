@@ -105,7 +105,7 @@ export class InteractiveSimulation {
   }
 
   /**
-   * Moves on by `seconds` of simulated time, or by whole steps, as far as a frame's time allows.
+   * Moves on by whole steps, and by `seconds` of simulated time as far as a frame's time allows.
    * @param {number} seconds
    * @param {number} steps
    * @returns {Pick<Frame, "late" | "samples">}
@@ -120,7 +120,7 @@ export class InteractiveSimulation {
     const samples = { time: [], values: Object.fromEntries(this.signals.map(({ name }) => [name, []])) };
     const deadline = performance.now() + STEPPING;
     let made = 0;
-    while (made < wanted && (made === 0 || performance.now() < deadline)) {
+    while (made < wanted && (made < Math.max(steps, 1) || performance.now() < deadline)) {
       if (this.perturb.active) {
         data.xfrc_applied.fill(0);
         mujoco.mjv_applyPerturbForce(model, data, this.perturb);

@@ -62,10 +62,14 @@ def test_a_plot_has_the_colours_of_the_page_rather_than_of_the_system(page: Page
         page.goto(served + CASE)
         page.get_by_text("Fix", exact=True).click()
         page.evaluate("scheme => document.body.setAttribute('data-md-color-scheme', scheme)", site)
-        return page.locator("img[src='plot.svg']").screenshot()
+        return plot.screenshot()
 
+    plot = page.locator("img[src$='plot.svg']")
     bright, dark = seen("light", "default"), seen("light", "slate")
 
     assert bright != dark
     assert seen("dark", "default") == bright
     assert seen("dark", "slate") == dark
+
+    page.emulate_media(media="print")
+    expect(plot).to_have_css("color-scheme", "light")

@@ -2,9 +2,9 @@
 
 import { readFileSync } from "node:fs";
 import loadMujoco from "@mujoco/mujoco";
-import { assets } from "../docs/playground/engine/assets.js";
-import { InteractiveSimulation } from "../docs/playground/engine/interactive.js";
-import { applyEdits } from "../docs/playground/engine/variant.js";
+import { assets } from "../../docs/playground/engine/assets.js";
+import { InteractiveSimulation } from "../../docs/playground/engine/interactive.js";
+import { applyEdits } from "../../docs/playground/engine/variant.js";
 
 const mujoco = await loadMujoco();
 const record = JSON.parse(readFileSync(process.argv[2], "utf8"));

@@ -2,11 +2,11 @@
 
 import { readFileSync } from "node:fs";
 import loadMujoco from "@mujoco/mujoco";
-import { take } from "../docs/playground/engine/checks.js";
-import { measure } from "../docs/playground/engine/measure.js";
-import { finish } from "../docs/playground/engine/simulate.js";
-import { applyEdits } from "../docs/playground/engine/variant.js";
-import { judgeModel } from "../docs/playground/judge/judgement.js";
+import { take } from "../../docs/playground/engine/checks.js";
+import { measure } from "../../docs/playground/engine/measure.js";
+import { finish } from "../../docs/playground/engine/simulate.js";
+import { applyEdits } from "../../docs/playground/engine/variant.js";
+import { judgeModel } from "../../docs/playground/judge/judgement.js";
 
 const TAKES = /** @type {const} */ (["final", "first", "min", "max", "mean", "span", "onset"]);
 const mujoco = await loadMujoco();
@@ -24,7 +24,7 @@ for (const file of process.argv.slice(2)) {
     const { traces } = finish(measure(mujoco, model, record, new Set(read)));
     model.delete();
     const values = read.map((name) => [name, TAKES.map((which) => plain(take(traces[name], which)))]);
-    const judged = (/** @type {import("../docs/playground/engine/checks.js").Verdict[]} */ verdicts) =>
+    const judged = (/** @type {import("../../docs/playground/engine/checks.js").Verdict[]} */ verdicts) =>
       verdicts.map(({ measured, holds }) => ({ measured: plain(measured), holds }));
     found[record.case][id] = { broken: judged(broken), fixed: judged(fixed), values: Object.fromEntries(values), warnings, well };
   }

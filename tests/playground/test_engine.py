@@ -1,4 +1,4 @@
-"""The browser's modules, run by Node, against the package: equal verdicts, and equal numbers from the same engine."""
+"""The playground's engine, run by Node, against the package: equal verdicts, and equal numbers from the same engine."""
 
 from __future__ import annotations
 
@@ -37,15 +37,6 @@ UNWRITTEN: list[tuple[str, dict[str, str], bool]] = [
         True,
     ),
     ("grasp-slips", {'friction="0.15" priority="2"': 'friction="0.15" priority="0"'}, True),
-    (
-        "ball-passes-through-shelf",
-        {
-            'timestep="0.002"': 'timestep="0.001"',
-            'size="0.08 0.05 0.003"': 'size="0.08 0.05 0.003" solref="-250000 -1000"',
-            'size="0.01" mass': 'size="0.01" solref="-250000 -1000" mass',
-        },
-        True,
-    ),
     ("arm-explodes", {'stiffness="2000"': 'stiffness="2000" armature="0.3"'}, True),
     ("arm-explodes", {'stiffness="2000"': 'stiffness="10"'}, False),
     ("box-on-its-side", {'quat="0 0 0.7071068 0.7071068"': 'axisangle="0 0 1 1.5707963"'}, True),
@@ -80,7 +71,7 @@ def files(cases: list[Case], tmp_path_factory: pytest.TempPathFactory) -> list[P
 
 @pytest.fixture(scope="module")
 def browser(root: Path, files: list[Path]) -> dict[str, Any]:
-    return output(root, [node(), "tests/parity.mjs", *map(str, files)])
+    return output(root, [node(), "tests/playground/parity.mjs", *map(str, files)])
 
 
 @pytest.fixture(scope="module")
@@ -89,7 +80,7 @@ def twin(root: Path, files: list[Path]) -> dict[str, Any]:
     beside = Path(sys.prefix, "parity")
     assert beside.is_dir(), "no engine of the browser's version beside this one: run `make setup`"
     path = os.pathsep.join([str(beside), str(root / "scripts")])
-    return output(root, [sys.executable, "tests/parity.py", str(root), *map(str, files)], PYTHONPATH=path)
+    return output(root, [sys.executable, "tests/playground/parity.py", str(root), *map(str, files)], PYTHONPATH=path)
 
 
 def output(root: Path, command: list[str], **environment: str) -> dict[str, Any]:
@@ -135,25 +126,21 @@ def test_every_variant_gets_the_verdicts_of_the_evidence(cases: list[Case], brow
 
 
 def test_every_number_is_that_of_the_same_engine_in_python(browser: dict[str, Any], twin: dict[str, Any]) -> None:
-    wrong = []
-    compared = 0
+    wrong, compared = [], 0
     for slug, variants in twin["cases"].items():
         for name, here in variants.items():
             there = browser["cases"][slug][name]
-            for kind in ("broken", "fixed"):
-                for a, b in zip(here[kind], there[kind], strict=True):
-                    if a is None:
-                        continue
-                    close = a["measured"] == near(b["measured"])
-                    compared += 1
-                    if a["holds"] != b["holds"] or not (close or here["warnings"]):
-                        wrong.append(f"{slug} {name} {kind}: {a} in Python, {b} in the browser")
+            checks = [
+                pair for kind in ("broken", "fixed") for pair in zip(here[kind], there[kind], strict=True) if pair[0]
+            ]
+            numbers = [(a["measured"], b["measured"]) for a, b in checks]
             assert here["values"].keys() == there["values"].keys(), f"{slug} {name}"
             for signal, values in here["values"].items():
-                if not here["warnings"] and values != [near(value) for value in there["values"][signal]]:
-                    wrong.append(
-                        f"{slug} {name} {signal}: {values} in Python, {there['values'][signal]} in the browser"
-                    )
+                numbers += zip(values, there["values"][signal], strict=True)
+            equal = here["warnings"] or all(a == near(b) for a, b in numbers)  # an exploding run magnifies rounding
+            if not equal or any(a["holds"] != b["holds"] for a, b in checks):
+                wrong.append(f"{slug} {name}: {here} in Python, {there} in the browser")
+            compared += len(checks)
     assert not wrong, "\n".join(wrong)
     assert compared > len(twin["cases"])
 
@@ -177,33 +164,30 @@ EXPRESSIONS = [
 ]
 
 
-def test_expressions_have_the_same_values(root: Path) -> None:
+REFUSED = ["", "a +", "(a", "a b", "alert(1)", "a.b", "a[0]", "constructor(1)", "'x'"]
+CODE = """
+  const { parse, evaluate, ExpressionError } = await import("./docs/playground/record/expression.js");
+  const [texts, values] = JSON.parse(process.argv[1]);
+  console.log(JSON.stringify(texts.map((text) => {
+    try { return evaluate(parse(text), (name) => values[name]); }
+    catch (error) { return error instanceof ExpressionError ? "refused" : String(error); }
+  })));
+"""
+
+
+def test_expressions_have_the_same_values_and_what_is_none_is_refused(root: Path) -> None:
     values = {"a": 3.25, "b": 0.75}
-    code = """
-      const { parse, evaluate, names } = await import("./docs/playground/record/expression.js");
-      const [texts, values] = JSON.parse(process.argv[1]);
-      console.log(JSON.stringify(texts.map((text) => evaluate(parse(text), (name) => values[name]))));
-    """
-    command = [node(), "--input-type=module", "-e", code, json.dumps([EXPRESSIONS, values])]
+    texts = json.dumps([EXPRESSIONS + REFUSED, values])
 
-    found = output(root, command)
+    found = output(root, [node(), "--input-type=module", "-e", CODE, texts])
 
-    assert found == pytest.approx([float(np.asarray(evaluate(parse(text), values))) for text in EXPRESSIONS], rel=1e-14)
-
-
-@pytest.mark.parametrize("text", ["", "a +", "(a", "a b", "alert(1)", "a.b", "a[0]", "constructor(1)", "'x'"])
-def test_what_is_no_expression_is_refused(root: Path, text: str) -> None:
-    code = """
-      const { parse, ExpressionError } = await import("./docs/playground/record/expression.js");
-      try { parse(process.argv[1]); console.log('"parsed"'); }
-      catch (error) { console.log(JSON.stringify(error instanceof ExpressionError ? "refused" : String(error))); }
-    """
-
-    assert output(root, [node(), "--input-type=module", "-e", code, text]) == "refused"
+    expected = [float(np.asarray(evaluate(parse(text), values))) for text in EXPRESSIONS]
+    assert found[: len(EXPRESSIONS)] == pytest.approx(expected, rel=1e-14)
+    assert found[len(EXPRESSIONS) :] == ["refused"] * len(REFUSED)
 
 
 def test_memory_is_steady_over_edits_and_runs(root: Path, files: list[Path]) -> None:
-    heaps = output(root, [node(), "tests/memory.mjs", str(files[-1])])
+    heaps = output(root, [node(), "tests/playground/memory.mjs", str(files[-1])])
 
     assert len(heaps) == 300
     assert heaps[-1] == heaps[100]

@@ -62,7 +62,9 @@ def test_a_plot_has_the_colours_of_the_page_rather_than_of_the_system(page: Page
         page.goto(served + CASE)
         page.get_by_text("Fix", exact=True).click()
         page.evaluate("scheme => document.body.setAttribute('data-md-color-scheme', scheme)", site)
-        return plot.screenshot()
+        plot.scroll_into_view_if_needed()
+        plot.evaluate("image => image.decode()")
+        return plot.screenshot(animations="disabled")
 
     plot = page.locator("img[src$='plot.svg']")
     bright, dark = seen("light", "default"), seen("light", "slate")

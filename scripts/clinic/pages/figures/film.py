@@ -69,19 +69,17 @@ def filmed(spec: Film, run: RunSpec) -> float:
 def frames(model: mujoco.MjModel, run: RunSpec, spec: Film, camera: str) -> Iterator[tuple[Image, str]]:
     """The images of a run, shape (HEIGHT, WIDTH, 3), each with the text of its clock.
 
-    A state that has moved by less than STILL, in m or rad, is not drawn anew.
-
-    From the first warning of a diverging run on, the last image before it stays: a state that is reset every few
-    steps would flash.
+    A state that has moved by less than STILL, in m or rad, is not drawn anew. From the first warning of a
+    diverging run on, the last image before it stays: a state that is reset every few steps would flash.
     """
     count = max(2, math.floor(filmed(spec, run) / spec.speed * FPS) + 1)
     last = round((count - 1) / FPS * spec.speed / model.opt.timestep)
     data, drive, option = start(model, run), controls(model, run, last), mujoco.MjvOption()
     for name in spec.overlays:
-        if name in FLAGS:
+        if name == "body_frames":
+            option.frame = mujoco.mjtFrame.mjFRAME_BODY
+        else:
             option.flags[FLAGS[name]] = True
-    if "body_frames" in spec.overlays:
-        option.frame = mujoco.mjtFrame.mjFRAME_BODY
     made, image, halted, drawn = 0, None, "", data.qpos.copy()
     model.vis.quality.offsamples, model.vis.quality.shadowsize = 0, SHADOW_SIZE
     with captured_messages(), renderer(model, *DRAWN) as draw:

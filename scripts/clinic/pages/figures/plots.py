@@ -8,7 +8,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any, cast
 
-import matplotlib as mpl
+from matplotlib import style
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
@@ -56,9 +56,7 @@ def plots(case: Case, evidence: Evidence) -> Files:
 
 
 def _svg(case: Case, draw: Callable[[Axes], None]) -> bytes:
-    with mpl.rc_context():
-        mpl.rcdefaults()  # whatever the user's matplotlibrc says
-        mpl.rcParams.update(SETTINGS | {"svg.hashsalt": case.slug})
+    with style.context(["default", SETTINGS | {"svg.hashsalt": case.slug}]):  # whatever the user's matplotlibrc says
         figure = Figure(figsize=SIZE, layout="constrained")
         draw(figure.add_subplot())
         out, canvas = io.StringIO(), cast(Any, FigureCanvasSVG(figure))
@@ -73,8 +71,8 @@ def _traces(axes: Axes, shown: dict[str, VariantEvidence], name: str, label: str
     values = {key: numbers(variant.traces[name].value) for key, variant in shown.items()}
     marker = None if over_time else "o"
     for key, variant in shown.items():
-        style = fix_style(fixes.index(key)) if key in fixes else {"color": BROKEN}
-        axes.plot(variant.traces[name].time, values[key], linewidth=1.8, label=key, marker=marker, **style)
+        look = fix_style(fixes.index(key)) if key in fixes else {"color": BROKEN}
+        axes.plot(variant.traces[name].time, values[key], linewidth=1.8, label=key, marker=marker, **look)
     axes.set_xlabel("time [s]" if over_time else "line of output")
     if not over_time:
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
@@ -95,9 +93,9 @@ def _final_values(axes: Axes, shown: dict[str, VariantEvidence], name: str, labe
             axes.text(0, row, "  not measured", va="center")
             continue
         broken = variant.kind == "broken"
-        style = {"color": BROKEN} if broken else fix_style(row - 1)
-        axes.plot([0, value], [row, row], linewidth=2, **style)
-        axes.plot([value], [row], **style | {"marker": "X" if broken else "o", "markersize": 9, "linestyle": ""})
+        look = {"color": BROKEN} if broken else fix_style(row - 1)
+        axes.plot([0, value], [row, row], linewidth=2, **look)
+        axes.plot([value], [row], **look | {"marker": "X" if broken else "o", "markersize": 9, "linestyle": ""})
         text = quantity(value, variant.traces[name].unit)
         axes.annotate(text, (value, row), xytext=(0, 9), textcoords="offset points", ha="center")
     axes.set_yticks(range(len(shown)), list(shown))

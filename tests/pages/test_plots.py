@@ -30,7 +30,6 @@ def heights(broken: list[float | None], *fixes: list[float | None]) -> Evidence:
 
 
 def drawn(case: Case, evidence: Evidence) -> str:
-    """The plot of the first signal."""
     return plots(case, evidence)["plot.svg"].decode()
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import mujoco
-from clinic.engine.checks import TAKES, Verdict, judge, take
+from clinic.engine.checks import TAKES, judge, take
 from clinic.engine.measure import measure_model
 from clinic.engine.simulate import compile_model
 from clinic.engine.variant import apply_edits
@@ -22,10 +22,6 @@ from clinic.record.fields import Edit, RowSignal, StartsSignal
 
 def plain(value: float) -> float | None:
     return value if math.isfinite(value) else None
-
-
-def judged(verdict: Verdict) -> dict[str, Any]:
-    return {"measured": plain(verdict.measured), "holds": verdict.holds}
 
 
 def measured(root: Path, playground: dict[str, Any]) -> dict[str, Any]:
@@ -39,9 +35,13 @@ def measured(root: Path, playground: dict[str, Any]) -> dict[str, Any]:
         run, traces = measure_model(record, compile_model(text), record.run, wanted)
         read = [name for name in traces if not isinstance(record.signals[name], StartsSignal)]
         values = {name: [plain(take(traces[name], which)) for which in TAKES] for name in read}
-        found[remedy["id"]] = {"warnings": run.warnings, "values": values} | {
-            kind: [judged(judge(check, traces)) if check.signal in traces else None for check in checks]
+        judged = {
+            kind: [judge(check, traces) if check.signal in traces else None for check in checks]
             for kind, checks in (("broken", record.checks.broken), ("fixed", record.checks.fixed))
+        }
+        found[remedy["id"]] = {"warnings": run.warnings, "values": values} | {
+            kind: [made and {"measured": plain(made.measured), "holds": made.holds} for made in verdicts]
+            for kind, verdicts in judged.items()
         }
     return found
 

@@ -91,7 +91,7 @@ def served(folder: Path, cache: Path) -> Iterator[str]:
     """The address of the copy's site, served as `make serve` does."""
     with socket.create_server(("127.0.0.1", 0)) as probe:
         port = probe.getsockname()[1]
-    command = [sys.executable, "-m", "mkdocs", "serve", "--livereload", "--dev-addr", f"127.0.0.1:{port}"]
+    command = [sys.executable, "-m", "mkdocs", "serve", "--livereload", "--dirty", "--dev-addr", f"127.0.0.1:{port}"]
     with subprocess.Popen(
         command, cwd=folder, env=surroundings(folder, cache), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     ) as process:

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 from clinic.pages import cases as casepages
-from clinic.publish.site import Site, build, survey
+from clinic.publish.site import Site, build, make_site
 from clinic.record.problem import CaseError
 from clinic.work.cache import Cache
 from helpers import changed
@@ -41,7 +41,7 @@ Survey = Callable[[], Site]
 def whole(tmp_path_factory: pytest.TempPathFactory, kept: Path) -> tuple[Path, Site]:
     """The project, and its site without errors."""
     folder = write_project(tmp_path_factory.mktemp("project"), SILENT, kept=kept)
-    return folder, survey(folder, Cache(folder / "cache"))
+    return folder, make_site(folder, Cache(folder / "cache"))
 
 
 def mistaken(folder: Path, *kinds: str) -> dict[Path, str]:
@@ -59,7 +59,7 @@ def test_a_case_in_error_says_so_alone_until_it_is_mended(whole: tuple[Path, Sit
     cache = Cache(folder / "cache")
     before = mistaken(folder, kind)
     try:
-        made = survey(folder, cache)
+        made = make_site(folder, cache)
         with pytest.raises(CaseError) as caught:
             build(folder, cache)
     finally:
@@ -75,7 +75,7 @@ def test_a_case_in_error_says_so_alone_until_it_is_mended(whole: tuple[Path, Sit
     assert PAGE in str(made.navigation)
     others = {name for name in site.files if name.startswith("cases/odd-script/")} | {"messages.md", "contributing.md"}
     assert {name: made.files[name] for name in others} == {name: site.files[name] for name in others}
-    assert survey(folder, cache) == site
+    assert make_site(folder, cache) == site
 
 
 def test_the_problems_of_all_cases_at_all_stages_are_reported_together(whole: tuple[Path, Site]) -> None:
@@ -118,7 +118,7 @@ def test_a_task_that_raises_what_nobody_foresaw_is_a_problem_of_its_case(
     monkeypatch.setenv("CLINIC_JOBS", "1")
     monkeypatch.setattr("clinic.pages.exhibits.robustness", fail)
     with caplog.at_level(logging.CRITICAL):
-        made = survey(whole[0], Cache(tmp_path / "cache"))
+        made = make_site(whole[0], Cache(tmp_path / "cache"))
     assert [(problem.file, problem.found) for problem in made.problems] == [(RECORD, "ZeroDivisionError: by 0")]
     assert made.files[OTHER] == whole[1].files[OTHER]
 
@@ -135,7 +135,7 @@ def test_a_folder_that_is_renamed_while_the_site_is_made_is_told(
         return real(*given)
 
     monkeypatch.setattr(casepages, "possible_exhibits", renaming)
-    made = survey(folder, Cache(folder / "cache"))
+    made = make_site(folder, Cache(folder / "cache"))
     assert [(problem.file, problem.repair) for problem in made.problems] == [(RECORD, "build again")]
     assert "In error" in made.files[PAGE].decode()
     assert made.files[OTHER] == whole[1].files[OTHER]
@@ -156,7 +156,7 @@ def test_a_page_says_what_its_prose_must_not(
     before = record.read_text(encoding="utf-8")
     record.write_text(changed(before, (old, new)), encoding="utf-8")
     try:
-        made = survey(folder, Cache(folder / "cache"))
+        made = make_site(folder, Cache(folder / "cache"))
     finally:
         record.write_text(before, encoding="utf-8")
     assert [(problem.where, found in problem.found) for problem in made.problems] == [(where, True)]

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
@@ -37,17 +36,19 @@ class Site:
     problems: tuple[Problem, ...] = ()
 
 
-def kept_or_made(root: Path, cache: Cache, make: Callable[[Path, Cache], Site]) -> Site:
-    """The site of the last build if it was made from the same inputs, or else the one that `make` gives.
+def kept_or_made(root: Path, cache: Cache) -> Site:
+    """The site of the last build if it was made from the same inputs, or else a new one.
 
-    This one takes its place, unless something is wrong with it or is missing, or an input was changed meanwhile.
+    A new one is kept unless something is wrong with it or is missing, or an input was changed meanwhile.
     """
     inputs, key = inputs_digest(root), key_of("site", str(root.resolve()), of="record")
     files = cache.get(key) or {ABOUT: b"{}"}
     about = json.loads(files.pop(ABOUT))
     if about.get("inputs") == inputs:
         return Site(files, about["navigation"])
-    made = make(root, cache)
+    from clinic.publish.site import make_site
+
+    made = make_site(root, cache)
     if not made.problems and not cache.incomplete and inputs_digest(root) == inputs:
         about = {"inputs": inputs, "navigation": made.navigation}
         cache.put(key, {**made.files, ABOUT: json.dumps(about).encode()})

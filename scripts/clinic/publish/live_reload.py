@@ -17,10 +17,10 @@ from mkdocs.livereload import LiveReloadServer
 
 from clinic.publish.kept_site import Site, kept_or_made
 from clinic.record.checkout import cache_folder, project_root
-from clinic.work.cache import Cache
+from clinic.work.cache import Cache, Files
 
 if TYPE_CHECKING:
-    from clinic.record.case import Case
+    from clinic.work.task import Task
 
 NICENESS = 5
 
@@ -29,92 +29,73 @@ class LiveSite:
     """The site of a build, or of one build after the other while it is served.
 
     Attributes:
-        built: The site of the last build.
-        whole: The last site in which nothing was missing.
+        shown: The site of the last build.
+        whole: The last site that waited for everything.
         watched: A folder that the server watches; None in a single build, which waits for everything.
         process: The last one that measured what an edit had changed.
-        begun: The keys of all work that such a process was started for.
+        tried: The keys of all work that was tried.
     """
 
     def __init__(self) -> None:
-        self.built = Site({}, [])
-        self.whole: Site | None = None
+        self.shown = self.whole = Site({}, [])
         self.watched: Path | None = None
         self.process: subprocess.Popen[bytes] | None = None
-        self.begun: set[str] = set()
+        self.tried: set[str] = set()
 
     def site(self, root: Path, cache: Cache) -> Site:
         """The whole site; or, if an edited case takes long to measure, the last one with the case's new numbers."""
-        if self.watched and self.whole and (early := self._with_numbers(root, cache, self.whole, self.watched)):
-            return early
-        self.whole = make_site(root, cache) if self.watched else kept_or_made(root, cache, make_site)
-        return self.whole
+        if self.watched is None:
+            self.whole = kept_or_made(root, cache)
+            return self.whole
+        from clinic.publish.site import make_site
 
-    def _with_numbers(self, root: Path, cache: Cache, whole: Site, watched: Path) -> Site | None:
-        from clinic.record.case import read_cases
-
-        cases, problems = read_cases(root / "cases")
-        missing = {case.slug: keys for case in cases if (keys := missing_keys(case, cache))}
+        missing = unmeasured(root, cache)
+        new = {task.key for task in missing} - self.tried
         running = self.process is not None and self.process.poll() is None
-        wanted = set().union(*missing.values())
-        if problems or not wanted or (wanted <= self.begun and not running):  # it could not be made: say why
-            return None
-        early = interim_site(root, cache, whole, cases, missing)
-        if early and not running:
-            self.begun |= wanted
-            command = [sys.executable, "-m", "clinic.publish.live_reload", str(watched)]
+        numbers = number_pages(root, cache, {task.slug for task in missing}) if new or running else None
+        if numbers is None:
+            self.whole = make_site(root, cache)
+            return self.whole
+        if not running:
+            self.tried |= new
+            command = [sys.executable, "-m", "clinic.publish.live_reload", str(self.watched)]
             self.process = subprocess.Popen(command, cwd=root, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        return early
+        return Site({**self.whole.files, **numbers}, self.whole.navigation, self.whole.problems)
 
 
-def interim_site(root: Path, cache: Cache, whole: Site, cases: list[Case], slugs: Container[str]) -> Site | None:
-    """The site with interim pages of the cases `slugs`, which show their numbers; None if one of them cannot be run."""
+def unmeasured(root: Path, cache: Cache) -> list[Task]:
+    """What takes long and is not kept: all but the variants' runs and the plots."""
+    from clinic.pages.exhibits import measuring_tasks
+    from clinic.record.case import read_cases
+
+    cases, _ = read_cases(root / "cases")
+    return [task for case in cases for task in measuring_tasks(case) if not cache.path(task.key).exists()]
+
+
+def number_pages(root: Path, cache: Cache, slugs: Container[str]) -> Files | None:
+    """The pages of these cases with what their checks measured; None if there are none, or one cannot be run."""
     from clinic.pages.case_page import interim_page
-    from clinic.pages.cases import AT_ONCE, FOLDER, PAGE
-    from clinic.pages.error_page import by_case, marked, name_of
-    from clinic.pages.exhibits import evidence_of, evidence_task
-    from clinic.proof.laws import breaches
-    from clinic.publish.site import navigation
-    from clinic.record.folder import RECORD
+    from clinic.pages.cases import PAGE
+    from clinic.pages.exhibits import EVIDENCE, evidence_of, evidence_task
+    from clinic.record.case import read_cases
     from clinic.work.task import run_tasks
 
-    edited = [case for case in cases if case.slug in slugs]
-    found, failed = run_tasks([evidence_task(case) for case in edited], cache)
-    if failed or len(found) < len(edited):
+    cases = [case for case in read_cases(root / "cases")[0] if case.slug in slugs]
+    found, failed = run_tasks([evidence_task(case) for case in cases], cache)
+    if failed or not all(EVIDENCE in files for files in found.values()):
         return None
-    files = dict(whole.files)
-    problems = [problem for slug, told in by_case(whole.problems).items() if slug not in slugs for problem in told]
-    for case in edited:
-        evidence = evidence_of(found[case.slug])
-        wrong = list(breaches(case, evidence, *AT_ONCE))
-        page = interim_page(case, evidence)
-        files[PAGE.format(slug=case.slug)] = (marked(page, wrong) if wrong else page).encode()
-        folder = FOLDER.format(slug=case.slug)
-        files |= {f"{folder}/{name}": (root / folder / name).read_bytes() for name in (RECORD, *case.texts)}
-        problems += wrong
-    return Site(files, navigation(map(name_of, cases)), tuple(problems))
-
-
-def missing_keys(case: Case, cache: Cache) -> set[str]:
-    """The keys of what has to be measured or filmed of a case besides its variants."""
-    from clinic.pages.exhibits import measuring_tasks
-
-    return {task.key for task in measuring_tasks(case) if not cache.path(task.key).exists()}
-
-
-def make_site(root: Path, cache: Cache) -> Site:
-    """`clinic.publish.site.make_site`, imported when it is needed."""
-    from clinic.publish import site
-
-    return site.make_site(root, cache)
+    pages = {case.slug: interim_page(case, evidence_of(found[case.slug])) for case in cases}
+    return {PAGE.format(slug=slug): page.encode() for slug, page in pages.items()} or None
 
 
 def on_serve(server: LiveReloadServer, config: MkDocsConfig, **_: object) -> LiveReloadServer:
     """From now on, what takes long is made by a process whose end the server sees."""
-    folder = cache_folder(project_root()) / "served"
-    folder.mkdir(parents=True, exist_ok=True)
-    server.watch(str(folder))
-    LIVE.watched = folder
+    root = project_root()
+    cache = Cache(cache_folder(root))
+    LIVE.watched = cache.folder / "served"
+    LIVE.watched.mkdir(parents=True, exist_ok=True)
+    LIVE.tried = {task.key for task in unmeasured(root, cache)}  # what this machine lacks the means for
+    server.watch(str(LIVE.watched))
     return server
 
 
@@ -122,6 +103,8 @@ LIVE = LiveSite()
 
 
 if __name__ == "__main__":
+    from clinic.publish.site import make_site
+
     os.nice(NICENESS)
     try:
         make_site(project_root(), Cache(cache_folder(project_root())))

@@ -38,10 +38,10 @@ def write() -> None:
     config["nav"] = made.navigation
     if len(slugs(root)) > SECTION:  # else each of a thousand pages would hold a thousand links
         config["theme"]["features"] = [*config["theme"]["features"], "navigation.prune"]
-    before = LIVE.built.files if LIVE.built.navigation == made.navigation else {}
+    before = LIVE.shown.files if LIVE.shown.navigation == made.navigation else {}
     for name, content in made.files.items():
         with mkdocs_gen_files.open(name, "wb") as file:
             file.write(content)
         if before.get(name) == content:
             os.utime(file.name, (0, 0))  # `mkdocs serve --dirty` builds only what is newer than its page
-    LIVE.built = made
+    LIVE.shown = made

@@ -39,9 +39,8 @@ def make_site(root: Path, cache: Cache) -> Site:
     read, problems = read_cases(root / "cases")
     known = {case.slug: case for case in read}
     unread = sorted(set(slugs(root)) - known.keys())
-    made: Files = bundle.parts(root)
+    made: Files = bundle.parts(root, cache)
     live = bundle.has_playground(made)
-    cache.incomplete |= not live
     shown, wrong = shown_cases(root, read, set(unread), cache, live)
     files, others = overviews(root, shown, known, cache)
     problems += [*wrong, *others]

@@ -124,4 +124,3 @@ def engines() -> dict[str, str]:
     """What runs and draws, with its version. Fonts come with the drawing libraries."""
     here = {"python": platform.python_version(), "machine": f"{platform.system()} {platform.machine()}"}
     return here | {name: version(name) for name in ENGINES}
-

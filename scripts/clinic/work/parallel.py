@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from clinic.engine import node
+from clinic.record.problem import listed
 from clinic.work.cache import origin
 
 PATIENCE = 5.0  # s
@@ -54,8 +55,7 @@ def jobs() -> int:
     try:
         return int(joblib.effective_n_jobs(int(given)))
     except ValueError:
-        message = f"CLINIC_JOBS is {given}: give how many processes to use, or nothing for one a processor"
-        raise ClusterError(message) from None
+        raise ClusterError(f"CLINIC_JOBS is {given}: give how many processes to use") from None
 
 
 def versions() -> dict[str, str | None]:
@@ -73,21 +73,25 @@ def _cluster(address: str) -> Iterator[None]:
 
         with Client(address, timeout=PATIENCE, set_as_default=False) as client:  # type: ignore[no-untyped-call]
             client.wait_for_workers(1, timeout=PATIENCE)
-            _compare(client.run(versions, on_error="return"), client.nthreads())
+            threads = client.nthreads()
+            compare({name: {**found, "threads": threads[name]} for name, found in client.run(versions).items()})
             with joblib.parallel_config(backend="dask", client=client):
                 yield
     except ClusterError:
         raise
     except Exception as error:
         found = f"{type(error).__name__}: {error}".splitlines()[0]
-        raise ClusterError(f"CLINIC_DASK is {address}, where nothing can be run ({found})") from None
+        raise ClusterError(f"nothing can be run on CLINIC_DASK, {address} ({found})") from None
 
 
-def _compare(found: dict[str, Any], threads: dict[str, int]) -> None:
-    """Refuses workers whose results would differ."""
-    wanted = versions()
-    for worker, said in found.items():
-        differing = said if isinstance(said, Exception) else dict(said.items() - wanted.items())
-        if differing or threads[worker] != 1:
-            expected = f"the checkout, packages and settings of this process, {wanted}, and one thread"
-            raise ClusterError(f"the worker {worker} has {differing}, {threads[worker]} threads; expected {expected}")
+def compare(workers: dict[str, dict[str, object]]) -> None:
+    """Refuses a cluster, given the `versions` and threads of each worker, if one of them would give other results.
+
+    Raises:
+        ClusterError: For the first such worker.
+    """
+    wanted = {**versions(), "threads": 1}
+    for worker, found in workers.items():
+        if differing := [name for name, value in wanted.items() if found.get(name) != value]:
+            told = [f"{name} {found.get(name)} instead of {wanted[name]}" for name in differing]
+            raise ClusterError(f"the worker {worker} has {listed(told)}")

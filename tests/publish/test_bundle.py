@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from clinic.publish import bundle
-from clinic.publish.bundle import has_playground, parts, strip_custom_sections
+from clinic.publish.bundle import START, parts, strip_custom_sections
 from clinic.work.cache import Cache
 from clinic.work.task import say_lack
 
@@ -41,7 +41,7 @@ def test_the_same_sources_give_the_same_bytes(root: Path, tmp_path: Path) -> Non
     made = [parts(copied(root, tmp_path / name), Cache(tmp_path / name / "cache")) for name in ("one", "two")]
 
     assert made[0] == made[1]
-    assert has_playground(made[0])
+    assert START in made[0]
     engine = gzip.decompress(made[0][f"{bundle.FOLDER}/mujoco.wasm.gz"])
     assert engine.startswith(HEADER)
     assert len(engine) < (root / bundle.ENGINE).stat().st_size / 2
@@ -70,7 +70,6 @@ def test_without_its_packages_the_site_has_the_loader_alone(
     made = parts(sources, cache)
 
     assert list(made) == [f"{bundle.FOLDER}/loader.js"]
-    assert not has_playground(made)
     assert cache.incomplete
     assert [record.levelname for record in caplog.records] == ["WARNING"]
 

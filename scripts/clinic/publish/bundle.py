@@ -8,10 +8,11 @@ import tempfile
 from pathlib import Path
 
 from clinic.engine import node
-from clinic.work.cache import Cache, Files, digest, key_of
+from clinic.work.cache import Cache, Files, key_of
 from clinic.work.task import say_lack
 
 FOLDER = "javascripts/playground"
+START = f"{FOLDER}/start.js"  # which a site without Node's packages does not have
 LOADER = "docs/playground/loader.js"
 STYLE = "docs/stylesheets/playground.css"
 BUNDLER = "scripts/bundle.mjs"
@@ -30,17 +31,12 @@ def parts(root: Path, cache: Cache) -> Files:
     if node.found() and (root / ENGINE).is_file() and (root / ESBUILD).is_dir():
         modules = sorted((root / "docs/playground").rglob("*.js"))
         sources = [*modules, root / STYLE, root / BUNDLER, root / "package-lock.json", Path(__file__)]
-        key = key_of("playground", digest((path.name, path.read_bytes()) for path in sources), of="record")
+        key = key_of("playground", [[path.name, path.read_text(encoding="utf-8")] for path in sources], of="record")
         made = cache.remember(key, lambda: _bundle(root))
         return {f"{FOLDER}/{name}": content for name, content in made.items()}
     cache.incomplete = True
     say_lack("no playground: Node or its packages are not installed; run `make setup`")
     return {f"{FOLDER}/loader.js": (root / LOADER).read_bytes()} if (root / LOADER).is_file() else {}
-
-
-def has_playground(made: Files) -> bool:
-    """Whether the files of `parts` hold more than the loader."""
-    return f"{FOLDER}/start.js" in made
 
 
 def strip_custom_sections(wasm: bytes) -> bytes:

@@ -40,8 +40,7 @@ def make_site(root: Path, cache: Cache) -> Site:
     known = {case.slug: case for case in read}
     unread = sorted(set(slugs(root)) - known.keys())
     made: Files = bundle.parts(root, cache)
-    live = bundle.has_playground(made)
-    shown, wrong = shown_cases(root, read, set(unread), cache, live)
+    shown, wrong = shown_cases(root, read, set(unread), cache, live=bundle.START in made)
     files, others = overviews(root, shown, known, cache)
     problems += [*wrong, *others]
     made |= files

@@ -8,7 +8,7 @@ import logging
 import os
 import platform
 import zipfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from contextlib import suppress
 from functools import lru_cache
 from importlib.metadata import version
@@ -53,8 +53,8 @@ class Cache:
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
             with zipfile.ZipFile(part, "w") as archive:
-                for name, content in sorted(files.items()):
-                    archive.writestr(zipfile.ZipInfo(name), content)  # of the year 1980: equal files, equal bytes
+                for name, content in files.items():
+                    archive.writestr(name, content)
             os.replace(part, self.path(key))
         except OSError as error:
             say_unkept(self.folder, type(error).__name__)
@@ -101,21 +101,11 @@ def origin(folder: str = STOREYS[-1]) -> dict[str, str | None]:
 @lru_cache
 def source_digest(folder: str) -> str:
     """A digest of the package's files in a folder and in the storeys before it, for nothing later is imported there."""
-    storey = PurePosixPath(folder).parts[0]
-    return digest(
-        (path.relative_to(PACKAGE).as_posix(), path.read_bytes())
-        for place in (*STOREYS[: STOREYS.index(storey)], folder)
-        for path in sorted((PACKAGE / place).rglob("*"))
-        if path.is_file() and path.suffix != ".pyc"
-    )
-
-
-def digest(files: Iterable[tuple[str, bytes]]) -> str:
-    """A digest of files by their names and contents, in their order."""
-    made = hashlib.sha256()
-    for name, content in files:
-        made.update(f"{name}\0{len(content)}\0".encode())
-        made.update(content)
+    made, storey = hashlib.sha256(), PurePosixPath(folder).parts[0]
+    for place in (*STOREYS[: STOREYS.index(storey)], folder):
+        for path in sorted((PACKAGE / place).rglob("*")):
+            if path.is_file() and path.suffix != ".pyc":
+                made.update(path.relative_to(PACKAGE).as_posix().encode() + b"\0" + path.read_bytes())
     return made.hexdigest()
 
 

@@ -13,7 +13,6 @@ from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from clinic.engine import node
-from clinic.record.problem import listed
 from clinic.work.cache import origin
 
 PATIENCE = 5.0  # s
@@ -44,18 +43,10 @@ def parallel(work: Callable[..., T], tasks: Sequence[tuple[Any, ...]]) -> Iterat
 
 
 def jobs() -> int:
-    """How many processes of this machine to use: CLINIC_JOBS, or one a processor; -1 is all, -2 all but one.
-
-    Raises:
-        ClusterError: If CLINIC_JOBS is no such number.
-    """
+    """How many processes of this machine to use: CLINIC_JOBS, or one a processor."""
     import joblib
 
-    given = os.environ.get("CLINIC_JOBS") or "-1"
-    try:
-        return int(joblib.effective_n_jobs(int(given)))
-    except ValueError:
-        raise ClusterError(f"CLINIC_JOBS is {given}: give how many processes to use") from None
+    return int(os.environ.get("CLINIC_JOBS") or joblib.cpu_count())
 
 
 def versions() -> dict[str, str | None]:
@@ -88,10 +79,10 @@ def compare(workers: dict[str, dict[str, object]]) -> None:
     """Refuses a cluster, given the `versions` and threads of each worker, if one of them would give other results.
 
     Raises:
-        ClusterError: For the first such worker.
+        ClusterError: For the first difference.
     """
     wanted = {**versions(), "threads": 1}
     for worker, found in workers.items():
-        if differing := [name for name, value in wanted.items() if found.get(name) != value]:
-            told = [f"{name} {found.get(name)} instead of {wanted[name]}" for name in differing]
-            raise ClusterError(f"the worker {worker} has {listed(told)}")
+        for name, value in wanted.items():
+            if found.get(name) != value:
+                raise ClusterError(f"the worker {worker} has {name} {found.get(name)} instead of {value}")

@@ -36,8 +36,7 @@ def run_tasks(tasks: list[Task], cache: Cache) -> tuple[dict[str, Files], list[P
     """
     done = {task.key: files for task in tasks if (files := cache.get(task.key)) is not None}
     missing = [task for task in tasks if task.key not in done]
-    many = len(missing) >= MANY
-    if many:
+    if len(missing) >= MANY:
         log.info("%d cases are run and drawn: of a whole site that takes minutes, once", len({t.slug for t in missing}))
     problems: list[Problem] = []
     lacks: set[str] = set()
@@ -45,7 +44,7 @@ def run_tasks(tasks: list[Task], cache: Cache) -> tuple[dict[str, Files], list[P
     for count, (k, files, wrong, lack) in enumerate(parallel(_attempt, list(enumerate(missing))), start=1):
         task = missing[k]
         done[task.key] = files
-        if many and count % MANY == 0:
+        if count % MANY == 0:
             log.info("%d of %d parts are made", count, len(missing))
         if wrong:
             problems += wrong

@@ -116,7 +116,7 @@ def test_a_task_that_raises_what_nobody_foresaw_is_a_problem_of_its_case(
         raise ZeroDivisionError("by 0")
 
     monkeypatch.setenv("CLINIC_JOBS", "1")
-    monkeypatch.setattr("clinic.pages.exhibits.robustness", fail)
+    monkeypatch.setattr("clinic.proof.experiments.robustness", fail)
     with caplog.at_level(logging.CRITICAL):
         made = survey(whole[0], Cache(tmp_path / "cache"))
     assert [(problem.file, problem.found) for problem in made.problems] == [(RECORD, "ZeroDivisionError: by 0")]
@@ -128,13 +128,13 @@ def test_a_folder_that_is_renamed_while_the_site_is_made_is_told(
 ) -> None:
     folder = tmp_path / "project"
     shutil.copytree(whole[0], folder)
-    real = casepages.possible_exhibits
+    real = casepages.files_of_cases
 
     def renaming(*given: Any) -> Any:
         (folder / "cases" / "falling-box").rename(folder / "cases" / "sinking-box")
         return real(*given)
 
-    monkeypatch.setattr(casepages, "possible_exhibits", renaming)
+    monkeypatch.setattr(casepages, "files_of_cases", renaming)
     made = survey(folder, Cache(folder / "cache"))
     assert [(problem.file, problem.repair) for problem in made.problems] == [(RECORD, "build again")]
     assert "In error" in made.files[PAGE].decode()

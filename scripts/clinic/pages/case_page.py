@@ -1,50 +1,31 @@
-"""Pages: a case's Markdown, and the home page, from records and evidence."""
+"""A case's page: the record and the evidence of its runs go in, Markdown comes out."""
 
 from __future__ import annotations
 
 import html
 import json
-import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any
-
-import jinja2
 
 from clinic.engine.checks import expected, satisfies
 from clinic.engine.variant import diff, remedies, variants
+from clinic.pages.card import opening
+from clinic.pages.template import render
 from clinic.pages.text import manual
 from clinic.pages.text.claim import TAKES, taken
-from clinic.pages.text.prose import field_errors, fill, markdown
+from clinic.pages.text.prose import field_errors, markdown
 from clinic.proof.evidence import Evidence, VariantEvidence
 from clinic.proof.lookalike import Matrix
 from clinic.proof.prose_laws import PROSE
 from clinic.proof.robustness import NUDGE, STARTS
 from clinic.record.case import Case
 from clinic.record.fields import Check
-from clinic.record.markup import code, fence, line
+from clinic.record.markup import code, line
 from clinic.record.parts import Interval
 from clinic.record.problem import CaseError, Problem
 from clinic.record.prose import plain, quantity
 from clinic.record.yaml_lines import Where
 from clinic.work.cache import Files
-
-TEMPLATES = jinja2.Environment(
-    loader=jinja2.PackageLoader("clinic.pages"), undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
-)
-TEMPLATES.filters |= {"code": code, "fence": fence, "line": line}
-
-
-@dataclass(frozen=True)
-class Card:
-    """What other pages say about a case."""
-
-    slug: str
-    number: int
-    title: str
-    symptom: str
-    picture: str
-    alt: str
 
 
 def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str, Case], alike: Matrix | None) -> str:
@@ -57,13 +38,13 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
         raise CaseError(problems)
     record = case.record
     made = {variant.id: variant for variant in variants(case)}
-    return TEMPLATES.get_template("case.md.j2").render(
+    return render(
+        "case",
         case=case,
         record=record,
         evidence=evidence,
         broken=evidence.variants["broken"],
-        fixed=evidence.variants[record.fixes[0].id],
-        description=json.dumps(html.escape(_opening(fill(record.symptom, evidence))), ensure_ascii=False),
+        description=json.dumps(html.escape(opening(case, evidence)), ensure_ascii=False),
         title=json.dumps(record.title, ensure_ascii=False),
         prose={name: markdown(getattr(record, name), evidence) for name in PROSE},
         whys={remedy.id: markdown(remedy.why, evidence) for remedy in record.refuted},
@@ -83,26 +64,13 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
 
 def interim_page(case: Case, evidence: Evidence) -> str:
     """The Markdown of a case's page while what takes long is being measured."""
-    return TEMPLATES.get_template("interim.md.j2").render(
+    return render(
+        "interim",
         record=case.record,
         broken=evidence.variants["broken"],
         title=json.dumps(case.record.title, ensure_ascii=False),
         table=_table(case, evidence),
     )
-
-
-def card(case: Case, evidence: Evidence, files: Files) -> Card:
-    """The case's card on the home page."""
-    symptom = line(_opening(fill(case.record.symptom, evidence)))
-    picture = "broken.webp" if "broken.webp" in files else "plot-light.svg"
-    return Card(
-        case.slug, case.record.number, case.record.title, symptom, picture, f"Case {case.record.number}: {symptom}"
-    )
-
-
-def home_page(cards: Iterable[Card], engine: str) -> str:
-    """The Markdown of the home page."""
-    return TEMPLATES.get_template("home.md.j2").render(cards=list(cards), engine=engine)
 
 
 def _summary(case: Case, evidence: Evidence) -> str:
@@ -133,7 +101,7 @@ def _table(case: Case, evidence: Evidence) -> dict[str, Any]:
     rows = []
     for key, variant in evidence.variants.items():
         cells = [_cell(variant, column["broken"] + column["fixed"], column["fixed"]) for column in columns.values()]
-        rows.append({"id": key, "kind": variant.kind, "title": variant.title, "cells": cells, "well": variant.well})
+        rows.append({"id": key, "kind": variant.kind, "cells": cells})
     return {"heads": heads, "broken": meaning("broken"), "fixed": meaning("fixed"), "rows": rows}
 
 
@@ -235,14 +203,3 @@ def _field_problems(case: Case, evidence: Evidence) -> Iterable[Problem]:
     for where, text in texts.items():
         for error in field_errors(text, evidence):
             yield case.problem(where, error.found, error.expected, error.repair, quoted=error.found)
-
-
-def _opening(text: str, length: int = 150) -> str:
-    """The first sentences, until they are long enough to say something."""
-    sentences = re.split(r"(?<=[.?!]) ", " ".join(text.replace("`", "").split()))
-    kept = ""
-    for sentence in sentences:
-        kept = f"{kept} {sentence}".strip()
-        if len(kept) >= length:
-            break
-    return kept

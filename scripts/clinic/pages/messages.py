@@ -11,7 +11,7 @@ import mujoco
 from pydantic import ConfigDict, Field, TypeAdapter, ValidationError, model_validator
 
 from clinic.engine.provoke import provoked
-from clinic.pages.case_page import TEMPLATES
+from clinic.pages.template import render
 from clinic.record.case import Case
 from clinic.record.parts import WARNINGS, Identifier, Strict, Text
 from clinic.record.problem import CaseError, Problem
@@ -98,6 +98,6 @@ def messages_page(messages: list[Message], said: Mapping[str, str], cases: Mappi
                 "case": cases.get(message.case or ""),
             }
         )
-    return TEMPLATES.get_template("messages.md.j2").render(
-        groups=groups, engine=mujoco.__version__, provoked=sum(message.code is not None for message in messages)
+    return render(
+        "messages", groups=groups, engine=mujoco.__version__, provoked=sum(message.code is not None for message in messages)
     )

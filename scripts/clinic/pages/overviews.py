@@ -8,7 +8,7 @@ from pathlib import Path
 
 import mujoco
 
-from clinic.pages.case_page import home_page
+from clinic.pages.card import home_page
 from clinic.pages.cases import Shown
 from clinic.pages.error_page import error_page
 from clinic.pages.messages import heard, load_messages, messages_page

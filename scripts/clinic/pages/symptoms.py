@@ -11,7 +11,8 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from clinic.pages.case_page import TEMPLATES, Card
+from clinic.pages.card import Card
+from clinic.pages.template import render
 from clinic.record.case import Case
 from clinic.record.fields import Look
 from clinic.record.problem import Problem
@@ -114,4 +115,4 @@ def symptoms_page(cases: Sequence[Case], cards: Mapping[str, Card]) -> str:
         for look, heading in HEADINGS.items()
     ]
     others = [cards[case.slug] for case in cases if not looks_of(case)]
-    return TEMPLATES.get_template("symptoms.md.j2").render(groups=groups, others=others)
+    return render("symptoms", groups=groups, others=others)

@@ -112,7 +112,7 @@ def interim(root: Path, cache: Cache, whole: Site) -> Site | None:
     from clinic.pages.case_page import interim_page
     from clinic.pages.cases import AT_ONCE, FOLDER, PAGE
     from clinic.pages.error_page import by_case, marked, name_of
-    from clinic.pages.exhibits import EVIDENCE, evidence_of, evidence_task
+    from clinic.proof.experiments import EVIDENCE, evidence_of, evidence_task
     from clinic.proof.laws import breaches
     from clinic.publish.site import navigation
     from clinic.record.case import read_cases
@@ -139,8 +139,8 @@ def interim(root: Path, cache: Cache, whole: Site) -> Site | None:
 
 
 def takes_long(case: Case, cache: Cache) -> bool:
-    """Whether something of the case has to be measured or drawn besides its variants."""
-    from clinic.pages.exhibits import measuring_tasks
+    """Whether something of the case has to be measured besides its variants."""
+    from clinic.proof.experiments import measuring_tasks
 
     return any(not cache.path(task.key).exists() for task in measuring_tasks(case))
 

@@ -16,12 +16,8 @@ from clinic.record.folder import RECORD, SLUG
 from clinic.record.problem import CaseError, Problem
 
 MAX_SLUG = 60
-FILES: dict[str, tuple[str, ...]] = {
-    "model": (RECORD, "model.xml"),
-    "python": (RECORD, "model.xml", "script.py"),
-    "javascript": (RECORD, "model.xml", "script.mjs"),
-}
-"""What a case holds, by the place where its bug lives."""
+SOURCES = {"model": "model.xml", "python": "script.py", "javascript": "script.mjs"}
+"""The broken file, by the place where the bug lives."""
 TEMPLATES = jinja2.Environment(  # `{{ }}` is what a record's prose writes
     loader=jinja2.PackageLoader("clinic.commands", "new"),
     variable_start_string="<<",
@@ -35,7 +31,7 @@ TEMPLATES = jinja2.Environment(  # `{{ }}` is what a record's prose writes
 
 
 def write_case(root: Path, slug: str, title: str, kind: str) -> Path:
-    """Writes the folder of a new case, whole or not at all, and gives its place; `kind` is one of FILES.
+    """Writes the folder of a new case, whole or not at all, and gives its place; `kind` is one of SOURCES.
 
     Raises:
         CaseError: If the slug or the title will not do.
@@ -65,9 +61,9 @@ def case_texts(slug: str, title: str, kind: str, number: int) -> dict[str, str]:
     """The files of a new case, by name."""
     sentence = " ".join(title.split()).removesuffix(".")
     quoted = yaml.safe_dump(sentence, allow_unicode=True, width=200).removesuffix("...\n").strip()
-    source = FILES[kind][-1]
+    source = SOURCES[kind]
     words = {"slug": slug, "title": quoted, "number": number, "modeline": MODELINE, "source": source, "kind": kind}
-    return {name: TEMPLATES.get_template(name).render(words) for name in FILES[kind]}
+    return {name: TEMPLATES.get_template(name).render(words) for name in sorted({RECORD, "model.xml", source})}
 
 
 def free_number(root: Path) -> int:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import partial
 
-from clinic.proof.evidence import Evidence
 from clinic.proof.experiments import EVIDENCE, case_task, evidence_of, measure_cases, of_one
 from clinic.record.case import Case
 from clinic.record.problem import Problem

@@ -1,4 +1,4 @@
-"""Every experiment on a case, cut into tasks: the variants, the sweeps, other starts, and the comparison of look-alikes.
+"""Every experiment on a case, cut into tasks: the variants, sweeps, other starts, and the comparison of look-alikes.
 
 A task's result is kept under a key made of all that it depends on, so that a change of prose runs nothing, and a change
 of one case runs that case's tasks alone. Tasks that are not kept run in parallel.

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Mapping
 from html import escape
 from pathlib import Path
 
 from clinic.pages.cases import FOLDER, PAGE, shown_cases
-from clinic.pages.error_page import Name, by_case, error_page, lacking_page, marked, name_of, ordered, read_name
+from clinic.pages.error_page import by_case, error_page, lacking_page, marked
 from clinic.pages.overviews import overviews
 from clinic.pages.schema import FILE as SCHEMA
 from clinic.pages.schema import schema_text
@@ -54,26 +54,25 @@ def survey(root: Path, cache: Cache | None = None) -> Site:
     for one in shown:
         made |= {f"{FOLDER.format(slug=one.case.slug)}/{name}": content for name, content in one.files.items()}
     pages, ill = {one.case.slug: one.page for one in shown}, by_case(problems)
-    names = [
-        name_of(known[slug]) if slug in known else read_name(root / "cases" / slug) for slug in sorted({*there, *known})
-    ]
-    for name in names:
-        if name.slug in pages:
-            page = marked(pages[name.slug], ill[name.slug]) if name.slug in ill else pages[name.slug]
-        elif name.slug in ill:
-            page = error_page(name.heading, ill[name.slug])
+    headings = {case.slug: f"{case.record.number}. {case.record.title}" for case in read}
+    headings |= {slug: slug for slug in there if slug not in known}
+    for slug, heading in headings.items():
+        if slug in pages:
+            page = marked(pages[slug], ill[slug]) if slug in ill else pages[slug]
+        elif slug in ill:
+            page = error_page(heading, ill[slug])
         else:
-            page = lacking_page(name.heading, lack(known[name.slug]))
-        made[PAGE.format(slug=name.slug)] = page.encode()
-    return Site(made, navigation(names), CaseError(problems).problems)
+            page = lacking_page(heading, lack(known[slug]))
+        made[PAGE.format(slug=slug)] = page.encode()
+    return Site(made, navigation(headings), CaseError(problems).problems)
 
 
-def navigation(names: Iterable[Name]) -> Navigation:
-    """The site's navigation: the cases by number, then the pages written by hand. The theme takes titles as HTML.
+def navigation(headings: Mapping[str, str]) -> Navigation:
+    """The site's navigation: the cases by slug, then the pages written by hand. The theme takes titles as HTML.
 
     More than SECTION cases are in sections, for every page holds the part of the navigation around it.
     """
-    cases = [{escape(name.heading, quote=False): PAGE.format(slug=name.slug)} for name in ordered(names)]
+    cases = [{escape(heading, quote=False): PAGE.format(slug=slug)} for slug, heading in headings.items()]
     sections = [cases[k : k + SECTION] for k in range(0, len(cases), SECTION)]
     divided = [{f"{k * SECTION + 1} to {k * SECTION + len(part)}": part} for k, part in enumerate(sections)]
     return [

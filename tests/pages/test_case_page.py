@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from clinic.pages.case_page import Card, card, home_page
+from clinic.pages.card import Card, card, home_page
 from clinic.proof.evidence import Evidence, collect
 from clinic.record.case import Case, load_cases
 from helpers import page_of, script_case, tiny_case, write_case

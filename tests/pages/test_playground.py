@@ -10,7 +10,7 @@ from clinic.pages.playground import playground
 from clinic.publish.bundle import node
 from helpers import tiny_case
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 
 
 def test_the_file_holds_what_the_browser_needs(tmp_path: Path) -> None:

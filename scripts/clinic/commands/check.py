@@ -75,7 +75,7 @@ def _check(slug: str, known: Mapping[str, Case], problems: list[Problem], cache:
     case = known.get(slug)
     if case is None:
         return Report(slug, None, None, tuple(problems))
-    problems = [*problems, *manual_problems(case), *symptom_problems([case])]
+    problems = [*problems, *manual_problems(case), *symptom_problems(case)]
     try:
         files = files_of_case(case, cache)
     except CaseError as error:

@@ -8,16 +8,12 @@ import sys
 import tempfile
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from clinic.record.checkout import cache_folder, folders, project_root, slugs
-from clinic.record.problem import CaseError
-
-if TYPE_CHECKING:
-    from clinic.proof.evidence import Evidence
-    from clinic.record.case import Case
+from clinic.record.problem import CaseError, LackError
 
 app = typer.Typer(no_args_is_help=True, help="Broken MuJoCo simulations that prove themselves.")
 
@@ -115,16 +111,21 @@ def show(
 ) -> None:
     """Show a case in the terminal, its numbers filled in from the runs."""
     from clinic.commands import terminal
-    from clinic.pages.text.prose import FieldError
+    from clinic.pages.case_page import field_problems
+    from clinic.proof.experiments import measure_case
+    from clinic.record.case import load_case
+    from clinic.work.cache import Cache
 
-    case, evidence = _run(slug)
-    try:
-        if as_json:
-            _print_json(terminal.case_data(case, evidence, answer))
-        else:
-            terminal.console().print(terminal.case_text(case, evidence, answer))
-    except FieldError as error:
-        raise CaseError([case.problem((), error.found, error.expected, error.repair)]) from None
+    root = project_root()
+    case = load_case(folders(root, [slug])[0])
+    with terminal.console(stderr=True).status(f"running {case.slug}"):
+        evidence = measure_case(case, Cache(cache_folder(root)))
+    if problems := list(field_problems(case, evidence)):
+        raise CaseError(problems)
+    if as_json:
+        _print_json(terminal.case_data(case, evidence, answer))
+    else:
+        terminal.console().print(terminal.case_text(case, evidence, answer))
 
 
 @app.command()
@@ -138,10 +139,7 @@ def view(
     from clinic.record.case import load_case
 
     (folder,) = folders(project_root(), [slug])
-    try:
-        open_viewer(load_case(folder), fix or BROKEN)
-    except RuntimeError as error:
-        sys.exit(f"clinic: {error}")
+    open_viewer(load_case(folder), fix or BROKEN)
 
 
 @app.command()
@@ -214,19 +212,6 @@ def print_schema(
         print(schema_text(), end="")
 
 
-def _run(slug: str) -> tuple[Case, Evidence]:
-    """A case and what its runs show."""
-    from clinic.commands import terminal
-    from clinic.proof.experiments import measure_case
-    from clinic.record.case import load_case
-    from clinic.work.cache import Cache
-
-    root = project_root()
-    case = load_case(folders(root, [slug])[0])
-    with terminal.console(stderr=True).status(f"running {case.slug}"):
-        return case, measure_case(case, Cache(cache_folder(root)))
-
-
 def _print_json(data: object) -> None:
     print(json.dumps(data, indent=1, ensure_ascii=False))
 
@@ -237,5 +222,5 @@ def main() -> None:
         app()
     except CaseError as error:
         sys.exit(str(error))
-    except (FileNotFoundError, ConnectionError) as error:
+    except (FileNotFoundError, ConnectionError, LackError) as error:
         sys.exit(f"clinic: {error}")

@@ -83,11 +83,7 @@ def heading(case: Case) -> Text:
 
 
 def case_text(case: Case, evidence: Evidence, answer: bool) -> Group:
-    """The case to read: the symptom, and the folds if `answer` is asked for.
-
-    Raises:
-        FieldError: If a field of the prose resolves to nothing.
-    """
+    """The case to read: the symptom, and the folds if `answer` is asked for."""
     record = case.record
     said = fill(record.symptom, evidence)
     tags = Text(f"{', '.join(record.tags)}   cases/{case.slug}/", "dim")
@@ -109,11 +105,7 @@ def case_text(case: Case, evidence: Evidence, answer: bool) -> Group:
 
 
 def case_data(case: Case, evidence: Evidence, answer: bool) -> dict[str, Any]:
-    """The case as data: the public form of `clinic show --json`. Without `answer` the folds are left out.
-
-    Raises:
-        FieldError: If a field of the prose resolves to nothing.
-    """
+    """The case as data: the public form of `clinic show --json`. Without `answer` the folds are left out."""
     record = case.record
     made: dict[str, Any] = {**row_data(case), "symptom": fill(record.symptom, evidence)}
     if not answer:

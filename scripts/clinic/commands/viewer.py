@@ -12,7 +12,7 @@ from clinic.engine.variant import BROKEN, variants
 from clinic.proof.examine import examine
 from clinic.record.case import Case
 from clinic.record.checkout import nearest
-from clinic.record.problem import CaseError, listed
+from clinic.record.problem import CaseError, LackError, listed
 
 
 def view(case: Case, variant_id: str = BROKEN) -> None:
@@ -20,17 +20,17 @@ def view(case: Case, variant_id: str = BROKEN) -> None:
 
     Raises:
         CaseError: If the case has no model, or no such variant.
-        RuntimeError: If no window can be opened here.
+        LackError: If no window can be opened here.
     """
     model, data = scene(case, variant_id)
     if sys.platform == "linux" and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
-        raise RuntimeError("no display here: MuJoCo's viewer needs a desktop session (DISPLAY or WAYLAND_DISPLAY)")
+        raise LackError("no display here: MuJoCo's viewer needs a desktop session (DISPLAY or WAYLAND_DISPLAY)")
     import mujoco.viewer
 
     try:
         mujoco.viewer.launch(model, data)
     except mujoco.FatalError as error:
-        raise RuntimeError(f"MuJoCo's viewer does not open: {error}") from None
+        raise LackError(f"MuJoCo's viewer does not open: {error}") from None
 
 
 def scene(case: Case, variant_id: str) -> tuple[mujoco.MjModel, mujoco.MjData]:

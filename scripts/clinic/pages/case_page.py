@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from clinic.engine.checks import expected, satisfies
@@ -34,7 +34,7 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
     Raises:
         CaseError: With every template field that resolves to nothing.
     """
-    if problems := list(_field_problems(case, evidence)):
+    if problems := list(field_problems(case, evidence)):
         raise CaseError(problems)
     record = case.record
     made = {variant.id: variant for variant in variants(case)}
@@ -196,7 +196,8 @@ def _matrix(made: Matrix, cases: Mapping[str, Case]) -> dict[str, Any]:
     return {"heads": heads, "rows": rows}
 
 
-def _field_problems(case: Case, evidence: Evidence) -> Iterable[Problem]:
+def field_problems(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Every field of the prose that resolves to nothing."""
     texts: dict[Where, str] = {(name,): getattr(case.record, name) for name in PROSE}
     texts |= {("sweep", name, "text"): sweep.text for name, sweep in case.record.sweep.items()}
     texts |= {(*where, "why"): getattr(remedy, "why", "") for where, _, remedy in remedies(case)}

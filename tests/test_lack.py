@@ -11,7 +11,7 @@ import mujoco
 import pytest
 from clinic.engine import node, render
 from clinic.pages.case_files import files_of_case, files_of_cases
-from clinic.pages.error_page import lacking_page
+from clinic.pages.error_page import unmeasured_page
 from clinic.proof.evidence import draws, lack
 from clinic.proof.experiments import evidence_task
 from clinic.publish.site import survey
@@ -138,6 +138,6 @@ def test_a_case_in_javascript_waits_for_node_and_its_package(
     assert f"case {case.record.number} is not measured: {found}" in caplog.messages
     missing = lack(case)
     assert missing is not None
-    assert found in lacking_page("15. A view", missing)
+    assert found in unmeasured_page("15. A view", missing)
     with pytest.raises(CaseError, match=rf"found: +{found}\n.*this case is run by them"):
         files_of_case(case, cache)

@@ -177,7 +177,9 @@ def test_new_asks_for_a_title_that_is_not_given(project: Path) -> None:
     assert "\ntitle: It moves\n" in (project / "cases" / "it-moves" / "case.yaml").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize(("options", "said"), [((), "Title"), (("--title", "x", "--kind", "rust"), "'javascript'")])
+@pytest.mark.parametrize(
+    ("options", "said"), [((), "The symptom"), (("--title", "x", "--kind", "rust"), "'javascript'")]
+)
 def test_new_without_what_it_needs_writes_nothing(project: Path, options: tuple[str, ...], said: str) -> None:
     result = run("new", "it-moves", *options)
     assert result.exit_code != 0

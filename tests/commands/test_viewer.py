@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import mujoco
@@ -49,14 +48,6 @@ def test_unknown_variant_is_reported_with_the_nearest(tmp_path: Path) -> None:
 def test_a_script_has_nothing_to_view(tmp_path: Path) -> None:
     with pytest.raises(CaseError, match=r"a bug in script\.py, a script"):
         view(script_case(tmp_path))
-
-
-def test_without_a_display_a_sentence_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sys, "platform", "linux")
-    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
-        monkeypatch.delenv(name, raising=False)
-    with pytest.raises(LackError, match="no display here"):
-        view(tiny_case(tmp_path))
 
 
 def test_a_viewer_that_fails_ends_in_a_sentence(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,7 +8,8 @@ from pathlib import Path
 import lxml.html
 import pytest
 import yaml
-from clinic.pages.error_page import by_case, error_page, marked, without
+from clinic.pages.cases import keep_relations
+from clinic.pages.error_page import by_case, error_page, with_problems
 from clinic.publish.site import navigation
 from clinic.record.problem import Problem
 from helpers import tiny_case
@@ -42,7 +43,7 @@ def test_a_title_that_would_act_is_text_on_its_page_and_in_the_navigation() -> N
 
 def test_a_marked_page_keeps_all_it_has() -> None:
     page = "---\ntitle: x\n---\n\n# 7. A title\n\nSymptom.\n# 7. A title\n"
-    made = marked(page, [PROBLEM])
+    made = with_problems(page, [PROBLEM])
     assert made.index("# 7. A title") < made.index("!!! failure") < made.index("Symptom.")
     assert made.count("!!! failure") == 1
 
@@ -50,8 +51,8 @@ def test_a_marked_page_keeps_all_it_has() -> None:
 def test_relations_to_cases_that_cannot_be_shown_are_left_out(tmp_path: Path) -> None:
     case = tiny_case(tmp_path, ("tags: [contact]", "tags: [contact]\nsee: [one, two]"))
     known = {"falling-box": case, "one": case}
-    assert without(case, (), known).record.see == ["one"]
-    assert without(case, (), {**known, "two": case}) == case
+    assert keep_relations(case, (), known).record.see == ["one"]
+    assert keep_relations(case, (), {**known, "two": case}) == case
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from clinic.engine.signals import WARNINGS
-from clinic.pages.messages import Message, heard, load_messages, messages_page
+from clinic.pages.messages import Message, load_messages, messages_page, provoke_messages
 from clinic.record.problem import CaseError
 from clinic.work.cache import Cache
 from helpers import tiny_case
@@ -25,7 +25,7 @@ While it runs:
 
 @pytest.fixture(scope="module")
 def said(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
-    return heard(MESSAGES, Cache(tmp_path_factory.mktemp("cache")))
+    return provoke_messages(MESSAGES, Cache(tmp_path_factory.mktemp("cache")))
 
 
 @pytest.mark.parametrize("message", [m for m in MESSAGES if m.code is not None], ids=lambda message: message.id)
@@ -56,8 +56,8 @@ def test_every_case_named_exists(root: Path) -> None:
 def test_the_page_says_what_was_heard(tmp_path: Path, said: dict[str, str]) -> None:
     case = tiny_case(tmp_path)
     named = MESSAGES[0].model_copy(update={"case": case.slug})
-    page = messages_page([named, *MESSAGES[1:]], {**said, named.id: "WARNING: heard today"}, {case.slug: case})
-    assert "WARNING: heard today" in page
+    page = messages_page([named, *MESSAGES[1:]], {**said, named.id: "WARNING: said today"}, {case.slug: case})
+    assert "WARNING: said today" in page
     assert f"[1. A box falls through the floor](cases/{case.slug}/index.md)" in page
     assert page.count("\n### ") == len(MESSAGES)
     assert "mjWARN_BADQACC" in page

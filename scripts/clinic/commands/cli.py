@@ -44,7 +44,7 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print data for a program."
 @app.command()
 def new(
     slug: Annotated[str, typer.Argument(help="The folder's name: words that name the symptom, joined by hyphens.")],
-    title: Annotated[str, typer.Option(help="The symptom as a sentence, without a full stop.", prompt=True)],
+    title: Annotated[str, typer.Option(help="The symptom as a sentence, without a full stop.", prompt="The symptom")],
     kind: Annotated[Kind, typer.Option(help="Where the bug lives.")] = Kind.model,
 ) -> None:
     """Write the folder of a new case, which passes every law until you put your bug into it."""

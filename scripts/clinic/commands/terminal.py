@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import Any
 
 from rich.console import Console, Group, RenderableType
@@ -84,23 +84,25 @@ def heading(case: Case) -> Text:
 
 def case_text(case: Case, evidence: Evidence, answer: bool) -> Group:
     """The case to read: the symptom, and the folds if `answer` is asked for."""
-    record = case.record
-    said = fill(record.symptom, evidence)
-    tags = Text(f"{', '.join(record.tags)}   cases/{case.slug}/", "dim")
-    parts: list[RenderableType] = [heading(case), tags, Text(), Markdown(said)]
+    data = case_data(case, evidence, answer)
+    tags = Text(f"{', '.join(data['tags'])}   cases/{case.slug}/", "dim")
+    parts: list[RenderableType] = [heading(case), tags, Text(), Markdown(data["symptom"])]
     if not answer:
         closed = ", ".join(fold.capitalize() for fold in FOLDS)
         return Group(*parts, Text(), Text(f"Folded: {closed}. Open them with --answer.", "dim"))
     for fold in FOLDS:
-        parts += [Text(), Rule(fold.capitalize(), align="left"), Markdown(fill(getattr(record, fold), evidence))]
-        if fold == "diagnosis" and record.snippet:
-            printed = Text(f"It prints:\n{(evidence.snippet or '').rstrip()}")
-            parts += [Text(), _code(record.snippet.rstrip(), record.language), Text(), printed]
+        parts += [Text(), Rule(fold.capitalize(), align="left"), Markdown(data[fold])]
+        if fold == "diagnosis" and data["snippet"]:
+            parts += [Text(), _code(data["snippet"], case.record.language), Text(), Text("It prints:")]
+            parts += [Text(data["printed"].rstrip())]
         if fold == "cause":
-            for sweep in record.sweep.values():
+            for sweep in case.record.sweep.values():
                 parts += [Text(), Markdown(f"**{sweep.title}.** {fill(sweep.text, evidence)}")]
         if fold == "fix":
-            parts += list(_remedies(case, evidence))
+            for remedy in data["fixes"] + data["refuted"]:
+                sign = "✗ does not work:" if remedy in data["refuted"] else "✓"
+                parts += [Text(), Text(f"{sign} {remedy['title']} ({remedy['id']})", "bold")]
+                parts += [_code(remedy["diff"], "diff"), Markdown(remedy.get("why", ""))]
     return Group(*parts)
 
 
@@ -127,15 +129,5 @@ def row_data(case: Case) -> dict[str, Any]:
     return {"number": case.record.number, "case": case.slug, "title": case.record.title, "tags": case.record.tags}
 
 
-def _remedies(case: Case, evidence: Evidence) -> Iterator[RenderableType]:
-    whys = {remedy.id: fill(remedy.why, evidence) for remedy in case.record.refuted}
-    for variant in variants(case)[1:]:
-        sign = "✓" if variant.kind == "fix" else "✗ does not work:"
-        yield from (Text(), Text(f"{sign} {variant.title} ({variant.id})", "bold"))
-        yield _code(diff(case.text, variant.text, case.record.source), "diff")
-        if variant.id in whys:
-            yield Markdown(whys[variant.id])
-
-
 def _code(text: str, language: str) -> Padding:
-    return Padding(Syntax(text, language, word_wrap=True), (0, 2))
+    return Padding(Syntax(text.rstrip(), language, word_wrap=True), (0, 2))

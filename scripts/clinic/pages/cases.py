@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Container, Iterable, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import mujoco
@@ -11,7 +11,7 @@ import mujoco
 from clinic.pages.card import Card, card
 from clinic.pages.case_files import files_of_cases
 from clinic.pages.case_page import case_page
-from clinic.pages.error_page import by_case, without
+from clinic.pages.error_page import by_case
 from clinic.pages.playground import FILE as PLAYGROUND
 from clinic.pages.playground import playground
 from clinic.pages.text.manual import manual_problems
@@ -57,7 +57,7 @@ def shown_cases(
     made, failed = files_of_cases(known.values(), cache)
     problems += failed
     left_out |= known.keys() - made.keys()
-    cases = {slug: without(case, left_out, known) for slug, case in known.items() if slug in made}
+    cases = {slug: keep_relations(case, left_out, known) for slug, case in known.items() if slug in made}
     warned = [case for case in known.values() if case.record.warnings]
     shown = []
     for slug, case in cases.items():
@@ -77,3 +77,14 @@ def shown_cases(
         else:
             shown.append(Shown(case, page, card(case, evidence, files), files | sources))
     return shown, problems
+
+
+def keep_relations(case: Case, left_out: Container[str], known: Mapping[str, Case]) -> Case:
+    """The case with those relations alone whose cases can be shown, and without `alike` if it is left out itself."""
+    record = case.record
+    see = [slug for slug in record.see if slug in known and slug != case.slug]
+    alike = None if case.slug in left_out else record.alike
+    if alike is not None:
+        others = [slug for slug in alike.cases if slug in known and slug not in left_out]
+        alike = alike.model_copy(update={"cases": others}) if others else None
+    return replace(case, record=record.model_copy(update={"see": see, "alike": alike}))

@@ -1,15 +1,13 @@
-"""The pages of cases that are in error or could not be measured; the other cases do without them."""
+"""The pages of cases that are in error or could not be measured."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Container, Iterable, Mapping
-from dataclasses import replace
+from collections.abc import Iterable
 from html import escape
 from pathlib import PurePosixPath
 from textwrap import indent
 
-from clinic.record.case import Case
 from clinic.record.markup import fence, line
 from clinic.record.problem import Problem
 
@@ -24,17 +22,6 @@ def by_case(problems: Iterable[Problem]) -> dict[str, list[Problem]]:
     return made
 
 
-def without(case: Case, left_out: Container[str], known: Mapping[str, Case]) -> Case:
-    """The case with its relations to those alone that can be shown, and without `alike` if it is left out itself."""
-    record = case.record
-    see = [slug for slug in record.see if slug in known and slug != case.slug]
-    alike = None if case.slug in left_out else record.alike
-    if alike is not None:
-        others = [slug for slug in alike.cases if slug in known and slug not in left_out]
-        alike = alike.model_copy(update={"cases": others}) if others else None
-    return replace(case, record=record.model_copy(update={"see": see, "alike": alike}))
-
-
 def notice(problems: Iterable[Problem]) -> str:
     """The problems as an admonition, to the letter of the terminal's message."""
     texts = [indent(fence(str(problem)), "    ") for problem in sorted(set(problems))]
@@ -46,13 +33,13 @@ def error_page(title: str, problems: Iterable[Problem]) -> str:
     return _page(title, notice(problems))
 
 
-def lacking_page(title: str, lack: Problem | None) -> str:
+def unmeasured_page(title: str, lack: Problem | None) -> str:
     """The page of a case that was not measured, for want of something on the machine that built the site."""
     why = f": {line(lack.found)}. Needed is {line(lack.expected)}" if lack else ""
     return _page(title, f"The machine that built this page could not measure this case{why}.")
 
 
-def marked(page: str, problems: Iterable[Problem]) -> str:
+def with_problems(page: str, problems: Iterable[Problem]) -> str:
     """A page with its problems below its heading."""
     heading = next(row for row in page.splitlines() if row.startswith("# "))
     return page.replace(f"{heading}\n", f"{heading}\n\n{notice(problems)}\n", 1)

@@ -74,7 +74,7 @@ def load_messages(file: Path = FILE) -> list[Message]:
     ]
 
 
-def heard(messages: Iterable[Message], cache: Cache) -> dict[str, str]:
+def provoke_messages(messages: Iterable[Message], cache: Cache) -> dict[str, str]:
     """What the installed engine says, by the messages' ids; those that no build can provoke are left out."""
     codes = {message.id: message.code for message in messages if message.code is not None}
     files = cache.remember(key_of("messages", codes, of="engine"), lambda: {SAID: json.dumps(provoked(codes)).encode()})
@@ -83,6 +83,6 @@ def heard(messages: Iterable[Message], cache: Cache) -> dict[str, str]:
 
 
 def messages_page(messages: list[Message], said: Mapping[str, str], cases: Mapping[str, Case]) -> str:
-    """The Markdown of the page; `said` is what was heard."""
+    """The Markdown of the page; `said` is what `provoke_messages` gave."""
     chapters = {name: list(part) for name, part in groupby(messages, lambda message: message.chapter)}
     return render("messages", chapters=chapters, said=said, cases=cases, engine=mujoco.__version__)

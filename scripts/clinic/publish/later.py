@@ -111,7 +111,7 @@ def interim(root: Path, cache: Cache, whole: Site) -> Site | None:
     """The site with the numbers of every case that was edited and takes long; None if there is none, or it fails."""
     from clinic.pages.case_page import interim_page
     from clinic.pages.cases import AT_ONCE, FOLDER, PAGE
-    from clinic.pages.error_page import by_case, marked
+    from clinic.pages.error_page import by_case, with_problems
     from clinic.proof.experiments import EVIDENCE, evidence_of, evidence_task
     from clinic.proof.laws import breaches
     from clinic.publish.site import navigation
@@ -132,7 +132,7 @@ def interim(root: Path, cache: Cache, whole: Site) -> Site | None:
         folder, evidence = FOLDER.format(slug=case.slug), evidence_of(found[case.slug])
         wrong = breaches(case, evidence, *AT_ONCE)
         page = interim_page(case, evidence)
-        files[PAGE.format(slug=case.slug)] = (marked(page, wrong) if wrong else page).encode()
+        files[PAGE.format(slug=case.slug)] = (with_problems(page, wrong) if wrong else page).encode()
         files |= {f"{folder}/{name}": (root / folder / name).read_bytes() for name in (RECORD, *case.texts)}
         problems += wrong
     return Site(

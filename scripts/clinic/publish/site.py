@@ -7,7 +7,7 @@ from html import escape
 from pathlib import Path
 
 from clinic.pages.cases import FOLDER, PAGE, shown_cases
-from clinic.pages.error_page import by_case, error_page, lacking_page, marked
+from clinic.pages.error_page import by_case, error_page, unmeasured_page, with_problems
 from clinic.pages.overviews import overviews
 from clinic.pages.schema import FILE as SCHEMA
 from clinic.pages.schema import schema_text
@@ -58,11 +58,11 @@ def survey(root: Path, cache: Cache | None = None) -> Site:
     headings |= {slug: slug for slug in there if slug not in known}
     for slug, heading in headings.items():
         if slug in pages:
-            page = marked(pages[slug], ill[slug]) if slug in ill else pages[slug]
+            page = with_problems(pages[slug], ill[slug]) if slug in ill else pages[slug]
         elif slug in ill:
             page = error_page(heading, ill[slug])
         else:
-            page = lacking_page(heading, lack(known[slug]))
+            page = unmeasured_page(heading, lack(known[slug]))
         made[PAGE.format(slug=slug)] = page.encode()
     return Site(made, navigation(headings), CaseError(problems).problems)
 

@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from clinic.pages.template import render
 from clinic.pages.text.prose import fill
+from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence
 from clinic.record.case import Case
 from clinic.record.markup import line
@@ -18,21 +18,19 @@ LONG_ENOUGH = 150  # characters
 
 @dataclass(frozen=True)
 class Card:
-    """A case in a list: `picture` is a file beside its page, `alt` says what it shows."""
+    """A case in a list: `picture` is a file beside its page."""
 
     slug: str
     number: int
     title: str
     symptom: str
     picture: str
-    alt: str
 
 
 def card(case: Case, evidence: Evidence, files: Files) -> Card:
     """The card of a case with these files."""
-    symptom, number = line(opening(case, evidence)), case.record.number
     picture = "broken.webp" if "broken.webp" in files else "plot-light.svg"
-    return Card(case.slug, number, case.record.title, symptom, picture, f"Case {number}: {symptom}")
+    return Card(case.slug, case.record.number, case.record.title, line(opening(case, evidence)), picture)
 
 
 def home_page(cards: Iterable[Card], engine: str) -> str:

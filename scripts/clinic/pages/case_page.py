@@ -10,10 +10,11 @@ from typing import Any
 from clinic.engine.checks import expected, satisfies
 from clinic.engine.variant import diff, remedies, variants
 from clinic.pages.card import opening
-from clinic.pages.template import render
+from clinic.pages.error_page import plain_page
 from clinic.pages.text import manual
 from clinic.pages.text.claim import TAKES, taken
 from clinic.pages.text.prose import field_errors, markdown
+from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence, VariantEvidence
 from clinic.proof.lookalike import Matrix
 from clinic.proof.prose_laws import PROSE
@@ -64,13 +65,9 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
 
 def interim_page(case: Case, evidence: Evidence) -> str:
     """The Markdown of a case's page while what takes long is being measured."""
-    return render(
-        "interim",
-        record=case.record,
-        broken=evidence.variants["broken"],
-        title=json.dumps(case.record.title, ensure_ascii=False),
-        table=_table(case, evidence),
-    )
+    text = '!!! info "Being measured"\n\n    Plots, pictures and what else takes longer appear here by themselves.\n\n'
+    table = render("table", table=_table(case, evidence))
+    return plain_page(f"{case.record.number}. {case.record.title}", f"{text}What was measured:\n\n{table}")
 
 
 def _summary(case: Case, evidence: Evidence) -> str:

@@ -30,13 +30,13 @@ def notice(problems: Iterable[Problem]) -> str:
 
 def error_page(title: str, problems: Iterable[Problem]) -> str:
     """The page that takes the place of one that cannot be made; its title is text."""
-    return _page(title, notice(problems))
+    return plain_page(title, notice(problems))
 
 
 def unmeasured_page(title: str, lack: Problem | None) -> str:
     """The page of a case that was not measured, for want of something on the machine that built the site."""
     why = f": {line(lack.found)}. Needed is {line(lack.expected)}" if lack else ""
-    return _page(title, f"The machine that built this page could not measure this case{why}.")
+    return plain_page(title, f"The machine that built this page could not measure this case{why}.")
 
 
 def with_problems(page: str, problems: Iterable[Problem]) -> str:
@@ -45,6 +45,7 @@ def with_problems(page: str, problems: Iterable[Problem]) -> str:
     return page.replace(f"{heading}\n", f"{heading}\n\n{notice(problems)}\n", 1)
 
 
-def _page(title: str, text: str) -> str:
+def plain_page(title: str, text: str) -> str:
+    """A page that the search leaves out; its title is text."""
     front = f"---\ntitle: {json.dumps(escape(title, quote=False))}\nsearch:\n  exclude: true\n---"
     return f"{front}\n\n# {line(title)}\n\n{text}\n"

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from clinic.pages.card import Card
-from clinic.pages.template import render
+from clinic.pages.text.template import render
 from clinic.record.case import Case
 from clinic.record.fields import Look
 from clinic.record.problem import Problem

@@ -28,6 +28,9 @@ from clinic.record.prose import plain, quantity
 from clinic.record.yaml_lines import Where
 from clinic.work.cache import Files
 
+Column = tuple[str, str, Interval | None]
+"""A number taken from a signal: the signal, which number, and over which window."""
+
 
 def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str, Case], alike: Matrix | None) -> str:
     """The Markdown of a case's page.
@@ -83,23 +86,18 @@ def _summary(case: Case, evidence: Evidence) -> str:
 
 def _table(case: Case, evidence: Evidence) -> dict[str, Any]:
     """The checks as a table: a column for each number taken, a row for each variant."""
-    record = case.record
-    columns: dict[tuple[str, str, Interval | None], dict[str, list[Check]]] = {}
+    columns: dict[Column, dict[str, list[Check]]] = {}
+    for kind, checks in case.record.checks:
+        for check in checks:
+            column = columns.setdefault((check.signal, check.take, check.window), {"broken": [], "fixed": []})
+            column[kind].append(check)
+    made: dict[str, Any] = {"heads": [taken(case, *column) for column in columns], "rows": []}
     for kind in ("broken", "fixed"):
-        for check in getattr(record.checks, kind):
-            columns.setdefault((check.signal, check.take, check.window), {"broken": [], "fixed": []})[kind].append(
-                check
-            )
-    heads = [taken(case, *column) for column in columns]
-
-    def meaning(kind: str) -> list[str]:
-        return ["; ".join(_expected(check, case) for check in column[kind]) for column in columns.values()]
-
-    rows = []
+        made[kind] = ["; ".join(_expected(check, case) for check in column[kind]) for column in columns.values()]
     for key, variant in evidence.variants.items():
-        cells = [_cell(variant, column["broken"] + column["fixed"], column["fixed"]) for column in columns.values()]
-        rows.append({"id": key, "kind": variant.kind, "cells": cells})
-    return {"heads": heads, "broken": meaning("broken"), "fixed": meaning("fixed"), "rows": rows}
+        cells = [_cell(variant, column, checks["fixed"]) for column, checks in columns.items()]
+        made["rows"].append({"id": key, "kind": variant.kind, "cells": cells})
+    return made
 
 
 def _expected(check: Check, case: Case) -> str:
@@ -107,15 +105,16 @@ def _expected(check: Check, case: Case) -> str:
     return f"{expected(check, plain)} {unit}".strip()
 
 
-def _cell(variant: VariantEvidence, checks: list[Check], wanted: list[Check]) -> str:
-    results = variant.checks["broken"] + variant.checks["fixed"]
-    first = checks[0]
-    result = next(r for r in results if (r.signal, r.take, r.window) == (first.signal, first.take, first.window))
-    unit = "s" if first.take == "onset" else variant.traces[first.signal].unit
-    value = "not measured" if result.measured is None else quantity(result.measured, unit, 4)
+def _cell(variant: VariantEvidence, column: Column, wanted: list[Check]) -> str:
+    """What was measured, and whether it is as the checks `wanted` ask."""
+    signal, take, _ = column
+    results = (result for kind in variant.checks.values() for result in kind)
+    measured = next(result.measured for result in results if (result.signal, result.take, result.window) == column)
+    unit = "s" if take == "onset" else variant.traces[signal].unit
+    value = "not measured" if measured is None else quantity(measured, unit, 4)
     if not wanted:
         return value
-    holds = result.measured is not None and all(satisfies(check, result.measured) for check in wanted)
+    holds = measured is not None and all(satisfies(check, measured) for check in wanted)
     return f"{value} {'✓' if holds else '✗'}"
 
 
@@ -166,14 +165,8 @@ def _steady(case: Case, evidence: Evidence) -> str:
     )
     if all(robust.longer is not False for robust in evidence.robustness.values()):
         said += " Every fix still holds after ten times the duration."
-    shaken = [
-        f"`{key}` {robust.same} of {robust.runs}"
-        for key, robust in evidence.robustness.items()
-        if robust.same < robust.runs
-    ]
-    reasons = [
-        markdown(case.record.exempt[law], evidence) for law in ("steady", "lasting") if law in case.record.exempt
-    ]
+    shaken = [f"`{key}` {one.same} of {one.runs}" for key, one in evidence.robustness.items() if one.same < one.runs]
+    reasons = [markdown(reason, evidence) for law, reason in case.record.exempt.items() if law in ("steady", "lasting")]
     return " ".join([said, *([f"({', '.join(shaken)}.)"] if shaken else []), *reasons])
 
 

@@ -40,7 +40,7 @@ class Shown:
 
 
 def shown_cases(
-    root: Path, read: Iterable[Case], unread: set[str], cache: Cache, live: bool
+    root: Path, read: Iterable[Case], unread: set[str], cache: Cache, with_playground: bool
 ) -> tuple[list[Shown], list[Problem]]:
     """The cases that can be shown, and the problems of all.
 
@@ -49,7 +49,7 @@ def shown_cases(
         read: The cases whose records can be read.
         unread: The others' slugs.
         cache: Where finished work is kept.
-        live: Whether the site has a playground.
+        with_playground: Whether the site has a playground.
     """
     known = {case.slug: case for case in read}
     problems = [problem for problem in alike_problems(known) if problem.found not in unread]
@@ -65,7 +65,7 @@ def shown_cases(
         alike, unclear = compare_alike(case, cases, cache)
         problems += [*manual_problems(case), *breaches(case, evidence, *PUBLISHED), *unclear]
         files = dict(made[slug])
-        if live and case.record.model is not None:
+        if with_playground and case.record.model is not None:
             files[PLAYGROUND] = playground(case, mujoco.__version__, warned)
         try:
             page = case_page(case, evidence, files, known | cases, alike)

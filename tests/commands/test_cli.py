@@ -232,7 +232,6 @@ def test_reference_is_printed() -> None:
 def test_build_writes_generated_pages_beside_those_written_by_hand(project: Path, tmp_path: Path) -> None:
     (project / "docs" / "triage.md").write_text("# Triage\n\n```python run\nprint(6 * 7)\n```\n", encoding="utf-8")
     (project / "docs" / "about.md").write_text("# About\n", encoding="utf-8")
-    (project / "CONTRIBUTING.md").write_text("# Add a case\n", encoding="utf-8")
     out = tmp_path / "out"
     assert run("build", "--out", str(out)).exit_code == 0
     (out / "stale.md").touch()

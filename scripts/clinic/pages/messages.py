@@ -11,7 +11,7 @@ import mujoco
 import yaml
 from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
-from clinic.engine.provoke import provoked
+from clinic.engine.provoke import provoke
 from clinic.pages.text.template import render
 from clinic.record.case import Case
 from clinic.record.parts import Identifier, Strict, Text
@@ -77,7 +77,8 @@ def load_messages(file: Path = FILE) -> list[Message]:
 def provoke_messages(messages: Iterable[Message], cache: Cache) -> dict[str, str]:
     """What the installed engine says, by the messages' ids; those that no build can provoke are left out."""
     codes = {message.id: message.code for message in messages if message.code is not None}
-    files = cache.remember(key_of("messages", codes, of="engine"), lambda: {SAID: json.dumps(provoked(codes)).encode()})
+    key = key_of("messages", codes, of="engine")
+    files = cache.remember(key, lambda: {SAID: json.dumps(provoke(codes)).encode()})
     made: dict[str, str] = json.loads(files[SAID])
     return made
 

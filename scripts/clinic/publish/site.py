@@ -82,5 +82,11 @@ def navigation(headings: Mapping[str, str]) -> Navigation:
         {"Triage": "triage.md"},
         {"Cases": divided if len(sections) > 1 else cases},
         {"By thing": "tags.md"},
-        {"Add a case": "contributing.md"},
+        {
+            "Contribute": [
+                {"Add a case": "contribute/add-a-case.md"},
+                {"The record": "contribute/the-record.md"},
+                {"Work on the code": "contribute/work-on-the-code.md"},
+            ]
+        },
     ]

@@ -25,13 +25,13 @@ def without_film(root: Path, *changes: tuple[str, str]) -> Case:
 def test_a_model_is_plotted_and_pictured(tmp_path: Path, cache: Cache) -> None:
     files = files_of_case(without_film(tmp_path), cache)
 
-    assert {"evidence.json", "plot-light.svg", "plot-dark.svg", "broken.webp", "fixed.webp"} <= set(files)
+    assert {"evidence.json", "plot.svg", "broken.webp", "fixed.webp"} <= set(files)
     assert evidence_of(files).variants["broken"].broken
     assert files["evidence.json"].endswith(b"}\n")
 
 
 def test_a_script_is_plotted(tmp_path: Path, cache: Cache) -> None:
-    assert set(files_of_case(script_case(tmp_path), cache)) == {"evidence.json", "plot-light.svg", "plot-dark.svg"}
+    assert set(files_of_case(script_case(tmp_path), cache)) == {"evidence.json", "plot.svg"}
 
 
 def test_two_makings_are_equal_to_the_last_byte_whatever_else_is_made(tmp_path: Path, cache: Cache) -> None:

@@ -29,7 +29,7 @@ class Card:
 
 def card(case: Case, evidence: Evidence, files: Files) -> Card:
     """The card of a case with these files."""
-    picture = "broken.webp" if "broken.webp" in files else "plot-light.svg"
+    picture = "broken.webp" if "broken.webp" in files else "plot.svg"
     return Card(case.slug, case.record.number, case.record.title, line(opening(case, evidence)), picture)
 
 

@@ -57,6 +57,6 @@ def _pictures(case: Case) -> Files:
 
 
 def _plots(case: Case, measured: Files) -> Files:
-    from clinic.pages.figures.plots import figures
+    from clinic.pages.figures.plots import plots
 
-    return figures(case, evidence_of(measured))
+    return plots(case, evidence_of(measured))

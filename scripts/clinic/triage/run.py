@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from clinic.engine.simulate import Drive, captured_messages, controls, start, step, step_count
+from clinic.engine.simulate import Controls, captured_messages, controls, initial_data, step, step_count
 from clinic.record.fields import RunSpec
 
 Array = NDArray[np.float64]
@@ -68,10 +68,8 @@ class Subject:
     def data(self) -> mujoco.MjData:
         """The start of the run, with everything derived from it."""
         with captured_messages():
-            data = start(self.model, self.run)
-            drive = controls(self.model, self.run, 1)
-            if len(drive.actuators):
-                data.ctrl[drive.actuators] = drive.values[0]
+            data = initial_data(self.model, self.run)
+            controls(self.model, self.run, 1).apply(data, 0)
             mujoco.mj_forward(self.model, data)
         return data
 
@@ -153,7 +151,7 @@ def record(
     points = []
     counts = np.zeros(mujoco.mjtWarning.mjNWARNING, dtype=int)
     with captured_messages() as messages:
-        data = start(model, subject.run, nudge)
+        data = initial_data(model, subject.run, nudge)
         drive = controls(model, subject.run, made.planned)
         together = 1
         while made.steps < made.planned and made.finite and budget.left > 0:
@@ -199,12 +197,11 @@ def scale(subject: Subject, recording: Recording) -> float:
     return max(float(subject.model.stat.extent), float(way.max(initial=0.0)))
 
 
-def _advance(model: mujoco.MjModel, data: mujoco.MjData, drive: Drive, begin: int, end: int) -> None:
+def _advance(model: mujoco.MjModel, data: mujoco.MjData, drive: Controls, begin: int, end: int) -> None:
     """Makes the steps from `begin` to `end`, together where the controls do not change."""
     values = drive.values[begin:end]
-    if not len(drive.actuators) or bool(np.all(values == values[0])):
-        if len(drive.actuators):
-            data.ctrl[drive.actuators] = values[0]
+    if bool(np.all(values == values[0])):
+        drive.apply(data, begin)
         mujoco.mj_step(model, data, end - begin)
         return
     for i in range(begin, end):

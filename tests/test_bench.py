@@ -11,7 +11,8 @@ import growth
 import measured
 import pytest
 import yaml
-from clinic.pages.exhibits import all_exhibits, evidence_of
+from clinic.pages.case_files import files_of_cases
+from clinic.proof.experiments import evidence_of
 from clinic.publish.site import make_site
 from clinic.record.case import load_case, load_cases
 from clinic.work.cache import Cache
@@ -90,6 +91,6 @@ def test_variations_are_cases_that_need_no_run(project: Path, tmp_path: Path, mo
     monkeypatch.setattr("clinic.work.task.parallel", none)
     made = make_site(copy, cache)
     assert not made.problems
-    shown = all_exhibits([load_case(copy / "cases" / "falling-box-2")], cache)
+    shown, _ = files_of_cases([load_case(copy / "cases" / "falling-box-2")], cache)
     assert evidence_of(shown["falling-box-2"]).number == 4
     assert "cases/falling-box-3/index.md" in made.files

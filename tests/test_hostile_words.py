@@ -11,8 +11,8 @@ from typing import Any
 
 import pytest
 import yaml
-from clinic.pages.case_page import card, home_page
-from clinic.pages.error_page import error_page, read_name
+from clinic.pages.card import card, home_page
+from clinic.pages.error_page import error_page
 from clinic.pages.figures.plots import plots
 from clinic.pages.playground import playground
 from clinic.proof.evidence import Evidence, collect
@@ -235,12 +235,9 @@ TITLES = [
 
 @pytest.mark.parametrize("title", TITLES)
 def test_a_refused_title_is_text_on_every_page(tmp_path: Path, title: str) -> None:
-    names = [
-        read_name(write_folder(tmp_path / slug, slug, {"case.yaml": f"number: 1\ntitle: {said}\n"}))
-        for slug, said in (("tame", "A plain title"), ("wild", title))
-    ]
-    pages = {name.slug: error_page(name.heading, []) for name in names}
-    entries = next(entry["Cases"] for entry in navigation(names) if "Cases" in entry)
+    headings = {"tame": "1. A plain title", "wild": f"1. {title}"}
+    pages = {slug: error_page(heading, []) for slug, heading in headings.items()}
+    entries = next(entry["Cases"] for entry in navigation(headings) if "Cases" in entry)
     nav = [{heading: Path(path).parent.name + ".md" for heading, path in entry.items()} for entry in entries]
     tame, wild = built(tmp_path, pages, nav)
     tame_alone, _ = built(tmp_path, {"tame": pages["tame"], "wild": pages["tame"]}, ["tame.md", "wild.md"])

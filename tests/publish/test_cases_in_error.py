@@ -107,7 +107,7 @@ def test_a_task_that_raises_what_nobody_foresaw_is_a_problem_of_its_case(
         raise ZeroDivisionError("by 0")
 
     monkeypatch.setenv("CLINIC_JOBS", "1")
-    monkeypatch.setattr("clinic.pages.exhibits.robustness", fail)
+    monkeypatch.setattr("clinic.proof.experiments.robustness", fail)
     with caplog.at_level(logging.CRITICAL):
         made = make_site(whole[0], Cache(tmp_path / "cache"))
     assert [(problem.file, problem.found) for problem in made.problems] == [(RECORD, "ZeroDivisionError: by 0")]

@@ -28,8 +28,8 @@ import hashlib, sys
 from pathlib import Path
 from clinic.work.cache import Cache
 from clinic.record.case import load_cases
-from clinic.pages.exhibits import all_exhibits
-for slug, files in all_exhibits(load_cases(Path("cases")), Cache(Path(sys.argv[1]))).items():
+from clinic.pages.case_files import files_of_cases
+for slug, files in files_of_cases(load_cases(Path("cases")), Cache(Path(sys.argv[1])))[0].items():
     for name, content in files.items():
         print(slug, name, hashlib.sha256(content).hexdigest())
 """

@@ -65,18 +65,19 @@ class LiveSite:
 
 def unmeasured(root: Path, cache: Cache) -> list[Task]:
     """What takes long and is not kept: all but the variants' runs and the plots."""
-    from clinic.pages.exhibits import measuring_tasks
+    from clinic.pages.case_files import picture_tasks
+    from clinic.proof.experiments import measuring_tasks
     from clinic.record.case import read_cases
 
-    cases, _ = read_cases(root / "cases")
-    return [task for case in cases for task in measuring_tasks(case) if not cache.path(task.key).exists()]
+    tasks = [task for case in read_cases(root / "cases")[0] for task in (*measuring_tasks(case), *picture_tasks(case))]
+    return [task for task in tasks if not cache.path(task.key).exists()]
 
 
 def number_pages(root: Path, cache: Cache, slugs: Container[str]) -> Files | None:
     """The pages of these cases with what their checks measured; None if there are none, or one cannot be run."""
     from clinic.pages.case_page import interim_page
     from clinic.pages.cases import PAGE
-    from clinic.pages.exhibits import EVIDENCE, evidence_of, evidence_task
+    from clinic.proof.experiments import EVIDENCE, evidence_of, evidence_task
     from clinic.record.case import read_cases
     from clinic.work.task import run_tasks
 

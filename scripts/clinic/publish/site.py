@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Mapping
 from html import escape
 from pathlib import Path
 
 from clinic.pages.cases import FOLDER, PAGE, shown_cases
-from clinic.pages.error_page import Name, by_case, error_page, lacking_page, marked, name_of, ordered, read_name
+from clinic.pages.error_page import by_case, error_page, unmeasured_page, with_problems
 from clinic.pages.overviews import overviews
 from clinic.pages.schema import FILE as SCHEMA
 from clinic.pages.schema import schema_text
@@ -40,7 +40,7 @@ def make_site(root: Path, cache: Cache) -> Site:
     known = {case.slug: case for case in read}
     unread = sorted(set(slugs(root)) - known.keys())
     made: Files = bundle.parts(root, cache)
-    shown, wrong = shown_cases(root, read, set(unread), cache, live=bundle.START in made)
+    shown, wrong = shown_cases(root, read, set(unread), cache, bundle.START in made)
     files, others = overviews(root, shown, known, cache)
     problems += [*wrong, *others]
     made |= files
@@ -49,24 +49,25 @@ def make_site(root: Path, cache: Cache) -> Site:
     for one in shown:
         made |= {f"{FOLDER.format(slug=one.case.slug)}/{name}": content for name, content in one.files.items()}
     pages, told = {one.case.slug: one.page for one in shown}, by_case(problems)
-    names = [*map(name_of, read), *(read_name(root / "cases" / slug) for slug in unread)]
-    for name in names:
-        if name.slug in pages:
-            page = marked(pages[name.slug], told[name.slug]) if name.slug in told else pages[name.slug]
-        elif name.slug in told:
-            page = error_page(name.heading, told[name.slug])
+    headings = {case.slug: f"{case.record.number}. {case.record.title}" for case in read}
+    headings |= {slug: slug for slug in unread}
+    for slug, heading in headings.items():
+        if slug in pages:
+            page = with_problems(pages[slug], told[slug]) if slug in told else pages[slug]
+        elif slug in told:
+            page = error_page(heading, told[slug])
         else:
-            page = lacking_page(name.heading, lack(known[name.slug]))
-        made[PAGE.format(slug=name.slug)] = page.encode()
-    return Site(made, navigation(names), CaseError(problems).problems)
+            page = unmeasured_page(heading, lack(known[slug]))
+        made[PAGE.format(slug=slug)] = page.encode()
+    return Site(made, navigation(headings), CaseError(problems).problems)
 
 
-def navigation(names: Iterable[Name]) -> Navigation:
-    """The site's navigation: the cases by number, then the pages written by hand. The theme takes titles as HTML.
+def navigation(headings: Mapping[str, str]) -> Navigation:
+    """The site's navigation: the cases by slug, then the pages written by hand. The theme takes titles as HTML.
 
     More than SECTION cases are in sections, for every page holds the part of the navigation around it.
     """
-    cases = [{escape(name.heading, quote=False): PAGE.format(slug=name.slug)} for name in ordered(names)]
+    cases = [{escape(heading, quote=False): PAGE.format(slug=slug)} for slug, heading in headings.items()]
     sections = [cases[k : k + SECTION] for k in range(0, len(cases), SECTION)]
     divided = [{f"{k * SECTION + 1} to {k * SECTION + len(part)}": part} for k, part in enumerate(sections)]
     return [

@@ -208,9 +208,7 @@ class Record(Strict):
     lesson: Text = Field(description="What to remember.")
     tags: list[Identifier] = Field(min_length=1, description="Topics: contact, joint, actuator, camera, units, ...")
     phrases: list[Text] = Field(min_length=1, description="What people type into a search engine; feeds the search.")
-    looks: list[Look] = Field(
-        default=[], description="Where *Find your symptom* puts the case; found by the words of `phrases` when absent."
-    )
+    looks: list[Look] = Field(default=[], description="Where *Find your symptom* puts the case.")
     manual: list[ManualPage] = Field(
         default=[],
         description="Sections of MuJoCo's manual, as `XMLreference.html#body-geom-contype`; linked in the page's foot.",

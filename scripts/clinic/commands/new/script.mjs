@@ -2,7 +2,7 @@ import { readFileSync } from "node:fs";
 import loadMujoco from "@mujoco/mujoco";
 
 const mujoco = await loadMujoco();
-const model = mujoco.MjModel.from_xml_string(readFileSync("scene.xml", "utf8"));
+const model = mujoco.MjModel.from_xml_string(readFileSync("model.xml", "utf8"));
 const data = new mujoco.MjData(model);
 
 data.qpos[0] = 60;

@@ -1,6 +1,6 @@
 import mujoco
 
-model = mujoco.MjModel.from_xml_path("scene.xml")
+model = mujoco.MjModel.from_xml_path("model.xml")
 data = mujoco.MjData(model)
 
 data.joint("hinge").qpos[0] = 60

@@ -12,21 +12,20 @@ from typing import Any
 import jinja2
 
 from clinic.engine.checks import expected, satisfies
-from clinic.engine.variant import diff, remedies, variants
+from clinic.engine.variant import diff, variants
 from clinic.pages.text import manual
 from clinic.pages.text.claim import TAKES, taken
-from clinic.pages.text.prose import field_errors, fill, markdown
+from clinic.pages.text.markup import code, fence, line
+from clinic.pages.text.prose import fill, markdown, mistakes
 from clinic.proof.evidence import Evidence, VariantEvidence
 from clinic.proof.lookalike import Matrix
-from clinic.proof.prose_laws import PROSE
+from clinic.proof.prose_laws import PROSE, prose_of
 from clinic.proof.robustness import NUDGE, STARTS
 from clinic.record.case import Case
 from clinic.record.fields import Check
-from clinic.record.markup import code, fence, line
 from clinic.record.parts import Interval
 from clinic.record.problem import CaseError, Problem
 from clinic.record.prose import plain, quantity
-from clinic.record.yaml_lines import Where
 from clinic.work.cache import Files
 
 TEMPLATES = jinja2.Environment(
@@ -64,7 +63,7 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
         broken=evidence.variants["broken"],
         fixed=evidence.variants[record.fixes[0].id],
         description=json.dumps(html.escape(_opening(fill(record.symptom, evidence))), ensure_ascii=False),
-        title=json.dumps(record.title, ensure_ascii=False),
+        title=json.dumps(html.escape(record.title, quote=False), ensure_ascii=False),
         prose={name: markdown(getattr(record, name), evidence) for name in PROSE},
         whys={remedy.id: markdown(remedy.why, evidence) for remedy in record.refuted},
         diffs={key: diff(case.text, variant.text, record.source) for key, variant in made.items()},
@@ -86,7 +85,7 @@ def interim_page(case: Case, evidence: Evidence) -> str:
     return TEMPLATES.get_template("interim.md.j2").render(
         record=case.record,
         broken=evidence.variants["broken"],
-        title=json.dumps(case.record.title, ensure_ascii=False),
+        title=json.dumps(html.escape(case.record.title, quote=False), ensure_ascii=False),
         table=_table(case, evidence),
     )
 
@@ -229,11 +228,9 @@ def _matrix(made: Matrix, cases: Mapping[str, Case]) -> dict[str, Any]:
 
 
 def _field_problems(case: Case, evidence: Evidence) -> Iterable[Problem]:
-    texts: dict[Where, str] = {(name,): getattr(case.record, name) for name in PROSE}
-    texts |= {("sweep", name, "text"): sweep.text for name, sweep in case.record.sweep.items()}
-    texts |= {(*where, "why"): getattr(remedy, "why", "") for where, _, remedy in remedies(case)}
-    for where, text in texts.items():
-        for error in field_errors(text, evidence):
+    reasons = [(("exempt", law), reason) for law, reason in case.record.exempt.items()]
+    for where, text in [*prose_of(case), *reasons]:
+        for error in mistakes(text, evidence):
             yield case.problem(where, error.found, error.expected, error.repair, quoted=error.found)
 
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path, PurePosixPath
 
+from clinic.pages.text.markup import line
 from clinic.record.case import Case
 from clinic.record.folder import RECORD, unreadable
-from clinic.record.markup import line
 from clinic.record.problem import Problem
 
 NUMBER = re.compile(r"^number: *(\d{1,6})\b", re.MULTILINE)

@@ -32,7 +32,6 @@ from clinic.record.folder import RECORD, folder_problems
 from clinic.record.parts import WARNINGS
 from clinic.record.predictions import MODEL_NUMBERS
 from clinic.record.problem import CaseError, Problem, article, closest, listed
-from clinic.record.wording import word_problems
 from clinic.record.yaml_lines import Lines, Where, YamlError, dotted, read_yaml
 
 SCALED = re.compile(r"(?:[mck]m|[mµ]s|[mk]N|g|deg|°)(?![A-Za-z])")
@@ -99,8 +98,7 @@ def _validated(slug: str, text: str, texts: tuple[tuple[str, str], ...]) -> Case
     except ValidationError as error:
         raise CaseError(field_problems(file, lines, error.errors(), data)) from None
     case = Case(slug, record, dict(texts), lines)
-    words = (case.problem(*told, quoted=told[1]) for told in word_problems(record))
-    if problems := [*_file_problems(case), *_reference_problems(case), *words]:
+    if problems := [*_file_problems(case), *_reference_problems(case)]:
         raise CaseError(problems)
     return case
 

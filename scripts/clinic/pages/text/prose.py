@@ -1,15 +1,16 @@
-"""Prose of a record made into Markdown: fields filled from the evidence, formulas set as MathML, HTML made inert."""
+"""Prose of a record made into Markdown: fields filled from the evidence, formulas set as MathML."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
 
+from clinic.pages.text.formula import FormulaError, mathml
 from clinic.proof.evidence import Evidence, VariantEvidence
-from clinic.record.formula import formulas
-from clinic.record.markup import harmless, outside_code
 from clinic.record.problem import closest, listed
-from clinic.record.prose import CONVERSIONS, FIELD, quantity
+from clinic.record.prose import CODE, CONVERSIONS, FIELD, FORMULA, quantity
+
+PARTS = re.compile(f"{CODE.pattern}|{FORMULA.pattern}|(?P<tag><)", re.DOTALL | re.MULTILINE)
 
 
 class FieldError(ValueError):
@@ -24,13 +25,21 @@ class FieldError(ValueError):
 
 
 def markdown(text: str, evidence: Evidence) -> str:
-    """The prose with its fields filled, formulas as MathML, and no HTML of its own.
+    """The prose with its fields filled and its formulas as MathML; a `<` outside code is shown.
 
     Raises:
         FieldError: For the first field that resolves to nothing.
         FormulaError: For the first formula that cannot be set.
     """
-    return outside_code(fill(text, evidence), lambda part: formulas(part, harmless))
+    return PARTS.sub(_part, fill(text, evidence))
+
+
+def _part(match: re.Match[str]) -> str:
+    if match["block"]:
+        return f'\n\n<div class="formula">{mathml(match["block"], "block")}</div>\n\n'
+    if match["inline"]:
+        return mathml(match["inline"], "inline")
+    return match["code"] or "&lt;"
 
 
 def fill(text: str, evidence: Evidence) -> str:
@@ -42,12 +51,21 @@ def fill(text: str, evidence: Evidence) -> str:
     return FIELD.sub(lambda match: resolve(match[1], evidence), text)
 
 
-def field_errors(text: str, evidence: Evidence) -> Iterator[FieldError]:
-    """Every field of the text that resolves to nothing."""
+def mistakes(text: str, evidence: Evidence) -> Iterator[FieldError | FormulaError]:
+    """Every field of the text that is not closed or resolves to nothing, and every formula that cannot be set."""
     for match in FIELD.finditer(text):
         try:
             resolve(match[1], evidence)
         except FieldError as error:
+            yield error
+    filled = FIELD.sub("1", text)
+    if (begun := filled.find("{{")) >= 0:
+        opened = filled[begun:].partition("\n")[0]
+        yield FieldError(opened[:40], "a field that is closed: {{ ... }}", "close it with }}")
+    for match in PARTS.finditer(filled):
+        try:
+            _part(match)
+        except FormulaError as error:
             yield error
 
 

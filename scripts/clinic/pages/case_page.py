@@ -231,7 +231,8 @@ def _field_problems(case: Case, evidence: Evidence) -> Iterable[Problem]:
     reasons = [(("exempt", law), reason) for law, reason in case.record.exempt.items()]
     for where, text in [*prose_of(case), *reasons]:
         for error in mistakes(text, evidence):
-            yield case.problem(where, error.found, error.expected, error.repair, quoted=error.found)
+            quoted = error.found.partition(": ")[0]
+            yield case.problem(where, error.found, error.expected, error.repair, quoted)
 
 
 def _opening(text: str, length: int = 150) -> str:

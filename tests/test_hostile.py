@@ -2,101 +2,16 @@
 
 from __future__ import annotations
 
-import os
-import shutil
 from pathlib import Path
 
 import pytest
 from clinic.engine import confine
-from clinic.record.folder import LARGE
 from helpers import MODEL, SCRIPT_RECORD, changed, only_problem, write_case, write_folder
 
 EDIT = "{find: ' contype=\"2\" conaffinity=\"2\"', replace: ''}"
 
 
 LANDLOCK = confine.landlock_version() >= 1
-
-
-# YAML
-
-BOMB = "a: &a [x, x]\nb: &b [*a, *a]\nc: &c [*b, *b]\n"
-
-
-@pytest.mark.parametrize(
-    ("text", "line", "found"),
-    [
-        pytest.param(BOMB, 2, "the alias *a", id="aliases"),
-        pytest.param("number: 1\n<<: *base\n", 2, "the alias *base", id="merge-of-an-alias"),
-        pytest.param("title: !!python/object/apply:os.system [ls]\n", 1, None, id="python-tag"),
-        pytest.param("title: !!binary aGVsbG8=\n", 1, "the tag tag:yaml.org,2002:binary", id="binary-tag"),
-        pytest.param("%TAG ! tag:yaml.org,2002:python/\n---\ntitle: !name:os.system x\n", 3, None, id="renamed-tag"),
-        pytest.param("a: " + "[" * 10_000, 1, "a list in a list in ...", id="deep-lists"),
-        pytest.param("a: " + "{b: " * 10_000, 1, "a list in a list in ...", id="deep-mappings"),
-        pytest.param("title: a\ntitle: b\n", 2, "the key title twice", id="key-twice"),
-        pytest.param("title: a\nrun: b\n---\ntitle: c\n", 3, None, id="two-documents"),
-        pytest.param('title: "a\\0b"\n', 1, "the character U+0000", id="escaped-nul"),
-        pytest.param('title: "a\\ud800b"\n', 1, "the character U+D800", id="half-a-character"),
-        pytest.param('title: a\n"\\a": b\n', 2, "the character U+0007", id="bell-in-a-key"),
-        pytest.param("number: 0x" + "f" * 5000 + "\n", 1, None, id="number-of-thousands-of-digits"),
-        pytest.param("title: a\x00b\n", 1, "the character U+0000", id="nul"),
-        pytest.param("title: a\u202eb\n", 1, "the character U+202E", id="text-turned-round"),
-        pytest.param("a: 1\n" * 60_000, 1, "300000 bytes", id="enormous"),
-    ],
-)
-def test_yaml(tmp_path: Path, text: str, line: int, found: str | None) -> None:
-    told = only_problem(write_folder(tmp_path, "a-case", {"case.yaml": text}))
-    assert (told.file, told.line) == ("cases/a-case/case.yaml", line)
-    assert found is None or told.found == found
-    assert told.expected
-    assert told.repair
-
-
-def test_an_inline_merge_is_an_unknown_key(tmp_path: Path) -> None:
-    told = only_problem(write_case(tmp_path, ("number: 1", "number: 1\n<<: {number: 2}")))
-    assert (told.line, told.found) == (2, "the unknown key `<<`")
-
-
-@pytest.mark.parametrize("name", ["case.yaml", "model.xml"])
-@pytest.mark.parametrize(
-    ("content", "found"),
-    [
-        pytest.param(b"a: \xff\xfe\n", "bytes that are not UTF-8", id="not-utf-8"),
-        pytest.param(b"a: \n\n b\x00\n", "the character U+0000", id="nul"),
-        pytest.param(b" " * (LARGE + 1), f"{LARGE + 1} bytes", id="enormous"),
-    ],
-)
-def test_bytes_of_a_file(tmp_path: Path, name: str, content: bytes, found: str) -> None:
-    folder = write_case(tmp_path)
-    (folder / name).write_bytes(content)
-    told = only_problem(folder)
-    assert (told.file, told.found) == (f"cases/falling-box/{name}", found)
-    assert told.line == (3 if "U+" in found else 1)
-
-
-# The folder
-
-
-def test_a_case_that_is_a_link(tmp_path: Path) -> None:
-    folder = write_case(tmp_path)
-    (tmp_path / "cases" / "other").symlink_to(folder)
-    told = only_problem(tmp_path / "cases" / "other")
-    assert (told.file, told.found) == ("cases/other", "a symbolic link")
-
-
-@pytest.mark.parametrize("name", ["case.yaml", "model.xml", "more.xml"])
-def test_a_file_that_is_a_link_out(tmp_path: Path, name: str) -> None:
-    folder = write_case(tmp_path)
-    outside = shutil.copy(folder / "model.xml", tmp_path / "outside.xml")
-    (folder / name).unlink(missing_ok=True)
-    (folder / name).symlink_to(outside)
-    told = only_problem(folder)
-    assert (told.file, told.found) == (f"cases/falling-box/{name}", "a symbolic link")
-
-
-def test_a_pipe_is_not_read(tmp_path: Path) -> None:
-    folder = write_case(tmp_path)
-    os.mkfifo(folder / "more.txt")
-    assert only_problem(folder).found == "no file"
 
 
 # XML

@@ -11,7 +11,7 @@ from clinic.proof.sweep import agreement, grid, measure_points, numbers, substit
 from clinic.record.case import Case
 from clinic.record.problem import CaseError, Problem
 from clinic.record.sweep import Parameter
-from helpers import SWEEP, changed, script_case, tiny_case
+from helpers import SWEEP, changed, tiny_case
 
 
 def falling(tmp_path: Path, *changes: tuple[str, str]) -> Case:
@@ -81,60 +81,23 @@ def test_a_number_may_be_written_more_than_once(tmp_path: Path) -> None:
     assert 'gravity="-4 0 -4"' in text
 
 
-GRID = """\
-    vary:
-      - {{name: a, find: x, replace: 'a{{}}', start: 1, stop: 2, count: {0}}}
-      - {{name: b, find: y, replace: 'b{{}}', values: [{1}]}}
-"""
+def crowded(first: int, second: int) -> str:
+    """A sweep of so many points in either direction."""
+    head, rest = SWEEP.replace("0.06 - g * 0.4 * 0.398", "a").replace("g * 0.4 ** 2", "a").split("    vary:\n")
+    return f"""{head}    vary:
+      - {{name: a, find: x, replace: 'a{{}}', start: 1, stop: 2, count: {first}}}
+      - {{name: b, find: y, replace: 'b{{}}', values: {list(range(second))}}}
+    outcome{rest.split("    outcome")[1]}"""
 
 
-def crowded(*sizes: tuple[int, int]) -> str:
-    """Sweeps of so many points in either direction."""
-    text = "sweep:\n"
-    for k, (first, second) in enumerate(sizes):
-        whole = SWEEP.split("\n", 1)[1].replace("fall:", f"fall-{k}:", 1).replace("expr: 0.06 - g", "expr: a")
-        head, rest = whole.split("    vary:\n")
-        text += (
-            head + GRID.format(first, ", ".join(map(str, range(second)))) + "    outcome" + rest.split("    outcome")[1]
-        )
-    return text.replace("- g * 0.4 ** 2", "* a")
-
-
-@pytest.mark.parametrize(
-    ("sizes", "where", "found"),
-    [
-        pytest.param([(1000, 1000)], "sweep.fall-0.vary", "1000000 points", id="two-parameters"),
-        pytest.param([(2, 501)], "sweep.fall-0.vary", "1002 points", id="numbers-written-out"),
-        pytest.param(
-            [(2, 400), (2, 100), (2, 1), (2, 1)],
-            "sweep.fall-2.vary",
-            "1002 points, with 1000 of the sweeps before",
-            id="many-sweeps",
-        ),
-    ],
-)
-def test_points_of_a_model_are_bounded(tmp_path: Path, sizes: list[tuple[int, int]], where: str, found: str) -> None:
-    told = refused(lambda: tiny_case(tmp_path, ("no_sweep: The masks are not a number.\n", crowded(*sizes))))
-    assert (told.where, told.found) == (where, found)
-    assert told.expected == "1000 points at most in all sweeps of a model"
-    assert told.repair == "take fewer numbers, further apart"
-    assert told.line > 30
-
-
-def test_points_of_a_script_are_bounded_more_tightly(tmp_path: Path) -> None:
-    def read(count: int) -> Case:
-        sweeps = crowded((2, count)).replace("{signal: height}", "{signal: error}")
-        return script_case(tmp_path / str(count), ("no_sweep: There is nothing to vary.\n", sweeps))
-
-    assert read(100).record.sweep["fall-0"].size == 200
-    told = refused(lambda: read(101))
-    assert (told.found, told.where) == ("202 points", "sweep.fall-0.vary")
-    assert told.expected == "200 points at most in all sweeps of a script, which runs as a process at each"
+def test_points_are_bounded(tmp_path: Path) -> None:
+    told = refused(lambda: tiny_case(tmp_path, ("no_sweep: The masks are not a number.\n", crowded(2, 501))))
+    assert (told.where, told.found, told.expected) == ("sweep.fall", "1002 points", "1000 points at most")
 
 
 def test_the_points_are_as_many_as_the_sweep_says(tmp_path: Path) -> None:
-    case = tiny_case(tmp_path, ("no_sweep: The masks are not a number.\n", crowded((7, 3))))
-    sweep = case.record.sweep["fall-0"]
+    case = tiny_case(tmp_path, ("no_sweep: The masks are not a number.\n", crowded(7, 3)))
+    sweep = case.record.sweep["fall"]
     assert sweep.size == len(grid(sweep)) == 21
 
 

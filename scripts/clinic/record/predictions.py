@@ -47,8 +47,10 @@ def servo_sag(kp: float, load: float) -> float:
     monotonic on [0, pi/2], so the root is unique.
 
     Raises:
-        ZeroDivisionError: If `kp` is 0.
+        ValueError: If a number is negative, or `kp` 0.
     """
+    if not (kp > 0 and load >= 0):
+        raise ValueError("kp above 0 and a load of 0 or more")
     angle = min(load / kp, math.pi / 2)
     for _ in range(60):
         angle -= (kp * angle - load * math.cos(angle)) / (kp + load * math.sin(angle))

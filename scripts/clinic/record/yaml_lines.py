@@ -88,7 +88,7 @@ def read_yaml(text: str) -> tuple[Any, Lines]:
         return _value(node, (), lines, set(), yaml.SafeLoader("")), Lines(lines, text)
     except yaml.MarkedYAMLError as error:
         line, began = _line(error.problem_mark or error.context_mark), _line(error.context_mark)
-        tab = "\t" in text.split("\n")[line - 1]
+        tab = "\t" in "".join(text.split("\n")[line - 1 : line])
         inside = f", in what began in line {began}" if began < line else ""
         found = "a tab" if tab else f"{error.problem or error.context}{inside}"
         repair = "indent by two spaces; quote text that holds `: `, `#`, `{` or `[`; close what is opened"

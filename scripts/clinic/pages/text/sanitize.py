@@ -14,8 +14,8 @@ from markdown.extensions import Extension
 from markdown.postprocessors import Postprocessor
 
 MATHML = (
-    "math menclose mfenced mfrac mi mmultiscripts mn mo mover mpadded mphantom mprescripts mroot mrow mspace msqrt "
-    "mstyle msub msubsup msup mtable mtd mtext mtr munder munderover none"
+    "math menclose mfrac mi mn mo mover mpadded mphantom mroot mrow mspace msqrt mstyle "
+    "msub msubsup msup mtable mtd mtext mtr munder munderover none"
 )
 MATHML_ATTRIBUTES = (
     "accent columnalign columnlines columnspacing depth display displaystyle fence form height linebreak linethickness "

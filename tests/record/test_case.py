@@ -405,7 +405,7 @@ def test_what_is_no_text_file(tmp_path: Path) -> None:
     (folder / "meshes").mkdir()
     (folder / "model.xml").write_bytes(MODEL.replace("box", "b\xf6x").encode("latin-1"))
     assert told(lambda: load_case(folder)) == [
-        "cases/falling-box/meshes1:  | Is a directory | plain files | put the file itself into the case's folder",
+        "cases/falling-box/meshes1:  | a folder | plain files | put the file itself into the case's folder",
         "cases/falling-box/model.xml1:  | bytes that are not UTF-8 | text in UTF-8 | save the file as UTF-8",
     ]
 

@@ -31,10 +31,11 @@ def folder_problems(folder: Path) -> Iterator[Problem]:
 
 def unreadable(path: Path) -> tuple[str, str, str] | None:
     """Why a path is no text file: what was found, expected, and the repair."""
+    if not path.is_file():
+        found = "a folder" if path.is_dir() else "no file"
+        return found, "plain files", "put the file itself into the case's folder"
     try:
         path.read_text(encoding="utf-8")
     except UnicodeDecodeError:
         return "bytes that are not UTF-8", "text in UTF-8", "save the file as UTF-8"
-    except OSError as error:
-        return str(error.strerror), "plain files", "put the file itself into the case's folder"
     return None

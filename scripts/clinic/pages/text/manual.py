@@ -46,7 +46,9 @@ def anchors(page: str) -> dict[str, str]:
             heading = re.sub(r":[\w-]+:`([^`<]*?)\s*(?:<[^>]*>)?`|\s*\|[^|]*\|\s*|\*\*|``", r"\1", line).strip()
             if RULE.match(following):
                 labels.append(heading)
-            found |= {_slug(label): heading.partition(":")[0] for label in labels}
+            else:  # an attribute, or several, with their types
+                heading = re.split("[:,]", heading)[0]
+            found |= {_slug(label): heading for label in labels}
             labels = []
     return found
 

@@ -15,9 +15,9 @@ from clinic.engine.script import ScriptError
 from clinic.engine.signals import SignalError
 from clinic.engine.simulate import RunError
 from clinic.engine.variant import EditError
+from clinic.pages.text.formula import FormulaError
 from clinic.pages.text.prose import FieldError
 from clinic.record.expression import ExpressionError
-from clinic.record.formula import FormulaError
 from clinic.record.problem import CaseError, LackError, Problem
 from clinic.record.yaml_lines import YamlError
 from clinic.work.parallel import ClusterError

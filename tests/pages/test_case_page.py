@@ -98,7 +98,7 @@ def test_script_with_its_output_before_and_after(tmp_path: Path) -> None:
     page = page_of(case, collect(case))
     assert '    print("error = 0.5")\n' in page
     assert re.findall(r"^    error = (.*)$", page, re.MULTILINE) == ["0.5"]
-    assert "    | `error = 0.5` | `error = 0.0` |\n" in page
+    assert "    | <code>error = 0.5</code> | <code>error = 0.0</code> |\n" in page
 
 
 def test_snippet_with_its_output(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from clinic.pages.error_page import by_case, error_page, with_problems
 from clinic.publish.site import navigation
 from clinic.record.problem import Problem
 from helpers import tiny_case
-from markup import elements, rendered
+from markup import acting, rendered
 
 PROBLEM = Problem("cases/falling-box/case.yaml", 7, "run", "nothing", "```a fence```", "mend it")
 
@@ -35,7 +35,7 @@ def test_an_error_page_holds_the_message_to_the_letter() -> None:
 def test_a_title_that_would_act_is_text_on_its_page_and_in_the_navigation() -> None:
     title = "7. </title><script>alert(1)</script> { onclick=x } [a](javascript:b)"
     _, front, body = error_page(title, [PROBLEM]).split("---\n", 2)
-    assert elements(rendered(body)) is None
+    assert acting(rendered(body)) == []
     assert lxml.html.fromstring(rendered(body)).xpath("string(//h1/text())") == title
     assert "<" not in front + str(navigation({"a-case": title}))
     assert unescape(yaml.safe_load(front)["title"]) == title

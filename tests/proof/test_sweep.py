@@ -11,7 +11,7 @@ from clinic.proof.sweep import grid, measure_points, numbers, substituted, summa
 from clinic.record.case import Case
 from clinic.record.problem import CaseError, Problem
 from clinic.record.sweep import Parameter
-from helpers import SWEEP, changed, script_case, tiny_case
+from helpers import SWEEP, changed, tiny_case
 
 
 def falling(tmp_path: Path, *changes: tuple[str, str]) -> Case:
@@ -81,23 +81,14 @@ def spaced(first: int, second: int) -> list[tuple[str, str]]:
     ]
 
 
+def test_points_are_bounded(tmp_path: Path) -> None:
+    told = refused(lambda: falling(tmp_path, *spaced(2, 501)))
+    assert (told.where, told.found, told.expected) == ("sweep.fall", "1002 points", "1000 points at most")
+
+
 def test_the_points_are_as_many_as_the_sweep_says(tmp_path: Path) -> None:
     sweep = falling(tmp_path, *spaced(7, 3)).record.sweep["fall"]
     assert sweep.size == len(grid(sweep)) == 21
-
-
-def test_points_of_a_model_are_bounded(tmp_path: Path) -> None:
-    told = refused(lambda: falling(tmp_path, *spaced(40, 26)))
-    assert (told.where, told.found) == ("sweep.fall.vary", "1040 points")
-    assert told.expected == "1000 points at most in all sweeps of a model"
-    assert told.repair == "take fewer numbers, further apart"
-
-
-def test_points_of_a_script_are_bounded_more_tightly(tmp_path: Path) -> None:
-    sweep = changed(SWEEP, *spaced(101, 2), ("{signal: height}", "{signal: error}"))
-    told = refused(lambda: script_case(tmp_path, ("no_sweep: There is nothing to vary.\n", sweep)))
-    assert (told.where, told.found) == ("sweep.fall.vary", "202 points")
-    assert told.expected == "200 points at most in all sweeps of a script, which runs as a process at each"
 
 
 @pytest.mark.parametrize(

@@ -6,11 +6,11 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from clinic.pages.text.markup import line
 from clinic.pages.text.prose import fill
 from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence
 from clinic.record.case import Case
-from clinic.record.markup import line
 from clinic.work.cache import Files
 
 LONG_ENOUGH = 150  # characters

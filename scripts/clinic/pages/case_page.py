@@ -8,24 +8,23 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from clinic.engine.checks import expected, satisfies
-from clinic.engine.variant import diff, remedies, variants
+from clinic.engine.variant import diff, variants
 from clinic.pages.card import opening
 from clinic.pages.error_page import plain_page
 from clinic.pages.text import manual
 from clinic.pages.text.claim import TAKES, taken
-from clinic.pages.text.prose import field_errors, markdown
+from clinic.pages.text.markup import code, line
+from clinic.pages.text.prose import markdown, mistakes
 from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence, VariantEvidence
 from clinic.proof.lookalike import Matrix
-from clinic.proof.prose_laws import PROSE
+from clinic.proof.prose_laws import PROSE, prose_of
 from clinic.proof.robustness import NUDGE, STARTS
 from clinic.record.case import Case
 from clinic.record.fields import Check
-from clinic.record.markup import code, line
 from clinic.record.parts import Interval
 from clinic.record.problem import CaseError, Problem
 from clinic.record.prose import plain, quantity
-from clinic.record.yaml_lines import Where
 from clinic.work.cache import Files
 
 Column = tuple[str, str, Interval | None]
@@ -49,7 +48,7 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
         evidence=evidence,
         broken=evidence.variants["broken"],
         description=json.dumps(html.escape(opening(case, evidence)), ensure_ascii=False),
-        title=json.dumps(record.title, ensure_ascii=False),
+        title=json.dumps(html.escape(record.title, quote=False), ensure_ascii=False),
         prose={name: markdown(getattr(record, name), evidence) for name in PROSE},
         whys={remedy.id: markdown(remedy.why, evidence) for remedy in record.refuted},
         diffs={key: diff(case.text, variant.text, record.source) for key, variant in made.items()},
@@ -187,10 +186,9 @@ def _matrix(made: Matrix, cases: Mapping[str, Case]) -> dict[str, Any]:
 
 
 def field_problems(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Every field of the prose that resolves to nothing."""
-    texts: dict[Where, str] = {(name,): getattr(case.record, name) for name in PROSE}
-    texts |= {("sweep", name, "text"): sweep.text for name, sweep in case.record.sweep.items()}
-    texts |= {(*where, "why"): getattr(remedy, "why", "") for where, _, remedy in remedies(case)}
-    for where, text in texts.items():
-        for error in field_errors(text, evidence):
-            yield case.problem(where, error.found, error.expected, error.repair, quoted=error.found)
+    """Every field and formula of the prose that cannot be shown."""
+    reasons = [(("exempt", law), reason) for law, reason in case.record.exempt.items()]
+    for where, text in [*prose_of(case), *reasons]:
+        for error in mistakes(text, evidence):
+            quoted = error.found.partition(": ")[0]
+            yield case.problem(where, error.found, error.expected, error.repair, quoted)

@@ -8,7 +8,7 @@ from html import escape
 from pathlib import PurePosixPath
 from textwrap import indent
 
-from clinic.record.markup import fence, line
+from clinic.pages.text.markup import fence, line
 from clinic.record.problem import Problem
 
 

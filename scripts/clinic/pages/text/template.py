@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import jinja2
 
-from clinic.record.markup import code, fence, line
+from clinic.pages.text.markup import code, fence, line
 
 TEMPLATES = jinja2.Environment(
     loader=jinja2.PackageLoader("clinic.pages"), undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True

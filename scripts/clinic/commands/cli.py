@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from clinic.record.checkout import cache_folder, folders, project_root, slugs
+from clinic.record.checkout import cache_folder, cases_root, folders, project_root, slugs
 from clinic.record.problem import CaseError
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ app = typer.Typer(no_args_is_help=True, help="Broken MuJoCo simulations that pro
 def complete(incomplete: str) -> list[str]:
     """The slugs that begin like this, for the shell."""
     try:
-        return [slug for slug in slugs(project_root()) if slug.startswith(incomplete)]
+        return [slug for slug in slugs(cases_root()) if slug.startswith(incomplete)]
     except OSError:
         return []
 
@@ -89,7 +89,7 @@ def list_cases(as_json: AsJson = False) -> None:
     from clinic.commands import terminal
     from clinic.record.case import read_cases
 
-    cases, problems = read_cases(project_root() / "cases")
+    cases, problems = read_cases(cases_root() / "cases")
     if as_json:
         _print_json([terminal.row_data(case) for case in cases])
     else:
@@ -108,7 +108,7 @@ def show(
     from clinic.commands import terminal
     from clinic.pages.text.prose import FieldError
 
-    case, evidence = _run(slug)
+    case, evidence = _run(slug, answer)
     try:
         if as_json:
             _print_json(terminal.case_data(case, evidence, answer))
@@ -128,7 +128,7 @@ def view(
     from clinic.engine.variant import BROKEN
     from clinic.record.case import load_case
 
-    (folder,) = folders(project_root(), [slug])
+    (folder,) = folders(cases_root(), [slug])
     try:
         open_viewer(load_case(folder), fix or BROKEN)
     except RuntimeError as error:
@@ -140,7 +140,7 @@ def cache(clear: Annotated[bool, typer.Option("--clear", help="Forget everything
     """Show where finished work is kept and how much of it, or clear it."""
     from clinic.work.cache import Cache
 
-    kept = Cache(cache_folder(project_root()))
+    kept = Cache(cache_folder(cases_root()))
     entries = kept.entries()
     size = sum(entry.stat().st_size for entry in entries)
     if clear:
@@ -233,17 +233,26 @@ def _judged(root: Path, wanted: list[str]) -> list[Judgement]:
     return sorted(judgements, key=lambda found: found.case.record.number if found.case else 0)
 
 
-def _run(slug: str) -> tuple[Case, Evidence]:
-    """A case and what its runs show."""
+def _run(slug: str, sweeps: bool) -> tuple[Case, Evidence]:
+    """A case and what its runs show, with those of its sweeps if asked for."""
+    import mujoco
+
     from clinic.commands import terminal
-    from clinic.pages.exhibits import evidence_of, exhibits
+    from clinic.engine.releases import CASES, installed
+    from clinic.pages.exhibits import measured
+    from clinic.proof.evidence import lack
     from clinic.record.case import load_case
     from clinic.work.cache import Cache
 
-    root = project_root()
+    root = cases_root()
     case = load_case(folders(root, [slug])[0])
-    with terminal.console(stderr=True).status(f"running {case.slug}"):
-        return case, evidence_of(exhibits(case, Cache(cache_folder(root))))
+    try:
+        with terminal.console(stderr=True).status(f"running {case.slug}"):
+            return case, measured(case, Cache(cache_folder(root)), sweeps)
+    except CaseError:
+        if installed() >= CASES or lack(case):
+            raise
+        sys.exit(f"clinic: {slug} uses what MuJoCo {mujoco.__version__} does not have: pip install -U mujoco")
 
 
 def _asked(option: str, question: str, default: str | None = None) -> str:
@@ -269,5 +278,11 @@ def main() -> None:
         app()
     except CaseError as error:
         sys.exit(str(error))
+    except ModuleNotFoundError as error:
+        if (error.name or "").startswith("clinic"):
+            raise
+        sys.exit(f"clinic: {error.name} is not installed; this needs pip install 'mujoco-clinic[site]'")
+    except ImportError as error:  # an engine that is too old
+        sys.exit(f"clinic: {error}")
     except (FileNotFoundError, ConnectionError) as error:
         sys.exit(f"clinic: {error}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console, Group, RenderableType
 from rich.markdown import Markdown
@@ -14,7 +14,6 @@ from rich.syntax import Syntax
 from rich.table import Table
 from rich.text import Text
 
-from clinic.commands.judgement import Judgement
 from clinic.engine.variant import diff, variants
 from clinic.pages.text.claim import claim
 from clinic.pages.text.prose import fill
@@ -22,6 +21,9 @@ from clinic.proof.evidence import Evidence, VariantEvidence
 from clinic.record.case import Case
 from clinic.record.fields import Check
 from clinic.record.prose import quantity
+
+if TYPE_CHECKING:
+    from clinic.commands.judgement import Judgement
 
 WIDTH = 120
 KINDS = ("broken", "fixed")

@@ -78,6 +78,21 @@ def exhibits(case: Case, cache: Cache) -> Files:
     return all_exhibits([case], cache)[case.slug]
 
 
+def measured(case: Case, cache: Cache, sweeps: bool = True) -> Evidence:
+    """What the case's runs show, with nothing drawn and without robustness; without its sweeps unless asked for.
+
+    Raises:
+        CaseError: If the case cannot be run.
+    """
+    first, problems = run_tasks([evidence_task(case)], cache)
+    if EVIDENCE not in first.get(case.slug, {}):
+        raise CaseError(problems or [missing for missing in [lack(case)] if missing])
+    rest, problems = run_tasks([t for t in measuring_tasks(case) if sweeps and t.kind == "sweeps"], cache)
+    if problems:
+        raise CaseError(problems)
+    return assembled(case, first[case.slug], rest[case.slug]) if rest else evidence_of(first[case.slug])
+
+
 def evidence_of(files: Files) -> Evidence:
     """The evidence among a case's exhibits."""
     return Evidence.model_validate_json(files[EVIDENCE])

@@ -15,7 +15,7 @@ import time
 import zipfile
 from collections.abc import Callable, Iterable
 from functools import lru_cache
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path, PurePosixPath
 
 Files = dict[str, bytes]
@@ -162,9 +162,12 @@ def digest(files: Iterable[tuple[str, bytes]]) -> str:
 
 @lru_cache
 def engines() -> dict[str, str]:
-    """What runs and draws, with its version. Fonts come with the drawing libraries."""
+    """What runs and draws, with its version, as far as it is installed. Fonts come with the drawing libraries."""
     here = {"python": platform.python_version(), "machine": f"{platform.system()} {platform.machine()}"}
-    return here | {name: version(name) for name in ENGINES}
+    for name in ENGINES:
+        with contextlib.suppress(PackageNotFoundError):
+            here[name] = version(name)
+    return here
 
 
 def _checksum(key: str, packed: bytes) -> bytes:

@@ -1,0 +1,40 @@
+"""What differs between MuJoCo's releases from 3.4 on: each difference stands here once, as a function."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+OLDEST = (3, 4)
+"""The first release on which a reader's model can be examined."""
+CASES = (4, 0)
+"""The release for which the cases are written."""
+
+
+def installed() -> tuple[int, int]:
+    """The release of MuJoCo that is imported, as (major, minor)."""
+    major, minor = mujoco.__version__.split(".")[:2]
+    return int(major), int(minor)
+
+
+def control_of(model: mujoco.MjModel, actuator: int) -> int | None:
+    """Where in `data.ctrl` the actuator's control stands; None if it has none or several, as it may in newer ones."""
+    if not hasattr(model, "actuator_ctrlnum"):
+        return actuator
+    return int(model.actuator_ctrladr[actuator]) if model.actuator_ctrlnum[actuator] == 1 else None
+
+
+def output_of(model: mujoco.MjModel, actuator: int) -> int | None:
+    """Which row of `data.actuator_moment` is the actuator's; None if it has none or several, as it may in newer ones."""
+    if not hasattr(model, "actuator_outnum"):
+        return actuator
+    return int(model.actuator_outadr[actuator]) if model.actuator_outnum[actuator] == 1 else None
+
+
+def mass_matrix(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
+    """The joint-space inertia, shape (nv, nv), in kg m^2 or kg; mj_fullM takes other arguments on older releases."""
+    matrix = np.zeros((model.nv, model.nv))
+    for row, unit in zip(matrix, np.eye(model.nv), strict=True):
+        mujoco.mj_mulM(model, data, row, unit)
+    return matrix

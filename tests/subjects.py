@@ -10,7 +10,7 @@ from clinic.triage.run import Subject
 def subject(xml: str, **run: object) -> Subject:
     spec = mujoco.MjSpec.from_string(xml)
     given = {key.name: len(key.qpos) for key in spec.keys}
-    return Subject("model", spec, spec.compile(), RunSpec.model_validate({"duration": 1.0, **run}), given=given)
+    return Subject(spec, spec.compile(), RunSpec.model_validate({"duration": 1.0, **run}), given=given)
 
 
 class Ticks:

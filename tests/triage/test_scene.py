@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from clinic.triage.run import Budget
 from clinic.triage.scene import RULES, look
-from clinic.triage.watch import Trial
+from clinic.triage.watched_run import Examination
 from helpers import BALL, MODEL, RESTING
 from subjects import subject
 
@@ -17,20 +17,10 @@ SEEN = {
         "camera c",
         "(0, 0, −1)",
     ),
-    "axes": (
-        '<mujoco><worldbody><body><joint name="j"/><geom size=".1" pos=".3 0 0"/></body></worldbody></mujoco>',
-        "joint j",
-        "mass 300\u00a0mm off it",
-    ),
     "deep_start": (
         f"<mujoco><worldbody>{FLOOR}{BALL_AT.format(0.05, 0.1)}",
         "geom b and geom floor",
         "start 53.0\u00a0mm inside",
-    ),
-    "deep": (
-        f"<mujoco><worldbody>{FLOOR}{BALL_AT.format(1, 0.1)}",
-        "geom b and geom floor",
-        "inside each other",
     ),
     "leaps": (
         f'<mujoco><option timestep=".02"/><worldbody>{FLOOR}{BALL_AT.format(3, 0.01)}',
@@ -44,7 +34,7 @@ SEEN = {
 @pytest.mark.parametrize("name", SEEN)
 def test_a_rule_sees_what_it_is_for(name: str) -> None:
     xml, element, text = SEEN[name]
-    _, found = look(Trial(subject(xml), Budget()))
+    _, found = look(Examination(subject(xml), Budget()))
     seen = {where: said for rule, where, said in found if rule == name}
     assert element in seen, found
     assert text in seen[element]
@@ -57,6 +47,6 @@ def test_every_rule_is_tested_and_states_what_it_looks_for() -> None:
 
 @pytest.mark.parametrize("xml", [BALL, RESTING, "<mujoco/>"])
 def test_a_scene_that_is_well(xml: str) -> None:
-    said, found = look(Trial(subject(xml), Budget()))
+    said, found = look(Examination(subject(xml), Budget()))
     assert found == []
     assert "at the start" in said

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 from clinic.record.problem import CaseError
 from clinic.triage.run import Budget
-from clinic.triage.steps import FIRST, STEPS, Finding, Observation, report, subject_of, subject_of_case, triage
+from clinic.triage.steps import FIRST, STEPS, Observation, report, subject_of, subject_of_case, triage
+from clinic.triage.text import Finding
 from helpers import BALL, MODEL, PENDULUM, tiny_case, write_case, write_script_case
 from subjects import Ticks, subject
 
@@ -90,8 +91,8 @@ def test_a_case_is_run_as_its_record_says(tmp_path: Path) -> None:
     folder = write_case(tmp_path)
     for path in (folder, folder / "case.yaml"):
         assert subject_of(path).run.duration == 0.4
-    seen = {observation.step for observation in observed(folder) if observation.saw}
-    assert seen == {"model", "overlays", "reduce"}
+    seen = {observation.step for observation in observed(folder) if observation.findings}
+    assert seen == {"model", "overlays"}
 
 
 def test_a_case_in_code_has_no_model(tmp_path: Path) -> None:
@@ -130,10 +131,12 @@ def test_steps_do_not_change_the_model(tmp_path: Path) -> None:
 
 
 def test_a_report_lists_each_kind_of_finding_briefly() -> None:
-    findings = [Finding(rule="ranges", element=f"joint {i}", text="range 0 to 0") for i in range(6)]
-    text = report(Observation(step="model", said="6 joints", findings=findings))
+    alike = [Finding("ranges", f"joint {i}", "range 0 to 0") for i in range(5)]
+    unlike = [Finding("masses", f"body {i}", f"mass {i} kg") for i in range(5)]
+    text = report(Observation(step="model", said="6 joints", findings=[*alike, *unlike]))
     assert text.splitlines() == [
         "2. the model as compiled: saw something (6 joints)",
-        *(f"   - joint {i}: range 0 to 0" for i in range(4)),
+        "   - joint 0, joint 1, joint 2 and 2 more: range 0 to 0",
+        *(f"   - body {i}: mass {i} kg" for i in range(3)),
         "   - ... and 2 more of the same kind",
     ]

@@ -26,7 +26,7 @@ def control_of(model: mujoco.MjModel, actuator: int) -> int | None:
 
 
 def output_of(model: mujoco.MjModel, actuator: int) -> int | None:
-    """Which row of `data.actuator_moment` is the actuator's; None if it has none or several, as it may in newer ones."""
+    """The actuator's row of `data.actuator_moment`; None if it has none or several, as it may in newer releases."""
     if not hasattr(model, "actuator_outnum"):
         return actuator
     return int(model.actuator_outadr[actuator]) if model.actuator_outnum[actuator] == 1 else None

@@ -9,7 +9,6 @@ from pathlib import Path
 
 from clinic.record.problem import CaseError, Problem, listed
 
-
 PACKAGE = Path(__file__).parent.parent
 
 

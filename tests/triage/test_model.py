@@ -35,7 +35,6 @@ SEEN = {
     "time_constants": (arm(geom='solref="0.001 1"'), "geom arm", "solref 1"),
     "lonely": (arm(more=FLOOR.format('contype="2" conaffinity="2"')), "geom floor", "collides with no other"),
     "priorities": (arm(geom='priority="1" friction=".1"', more=FLOOR.format("")), "geom arm", "sets friction 0.1"),
-    "frictions": (arm(geom='friction="20"'), "geom arm", "friction 20"),
     "quaternions": (arm(more=FREE.format('quat="1 0.5 0 0"', "")), "body box", "has length 1.12"),
     "quaternions last": (arm(more=FREE.format('quat="0 0 .7071 .7071"', "")), "body box", "w last it is 90°"),
     "visual_mass": (

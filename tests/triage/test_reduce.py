@@ -10,7 +10,8 @@ from helpers import RESTING
 from subjects import subject
 
 SWING = """<mujoco><worldbody><geom name="pole" type="box" size=".01 .01 .5" pos="2 0 0"/>
-  <body name="arm"><joint name="j" axis="{0}"/><geom name="ball" size=".05" pos=".3 0 0"/></body></worldbody></mujoco>"""
+  <body name="arm"><joint name="j" axis="{0}"/><geom name="ball" size=".05" pos=".3 0 0"/></body></worldbody>
+  </mujoco>"""
 
 
 def test_a_motion_hangs_on_gravity() -> None:

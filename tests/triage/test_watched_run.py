@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from clinic.triage.run import Budget
-from clinic.triage.watched_run import Examination, unmatched_pairs
+from clinic.triage.watched_run import Examination
 from helpers import BALL, MODEL, PENDULUM, RESTING
 from subjects import subject
 
@@ -31,18 +31,17 @@ def test_the_work_of_a_motor_is_the_energy_gained() -> None:
 
 def test_geoms_whose_masks_do_not_match_are_seen_to_overlap() -> None:
     examination = Examination(subject(MODEL), Budget())
-    assert list(unmatched_pairs(examination.subject.model)) == [(0, 1)]
     _, watch = examination.watched
     assert not watch.touching
     assert 0 < watch.overlaps[(0, 1)] < 0.2
 
 
-def test_parents_welded_and_excluded_pairs_are_no_unmatched_pairs() -> None:
+def test_parents_welded_and_excluded_pairs_do_not_overlap() -> None:
     xml = """<mujoco><worldbody><body name="a"><joint/><geom size=".1" contype="2" conaffinity="2"/>
       <geom size=".1"/><body name="b"><joint/><geom size=".1"/><body name="c"><joint/>
       <geom size=".1" contype="4" conaffinity="4"/></body></body></body></worldbody>
       <contact><exclude body1="a" body2="c"/></contact></mujoco>"""
-    assert list(unmatched_pairs(subject(xml).model)) == []
+    assert Examination(subject(xml), Budget()).watched[1].overlaps == {}
 
 
 def test_a_double_pendulum_on_its_head_is_chaotic_and_a_fall_is_not() -> None:

@@ -21,7 +21,6 @@ from clinic.triage.watched_run import Examination
 
 Seen = Iterator[tuple[str, str]]
 Rule = Callable[[Subject], Seen]
-BALL = int(mujoco.mjtJoint.mjJNT_BALL)
 LIMITS = {"mjINT_EULER": 2.0, "mjINT_IMPLICIT": 2.0, "mjINT_IMPLICITFAST": 2.0, "mjINT_RK4": 2.83}
 """The longest stable step times omega, by integrator."""
 
@@ -39,7 +38,7 @@ def unused_ranges(s: Subject) -> Seen:
     """A joint or actuator has a range that is not in force, reversed ranges included."""
     m = s.model
     for i in range(m.njnt):
-        if m.jnt_range[i].any() and not m.jnt_limited[i] and m.jnt_type[i] in (HINGE, SLIDE, BALL):
+        if m.jnt_range[i].any() and not m.jnt_limited[i]:
             yield s.called("joint", i), f"range {_pair(m.jnt_range[i])} is given and not in force"
     for i in range(m.nu):
         if m.actuator_ctrlrange[i].any() and not m.actuator_ctrllimited[i]:
@@ -172,13 +171,6 @@ def priorities(s: Subject) -> Seen:
             yield s.called("geom", i), f"{sets} against {shown(friction[roughest], '')} of {s.called('geom', roughest)}"
 
 
-def frictions(s: Subject) -> Seen:
-    """A colliding geom's sliding friction is below 0.05 or above 5."""
-    for i, friction in enumerate(s.model.geom_friction[:, 0]):
-        if collides(s.model, i) and not 0.05 <= friction <= 5:
-            yield s.called("geom", i), f"friction {shown(friction, '')}"
-
-
 def quaternions(s: Subject) -> Seen:
     """A quaternion in the file is not of unit length (0 and ±1 aside), or a body placed in the world has a half turn
     about a slanted axis that would be a turn about z with w written last.
@@ -220,7 +212,7 @@ def keyframes(s: Subject) -> Seen:
 
 RULES: tuple[Rule, ...] = (
     ranges, unused_ranges, start_outside, gains, weak_servos, undamped, masses, lengths, gravity, switches, time_steps,
-    time_constants, lonely, priorities, frictions, quaternions, visual_mass, keyframes,
+    time_constants, lonely, priorities, quaternions, visual_mass, keyframes,
 )  # fmt: skip
 
 

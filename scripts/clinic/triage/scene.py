@@ -13,10 +13,6 @@ from clinic.triage.text import Finding, Look, counted, shown
 from clinic.triage.watched_run import Examination, Watcher
 
 FLAT = (int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_HFIELD))
-SIZES = {
-    int(getattr(mujoco.mjtGeom, f"mjGEOM_{kind}")): n for kind, n in (("SPHERE", 1), ("CAPSULE", 1), ("CYLINDER", 2))
-}
-"""How many of a geom's sizes are half-sizes across it, where not all three are."""
 Rule = Callable[[Subject, Watcher], Seen]
 
 
@@ -74,10 +70,8 @@ def look(examination: Examination) -> Look:
 
 def _half_size(m: mujoco.MjModel, i: int) -> float:
     """A geom's smallest half-size in m; infinite for planes and height fields, which have no thickness."""
-    kind = int(m.geom_type[i])
-    if kind in FLAT:
-        return np.inf
-    return float(m.geom_size[i, : SIZES.get(kind, 3)].min()) or float(m.geom_rbound[i])
+    sizes = m.geom_size[i][m.geom_size[i] > 0]
+    return np.inf if int(m.geom_type[i]) in FLAT else float(sizes.min(initial=np.inf))
 
 
 def _pair(s: Subject, one: int, two: int) -> str:

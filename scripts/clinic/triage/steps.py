@@ -12,7 +12,7 @@ from pathlib import Path
 
 import mujoco
 import numpy as np
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel
 
 from clinic.engine.simulate import RunError, captured_messages
 from clinic.record.case import Case, load_case
@@ -41,10 +41,8 @@ STEPS: dict[str, tuple[str, Callable[[Examination], Look]]] = {
 }
 
 
-class Observation(BaseModel):
+class Observation(BaseModel, frozen=True):
     """What one step saw; `said` is what it looked at and measured, whatever it found."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     step: str
     said: str

@@ -6,7 +6,7 @@ import inspect
 from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel
 
 from clinic.engine.variant import variants
 from clinic.record.case import Case
@@ -23,10 +23,8 @@ MEANS_SOMETHING = str.maketrans({"|": "\\|", "[": "\\[", "]": "\\]", "<": "&lt;"
 """What would mean something to Markdown's tables and links, and how to write it."""
 
 
-class Screening(BaseModel):
+class Screening(BaseModel, frozen=True):
     """What each step saw in a case's broken model, and in the model after its first repair."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     broken: list[Observation]
     fixed: list[Observation]

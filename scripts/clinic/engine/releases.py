@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +18,22 @@ def installed() -> tuple[int, int]:
     """The release of MuJoCo that is imported, as (major, minor)."""
     major, minor = mujoco.__version__.split(".")[:2]
     return int(major), int(minor)
+
+
+def read_spec(path: Path) -> mujoco.MjSpec:
+    """The model in an MJCF or URDF file, not compiled; older releases know no file that ends on .urdf.
+
+    Raises:
+        ValueError: With MuJoCo's message, if it cannot be read.
+    """
+    try:
+        return mujoco.MjSpec.from_file(str(path))
+    except ValueError as error:
+        if "Could not find decoder" not in str(error):
+            raise
+        spec = mujoco.MjSpec.from_string(path.read_text(encoding="utf-8"))
+        spec.modelfiledir = str(path.parent)
+        return spec
 
 
 def control_of(model: mujoco.MjModel, actuator: int) -> int | None:

@@ -205,9 +205,8 @@ def visual_mass(s: Subject) -> Seen:
 
 def keyframes(s: Subject) -> Seen:
     """A keyframe in the file gives some of the model's positions; the rest is filled from the defaults."""
-    for name, given in s.given.items():
-        if 0 < given < s.model.nq:
-            yield f"key {name}", f"qpos gives {given} of {s.model.nq} numbers"
+    given = {name: count for name, count in s.given.items() if 0 < count < s.model.nq}
+    return ((f"key {name}", f"qpos gives {count} of {s.model.nq} numbers") for name, count in given.items())
 
 
 RULES: tuple[Rule, ...] = (

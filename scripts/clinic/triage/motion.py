@@ -24,8 +24,7 @@ def warnings(examination: Examination) -> Look:
     found = [Finding("warned", name, _message(name, run.messages)) for name in run.warnings]
     found += [Finding("compiler", "model", note) for note in s.notes]
     if run.resets:
-        text = f"goes back on {run.resets} of {run.steps} steps: the state is reset"
-        found.append(Finding("reset", "data.time", text))
+        found.append(Finding("reset", "data.time", f"goes back on {run.resets} of {run.steps} steps by a reset"))
     if not run.finite:
         found.append(Finding("finite", "state", f"is no longer finite after {shown(run.time, 's')}"))
     speed, dof = watcher.fastest

@@ -14,6 +14,7 @@ import mujoco
 import numpy as np
 from pydantic import BaseModel
 
+from clinic.engine.releases import read_spec
 from clinic.engine.simulate import RunError, captured_messages
 from clinic.record.case import Case, load_case
 from clinic.record.fields import RunSpec
@@ -94,7 +95,7 @@ def subject_of(path: Path) -> Subject:
         expected = "an MJCF or URDF file, or a case's folder"
         raise CaseError([Problem(str(path), 1, "", found, expected, "correct the path")])
     try:
-        return _compiled(lambda: mujoco.MjSpec.from_file(str(path)))
+        return _compiled(lambda: read_spec(path))
     except ENGINE_ERRORS as error:
         said = " ".join(str(error).split())
         line, expected = compiled.line_of(said), "XML that MuJoCo compiles"

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from clinic.triage.run import Budget
 from clinic.triage.scene import RULES, look
-from clinic.triage.watched_run import Examination
 from helpers import BALL, MODEL, RESTING
-from subjects import subject
+from subjects import examination
 
 BALL_AT = '<body pos="0 0 {0}"><freejoint/><geom name="b" size="{1}"/></body></worldbody></mujoco>'
 FLOOR = '<geom name="floor" type="box" size="1 1 .003" pos="0 0 0"/>'
@@ -34,7 +32,7 @@ SEEN = {
 @pytest.mark.parametrize("name", SEEN)
 def test_a_rule_sees_what_it_is_for(name: str) -> None:
     xml, element, text = SEEN[name]
-    _, found = look(Examination(subject(xml), Budget()))
+    _, found = look(examination(xml))
     seen = {where: said for rule, where, said in found if rule == name}
     assert element in seen, found
     assert text in seen[element]
@@ -47,6 +45,6 @@ def test_every_rule_is_tested_and_states_what_it_looks_for() -> None:
 
 @pytest.mark.parametrize("xml", [BALL, RESTING, "<mujoco/>"])
 def test_a_scene_that_is_well(xml: str) -> None:
-    said, found = look(Examination(subject(xml), Budget()))
+    said, found = look(examination(xml))
     assert found == []
     assert "at the start" in said

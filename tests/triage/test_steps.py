@@ -35,9 +35,10 @@ GOOD = {
 }
 BAD = {
     "nothing": ("", "ParseXML: empty file"),
+    "no text": (bytes(range(256)).decode("latin-1"), "XML"),
     "no XML": ("hello", "XML_ERROR_PARSING_TEXT"),
     "unclosed": ("<mujoco>\n<worldbody>\n</mujoco>", "XML_ERROR_MISMATCHED_ELEMENT"),
-    "unknown": ("<mujoco>\n<option colour='1'/></mujoco>", "unrecognized attribute: 'colour'"),
+    "unknown": ("<mujoco>\n<option colour='1'/></mujoco>", "model.xml:2:\n.*unrecognized attribute: 'colour'"),
     "mesh missing": ('<mujoco><asset><mesh name="m" file="m.stl"/></asset></mujoco>', "Error opening file"),
     "too deep": ("<mujoco><worldbody>" + "<body>" * 900 + "</body>" * 900 + "</worldbody></mujoco>", "too deep"),
     "no robot": ("<package/>", "Unrecognized XML model type"),
@@ -60,25 +61,10 @@ def test_any_model_gives_six_observations(tmp_path: Path, name: str) -> None:
 @pytest.mark.parametrize("name", BAD)
 def test_a_file_that_is_no_model_is_a_problem(tmp_path: Path, name: str) -> None:
     path = tmp_path / "model.xml"
-    path.write_text(BAD[name][0], encoding="utf-8")
+    path.write_text(BAD[name][0], encoding="latin-1")
     with pytest.raises(CaseError, match=BAD[name][1]) as caught:
         subject_of(path)
     assert str(caught.value).count("\n  repair:   see *What MuJoCo says*") == 1
-
-
-def test_bytes_that_are_no_text_are_a_problem(tmp_path: Path) -> None:
-    path = tmp_path / "model.xml"
-    path.write_bytes(bytes(range(256)))
-    with pytest.raises(CaseError):
-        subject_of(path)
-
-
-def test_the_line_of_a_mistake_is_named(tmp_path: Path) -> None:
-    path = tmp_path / "model.xml"
-    path.write_text(BAD["unknown"][0], encoding="utf-8")
-    with pytest.raises(CaseError) as caught:
-        subject_of(path)
-    assert caught.value.problems[0].line == 2
 
 
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:

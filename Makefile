@@ -1,8 +1,8 @@
 # make serve   the site with live reload at http://localhost:8000, or another PORT=8010
 # make test    every test; sets everything up by itself
 # make site    builds site/ strictly
-# make bench   how long a build takes, cold and warm, and its parts; the table goes into CONTRIBUTING
-# make growth  how the site grows to 1,000 cases; the table goes into CONTRIBUTING
+# make bench   how long a build takes, cold and warm, and its parts; the table goes into *Work on the code*
+# make growth  how the site grows to 1,000 cases; the table goes into *Work on the code*
 # make lint    style and types
 # make lock    renews requirements.txt and requirements-parity.txt
 # make audit   asks the registries for known holes in what is locked
@@ -12,7 +12,7 @@ SHELL := /bin/bash
 VENV := .venv
 BIN := $(VENV)/bin
 export MUJOCO_GL ?= egl
-# MkDocs' and Material's notices about the end of their lines: CONTRIBUTING.md says what the way out is.
+# MkDocs' and Material's notices about the end of their lines: docs/contribute/work-on-the-code.md says what the way out is.
 export NO_MKDOCS_2_WARNING := 1
 export DISABLE_MKDOCS_2_WARNING := true
 # Compiled modules are kept, whatever is usual here: each of a hundred processes would compile them again.

@@ -24,7 +24,7 @@ from clinic.pages.exhibits import assembled, evidence_task, figure_task, measuri
 from clinic.record.case import Case, load_cases
 from clinic.record.checkout import project_root
 from clinic.work.task import Task
-from measured import copied, finished, machine, markdown, put, python, show, surroundings, timed, write
+from measured import PAGE, copied, finished, machine, markdown, put, python, show, surroundings, timed, write
 
 REPEATS, PAIRS = 3, 7
 COLD, WARM, EDIT, TESTS = 90.0, 1.3, 2.0, 360.0  # s, times MkDocs alone, s, s
@@ -179,14 +179,14 @@ def tests(root: Path, folder: Path) -> tuple[str, str, str]:
 
 
 def main() -> None:
-    """Prints the tables, and puts them into CONTRIBUTING when asked to."""
+    """Prints the tables, and puts them into *Work on the code* when asked to."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--write", action="store_true", help="put the tables into CONTRIBUTING")
+    parser.add_argument("--write", action="store_true", help="put the tables into *Work on the code*")
     parser.add_argument("--tests", action="store_true", help="time `make test` too")
     asked = parser.parse_args()
     root = project_root()
     if asked.write:
-        put((root / "CONTRIBUTING.md").read_text(encoding="utf-8"), "cost", "")
+        put((root / PAGE).read_text(encoding="utf-8"), "cost", "")
     cases = load_cases(root / "cases")
     with tempfile.TemporaryDirectory() as folder:
         rows, alone = builds(root, Path(folder))

@@ -31,7 +31,7 @@ from clinic.record.case import Case, load_cases
 from clinic.record.checkout import project_root
 from clinic.work.cache import Cache, Files
 from clinic.work.task import Task
-from measured import copied, machine, markdown, put, python, show, write
+from measured import PAGE, copied, machine, markdown, put, python, show, write
 from playwright.sync_api import sync_playwright
 
 SIZES = (100, 300, 1000)
@@ -249,14 +249,14 @@ def grown(root: Path, folder: Path, cache: Path, size: int) -> Site:
 
 
 def main() -> None:
-    """Prints the table, and puts it into CONTRIBUTING when asked to."""
+    """Prints the table, and puts it into *Work on the code* when asked to."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--write", action="store_true", help="put the table into CONTRIBUTING")
+    parser.add_argument("--write", action="store_true", help="put the table into *Work on the code*")
     parser.add_argument("sizes", type=int, nargs="*", default=SIZES, help="how many cases")
     asked = parser.parse_args()
     root = project_root()
     if asked.write:
-        put((root / "CONTRIBUTING.md").read_text(encoding="utf-8"), "growth", "")
+        put((root / PAGE).read_text(encoding="utf-8"), "growth", "")
     with tempfile.TemporaryDirectory() as folder:
         sites = [grown(root, Path(folder, str(size)), Path(folder, "cache"), size) for size in asked.sizes]
         for _ in range(TURNS):

@@ -1,4 +1,4 @@
-"""What `make bench` and `make growth` share: commands in a copy of the checkout, and tables in CONTRIBUTING."""
+"""What `make bench` and `make growth` share: commands in a copy of the checkout, and tables in *Work on the code*."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from rich.table import Table
 
 NOT_COPIED = shutil.ignore_patterns(".*", "site", "node_modules", "__pycache__", "case.schema.json")
 GENERATOR = "gen-files"
+PAGE = "docs/contribute/work-on-the-code.md"
 Row = Sequence[str]
 
 
@@ -128,6 +129,6 @@ def put(text: str, anchor: str, body: str) -> str:
 
 
 def write(root: Path, anchor: str, *parts: str) -> None:
-    """Puts the parts, a paragraph or a table each, into CONTRIBUTING."""
-    page = root / "CONTRIBUTING.md"
+    """Puts the parts, a paragraph or a table each, into PAGE."""
+    page = root / PAGE
     page.write_text(put(page.read_text(encoding="utf-8"), anchor, "\n\n".join(parts)), encoding="utf-8")

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import clinic
+from clinic.pages.overviews import REFERENCE_MARK
 from clinic.triage.steps import STEPS
 from helpers import write_case, write_script_case
 
@@ -38,7 +39,9 @@ def write_project(folder: Path, *changes: tuple[str, str], kept: Path | None = N
     package = Path(clinic.__file__).parent  # a copy, so that nothing hangs on what happens to the checkout meanwhile
     shutil.copytree(package, folder / "scripts" / "clinic")
     (folder / "docs" / "triage.md").write_text(TRIAGE, encoding="utf-8")
-    (folder / "CONTRIBUTING.md").write_text("# Add a case\n\nPrint it with `clinic reference`.\n", encoding="utf-8")
+    (folder / "docs" / "contribute").mkdir()
+    for name in ("add-a-case", "the-record", "work-on-the-code"):
+        (folder / "docs" / "contribute" / f"{name}.md").write_text(f"# {name}\n\n{REFERENCE_MARK}\n", encoding="utf-8")
     write_case(folder, ("duration: 0.4", "duration: 0.2"), *changes)
     write_script_case(folder)
     if kept is not None:

@@ -44,8 +44,8 @@ def test_a_page_without_the_heading_is_left() -> None:
 
 
 @pytest.mark.parametrize("anchor", ["cost", "growth"])
-def test_the_tables_have_their_place_in_contributing(root: Path, anchor: str) -> None:
-    text = (root / "CONTRIBUTING.md").read_text(encoding="utf-8")
+def test_the_tables_have_their_place_on_their_page(root: Path, anchor: str) -> None:
+    text = (root / measured.PAGE).read_text(encoding="utf-8")
     assert measured.put(measured.put(text, anchor, "x"), anchor, "y").count("\ny\n") == 1
 
 

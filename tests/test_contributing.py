@@ -1,4 +1,4 @@
-"""CONTRIBUTING, followed by a machine: its quick commands are run, in their order, in a copy of the checkout."""
+"""The pages for contributors, followed by a machine: their quick commands are run, in order, in a copy."""
 
 from __future__ import annotations
 
@@ -12,20 +12,25 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+import yaml
 from clinic.record.checkout import cache_folder
 
 pytestmark = pytest.mark.xdist_group("contributing")
-FENCE = re.compile(r"^```(?P<kind>\w+)?\n(?P<code>.*?)^```$", re.MULTILINE | re.DOTALL)
-PARTS = ("cases", "docs", "scripts", "tests", "CONTRIBUTING.md", "pyproject.toml", "Makefile", ".gitignore")
+PAGES = ("CONTRIBUTING.md", "docs/contribute/add-a-case.md", "docs/contribute/work-on-the-code.md")
+FENCE = re.compile(r"^ *```(?P<kind>[\w ]+)?\n(?P<code>.*?)^ *```$", re.MULTILINE | re.DOTALL)
+PARTS = ("cases", "docs", "scripts", "tests", "pyproject.toml", "Makefile", ".gitignore")
 CLUSTER = ("dask ", "MUJOCO_GL=egl dask ", "CLINIC_DASK=")
 NOT_HERE = ("git clone", "make ", "bash .ci/run", "clinic view", "cd ", *CLUSTER)
 """What is slow, opens a window, or belongs to a fresh clone or a cluster; each is asked for in a test of its own."""
 
 
+def written(root: Path) -> str:
+    return "\n".join((root / page).read_text(encoding="utf-8") for page in PAGES)
+
+
 def commands(root: Path) -> list[str]:
-    text = (root / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    fences = [match["code"] for match in FENCE.finditer(text) if match["kind"] == "sh"]
-    return [line.partition("  #")[0].rstrip() for code in fences for line in code.splitlines() if line.strip()]
+    fences = [match["code"] for match in FENCE.finditer(written(root)) if match["kind"] == "sh"]
+    return [line.partition("  #")[0].strip() for code in fences for line in code.splitlines() if line.strip()]
 
 
 @pytest.fixture(scope="module")
@@ -57,10 +62,9 @@ def copy(root: Path, tmp_path_factory: pytest.TempPathFactory, environment: dict
 def followed(root: Path, copy: Path, environment: dict[str, str]) -> list[tuple[str, int, str]]:
     """Every quick command with its exit code and what it said, run in one shell after the other."""
     done = []
-    kept = str(cache_folder(root))
     for command in commands(root):
         if not command.startswith(NOT_HERE):
-            cache = str(copy / ".cache" / "clinic") if command.startswith("clinic cache") else kept
+            cache = str(copy / ".cache/clinic" if command.startswith("clinic cache") else cache_folder(root))
             own = environment | {"PYTHONPATH": str(copy / "scripts"), "CLINIC_CACHE": cache}
             script = f"source .venv/bin/activate\n{command}\nexit"  # or this shell would become the command
             run = subprocess.run(["bash", "-c", script], cwd=copy, env=own, check=False, capture_output=True, text=True)
@@ -98,31 +102,27 @@ def test_viewing_opens_the_viewer_or_says_that_there_is_no_display(
         assert (run.returncode, run.stderr[:24]) == (1, "clinic: no display here:")
 
 
-def test_every_target_of_make_is_there(root: Path) -> None:
+def test_every_other_command_is_known(root: Path) -> None:
     targets = [command.split()[1] for command in commands(root) if command.startswith("make ")]
     assert {"setup", "serve", "audit"} <= set(targets)
     subprocess.run(["make", "--dry-run", *targets], cwd=root, check=True, capture_output=True)
-
-
-def test_every_other_command_is_known(root: Path) -> None:
-    other = [command for command in commands(root) if command.startswith(NOT_HERE)]
-    known = (
-        "make ",
-        "clinic view",
-        "git clone <address of this repository> clinic",
-        "cd clinic",
-        "bash .ci/run",
-        *CLUSTER,
-    )
-    assert [command for command in other if not command.startswith(known)] == []
+    other = {command for command in commands(root) if command.startswith(NOT_HERE)}
+    asked = ("make ", "clinic view", *CLUSTER)
+    known = {"git clone <address of this repository> clinic", "cd clinic", "bash .ci/run"}
+    assert {command for command in other if not command.startswith(asked)} == known
     subprocess.run(["bash", "-n", ".ci/run"], cwd=root, check=True)
 
 
 def test_commands_in_the_text_are_there(root: Path) -> None:
-    text = FENCE.sub("", (root / "CONTRIBUTING.md").read_text(encoding="utf-8"))
+    text = FENCE.sub("", written(root))
     done = subprocess.run([sys.executable, "-m", "clinic", "--help"], check=True, capture_output=True, text=True)
     for name in re.findall(r"`clinic (\w+)", text):
         assert re.search(rf"^│ {name} ", done.stdout, re.MULTILINE), name
-    makefile = (root / "Makefile").read_text(encoding="utf-8")
-    for name in re.findall(r"`make (\w+)`", text):
-        assert re.search(rf"^{name}:", makefile, re.MULTILINE), name
+    subprocess.run(["make", "--dry-run", *set(re.findall(r"`make (\w+)`", text))], cwd=root, check=True)
+
+
+def test_hooks_check_what_make_lint_checks(root: Path) -> None:
+    hooks = yaml.safe_load((root / ".pre-commit-config.yaml").read_text(encoding="utf-8"))["repos"][0]["hooks"]
+    made = subprocess.run(["make", "--dry-run", "lint"], cwd=root, check=True, capture_output=True, text=True).stdout
+    checks = made.splitlines()[-len(hooks) :]
+    assert [hook["entry"].rstrip("'").split()[-2:] for hook in hooks] == [check.split()[-2:] for check in checks]

@@ -9,7 +9,6 @@ import pkgutil
 
 import clinic
 import pytest
-from clinic.engine.limits import LimitError, ProgramError
 from clinic.engine.measure import SampleError
 from clinic.engine.mjcf import ModelError
 from clinic.engine.render import RenderError
@@ -35,9 +34,7 @@ EXAMPLES = [
     FieldError("{{ x }}", "a field", "correct it"),
     FormulaError("x_", "nothing below"),
     LackError("no Node"),
-    LimitError("still running after 1 s", "bound its loops"),
     ModelError(3, "a file", "none", "write it out"),
-    ProgramError("exit code 1", "mend it"),
     RenderError("no OpenGL"),
     RunError(("qpos", "elbow"), "x", "y", "z"),
     SampleError("error", "samples that do not pair up", "as many", "print each"),

@@ -14,7 +14,7 @@ from clinic.work.cache import Cache
 from helpers import MODEL, RECORD, write_case
 
 pytestmark = pytest.mark.xdist_group("site")
-PARTS = ("cases", "docs", "CONTRIBUTING.md", "pyproject.toml", "package.json", "package-lock.json")
+PARTS = ("cases", "docs", "pyproject.toml", "package.json", "package-lock.json")
 
 
 @pytest.fixture(scope="module")

@@ -73,7 +73,10 @@ def test_a_case_in_error_says_so_alone_until_it_is_mended(whole: tuple[Path, Sit
     assert MISTAKES[kind][3] in str(caught.value)
     assert [list(entry) for entry in made.navigation] == [list(entry) for entry in site.navigation]
     assert PAGE in str(made.navigation)
-    others = {name for name in site.files if name.startswith("cases/odd-script/")} | {"messages.md", "contributing.md"}
+    others = {name for name in site.files if name.startswith("cases/odd-script/")} | {
+        "messages.md",
+        "contribute/the-record.md",
+    }
     assert {name: made.files[name] for name in others} == {name: site.files[name] for name in others}
     assert survey(folder, cache) == site
 

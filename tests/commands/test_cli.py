@@ -272,7 +272,6 @@ def test_help_names_the_commands() -> None:
 def test_build_writes_generated_pages_beside_those_written_by_hand(project: Path, tmp_path: Path) -> None:
     (project / "docs" / "triage.md").write_text("# Triage\n\n```python run\nprint(6 * 7)\n```\n", encoding="utf-8")
     (project / "docs" / "about.md").write_text("# About\n", encoding="utf-8")
-    (project / "CONTRIBUTING.md").write_text("# Add a case\n", encoding="utf-8")
     out = tmp_path / "out"
     assert run("build", "--out", str(out)).exit_code == 0
     (out / "stale.md").touch()
@@ -289,7 +288,6 @@ def test_build_writes_generated_pages_beside_those_written_by_hand(project: Path
 
 def test_build_does_not_delete_what_it_needs(project: Path) -> None:
     (project / "docs" / "triage.md").touch()
-    (project / "CONTRIBUTING.md").touch()
     for folder in (project, project / "docs", project / "cases"):
         assert run("build", "--out", str(folder)).exit_code != 0
     assert (project / "cases" / "odd-script" / "script.py").is_file()

@@ -24,6 +24,13 @@ def test_a_run_fence_is_followed_by_its_output(cache: Cache) -> None:
     )
 
 
+def test_shared_fences_of_a_page_share_their_names(cache: Cache) -> None:
+    text = "```python shared\nfound = 6\n```\n\n```python shared\nprint(found * 7)\n```\n"
+    assert run_fences("docs/x.md", text, {}, cache).endswith("```text\n42\n```\n")
+    with pytest.raises(CaseError, match="NameError: name 'found' is not defined"):
+        run_fences("docs/x.md", "```python shared\nprint(found)\n```\n", {}, cache)
+
+
 @pytest.mark.parametrize(
     "text",
     [

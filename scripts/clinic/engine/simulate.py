@@ -15,13 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clinic.engine.checks import Trace
-from clinic.engine.mjcf import ModelError, check_alone, malformed
+from clinic.engine.mjcf import check_text
 from clinic.engine.signals import Path, bind, element_names
 from clinic.record.fields import RunSpec
 from clinic.record.problem import article, closest, listed
 
 MAX_STEPS = 2_000_000
-MOST = 10_000
 MOST_SECONDS = 30.0  # of the processor
 Nudge = Callable[[mujoco.MjModel, mujoco.MjData], None]
 _log = threading.Lock()
@@ -75,27 +74,12 @@ def compile_model(xml: str) -> mujoco.MjModel:
     """The compiled model.
 
     Raises:
-        ValueError: With MuJoCo's message, if the XML does not compile; ModelError, if the text
-            names a file, or asks for more than MOST of what a step or an image is made of.
+        ModelError: If the text is not XML, or names a file.
+        ValueError: With MuJoCo's message, if the XML does not compile.
     """
-    check_alone(xml)
+    check_text(xml)
     with captured_messages():
-        model = mujoco.MjModel.from_xml_string(xml)
-    if error := malformed(xml) or excessive(model):
-        raise error
-    return model
-
-
-def excessive(model: mujoco.MjModel) -> ModelError | None:
-    """Why one step, or one image, of the model would not come to an end, or None."""
-    numbers = {
-        **{name: int(getattr(model.opt, name)) for name in dir(model.opt) if name.endswith("iterations")},
-        **{name: int(getattr(model.vis.quality, name)) for name in ("numslices", "numstacks", "numquads")},
-    }
-    for name, number in numbers.items():
-        if number > MOST:
-            return ModelError(1, f'{name}="{number}"', f"{MOST:,} at most", "write less")
-    return None
+        return mujoco.MjModel.from_xml_string(xml)
 
 
 def start(

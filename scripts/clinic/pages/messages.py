@@ -10,7 +10,7 @@ from typing import Any
 import mujoco
 from pydantic import ConfigDict, Field, TypeAdapter, ValidationError, model_validator
 
-from clinic.engine.provoke import provoked
+from clinic.engine.provoke import provoke
 from clinic.pages.case_page import TEMPLATES
 from clinic.record.case import Case
 from clinic.record.parts import WARNINGS, Identifier, Strict, Text
@@ -82,7 +82,7 @@ def heard(messages: Iterable[Message], cache: Cache) -> dict[str, str]:
     """What the installed engine says, by the messages' ids; those that no build can provoke are left out."""
     codes = {message.id: message.code for message in messages if message.code is not None}
     key = key_of("messages", codes, of="engine")
-    files = cache.remember(key, lambda: {SAID: json.dumps(provoked(codes)).encode()})
+    files = cache.remember(key, lambda: {SAID: json.dumps(provoke(codes)).encode()})
     made: dict[str, str] = json.loads(files[SAID])
     return made
 

@@ -14,16 +14,17 @@ from clinic.pages.error_page import error_page
 from clinic.pages.messages import heard, load_messages, messages_page
 from clinic.pages.reference import reference
 from clinic.pages.snippets import NAMED, run_fences
+from clinic.pages.storeys import storeys
 from clinic.pages.symptoms import symptoms_page
 from clinic.record.case import Case
 from clinic.record.problem import CaseError, Problem
 from clinic.triage.table import MARK as TRIAGE_MARK
 from clinic.triage.table import screening_tasks, table
-from clinic.work.cache import Cache, Files
+from clinic.work.cache import STOREYS, Cache, Files
 from clinic.work.task import run_tasks
 
-QUIET = "---\nsearch:\n  boost: 0.3\n---\n\n"
-REFERENCE_MARK = "Print it with `clinic reference`."
+REFERENCE_MARK = "This part is made from the fields' own descriptions; `clinic reference` prints it."
+STOREYS_MARK = "The picture is made by the build."
 
 
 def overviews(
@@ -43,12 +44,19 @@ def overviews(
     made = {f"cases/{slug}/{name}": text for slug, files in screenings.items() for name, text in files.items()}
     made["index.md"] = home_page(cards.values(), mujoco.__version__).encode()
     made["symptoms.md"] = symptoms_page(cases, cards).encode()
-    contributing = (root / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    made["contributing.md"] = (QUIET + contributing.replace(REFERENCE_MARK, reference())).encode()
+    screened = [case for case in cases if case.record.run is None or case.slug in screenings]
+    parts = {
+        TRIAGE_MARK: lambda: table(screened, screenings),
+        REFERENCE_MARK: reference,
+        STOREYS_MARK: lambda: storeys("clinic", STOREYS),
+    }
     pages: dict[str, tuple[str, Callable[[], str]]] = {
         "messages.md": ("What MuJoCo says", partial(_messages, known, cache)),
-        "triage.md": ("Triage", partial(_triage, root, cases, screenings, cache)),
     }
+    for page in sorted((root / "docs").rglob("*.md")):
+        name, text = page.relative_to(root / "docs").as_posix(), page.read_text(encoding="utf-8")
+        title = next((line[2:] for line in text.splitlines() if line.startswith("# ")), name)
+        pages[name] = title, partial(_completed, root, f"docs/{name}", text, parts, screened, cache)
     for path, (title, make) in pages.items():
         try:
             made[path] = make().encode()
@@ -63,11 +71,13 @@ def _messages(known: Mapping[str, Case], cache: Cache) -> str:
     return messages_page(messages, heard(messages, cache), known)
 
 
-def _triage(root: Path, cases: list[Case], screenings: Mapping[str, Files], cache: Cache) -> str:
-    """The page of triage; its code is run if the cases that it names can be."""
-    cases = [case for case in cases if case.record.run is None or case.slug in screenings]
-    text = (root / "docs" / "triage.md").read_text(encoding="utf-8")
+def _completed(
+    root: Path, file: str, text: str, parts: Mapping[str, Callable[[], str]], cases: list[Case], cache: Cache
+) -> str:
+    """A page written by hand with the parts that the build makes; its code is run if the cases that it names can be."""
     by_slug = {case.slug: case for case in cases}
-    said = text.replace(TRIAGE_MARK, table(cases, screenings))
     named = {slug for slug in NAMED.findall(text) if (root / "cases" / slug).is_dir()}
-    return run_fences("docs/triage.md", said, by_slug, cache) if named <= by_slug.keys() else said
+    made = run_fences(file, text, by_slug, cache) if named <= by_slug.keys() else text
+    for mark, make in parts.items():
+        made = made.replace(mark, make()) if mark in made else made
+    return made

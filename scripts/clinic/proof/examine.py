@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import mujoco
 
-from clinic.engine.mjcf import ModelError, check_alone, probe, references
+from clinic.engine.mjcf import ModelError, check_text
 from clinic.engine.signals import SignalError, bind, element_names, parse_path
 from clinic.engine.simulate import MAX_STEPS, RunError, compile_model, controls, start, step_count
 from clinic.engine.variant import EditError, Variant, remedies, variants
@@ -26,7 +26,7 @@ def examine(case: Case) -> None:
         CaseError: With all problems found; each names a variant only once.
     """
     texts = ((name, text) for name, text in case.texts.items() if name.endswith(".xml"))
-    problems = [problem for name, text in texts for problem in _outside_problems(case, name, text)]
+    problems = [problem for name, text in texts for problem in _text_problems(case, name, text)]
     if problems:
         raise CaseError(problems)
     problems = list(_path_problems(case))
@@ -44,17 +44,12 @@ def examine(case: Case) -> None:
         raise CaseError(problems)
 
 
-def _outside_problems(case: Case, name: str, text: str) -> Iterator[Problem]:
-    """What an XML file names besides the files beside it; a model case has none."""
-    file, beside = f"cases/{case.slug}/{name}", [] if case.record.model else sorted(case.texts)
+def _text_problems(case: Case, name: str, text: str) -> Iterator[Problem]:
+    """The first mistake in the text of an XML file; that of a script's scene may name the files beside it."""
     try:
-        for found in references(text):
-            if found.value not in beside:
-                expected = f"a file of the folder: {listed(beside)}" if beside else "a model in one file"
-                repair = "write out what it names; put a file into the folder of a script only"
-                yield Problem(file, found.line, "", str(found), expected, repair)
+        check_text(text, () if case.record.model else case.texts)
     except ModelError as error:
-        yield Problem(file, error.line, "", error.found, error.expected, error.repair)
+        yield Problem(f"cases/{case.slug}/{name}", error.line, "", error.found, error.expected, error.repair)
 
 
 def _sweep_problems(case: Case, made: list[Variant]) -> Iterator[Problem]:
@@ -65,7 +60,7 @@ def _sweep_problems(case: Case, made: list[Variant]) -> Iterator[Problem]:
             try:
                 text = substituted(base.text, sweep, at)
                 if case.record.run is not None:
-                    _compiled(text)
+                    compile_model(text)
             except EditError as error:
                 k = error.index - len(sweep.edits)
                 place: Where = ("edits", error.index, "find") if k < 0 else ("vary", k, "find")
@@ -97,7 +92,7 @@ def _model_problems(case: Case, made: list[Variant]) -> list[Problem]:
 
 def _scene_problems(case: Case, scene: str) -> Iterator[Problem]:
     try:
-        model = _compiled(case.texts[scene])
+        model = compile_model(case.texts[scene])
     except ValueError as error:
         yield _compile_problem(case, scene, (), error)
         return
@@ -124,7 +119,7 @@ def _variant_problems(case: Case, variant: Variant, place: Where) -> Iterator[Pr
     record = case.record
     assert record.run is not None
     try:
-        model = _compiled(variant.text)
+        model = compile_model(variant.text)
     except ValueError as error:
         yield _compile_problem(case, record.source, place, error)
         return
@@ -168,13 +163,6 @@ def _named(case: Case, model: mujoco.MjModel, where: Where, kind: str, name: str
             f"{article(kind)}: {listed(known)}",
             f"write {guess}" if guess else f"correct it, or name the {kind} in the model",
         )
-
-
-def _compiled(xml: str) -> mujoco.MjModel:
-    """The model, compiled here only after a process of its own has shown that it can be."""
-    check_alone(xml)
-    probe(xml)
-    return compile_model(xml)
 
 
 def _compile_problem(case: Case, name: str, place: Where, error: ValueError) -> Problem:

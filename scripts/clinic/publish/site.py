@@ -83,5 +83,11 @@ def navigation(names: Iterable[Name]) -> Navigation:
         {"Triage": "triage.md"},
         {"Cases": divided if len(sections) > 1 else cases},
         {"By thing": "tags.md"},
-        {"Add a case": "contributing.md"},
+        {
+            "Contribute": [
+                {"Add a case": "contribute/add-a-case.md"},
+                {"The record": "contribute/the-record.md"},
+                {"Work on the code": "contribute/work-on-the-code.md"},
+            ]
+        },
     ]

@@ -17,8 +17,8 @@ from clinic.triage.run import Budget
 from clinic.triage.steps import SECONDS, STEPS, report, subject_of, triage
 
 LIMIT = 30.0
-MEMORY = 8 * 2**30
-"""Bytes of address space, of which MuJoCo and NumPy reserve far more than they use."""
+MEMORY = 4 * 2**30
+"""Bytes that the process may ask for, where the system can keep it from more."""
 MARK = "\x1e"
 CHILD = (sys.executable, "-m", "clinic.triage.child")
 
@@ -62,7 +62,7 @@ def main(path: Path) -> None:
     if sys.platform == "linux":
         import resource
 
-        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+        resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
     try:
         subject = subject_of(path)
         _tell({"read": str(path)})

@@ -56,7 +56,7 @@ lint: setup
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo
-	PATH="$(CURDIR)/$(BIN):$$PATH" npx --no-install tsc -p docs/playground/jsconfig.json
+	PATH="$(CURDIR)/$(BIN):$$PATH" npx --no-install tsc -b docs/playground
 
 lock: setup
 	$(BIN)/uv pip compile pyproject.toml --extra dev --universal --python-version 3.11 --generate-hashes \

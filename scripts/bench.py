@@ -19,7 +19,7 @@ from typing import Any
 
 import clinic.engine.measure
 import mujoco
-from clinic.engine.simulate import captured_messages, controls, start, step_count
+from clinic.engine.simulate import captured_messages, controls, initial_data, step_count
 from clinic.pages.exhibits import assembled, evidence_task, figure_task, measuring_tasks
 from clinic.record.case import Case, load_cases
 from clinic.record.checkout import project_root
@@ -44,18 +44,16 @@ class Physics:
     def __init__(self) -> None:
         self.steps, self.bare, self.ours = 0, 0.0, 0.0
 
-    def simulate(self, model: mujoco.MjModel, spec: Any, paths: Any, nudge: Any = None, *how: Any) -> Any:
+    def simulate(self, model: mujoco.MjModel, spec: Any, paths: Any, nudge: Any = None) -> Any:
         """What `clinic.engine.simulate.simulate` gives."""
-        data, steps = start(model, spec, nudge), step_count(model, spec)
-        drive = controls(model, spec, steps)
-        if len(drive.actuators):
-            data.ctrl[drive.actuators] = drive.values[0]
+        data, steps = initial_data(model, spec, nudge), step_count(model, spec)
+        controls(model, spec, steps).apply(data, 0)
         with captured_messages():
             self.bare += timed(lambda: mujoco.mj_step(model, data, nstep=steps))
         self.steps += steps
         begun = time.perf_counter()
         try:
-            return clinic.engine.simulate.simulate(model, spec, paths, nudge, *how)
+            return clinic.engine.simulate.simulate(model, spec, paths, nudge)
         finally:
             self.ours += time.perf_counter() - begun
 

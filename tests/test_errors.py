@@ -9,7 +9,6 @@ import pkgutil
 
 import clinic
 import pytest
-from clinic.engine.measure import SampleError
 from clinic.engine.mjcf import ModelError
 from clinic.engine.render import RenderError
 from clinic.engine.script import ScriptError
@@ -37,7 +36,6 @@ EXAMPLES = [
     ModelError(3, "a file", "none", "write it out"),
     RenderError("no OpenGL"),
     RunError(("qpos", "elbow"), "x", "y", "z"),
-    SampleError("error", "samples that do not pair up", "as many", "print each"),
     ScriptError("KeyError: 'x'", "mend it"),
     SignalError("bodi(x)", "a path", "write body(x)"),
     UnavailableError("no Node"),

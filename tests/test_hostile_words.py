@@ -13,7 +13,7 @@ import pytest
 import yaml
 from clinic.pages.case_page import card, home_page
 from clinic.pages.error_page import error_page, read_name
-from clinic.pages.figures.plots import figures
+from clinic.pages.figures.plots import plots
 from clinic.pages.playground import playground
 from clinic.proof.evidence import Evidence, collect
 from clinic.proof.examine import examine
@@ -208,7 +208,7 @@ def test_lines_that_would_act_are_shown_on_every_page(hostile: Evidence, tmp_pat
     assert html.count("&lt;script&gt;") == 1
     assert elements(rendered(body(home_page([card(case, evidence, files)], "4.0.0")))) is None
     assert json.loads(playground(case, "4.0.0", [case]))["title"] == LINE[:80]
-    for drawing in figures(case, evidence).values():
+    for drawing in plots(case, evidence).values():
         assert b"<script" not in drawing
         assert b"onclick" not in drawing.split(b"-->")[-1]
 

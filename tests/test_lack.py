@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import logging
-import threading
 from collections.abc import Callable
 from pathlib import Path
 
 import mujoco
 import pytest
-from clinic.engine import node, render
+from clinic.engine import node
 from clinic.pages.error_page import lacking_page
 from clinic.pages.exhibits import evidence_task, exhibits, possible_exhibits
-from clinic.proof.evidence import draws, lack
+from clinic.proof.evidence import lack, needs_images
 from clinic.publish.site import survey
 from clinic.record.case import Case, load_case
 from clinic.record.checkout import project_root
@@ -46,8 +45,7 @@ def blind(monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object) -> None:
         raise RuntimeError("no display")
 
-    monkeypatch.setattr(mujoco, "GLContext", fail)
-    monkeypatch.setattr(render, "_own", threading.local())
+    monkeypatch.setattr(mujoco, "Renderer", fail)
     monkeypatch.setenv("CLINIC_JOBS", "1")
     say_lack.cache_clear()
 
@@ -55,7 +53,7 @@ def blind(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("make", MEASURED_IN_IMAGES)
 def test_what_draws_is_measured_where_images_can_be_drawn(tmp_path: Path, cache: Cache, make: Make) -> None:
     case = make(tmp_path)
-    assert draws(case)
+    assert needs_images(case)
     assert "evidence.json" in exhibits(case, cache)
 
 
@@ -107,7 +105,7 @@ def test_its_page_says_so_and_the_others_are_as_ever(tmp_path: Path, cache: Cach
     folder = write_project(tmp_path, NO_FILM)
     script = folder / "cases" / "odd-script" / "script.py"
     script.write_text(DRAWS + SCRIPT, encoding="utf-8")
-    assert draws(load_case(script.parent))
+    assert needs_images(load_case(script.parent))
 
     site = survey(folder, cache)
 

@@ -47,7 +47,7 @@ def test_folders_dropped_in_become_cases(root: Path, checkout: Path, begun: dict
 
     assert site.problems == ()
     assert b"# 9999. A box falls through the floor" in site.files["cases/dropped-in/index.md"]
-    assert {"evidence.json", "plot-light.svg", "model.xml", "case.yaml"} <= {
+    assert {"evidence.json", "plot.svg", "model.xml", "case.yaml"} <= {
         Path(name).name for name in site.files if name.startswith("cases/dropped-in/")
     }
     for slug in ("dropped-in", *(folder.name for folder in begun.values())):

@@ -67,7 +67,7 @@ def test_pictures_are_shown_where_they_could_be_made(made: tuple[Case, Evidence]
 
 
 def test_alternative_text_states_the_numbers(made: tuple[Case, Evidence], page: str) -> None:
-    (text,) = set(re.findall(r"!\[(.*?)\]\(plot-", page))
+    (text,) = set(re.findall(r"!\[(.*?)\]\(plot.svg", page))
     assert text.startswith("Height of the box at the end: broken \u22120.7")
     assert "share-a-bit 0.0" in text
 
@@ -116,7 +116,7 @@ def test_card(made: tuple[Case, Evidence]) -> None:
     assert (drawn.slug, drawn.number, drawn.title) == ("falling-box", 1, "A box falls through the floor")
     assert drawn.symptom.startswith("It falls to \u2212")
     assert drawn.alt == f"Case 1: {drawn.symptom}"
-    assert (drawn.picture, plotted.picture) == ("broken.webp", "plot-light.svg")
+    assert (drawn.picture, plotted.picture) == ("broken.webp", "plot.svg")
 
 
 def test_home_page_has_every_card_in_order() -> None:

@@ -37,7 +37,7 @@ def without_film(root: Path, *changes: tuple[str, str]) -> Case:
 def test_exhibits_of_a_model(tmp_path: Path, cache: Cache) -> None:
     files = exhibits(without_film(tmp_path), cache)
 
-    assert {"evidence.json", "plot-light.svg", "plot-dark.svg", "broken.webp", "fixed.webp"} <= set(files)
+    assert {"evidence.json", "plot.svg", "broken.webp", "fixed.webp"} <= set(files)
     assert evidence_of(files).variants["broken"].broken
     assert files["evidence.json"].endswith(b"}\n")
 
@@ -45,7 +45,7 @@ def test_exhibits_of_a_model(tmp_path: Path, cache: Cache) -> None:
 def test_exhibits_of_a_script(tmp_path: Path, cache: Cache) -> None:
     files = exhibits(script_case(tmp_path), cache)
 
-    assert set(files) == {"evidence.json", "plot-light.svg", "plot-dark.svg"}
+    assert set(files) == {"evidence.json", "plot.svg"}
     assert evidence_of(files).variants["no-error"].well
 
 

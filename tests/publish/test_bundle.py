@@ -78,7 +78,7 @@ def test_without_its_packages_the_site_has_the_loader_alone(
 
 def test_a_mistake_in_a_module_stops_the_build(root: Path, tmp_path: Path) -> None:
     sources = copied(root, tmp_path)
-    (sources / "docs/playground/checks.js").write_text("export const = 1;", encoding="utf-8")
+    (sources / "docs/playground/engine/checks.js").write_text("export const = 1;", encoding="utf-8")
 
     with pytest.raises(RuntimeError, match=r"checks\.js:1:13: ERROR"):
         parts(sources)

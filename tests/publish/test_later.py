@@ -84,7 +84,7 @@ def test_an_edited_model_shows_its_numbers_and_then_the_rest(project: Path, serv
     made = site(served, project)
     assert made == survey(project, Cache(project / "cache"))
     assert MEASURING not in made.files[PAGE].decode()
-    assert differing(made, whole) > {PAGE, MODEL, "cases/falling-box/plot-light.svg"}
+    assert differing(made, whole) > {PAGE, MODEL, "cases/falling-box/plot.svg"}
 
 
 def test_an_edit_of_prose_waits_for_nothing(project: Path, served: Later) -> None:

@@ -842,9 +842,9 @@ def test_problems_of_all_cases_are_reported_together(tmp_path: Path) -> None:
             [("body(box).xpos[2]", "body(bix).xpos[2]")],
             """
             cases/falling-box/case.yaml:13: signals.height.path
-              found:    body(bix), which the model does not have
+              found:    the body bix, which the model does not have
               expected: a body: world, box
-              repair:   write body(box)
+              repair:   write box
             """,
         ),
         wrong(
@@ -926,11 +926,11 @@ qacc_smooth, qacc_warmstart, qfrc_actuator, qfrc_applied, qfrc_bias, and 8 more
             cases/falling-box/case.yaml:11: run.ctrl.motor
               found:    the actuator motor, which the model does not have
               expected: an actuator: none
-              repair:   correct the name
+              repair:   correct the name, or name the actuator in the model
             cases/falling-box/case.yaml:11: run.keyframe
               found:    the key throw, which the model does not have
               expected: a key: none
-              repair:   correct the name
+              repair:   correct the name, or name the key in the model
             """,
         ),
         wrong(
@@ -958,7 +958,7 @@ qacc_smooth, qacc_warmstart, qfrc_actuator, qfrc_applied, qfrc_bias, and 8 more
             [("camera: side", "camera: sid")],
             """
             cases/falling-box/case.yaml:33: picture.camera
-              found:    sid, which is no camera of the model
+              found:    the camera sid, which the model does not have
               expected: a camera: side
               repair:   write side
             """,
@@ -1021,7 +1021,7 @@ def test_name_that_an_edit_takes_away(tmp_path: Path) -> None:
     )
     assert message_of(lambda: collect(case)) == says("""
         cases/falling-box/case.yaml:13: signals.height.path
-          found:    after the edits of small-step: body(box), which the model does not have
+          found:    after the edits of small-step: the body box, which the model does not have
           expected: a body: world, crate
           repair:   correct the name, or name the body in the model
         """)
@@ -1105,9 +1105,9 @@ def test_samples_that_do_not_pair_up(tmp_path: Path) -> None:
             MODEL.replace('"side"', '"top"'),
             says("""
             cases/odd-script/case.yaml:25: picture.camera
-              found:    side, which is no camera of the model
+              found:    the camera side, which the model does not have
               expected: a camera: top
-              repair:   correct it, or name the camera in the model
+              repair:   correct the name, or name the camera in the model
             """),
             id="missing-camera",
         ),

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 import mujoco
 
-from clinic.engine.simulate import captured_messages, compile_model, controls, start
+from clinic.engine.simulate import captured_messages, compile_model, controls, initial_data
 from clinic.engine.variant import BROKEN, variants
 from clinic.proof.examine import examine
 from clinic.record.case import Case
@@ -55,10 +55,8 @@ def scene(case: Case, variant_id: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
             [case.problem(("fixes",), f"no variant {variant_id}", f"a variant: {listed(made, 30)}", repair)]
         )
     model = compile_model(made[variant_id].text)
-    data = start(model, record.run)
-    drive = controls(model, record.run, 1)
-    if len(drive.actuators):
-        data.ctrl[drive.actuators] = drive.values[0]
+    data = initial_data(model, record.run)
+    controls(model, record.run, 1).apply(data, 0)
     with captured_messages():
         mujoco.mj_forward(model, data)
     return model, data

@@ -94,7 +94,7 @@ def interim_page(case: Case, evidence: Evidence) -> str:
 def card(case: Case, evidence: Evidence, files: Files) -> Card:
     """The case's card on the home page."""
     symptom = line(_opening(fill(case.record.symptom, evidence)))
-    picture = "broken.webp" if "broken.webp" in files else "plot-light.svg"
+    picture = "broken.webp" if "broken.webp" in files else "plot.svg"
     return Card(
         case.slug, case.record.number, case.record.title, symptom, picture, f"Case {case.record.number}: {symptom}"
     )

@@ -164,9 +164,9 @@ def _figure_task(case: Case, evidence: str) -> Task:
 
 
 def _figures(case: Case, evidence: str) -> Files:
-    from clinic.pages.figures.plots import figures
+    from clinic.pages.figures.plots import plots
 
-    return figures(case, Evidence.model_validate_json(evidence))
+    return plots(case, Evidence.model_validate_json(evidence))
 
 
 def _robustness(case: Case) -> Files:

@@ -1,6 +1,6 @@
 """What the playground in the browser needs to run and judge a model case: `playground.json`, one file a case.
 
-The browser and the tests of its modules read the same file; its types are in `docs/playground/record.js`.
+The browser and the tests of its modules read the same file; its types are in `docs/playground/record/types.js`.
 """
 
 from __future__ import annotations

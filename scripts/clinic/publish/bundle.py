@@ -54,7 +54,7 @@ def bundled(root: Path) -> Files:
         if not (root / needed).exists():
             raise UnavailableError(f"{needed} is not there; run `make setup`")
     sources = [
-        *sorted((root / "docs/playground").glob("*.js")),
+        *sorted((root / "docs/playground").rglob("*.js")),
         root / STYLE,
         root / BUNDLER,
         root / "package-lock.json",

@@ -138,7 +138,7 @@ class Picture(Strict):
     """The still image of a case."""
 
     camera: Text = Field(description="The camera to render from.")
-    time: float = Field(default=0.0, ge=0, description="When, in s of simulated time.")
+    time: float = Field(default=0.0, ge=0, le=120, description="When, in s of simulated time.")
     scene: FileName | None = Field(default=None, description="Code cases: the scene to render, from its keyframe 0.")
 
 

@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from clinic.engine.simulate import captured_messages, controls, start, step, step_count
+from clinic.engine.simulate import captured_messages, controls, initial_data, step, step_count
 from clinic.record.fields import RunSpec
 
 Array = NDArray[np.float64]
@@ -59,10 +59,8 @@ class Subject:
     def data(self) -> mujoco.MjData:
         """The start of the run, with everything derived from it."""
         with captured_messages():
-            data = start(self.model, self.run)
-            drive = controls(self.model, self.run, 1)
-            if len(drive.actuators):
-                data.ctrl[drive.actuators] = drive.values[0]
+            data = initial_data(self.model, self.run)
+            controls(self.model, self.run, 1).apply(data, 0)
             mujoco.mj_forward(self.model, data)
         return data
 
@@ -137,11 +135,11 @@ def record(
     points = []
     counts = np.zeros(mujoco.mjtWarning.mjNWARNING, dtype=int)
     with captured_messages() as messages:
-        data = start(model, subject.run, nudge)
-        drive = controls(model, subject.run, made.planned)
+        data = initial_data(model, subject.run, nudge)
+        driven = controls(model, subject.run, made.planned)
         while made.steps < made.planned and made.finite and budget.left > 0:
             before = data.time
-            step(model, data, drive, made.steps)
+            step(model, data, driven, made.steps)
             made.steps += 1
             made.resets += data.time <= before
             if after_step is not None:

@@ -30,7 +30,12 @@ def reports(path: Path, limit: float = LIMIT, child: tuple[str, ...] = CHILD) ->
         CaseError: If the model cannot be read, or its process ends early or not within `limit` seconds.
     """
     process = subprocess.Popen(
-        [*child, str(path)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+        [*child, str(path)],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        encoding="utf-8",
+        errors="replace",
     )
     assert process.stdout is not None
     timer = threading.Timer(limit, process.kill)

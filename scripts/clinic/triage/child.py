@@ -58,8 +58,7 @@ def reports(path: Path, limit: float = LIMIT, child: tuple[str, ...] = CHILD) ->
         process.communicate()
     if doing:
         how = f"no answer within {limit:g} s" if late else f"MuJoCo ended the process (exit code {code})"
-        repair = "remove half of the model"
-        raise CaseError([Problem(str(path), 1, "", f"{how}, at: {doing[0]}", "a model that MuJoCo can run", repair)])
+        raise CaseError([_problem(path, f"{how}, at: {doing[0]}")])
 
 
 def main(path: Path) -> None:
@@ -76,9 +75,11 @@ def main(path: Path) -> None:
     except CaseError as error:
         _tell({"problems": [vars(problem) for problem in error.problems]})
     except Exception as error:
-        found = f"{type(error).__name__}: {error}"
-        problem = Problem(str(path), 1, "", found, "a model that can be examined", "remove half of the model")
-        _tell({"problems": [vars(problem)]})
+        _tell({"problems": [vars(_problem(path, f"{type(error).__name__}: {error}"))]})
+
+
+def _problem(path: Path, found: str) -> Problem:
+    return Problem(str(path), 1, "", found, "a model that MuJoCo can run", "remove half of the model")
 
 
 def _tell(message: object) -> None:

@@ -16,9 +16,8 @@ from clinic.record.problem import CaseError, Problem
 from clinic.triage.run import Budget
 from clinic.triage.steps import SECONDS, STEPS, report, subject_of, triage
 
-LIMIT = 30.0
-MEMORY = 4 * 2**30
-"""Bytes that the process may ask for, where the system can keep it from more."""
+LIMIT = 30.0  # s
+MEMORY = 4 * 2**30  # bytes
 MARK = "\x1e"
 CHILD = (sys.executable, "-m", "clinic.triage.child")
 

@@ -16,7 +16,7 @@ from clinic.record.fields import RunSpec
 
 Array = NDArray[np.float64]
 AfterStep = Callable[[mujoco.MjModel, mujoco.MjData], None]
-SAMPLES = 100
+SAMPLES = 100  # of a recording
 BODY_OF = {"geom": "geom_bodyid", "joint": "jnt_bodyid", "camera": "cam_bodyid"}
 
 

@@ -13,8 +13,7 @@ from clinic.triage.run import Array, Budget, Recording, Subject, distance, recor
 
 NUDGE = 1e-9
 """How far every velocity is changed to see whether a motion is chaotic, in rad/s or m/s."""
-MOMENTS = 20
-"""How often it is looked for overlaps."""
+MOMENTS = 20  # at which overlaps are looked for
 
 
 class Watcher:

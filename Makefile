@@ -36,7 +36,7 @@ case.schema.json: $(VENV)/.ready $(wildcard scripts/clinic/record/*.py) scripts/
 	@touch $@
 
 serve: setup
-	$(BIN)/mkdocs serve --livereload --dev-addr localhost:$(or $(PORT),8000)
+	$(BIN)/mkdocs serve --livereload --dirty --dev-addr localhost:$(or $(PORT),8000)
 
 site: setup
 	$(BIN)/mkdocs build --strict

@@ -16,7 +16,6 @@ from clinic.engine.signals import SignalError
 from clinic.engine.simulate import RunError
 from clinic.engine.variant import EditError
 from clinic.pages.text.prose import FieldError
-from clinic.publish.bundle import UnavailableError
 from clinic.record.expression import ExpressionError
 from clinic.record.formula import FormulaError
 from clinic.record.problem import CaseError, LackError, Problem
@@ -38,7 +37,6 @@ EXAMPLES = [
     RunError(("qpos", "elbow"), "x", "y", "z"),
     ScriptError("KeyError: 'x'", "mend it"),
     SignalError("bodi(x)", "a path", "write body(x)"),
-    UnavailableError("no Node"),
     YamlError(1, "an alias", "no aliases", "write it out"),
 ]
 

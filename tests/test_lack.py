@@ -12,7 +12,7 @@ from clinic.engine import node
 from clinic.pages.error_page import lacking_page
 from clinic.pages.exhibits import evidence_task, exhibits, possible_exhibits
 from clinic.proof.evidence import lack, needs_images
-from clinic.publish.site import survey
+from clinic.publish.site import make_site
 from clinic.record.case import Case, load_case
 from clinic.record.checkout import project_root
 from clinic.record.problem import CaseError
@@ -107,7 +107,7 @@ def test_its_page_says_so_and_the_others_are_as_ever(tmp_path: Path, cache: Cach
     script.write_text(DRAWS + SCRIPT, encoding="utf-8")
     assert needs_images(load_case(script.parent))
 
-    site = survey(folder, cache)
+    site = make_site(folder, cache)
 
     assert site.problems == ()
     page = site.files["cases/odd-script/index.md"].decode()

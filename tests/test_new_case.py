@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from clinic.commands.judgement import Neighbours, judge_folder
 from clinic.commands.scaffold import Kind, start
-from clinic.publish.site import survey
+from clinic.publish.site import make_site
 from clinic.record.checkout import cache_folder
 from clinic.work.cache import Cache
 from helpers import MODEL, RECORD, write_case
@@ -43,7 +43,7 @@ def test_a_new_case_passes_every_law(root: Path, checkout: Path, begun: dict[Kin
 def test_folders_dropped_in_become_cases(root: Path, checkout: Path, begun: dict[Kind, Path]) -> None:
     write_case(checkout, ("number: 1", "number: 9999"), slug="dropped-in", record=RECORD, model=MODEL)
 
-    site = survey(checkout, Cache(cache_folder(root)))
+    site = make_site(checkout, Cache(cache_folder(root)))
 
     assert site.problems == ()
     assert b"# 9999. A box falls through the floor" in site.files["cases/dropped-in/index.md"]

@@ -6,8 +6,8 @@ import json
 import subprocess
 from pathlib import Path
 
+from clinic.engine.node import program as node
 from clinic.pages.playground import playground
-from clinic.publish.bundle import node
 from helpers import tiny_case
 
 ROOT = Path(__file__).parents[2]

@@ -12,8 +12,8 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
+from clinic.engine.node import program as node
 from clinic.pages.playground import playground
-from clinic.publish.bundle import node
 from clinic.record.case import Case, load_cases
 from clinic.record.expression import evaluate, parse
 

@@ -13,14 +13,13 @@ from clinic.pages.schema import FILE as SCHEMA
 from clinic.pages.schema import schema_text
 from clinic.proof.evidence import lack
 from clinic.publish import bundle
-from clinic.publish.kept_site import Navigation, Site
+from clinic.publish.kept_site import SECTION, Navigation, Site
 from clinic.record.case import read_cases
 from clinic.record.checkout import cache_folder, slugs
 from clinic.record.problem import CaseError
 from clinic.work.cache import Cache, Files
 
 BROWSER_PARTS = {"javascripts/iframe-worker.js": "node_modules/iframe-worker/shim/index.js"}
-SECTION = 50
 
 
 def build(root: Path, cache: Cache | None = None) -> Files:
@@ -29,23 +28,19 @@ def build(root: Path, cache: Cache | None = None) -> Files:
     Raises:
         CaseError: With all problems of all cases, and every claim that the runs do not bear out.
     """
-    made = survey(root, cache)
+    made = make_site(root, cache or Cache(cache_folder(root)))
     if made.problems:
         raise CaseError(made.problems)
     return made.files
 
 
-def survey(root: Path, cache: Cache | None = None) -> Site:
+def make_site(root: Path, cache: Cache) -> Site:
     """The site as far as it can be made: every case comes as far as it can, and holds up no other."""
-    cache = cache or Cache(cache_folder(root))
-    cache.tidy()
-    there = slugs(root)  # as it is now: a folder may be renamed while the site is made
     read, problems = read_cases(root / "cases")
     known = {case.slug: case for case in read}
-    made: Files = bundle.parts(root)
-    if not bundle.has_playground(made):
-        cache.missed.add("playground")
-    shown, wrong = shown_cases(root, read, set(there) - known.keys(), cache, bundle.has_playground(made))
+    unread = sorted(set(slugs(root)) - known.keys())
+    made: Files = bundle.parts(root, cache)
+    shown, wrong = shown_cases(root, read, set(unread), cache, live=bundle.START in made)
     files, others = overviews(root, shown, known, cache)
     problems += [*wrong, *others]
     made |= files
@@ -53,15 +48,13 @@ def survey(root: Path, cache: Cache | None = None) -> Site:
     made |= {path: (root / part).read_bytes() for path, part in BROWSER_PARTS.items() if (root / part).is_file()}
     for one in shown:
         made |= {f"{FOLDER.format(slug=one.case.slug)}/{name}": content for name, content in one.files.items()}
-    pages, ill = {one.case.slug: one.page for one in shown}, by_case(problems)
-    names = [
-        name_of(known[slug]) if slug in known else read_name(root / "cases" / slug) for slug in sorted({*there, *known})
-    ]
+    pages, told = {one.case.slug: one.page for one in shown}, by_case(problems)
+    names = [*map(name_of, read), *(read_name(root / "cases" / slug) for slug in unread)]
     for name in names:
         if name.slug in pages:
-            page = marked(pages[name.slug], ill[name.slug]) if name.slug in ill else pages[name.slug]
-        elif name.slug in ill:
-            page = error_page(name.heading, ill[name.slug])
+            page = marked(pages[name.slug], told[name.slug]) if name.slug in told else pages[name.slug]
+        elif name.slug in told:
+            page = error_page(name.heading, told[name.slug])
         else:
             page = lacking_page(name.heading, lack(known[name.slug]))
         made[PAGE.format(slug=name.slug)] = page.encode()

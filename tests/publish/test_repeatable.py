@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from helpers import changed
-from project import SILENT, bytes_of, run, write_project
+from project import bytes_of, run, write_project
 
 pytestmark = pytest.mark.xdist_group("kill")
 HERE = {"TZ": "UTC", "LC_ALL": "C.UTF-8", "PYTHONHASHSEED": "0", "CLINIC_JOBS": "1", "UMASK": "022"}
@@ -21,11 +20,6 @@ if os.environ["CLINIC_JOBS"] == "2":  # another day
     utils.get_build_datetime = lambda: real() + timedelta(days=400 if "SOURCE_DATE_EPOCH" not in os.environ else 0)
 from mkdocs.__main__ import cli
 cli(["build", "--strict"])
-"""
-EVIDENCE = """
-from pathlib import Path
-from clinic.publish.site import build
-print(build(Path())["cases/falling-box/evidence.json"].decode())
 """
 RC = "font.size: 20\nlines.linewidth: 5\nsvg.fonttype: none\nsavefig.dpi: 30\npath.simplify: False\n"
 
@@ -52,26 +46,3 @@ def test_two_builds_are_equal_to_the_last_byte(tmp_path: Path) -> None:
     assert not list(tmp_path.rglob("MUJOCO_LOG.TXT"))
     told = str(tmp_path).encode()
     assert not [path for path in (other / "site").rglob("*") if path.is_file() and told in path.read_bytes()]
-
-
-def test_a_changed_module_of_the_package_makes_anew_what_hangs_on_it(tmp_path: Path, kept: Path) -> None:
-    folder = write_project(tmp_path, SILENT, kept=kept)
-
-    def evidence() -> tuple[str, set[str]]:
-        done = run(folder, "-c", EVIDENCE)
-        assert done.returncode == 0, done.stderr
-        return done.stdout, {path.name for path in (folder / "cache").iterdir()}
-
-    def edit(name: str, *changes: tuple[str, str]) -> None:
-        module = folder / "scripts" / "clinic" / name
-        module.write_text(changed(module.read_text(encoding="utf-8"), *changes), encoding="utf-8")
-
-    before, first = evidence()
-    edit("laws.py", ("MAX_CHANGED_LINES = 5", "MAX_CHANGED_LINES = 6"))
-    again, others = evidence()
-    assert again == before
-    assert len(others - first) == 1  # the program on the page about triage, which may ask the package for anything
-    edit("evidence.py", ("MAX_SAMPLES = 400", "MAX_SAMPLES = 40"))
-    after, new = evidence()
-    assert len(after) < len(before)
-    assert len(new - others) > len(others - first)

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import logging
 import shutil
-from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 import pytest
-from clinic.pages import cases as casepages
-from clinic.publish.site import Site, build, survey
+from clinic.publish.site import Site, build, make_site
 from clinic.record.problem import CaseError
 from clinic.work.cache import Cache
 from helpers import changed
@@ -34,43 +33,41 @@ MISTAKES = {
         "model",
     ),
 }
-Survey = Callable[[], Site]
 
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory, kept: Path) -> tuple[Path, Site]:
     """The project, and its site without errors."""
     folder = write_project(tmp_path_factory.mktemp("project"), SILENT, kept=kept)
-    return folder, survey(folder, Cache(folder / "cache"))
+    return folder, make_site(folder, Cache(folder / "cache"))
 
 
-def mistaken(folder: Path, *kinds: str) -> dict[Path, str]:
-    """Makes mistakes and gives the texts as they were."""
-    before = {folder / MISTAKES[kind][0]: (folder / MISTAKES[kind][0]).read_text(encoding="utf-8") for kind in kinds}
-    for kind in kinds:
-        path, old, new, _ = MISTAKES[kind]
-        (folder / path).write_text(changed((folder / path).read_text(encoding="utf-8"), (old, new)), encoding="utf-8")
-    return before
+@contextmanager
+def mistaken(path: Path, old: str, new: str) -> Iterator[None]:
+    """Replaces a text in a file, and puts it back."""
+    before = path.read_text(encoding="utf-8")
+    path.write_text(changed(before, (old, new)), encoding="utf-8")
+    try:
+        yield
+    finally:
+        path.write_text(before, encoding="utf-8")
 
 
 @pytest.mark.parametrize("kind", MISTAKES)
 def test_a_case_in_error_says_so_alone_until_it_is_mended(whole: tuple[Path, Site], kind: str) -> None:
     folder, site = whole
     cache = Cache(folder / "cache")
-    before = mistaken(folder, kind)
-    try:
-        made = survey(folder, cache)
+    name, old, new, said = MISTAKES[kind]
+    with mistaken(folder / name, old, new):
+        made = make_site(folder, cache)
         with pytest.raises(CaseError) as caught:
             build(folder, cache)
-    finally:
-        for path, text in before.items():
-            path.write_text(text, encoding="utf-8")
 
     assert made.problems == caught.value.problems
     page = made.files[PAGE].decode()
     assert "# 1. " in page
     assert all(line.strip() in page for problem in made.problems for line in str(problem).splitlines())
-    assert MISTAKES[kind][3] in str(caught.value)
+    assert said in str(caught.value)
     assert [list(entry) for entry in made.navigation] == [list(entry) for entry in site.navigation]
     assert PAGE in str(made.navigation)
     others = {name for name in site.files if name.startswith("cases/odd-script/")} | {
@@ -78,37 +75,28 @@ def test_a_case_in_error_says_so_alone_until_it_is_mended(whole: tuple[Path, Sit
         "contribute/the-record.md",
     }
     assert {name: made.files[name] for name in others} == {name: site.files[name] for name in others}
-    assert survey(folder, cache) == site
+    assert make_site(folder, cache) == site
 
 
 def test_the_problems_of_all_cases_at_all_stages_are_reported_together(whole: tuple[Path, Site]) -> None:
     folder, _ = whole
-    script = folder / "cases" / "odd-script" / "case.yaml"
-    before = mistaken(folder, "claim") | {script: script.read_text(encoding="utf-8")}
     third = folder / "cases" / "third-case"
     third.mkdir()
     (third / "case.yaml").write_text("number: 3\ntitle: [\n", encoding="utf-8")
-    script.write_text(changed(before[script], ("find: '0.5'", "find: '0.6'")), encoding="utf-8")
-    try:
-        done = run(folder, "-m", "mkdocs", "build", "--strict")
+    script = folder / "cases" / "odd-script" / "case.yaml"
+    with mistaken(folder / RECORD, *MISTAKES["claim"][1:3]), mistaken(script, "find: '0.5'", "find: '0.6'"):
+        strict = run(folder, "-m", "mkdocs", "build", "--strict")
         lenient = run(folder, "-m", "mkdocs", "build")
         command = run(folder, "-m", "clinic", "build", "--out", "out")
-    finally:
-        for path, text in before.items():
-            path.write_text(text, encoding="utf-8")
-        (third / "case.yaml").unlink()
-        third.rmdir()
+    shutil.rmtree(third)
 
-    told = " ".join(done.stderr.split())
-    for words in ("falling-box/case.yaml", "odd-script/case.yaml", "exactly once", "third-case/case.yaml"):
-        assert words in told
-        assert words in " ".join(lenient.stderr.split())
-        assert words in " ".join(command.stderr.split())
-    assert "Traceback" not in done.stderr + lenient.stderr + command.stderr
-    assert done.returncode == command.returncode == 1
-    assert lenient.returncode == 0
-    assert "In error" in (folder / "site" / "cases" / "third-case" / "index.html").read_text(encoding="utf-8")
-    for name in ("falling-box", "odd-script"):
+    for done in (strict, lenient, command):
+        told = " ".join(done.stderr.split())
+        assert "Traceback" not in told
+        for words in ("falling-box/case.yaml", "odd-script/case.yaml", "exactly once", "third-case/case.yaml"):
+            assert words in told
+    assert [done.returncode for done in (strict, lenient, command)] == [1, 0, 1]
+    for name in ("falling-box", "odd-script", "third-case"):
         assert "In error" in (folder / "site" / "cases" / name / "index.html").read_text(encoding="utf-8")
 
 
@@ -121,26 +109,8 @@ def test_a_task_that_raises_what_nobody_foresaw_is_a_problem_of_its_case(
     monkeypatch.setenv("CLINIC_JOBS", "1")
     monkeypatch.setattr("clinic.pages.exhibits.robustness", fail)
     with caplog.at_level(logging.CRITICAL):
-        made = survey(whole[0], Cache(tmp_path / "cache"))
+        made = make_site(whole[0], Cache(tmp_path / "cache"))
     assert [(problem.file, problem.found) for problem in made.problems] == [(RECORD, "ZeroDivisionError: by 0")]
-    assert made.files[OTHER] == whole[1].files[OTHER]
-
-
-def test_a_folder_that_is_renamed_while_the_site_is_made_is_told(
-    whole: tuple[Path, Site], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    folder = tmp_path / "project"
-    shutil.copytree(whole[0], folder)
-    real = casepages.possible_exhibits
-
-    def renaming(*given: Any) -> Any:
-        (folder / "cases" / "falling-box").rename(folder / "cases" / "sinking-box")
-        return real(*given)
-
-    monkeypatch.setattr(casepages, "possible_exhibits", renaming)
-    made = survey(folder, Cache(folder / "cache"))
-    assert [(problem.file, problem.repair) for problem in made.problems] == [(RECORD, "build again")]
-    assert "In error" in made.files[PAGE].decode()
     assert made.files[OTHER] == whole[1].files[OTHER]
 
 
@@ -155,11 +125,6 @@ def test_a_page_says_what_its_prose_must_not(
     whole: tuple[Path, Site], old: str, new: str, where: str, found: str
 ) -> None:
     folder, _ = whole
-    record = folder / RECORD
-    before = record.read_text(encoding="utf-8")
-    record.write_text(changed(before, (old, new)), encoding="utf-8")
-    try:
-        made = survey(folder, Cache(folder / "cache"))
-    finally:
-        record.write_text(before, encoding="utf-8")
+    with mistaken(folder / RECORD, old, new):
+        made = make_site(folder, Cache(folder / "cache"))
     assert [(problem.where, found in problem.found) for problem in made.problems] == [(where, True)]

@@ -221,8 +221,7 @@ def test_help_and_completion_import_nothing_that_is_slow() -> None:
 
 def test_outside_a_project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    assert cli.complete("") == []
-    assert main_with(monkeypatch, "check") == f"clinic: no folder with cases/ and pyproject.toml at or above {tmp_path}"
+    assert str(main_with(monkeypatch, "check")).startswith("clinic: this needs a checkout: no folder with cases/")
 
 
 def test_reference_is_printed() -> None:

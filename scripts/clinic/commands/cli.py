@@ -8,12 +8,16 @@ import sys
 import tempfile
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from clinic.record.checkout import cache_folder, folders, project_root, slugs
+from clinic.record.checkout import cache_folder, cases_root, folders, project_root, slugs
 from clinic.record.problem import CaseError, LackError
+
+if TYPE_CHECKING:
+    from clinic.proof.evidence import Evidence
+    from clinic.record.case import Case
 
 app = typer.Typer(no_args_is_help=True, help="Broken MuJoCo simulations that prove themselves.")
 
@@ -29,7 +33,7 @@ class Kind(StrEnum):
 def complete(incomplete: str) -> list[str]:
     """The slugs that begin like this, for the shell."""
     try:
-        return [slug for slug in slugs(project_root()) if slug.startswith(incomplete)]
+        return [slug for slug in slugs(cases_root()) if slug.startswith(incomplete)]
     except OSError:
         return []
 
@@ -94,7 +98,7 @@ def list_cases(as_json: AsJson = False) -> None:
     from clinic.commands import terminal
     from clinic.record.case import read_cases
 
-    cases, problems = read_cases(project_root() / "cases")
+    cases, problems = read_cases(cases_root() / "cases")
     if as_json:
         _print_json([terminal.row_data(case) for case in cases])
     else:
@@ -111,16 +115,10 @@ def show(
 ) -> None:
     """Show a case in the terminal, its numbers filled in from the runs."""
     from clinic.commands import terminal
-    from clinic.pages.case_page import field_problems
-    from clinic.proof.experiments import measure_case
-    from clinic.record.case import load_case
-    from clinic.work.cache import Cache
+    from clinic.pages.text.prose import prose_problems
 
-    root = project_root()
-    case = load_case(folders(root, [slug])[0])
-    with terminal.console(stderr=True).status(f"running {case.slug}"):
-        evidence = measure_case(case, Cache(cache_folder(root)))
-    if problems := list(field_problems(case, evidence)):
+    case, evidence = _run(slug, sweeps=answer)
+    if problems := list(prose_problems(case, evidence)):
         raise CaseError(problems)
     if as_json:
         _print_json(terminal.case_data(case, evidence, answer))
@@ -138,7 +136,7 @@ def view(
     from clinic.engine.variant import BROKEN
     from clinic.record.case import load_case
 
-    (folder,) = folders(project_root(), [slug])
+    (folder,) = folders(cases_root(), [slug])
     open_viewer(load_case(folder), fix or BROKEN)
 
 
@@ -147,7 +145,7 @@ def cache(clear: Annotated[bool, typer.Option("--clear", help="Forget everything
     """Show where finished work is kept and how much of it, or clear it."""
     from clinic.work.cache import Cache
 
-    kept = Cache(cache_folder(project_root()))
+    kept = Cache(cache_folder(cases_root()))
     entries = kept.entries()
     size = sum(entry.stat().st_size for entry in entries)
     if clear:
@@ -212,6 +210,28 @@ def print_schema(
         print(schema_text(), end="")
 
 
+def _run(slug: str, sweeps: bool) -> tuple[Case, Evidence]:
+    """A case and what its runs show, with those of its sweeps if asked for."""
+    import mujoco
+
+    from clinic.commands import terminal
+    from clinic.engine.releases import CASES, installed
+    from clinic.proof.evidence import lack
+    from clinic.proof.experiments import measure_case
+    from clinic.record.case import load_case
+    from clinic.work.cache import Cache
+
+    root = cases_root()
+    case = load_case(folders(root, [slug])[0])
+    try:
+        with terminal.console(stderr=True).status(f"running {case.slug}"):
+            return case, measure_case(case, Cache(cache_folder(root)), ("sweeps",) if sweeps else ())
+    except CaseError:
+        if installed() >= CASES or lack(case):
+            raise
+        sys.exit(f"clinic: {slug} uses what MuJoCo {mujoco.__version__} does not have: pip install -U mujoco")
+
+
 def _print_json(data: object) -> None:
     print(json.dumps(data, indent=1, ensure_ascii=False))
 
@@ -222,5 +242,11 @@ def main() -> None:
         app()
     except CaseError as error:
         sys.exit(str(error))
+    except ModuleNotFoundError as error:
+        if (error.name or "").startswith("clinic"):
+            raise
+        sys.exit(f"clinic: {error.name} is not installed; this needs pip install 'mujoco-clinic[site]'")
+    except ImportError as error:  # an engine that is too old
+        sys.exit(f"clinic: {error}")
     except (FileNotFoundError, ConnectionError, LackError) as error:
         sys.exit(f"clinic: {error}")

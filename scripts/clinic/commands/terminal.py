@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console, Group, RenderableType
 from rich.markdown import Markdown
@@ -14,13 +14,15 @@ from rich.syntax import Syntax
 from rich.table import Table
 from rich.text import Text
 
-from clinic.commands.check import Report
 from clinic.engine.variant import diff, variants
 from clinic.pages.text.claim import claim
 from clinic.pages.text.prose import fill
 from clinic.proof.evidence import Evidence
 from clinic.record.case import Case
 from clinic.record.prose import quantity
+
+if TYPE_CHECKING:
+    from clinic.commands.check import Report
 
 WIDTH = 120
 MEANS = {"broken": "it is broken", "fixed": "it is well"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from clinic.engine.checks import expected, satisfies
@@ -14,16 +14,16 @@ from clinic.pages.error_page import plain_page
 from clinic.pages.text import manual
 from clinic.pages.text.claim import TAKES, taken
 from clinic.pages.text.markup import code, line
-from clinic.pages.text.prose import markdown, mistakes
+from clinic.pages.text.prose import markdown, prose_problems
 from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence, VariantEvidence
 from clinic.proof.lookalike import Matrix
-from clinic.proof.prose_laws import PROSE, prose_of
+from clinic.proof.prose_laws import PROSE
 from clinic.proof.robustness import NUDGE, STARTS
 from clinic.record.case import Case
 from clinic.record.fields import Check
 from clinic.record.parts import Interval
-from clinic.record.problem import CaseError, Problem
+from clinic.record.problem import CaseError
 from clinic.record.prose import plain, quantity
 from clinic.work.cache import Files
 
@@ -37,7 +37,7 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
     Raises:
         CaseError: With every template field that resolves to nothing.
     """
-    if problems := list(field_problems(case, evidence)):
+    if problems := list(prose_problems(case, evidence)):
         raise CaseError(problems)
     record = case.record
     made = {variant.id: variant for variant in variants(case)}
@@ -183,12 +183,3 @@ def _matrix(made: Matrix, cases: Mapping[str, Case]) -> dict[str, Any]:
         ]
         rows.append([f"{line(alike.says)}: {code(alike.path)} {TAKES[alike.take]} is {expected(alike, plain)}", *cells])
     return {"heads": heads, "rows": rows}
-
-
-def field_problems(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Every field and formula of the prose that cannot be shown."""
-    reasons = [(("exempt", law), reason) for law, reason in case.record.exempt.items()]
-    for where, text in [*prose_of(case), *reasons]:
-        for error in mistakes(text, evidence):
-            quoted = error.found.partition(": ")[0]
-            yield case.problem(where, error.found, error.expected, error.repair, quoted)

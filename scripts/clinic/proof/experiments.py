@@ -6,7 +6,7 @@ of one case runs that case's tasks alone. Tasks that are not kept run in paralle
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from functools import partial
 
 from pydantic import TypeAdapter
@@ -48,13 +48,15 @@ def measure_cases(cases: Iterable[Case], cache: Cache) -> tuple[dict[str, Files]
     return made, problems + more
 
 
-def measure_case(case: Case, cache: Cache) -> Evidence:
-    """The evidence of one case.
+def measure_case(case: Case, cache: Cache, kinds: Container[str] = ("sweeps", "robustness")) -> Evidence:
+    """What the runs of one case show; of those beside its variants, the kinds asked for.
 
     Raises:
         CaseError: If the case cannot be run, on this machine or on any.
     """
-    return evidence_of(of_one(case, *measure_cases([case], cache)))
+    first = of_one(case, *run_tasks([evidence_task(case)], cache))
+    tasks = [task for task in measuring_tasks(case) if task.kind in kinds]
+    return evidence_of(assembled(case, first, of_one(case, *run_tasks(tasks, cache))) if tasks else first)
 
 
 def of_one(case: Case, made: Mapping[str, Files], problems: Iterable[Problem]) -> Files:

@@ -33,7 +33,8 @@ def mass_matrix(model: mujoco.MjModel) -> NDArray[np.float64]:
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     mass = np.zeros((model.nv, model.nv))
-    mujoco.mj_fullM(model, data, mass)
+    for row, unit in zip(mass, np.eye(model.nv), strict=True):  # mj_fullM takes other arguments on older releases
+        mujoco.mj_mulM(model, data, row, unit)
     return mass
 
 

@@ -11,7 +11,7 @@ import zipfile
 from collections.abc import Callable
 from contextlib import suppress
 from functools import lru_cache
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path, PurePosixPath
 
 Files = dict[str, bytes]
@@ -111,6 +111,9 @@ def source_digest(folder: str) -> str:
 
 @lru_cache
 def engines() -> dict[str, str]:
-    """What runs and draws, with its version. Fonts come with the drawing libraries."""
+    """What runs and draws, with its version, as far as it is installed. Fonts come with the drawing libraries."""
     here = {"python": platform.python_version(), "machine": f"{platform.system()} {platform.machine()}"}
-    return here | {name: version(name) for name in ENGINES}
+    for name in ENGINES:
+        with suppress(PackageNotFoundError):
+            here[name] = version(name)
+    return here

@@ -8,7 +8,9 @@ from typing import TypeVar
 
 from clinic.pages.text.formula import FormulaError, mathml
 from clinic.proof.evidence import Evidence
-from clinic.record.problem import closest, listed
+from clinic.proof.prose_laws import prose_of
+from clinic.record.case import Case
+from clinic.record.problem import Problem, closest, listed
 from clinic.record.prose import CODE, CONVERSIONS, FIELD, FORMULA, quantity
 
 T = TypeVar("T")
@@ -51,6 +53,15 @@ def fill(text: str, evidence: Evidence) -> str:
         FieldError: For the first field that resolves to nothing.
     """
     return FIELD.sub(lambda match: resolve(match[1], evidence), text)
+
+
+def prose_problems(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Every field and formula of the prose that cannot be shown."""
+    reasons = [(("exempt", law), reason) for law, reason in case.record.exempt.items()]
+    for where, text in [*prose_of(case), *reasons]:
+        for error in mistakes(text, evidence):
+            quoted = error.found.partition(": ")[0]
+            yield case.problem(where, error.found, error.expected, error.repair, quoted)
 
 
 def mistakes(text: str, evidence: Evidence) -> Iterator[FieldError | FormulaError]:

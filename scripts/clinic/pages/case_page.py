@@ -9,12 +9,11 @@ from typing import Any
 
 from clinic.engine.checks import expected, satisfies
 from clinic.engine.variant import diff, variants
-from clinic.pages.card import opening
 from clinic.pages.error_page import plain_page
 from clinic.pages.text import manual
 from clinic.pages.text.claim import TAKES, taken
 from clinic.pages.text.markup import code, line
-from clinic.pages.text.prose import markdown, prose_problems
+from clinic.pages.text.prose import markdown, opening, prose_problems
 from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence, VariantEvidence
 from clinic.proof.lookalike import Matrix

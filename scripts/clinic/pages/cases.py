@@ -8,13 +8,13 @@ from pathlib import Path
 
 import mujoco
 
-from clinic.pages.card import Card, card
 from clinic.pages.case_files import files_of_cases
 from clinic.pages.case_page import case_page
 from clinic.pages.error_page import by_case
 from clinic.pages.playground import FILE as PLAYGROUND
 from clinic.pages.playground import playground
 from clinic.pages.text.manual import manual_problems
+from clinic.pages.text.prose import opening
 from clinic.proof.experiments import compare_alike, evidence_of
 from clinic.proof.laws import breaches
 from clinic.proof.lookalike import alike_problems
@@ -31,11 +31,11 @@ PUBLISHED = (*AT_ONCE, "lasting", "steady", "swept")  # laws that hold for every
 
 @dataclass(frozen=True)
 class Shown:
-    """A case that has a page: the page's text, and the files beside it by name."""
+    """A case that has a page: the page's text, what lists say of the symptom, and the files beside the page by name."""
 
     case: Case
     page: str
-    card: Card
+    symptom: str
     files: Files
 
 
@@ -75,7 +75,7 @@ def shown_cases(
         except OSError as error:  # renamed or deleted since it was read
             problems.append(case.problem((), type(error).__name__, "the folder as it was read", "build again"))
         else:
-            shown.append(Shown(case, page, card(case, evidence, files), files | sources))
+            shown.append(Shown(case, page, opening(case, evidence), files | sources))
     return shown, problems
 
 

@@ -15,8 +15,7 @@ from clinic.engine.script import ScriptError
 from clinic.engine.signals import SignalError
 from clinic.engine.simulate import RunError
 from clinic.engine.variant import EditError
-from clinic.pages.text.formula import FormulaError
-from clinic.pages.text.prose import FieldError
+from clinic.pages.text.prose import ProseError
 from clinic.record.expression import ExpressionError
 from clinic.record.problem import CaseError, LackError, Problem
 from clinic.record.yaml_lines import YamlError
@@ -29,10 +28,9 @@ EXAMPLES = [
     ClusterError("no scheduler"),
     EditError(2, 0),
     ExpressionError("a number"),
-    FieldError("{{ x }}", "a field", "correct it"),
-    FormulaError("x_", "nothing below"),
     LackError("no Node"),
     ModelError(3, "a file", "none", "write it out"),
+    ProseError("{{ x }}", "a field", "correct it"),
     RenderError("no OpenGL"),
     RunError(("qpos", "elbow"), "x", "y", "z"),
     ScriptError("KeyError: 'x'", "mend it"),

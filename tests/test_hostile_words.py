@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 import yaml
-from clinic.pages.card import card, home_page
+from clinic.pages.cases import Shown
 from clinic.pages.figures.plots import plots
-from clinic.pages.text.formula import FormulaError
-from clinic.pages.text.prose import markdown
+from clinic.pages.text.markup import render
+from clinic.pages.text.prose import ProseError, markdown, opening
 from clinic.pages.text.sanitize import sanitized
 from clinic.proof.evidence import Evidence, collect
 from clinic.record.case import load_case
@@ -73,7 +73,7 @@ def wild_record(text: str = "\n\n".join(ACTS)) -> dict[str, Any]:
 def test_prose_does_not_act(proof: Evidence, text: str) -> None:
     try:
         made = markdown(text, proof)
-    except FormulaError:
+    except ProseError:
         return
     assert acting(rendered(f"{made}\n\n??? x\n\n    {made}\n")) == []
 
@@ -84,7 +84,8 @@ def test_lines_are_shown_on_every_page(proof: Evidence, tmp_path: Path) -> None:
     files = dict.fromkeys(("film.mp4", "broken.webp", "strip.webp", "fixed.webp"), b"")
     said = {key: variant.model_copy(update={"messages": [SCRIPTED, "```"]}) for key, variant in proof.variants.items()}
     evidence = proof.model_copy(update={"variants": said})
-    for page in (page_of(case, evidence, files, case), home_page([card(case, evidence, files)], "4.0.0")):
+    home = render("home", shown=[Shown(case, "", opening(case, evidence), files)], engine="4.0.0")
+    for page in (page_of(case, evidence, files, case), home):
         assert acting(rendered(page)) == []
     assert unescape(rendered(page_of(case, evidence, files, case))).count(LINE[:30]) >= 5
     for drawing in plots(case, evidence).values():

@@ -15,9 +15,8 @@ from typing import Any
 import pytest
 import yaml
 from clinic.engine.simulate import compile_model
-from clinic.pages.text.formula import FormulaError
 from clinic.pages.text.markup import line
-from clinic.pages.text.prose import FieldError, markdown
+from clinic.pages.text.prose import ProseError, markdown
 from clinic.proof.examine import examine
 from clinic.record.case import load_case
 from clinic.record.fields import Record
@@ -199,6 +198,6 @@ def test_prose_of_any_kind_makes_no_element_that_acts(pieces: list[str]) -> None
     text = "".join(pieces)
     try:
         shown = markdown(text, evidence_of_variants())
-    except (FieldError, FormulaError):
+    except ProseError:
         return
     assert acting(rendered(f"# {line(text)}\n\n{shown}\n\n??? x\n\n    {line(text)}\n\n{shown}\n")) == []

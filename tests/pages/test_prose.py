@@ -6,7 +6,7 @@ import math
 
 import pytest
 from clinic.pages.text.markup import code, fence, line
-from clinic.pages.text.prose import FieldError, fill, markdown, mistakes, resolve
+from clinic.pages.text.prose import ProseError, fill, markdown, mistakes, resolve
 from clinic.proof.evidence import Evidence
 from clinic.record.prose import number, quantity
 from helpers import evidence_of_variants, variant_evidence
@@ -140,7 +140,7 @@ def test_field(evidence: Evidence, field: str, text: str) -> None:
     ],
 )
 def test_field_that_resolves_to_nothing(evidence: Evidence, field: str, found: str, repair: str) -> None:
-    with pytest.raises(FieldError) as caught:
+    with pytest.raises(ProseError) as caught:
         resolve(field, evidence)
     assert (caught.value.found, caught.value.repair) == (found, repair)
 

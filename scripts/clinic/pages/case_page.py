@@ -9,13 +9,11 @@ from typing import Any
 
 from clinic.engine.checks import expected, satisfies
 from clinic.engine.variant import diff, variants
-from clinic.pages.card import opening
 from clinic.pages.error_page import plain_page
 from clinic.pages.text import manual
 from clinic.pages.text.claim import TAKES, taken
-from clinic.pages.text.markup import code, line
-from clinic.pages.text.prose import markdown, prose_problems
-from clinic.pages.text.template import render
+from clinic.pages.text.markup import code, line, render
+from clinic.pages.text.prose import markdown, opening, prose_problems
 from clinic.proof.evidence import Evidence, VariantEvidence
 from clinic.proof.lookalike import Matrix
 from clinic.proof.prose_laws import PROSE
@@ -40,7 +38,6 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
     if problems := list(prose_problems(case, evidence)):
         raise CaseError(problems)
     record = case.record
-    made = {variant.id: variant for variant in variants(case)}
     return render(
         "case",
         case=case,
@@ -51,7 +48,7 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
         title=json.dumps(html.escape(record.title, quote=False), ensure_ascii=False),
         prose={name: markdown(getattr(record, name), evidence) for name in PROSE},
         whys={remedy.id: markdown(remedy.why, evidence) for remedy in record.refuted},
-        diffs={key: diff(case.text, variant.text, record.source) for key, variant in made.items()},
+        diffs={variant.id: diff(case.text, variant.text, record.source) for variant in variants(case)},
         files=files,
         summary=_summary(case, evidence),
         film_alt=f"Film, broken beside {record.fixes[0].id}. {_summary(case, evidence)}",

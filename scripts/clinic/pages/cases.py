@@ -6,15 +6,13 @@ from collections.abc import Container, Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import mujoco
-
-from clinic.pages.card import Card, card
 from clinic.pages.case_files import files_of_cases
 from clinic.pages.case_page import case_page
 from clinic.pages.error_page import by_case
 from clinic.pages.playground import FILE as PLAYGROUND
 from clinic.pages.playground import playground
 from clinic.pages.text.manual import manual_problems
+from clinic.pages.text.prose import opening
 from clinic.proof.experiments import compare_alike, evidence_of
 from clinic.proof.laws import breaches
 from clinic.proof.lookalike import alike_problems
@@ -25,17 +23,16 @@ from clinic.work.cache import Cache, Files
 
 FOLDER = "cases/{slug}"
 PAGE = f"{FOLDER}/index.md"
-AT_ONCE = ("quoted", "typed", "verdicts", "warned")  # laws that need the variants' runs alone
-PUBLISHED = (*AT_ONCE, "lasting", "steady", "swept")  # laws that hold for every page that is published
+PUBLISHED = ("quoted", "typed", "verdicts", "warned", "lasting", "steady", "swept")  # laws for every page
 
 
 @dataclass(frozen=True)
 class Shown:
-    """A case that has a page: the page's text, and the files beside it by name."""
+    """A case that has a page: the page's text, what lists say of the symptom, and the files beside the page by name."""
 
     case: Case
     page: str
-    card: Card
+    symptom: str
     files: Files
 
 
@@ -58,7 +55,6 @@ def shown_cases(
     problems += failed
     left_out |= known.keys() - made.keys()
     cases = {slug: keep_relations(case, left_out, known) for slug, case in known.items() if slug in made}
-    warned = [case for case in known.values() if case.record.warnings]
     shown = []
     for slug, case in cases.items():
         evidence = evidence_of(made[slug])  # of one case at a time: a thousand would fill the memory
@@ -66,7 +62,7 @@ def shown_cases(
         problems += [*manual_problems(case), *breaches(case, evidence, *PUBLISHED), *unclear]
         files = dict(made[slug])
         if with_playground and case.record.model is not None:
-            files[PLAYGROUND] = playground(case, mujoco.__version__, warned)
+            files[PLAYGROUND] = playground(case, known.values())
         try:
             page = case_page(case, evidence, files, known | cases, alike)
             sources = {name: (root / "cases" / slug / name).read_bytes() for name in (RECORD, *case.texts)}
@@ -75,7 +71,7 @@ def shown_cases(
         except OSError as error:  # renamed or deleted since it was read
             problems.append(case.problem((), type(error).__name__, "the folder as it was read", "build again"))
         else:
-            shown.append(Shown(case, page, card(case, evidence, files), files | sources))
+            shown.append(Shown(case, page, opening(case, evidence), files | sources))
     return shown, problems
 
 

@@ -12,7 +12,7 @@ import yaml
 from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
 from clinic.engine.provoke import provoke
-from clinic.pages.text.template import render
+from clinic.pages.text.markup import render
 from clinic.record.case import Case
 from clinic.record.parts import Identifier, Strict, Text
 from clinic.record.problem import CaseError, Problem
@@ -31,7 +31,6 @@ class Message(Strict):
     warning: str | None = None
     xml: str | None = None
     python: str | None = None
-    unprovoked: str | None = None
     says: Text | None = None
     meaning: Text
     look_at: Text
@@ -40,11 +39,9 @@ class Message(Strict):
 
     @model_validator(mode="after")
     def _one_way(self) -> Message:
-        given = [name for name in ("xml", "python", "unprovoked") if getattr(self, name) is not None]
+        given = [name for name in ("xml", "python", "says") if getattr(self, name) is not None]
         if len(given) != 1:
-            raise ValueError(f"{' and '.join(given) or 'nothing'} instead of exactly one of xml, python, unprovoked")
-        if (self.says is None) != (self.unprovoked is None):
-            raise ValueError("`says` stands beside `unprovoked`, and nowhere else")
+            raise ValueError(f"{' and '.join(given) or 'nothing'} instead of exactly one of xml, python, says")
         return self
 
     @property

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
 import mujoco
 
-from clinic.pages.card import home_page
 from clinic.pages.cases import Shown
 from clinic.pages.error_page import error_page
 from clinic.pages.messages import load_messages, messages_page, provoke_messages
@@ -16,6 +15,7 @@ from clinic.pages.reference import reference
 from clinic.pages.snippets import NAMED, run_fences
 from clinic.pages.storeys import storeys
 from clinic.pages.symptoms import symptoms_page
+from clinic.pages.text.markup import render
 from clinic.record.case import Case
 from clinic.record.problem import CaseError, Problem
 from clinic.triage.table import MARK as TRIAGE_MARK
@@ -28,7 +28,7 @@ STOREYS_MARK = "The picture is made by the build."
 
 
 def overviews(
-    root: Path, shown: Iterable[Shown], known: Mapping[str, Case], cache: Cache
+    root: Path, shown: Sequence[Shown], known: Mapping[str, Case], cache: Cache
 ) -> tuple[Files, list[Problem]]:
     """The files, and the problems of those that cannot be made, which hold these problems instead.
 
@@ -38,12 +38,11 @@ def overviews(
         known: Every case whose record can be read, by slug.
         cache: Where finished work is kept.
     """
-    cards = {one.case.slug: one.card for one in shown}
     cases = [one.case for one in shown]
     screenings, problems = run_tasks(list(screening_tasks(cases)), cache)
     made = {f"cases/{slug}/{name}": text for slug, files in screenings.items() for name, text in files.items()}
-    made["index.md"] = home_page(cards.values(), mujoco.__version__).encode()
-    made["symptoms.md"] = symptoms_page(cases, cards).encode()
+    made["index.md"] = render("home", shown=shown, engine=mujoco.__version__).encode()
+    made["symptoms.md"] = symptoms_page(shown).encode()
     screened = [case for case in cases if case.record.run is None or case.slug in screenings]
     parts = {
         TRIAGE_MARK: lambda: table(screened, screenings),

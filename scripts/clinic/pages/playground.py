@@ -17,19 +17,14 @@ from clinic.engine.simulate import compile_model
 from clinic.pages.text.claim import claim
 from clinic.record.case import Case
 from clinic.record.expression import names, parse
-from clinic.record.fields import ExpressionSignal, PathSignal, Remedy, Signal
+from clinic.record.fields import ExpressionSignal, PathSignal, Signal
 
 FILE = "playground.json"
+REMEDIES = {"__all__": {"id", "title", "edits"}}
 
 
-def playground(case: Case, engine: str, cases: Iterable[Case]) -> bytes:
-    """The file of a model case.
-
-    Args:
-        case: A case with a model.
-        engine: The version of MuJoCo that made the evidence.
-        cases: All cases; those that name a MuJoCo warning explain it.
-    """
+def playground(case: Case, cases: Iterable[Case]) -> bytes:
+    """The file of a case with a model; `cases` are all, for those that name a MuJoCo warning explain it."""
     record = case.record
     assert record.model is not None
     assert record.run is not None
@@ -37,14 +32,13 @@ def playground(case: Case, engine: str, cases: Iterable[Case]) -> bytes:
         "case": case.slug,
         "number": record.number,
         "title": record.title,
-        "engine": engine,
+        "engine": mujoco.__version__,
         "name": record.model,
         "text": case.text,
         "run": record.run.model_dump(mode="json"),
         "signals": {name: _signal(case, name, signal) for name, signal in record.signals.items()},
         "checks": record.checks.model_dump(mode="json", exclude_none=True),
-        "fixes": [_remedy(fix) for fix in record.fixes],
-        "refuted": [_remedy(refuted) for refuted in record.refuted],
+        **record.model_dump(mode="json", include={"fixes": REMEDIES, "refuted": REMEDIES}),
         "camera": record.picture.camera,
         "speed": record.film.speed if record.film else 1.0,
         "telling": record.film.overlays if record.film else [],
@@ -73,31 +67,21 @@ def _columns(path: Path, xml: str) -> list[int]:
     return [int(n) for n in np.shape(value)[1:]]
 
 
-def _remedy(remedy: Remedy) -> dict[str, Any]:
-    return remedy.model_dump(mode="json", include={"id", "title", "edits"})
-
-
 def _hints(case: Case) -> list[dict[str, str]]:
     """The symptom and its repair in numbers, then what to measure; the third rung is the page's Diagnosis."""
-    checks = case.record.checks
-    broken, fixed = ("; ".join(claim(case, check) for check in kind) for kind in (checks.broken, checks.fixed))
-    return [
-        {"title": "The symptom in numbers", "text": f"as it is, {broken}. Repaired, {fixed}."},
-        {"title": "What to measure", "text": f"after every step, {'; '.join(_measured(case))}."},
-    ]
-
-
-def _measured(case: Case) -> list[str]:
-    """What the checks read, each with its path where it has one."""
-    record = case.record
-    read: set[str] = set()
+    record, read = case.record, set[str]()
     for check in [*record.checks.broken, *record.checks.fixed]:
         signal = record.signals[check.signal]
         read |= names(parse(signal.expr)) if isinstance(signal, ExpressionSignal) else {check.signal}
-    return [
+    measured = [
         (signal.label or name) + (f", {signal.path}" if isinstance(signal, PathSignal) else "")
         for name, signal in record.signals.items()
         if name in read
+    ]
+    broken, fixed = ("; ".join(claim(case, check) for check in kind) for _, kind in record.checks)
+    return [
+        {"title": "The symptom in numbers", "text": f"as it is, {broken}. Repaired, {fixed}."},
+        {"title": "What to measure", "text": f"after every step, {'; '.join(measured)}."},
     ]
 
 

@@ -12,42 +12,27 @@ from pydantic import BaseModel
 
 from clinic.engine import signals
 from clinic.engine.checks import TAKES
-from clinic.record import fields as record
-from clinic.record import parts as record_parts
 from clinic.record import predictions
-from clinic.record import sweep as record_sweep
 from clinic.record.expression import FUNCTIONS
+from clinic.record.fields import Record
 from clinic.record.prose import CONVERSIONS
-
-CHAPTERS: dict[str, type[BaseModel]] = {
-    "case.yaml": record.Record,
-    "run": record.RunSpec,
-    "signals: a path": record.PathSignal,
-    "signals: arithmetic": record.ExpressionSignal,
-    "signals: measure: fraction_of_starts": record.StartsSignal,
-    "signals: measure: image_row": record.RowSignal,
-    "checks": record.Checks,
-    "a check": record.Check,
-    "fixes": record.Fix,
-    "refuted": record.Refuted,
-    "an edit": record_parts.Edit,
-    "film": record.Film,
-    "sweep": record_sweep.Sweep,
-    "holds in a sweep": record_sweep.Side,
-    "vary": record_sweep.Parameter,
-    "prediction": record_sweep.Prediction,
-    "rivals": record_sweep.Rival,
-    "alike": record.Alike,
-    "picture": record.Picture,
-}
-
 
 WORDS: dict[object, str] = {str: "text", int: "whole number", float: "number", bool: "true or false"}
 
 
+def chapters(kind: Any = Record) -> dict[str, type[BaseModel]]:
+    """The classes that a type is made of, by name: a class stands before those of its fields."""
+    if not (isinstance(kind, type) and issubclass(kind, BaseModel)):
+        return {name: found for part in typing.get_args(kind) for name, found in chapters(part).items()}
+    made: dict[str, type[BaseModel]] = {kind.__name__: kind}
+    for field in kind.model_fields.values():
+        made |= chapters(field.annotation)
+    return made
+
+
 def reference() -> str:
     """Every field of the record with its type and meaning, and the signal paths, as Markdown."""
-    parts = [line for title, model in CHAPTERS.items() for line in _chapter(title, model)]
+    parts = [line for title, model in chapters().items() for line in _chapter(title, model)]
     paths = inspect.getdoc(signals) or ""
     return "\n".join([*parts, *_fields(), *_arithmetic(), "### Signal paths", "", paths.partition("\n\n")[2]])
 

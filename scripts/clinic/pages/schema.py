@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -39,7 +38,6 @@ def schema() -> dict[str, Any]:
     return {"$schema": _Generator.schema_dialect, **made, "title": "The record of a case", "oneOf": list(SOURCES)}
 
 
-@lru_cache
 def schema_text() -> str:
     """The schema as the text of its file."""
     return json.dumps(schema(), indent=1, ensure_ascii=False) + "\n"

@@ -5,24 +5,18 @@ A case without a place stands at the page's end, and `clinic check` reports it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
-from clinic.pages.card import Card
-from clinic.pages.text.template import render
+from clinic.pages.cases import Shown
+from clinic.pages.text.markup import render
 from clinic.record.case import Case
 from clinic.record.fields import Look
 from clinic.record.problem import Problem
 
 
-@dataclass(frozen=True)
-class Heading:
-    """One thing that readers say, and where to begin with it.
-
-    Args:
-        title: The symptom in a reader's words.
-        first: What to measure first, and what the answer means.
-    """
+class Heading(NamedTuple):
+    """A symptom in a reader's words, and what to measure first."""
 
     title: str
     first: str
@@ -75,10 +69,11 @@ def symptom_problems(case: Case) -> Iterator[Problem]:
         yield case.problem(("looks",), "nothing", f"one or more of: {', '.join(HEADINGS)}", "add `looks: [...]`")
 
 
-def symptoms_page(cases: Sequence[Case], cards: Mapping[str, Card]) -> str:
+def symptoms_page(shown: Sequence[Shown]) -> str:
     """The Markdown of the page."""
-    groups = [
-        (look, heading, [cards[case.slug] for case in cases if look in case.record.looks])
-        for look, heading in HEADINGS.items()
+    groups: list[tuple[str, Heading, list[Shown]]] = [
+        (look, heading, [one for one in shown if look in one.case.record.looks]) for look, heading in HEADINGS.items()
     ]
-    return render("symptoms", groups=groups, others=[cards[case.slug] for case in cases if not case.record.looks])
+    if others := [one for one in shown if not one.case.record.looks]:
+        groups.append(("other", Heading("Something else", "These have no place yet."), others))
+    return render("symptoms", groups=groups)

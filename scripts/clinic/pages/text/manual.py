@@ -12,14 +12,13 @@ import mujoco
 from clinic.record.case import Case
 from clinic.record.problem import Problem, closest, listed
 
-ADDRESS = "https://mujoco.readthedocs.io/en/{version}/{page}"
 LABEL = re.compile(r"^\.\. _([A-Za-z][\w-]*):\s*$")
 RULE = re.compile(r"^([=\-~^\"'`#*+.])\1{2,}$")
 
 
 def address(page: str) -> str:
     """The page of the manual of the installed version."""
-    return ADDRESS.format(version=mujoco.__version__, page=page)
+    return f"https://mujoco.readthedocs.io/en/{mujoco.__version__}/{page}"
 
 
 def title(page: str) -> str:
@@ -48,7 +47,8 @@ def anchors(page: str) -> dict[str, str]:
                 labels.append(heading)
             else:  # an attribute, or several, with their types
                 heading = re.split("[:,]", heading)[0]
-            found |= {_slug(label): heading for label in labels}
+            slugs = (re.sub(r"[^a-z0-9]+", "-", label.lower()).strip("-") for label in labels)  # as Sphinx writes them
+            found |= dict.fromkeys(slugs, heading)
             labels = []
     return found
 
@@ -66,8 +66,3 @@ def manual_problems(case: Case) -> Iterator[Problem]:
             near = [name for name in known if name.startswith(anchor[:4])] or list(known)
             repair = f"write {file}#{guess}" if guess else "correct the anchor"
             yield case.problem(("manual", index), found, f"an anchor: {listed(near)}", repair)
-
-
-def _slug(text: str) -> str:
-    """An anchor as Sphinx writes it."""
-    return re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-")

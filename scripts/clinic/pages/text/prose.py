@@ -6,7 +6,9 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import TypeVar
 
-from clinic.pages.text.formula import FormulaError, mathml
+import latex2mathml.converter
+
+from clinic.pages.text.markup import escaped
 from clinic.proof.evidence import Evidence
 from clinic.proof.prose_laws import prose_of
 from clinic.record.case import Case
@@ -14,11 +16,12 @@ from clinic.record.problem import Problem, closest, listed
 from clinic.record.prose import CODE, CONVERSIONS, FIELD, FORMULA, quantity
 
 T = TypeVar("T")
+LONG_ENOUGH = 150  # characters
 PARTS = re.compile(f"{CODE.pattern}|{FORMULA.pattern}|(?P<tag><)", re.DOTALL | re.MULTILINE)
 
 
-class FieldError(ValueError):
-    """A template field that resolves to nothing: what was found, expected, and the repair."""
+class ProseError(ValueError):
+    """A field that resolves to nothing, or a formula that cannot be set: what was found, expected, and the repair."""
 
     def __init__(self, found: str, expected: str, repair: str) -> None:
         self.found, self.expected, self.repair = found, expected, repair
@@ -32,27 +35,47 @@ def markdown(text: str, evidence: Evidence) -> str:
     """The prose with its fields filled and its formulas as MathML; a `<` outside code is shown.
 
     Raises:
-        FieldError: For the first field that resolves to nothing.
-        FormulaError: For the first formula that cannot be set.
+        ProseError: For the first field that resolves to nothing, or formula that cannot be set.
     """
     return PARTS.sub(_part, fill(text, evidence))
 
 
 def _part(match: re.Match[str]) -> str:
     if match["block"]:
-        return f'\n\n<div class="formula">{mathml(match["block"], "block")}</div>\n\n'
+        return f'\n\n<div class="formula">{_mathml(match["block"], "block")}</div>\n\n'
     if match["inline"]:
-        return mathml(match["inline"], "inline")
+        return _mathml(match["inline"], "inline")
     return match["code"] or "&lt;"
+
+
+def _mathml(formula: str, display: str) -> str:
+    """The formula as a `block` or `inline`, with nothing in it that Markdown would take for its own."""
+    formula = " ".join(formula.split())
+    try:
+        return escaped(latex2mathml.converter.convert(formula, display=display))
+    except Exception as error:  # the converter raises many kinds
+        repair = "correct it; in text write \\lt for < and a formula's braces in pairs"
+        raise ProseError(f"${formula}$: {str(error) or type(error).__name__}", "a LaTeX formula", repair) from None
 
 
 def fill(text: str, evidence: Evidence) -> str:
     """The text with every `{{ field | filter }}` replaced.
 
     Raises:
-        FieldError: For the first field that resolves to nothing.
+        ProseError: For the first field that resolves to nothing.
     """
     return FIELD.sub(lambda match: resolve(match[1], evidence), text)
+
+
+def opening(case: Case, evidence: Evidence) -> str:
+    """The first sentences of the symptom, until they are long enough to say something."""
+    words = " ".join(fill(case.record.symptom, evidence).replace("`", "").split())
+    kept = ""
+    for sentence in re.split(r"(?<=[.?!]) ", words):
+        kept = f"{kept} {sentence}".strip()
+        if len(kept) >= LONG_ENOUGH:
+            break
+    return kept
 
 
 def prose_problems(case: Case, evidence: Evidence) -> Iterator[Problem]:
@@ -64,21 +87,21 @@ def prose_problems(case: Case, evidence: Evidence) -> Iterator[Problem]:
             yield case.problem(where, error.found, error.expected, error.repair, quoted)
 
 
-def mistakes(text: str, evidence: Evidence) -> Iterator[FieldError | FormulaError]:
+def mistakes(text: str, evidence: Evidence) -> Iterator[ProseError]:
     """Every field of the text that is not closed or resolves to nothing, and every formula that cannot be set."""
     for match in FIELD.finditer(text):
         try:
             resolve(match[1], evidence)
-        except FieldError as error:
+        except ProseError as error:
             yield error
     filled = FIELD.sub("1", text)
     if (begun := filled.find("{{")) >= 0:
         opened = filled[begun:].partition("\n")[0]
-        yield FieldError(opened[:40], "a field that is closed: {{ ... }}", "close it with }}")
+        yield ProseError(opened[:40], "a field that is closed: {{ ... }}", "close it with }}")
     for match in PARTS.finditer(filled):
         try:
             _part(match)
-        except FormulaError as error:
+        except ProseError as error:
             yield error
 
 
@@ -86,12 +109,12 @@ def resolve(field: str, evidence: Evidence) -> str:
     """The text for one field, such as `broken.height.final | mm`.
 
     Raises:
-        FieldError: If it resolves to nothing.
+        ProseError: If it resolves to nothing.
     """
     name, *filters = (part.strip() for part in field.split("|"))
     value, unit = _measured(name, evidence)
     if value is None:
-        raise FieldError(f"{{{{ {name} }}}}", "what the run measured", "name something else, or remove the field")
+        raise ProseError(f"{{{{ {name} }}}}", "what the run measured", "name something else, or remove the field")
     return value if isinstance(value, str) else _shown(name, value, unit, filters)
 
 
@@ -132,7 +155,7 @@ def _shown(name: str, value: float, unit: str, filters: list[str]) -> str:
         else:
             fitting = [key for key, (source, _, _) in CONVERSIONS.items() if source == unit]
             expected = f"{listed([*fitting, '2', '3'])}, ...: the digits to keep"
-            raise FieldError(f"the filter {conversion} on {name} in {unit or 'no unit'}", expected, "change the filter")
+            raise ProseError(f"the filter {conversion} on {name} in {unit or 'no unit'}", expected, "change the filter")
     return quantity(value, unit, digits)
 
 
@@ -141,4 +164,4 @@ def _known(name: str, word: str, known: Mapping[str, T], kind: str) -> T:
         return known[word]
     guess = closest(word, known)
     repair = f"write {guess}" if guess else "correct the field"
-    raise FieldError(f"{{{{ {name} }}}}: {word or 'nothing'} is no {kind}", f"a {kind}: {listed(known, 20)}", repair)
+    raise ProseError(f"{{{{ {name} }}}}: {word or 'nothing'} is no {kind}", f"a {kind}: {listed(known, 20)}", repair)

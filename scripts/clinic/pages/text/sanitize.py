@@ -6,8 +6,6 @@ web, no picture from another host.
 
 from __future__ import annotations
 
-from typing import Any
-
 import nh3
 from markdown import Markdown
 from markdown.extensions import Extension
@@ -61,11 +59,8 @@ class _Last(Postprocessor):  # type: ignore[misc]
         return sanitized(text)
 
 
-class _Sanitize(Extension):  # type: ignore[misc]
-    def extendMarkdown(self, md: Markdown) -> None:  # noqa: N802
+class Sanitize(Extension):  # type: ignore[misc]
+    """The extension: after all others, it cleans what they made."""
+
+    def extendMarkdown(self, md: Markdown) -> None:  # noqa: D102, N802
         md.postprocessors.register(_Last(md), "sanitize", -100)
-
-
-def makeExtension(**options: Any) -> Extension:  # noqa: N802
-    """What Python-Markdown calls."""
-    return _Sanitize(**options)

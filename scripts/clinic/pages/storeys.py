@@ -62,8 +62,8 @@ def _picture(rows: dict[str, list[str]], imports: Counter[tuple[str, str]]) -> I
     for folder, lines in rows.items():
         tops[folder], y = y, y + ROW * (len(lines) + 2)
     wide = BOX + LANE * len(folders)
-    yield f'<div><svg viewBox="0 0 {wide} {y}" style="max-width: 30rem" width="100%" role="img" {FONT}>'
-    yield f"<title>The storeys {', '.join(folders)}: each imports only from those before it.</title>"
+    said = f"The storeys {', '.join(folders)}: each imports only from those before it."
+    yield f'<div class="storeys"><svg viewBox="0 0 {wide} {y}" width="100%" role="img" aria-label="{said}" {FONT}>'
     for folder, lines in rows.items():
         yield f'<rect x="1" y="{tops[folder]}" width="{BOX}" height="{ROW * (len(lines) + 1) + 8}" rx="4" {LINE}/>'
         for k, line in enumerate([folder, *lines], start=1):

@@ -20,7 +20,8 @@ MATHML_ATTRIBUTES = (
     "lspace mathbackground mathcolor mathsize mathvariant maxsize minsize movablelimits notation rowlines rowspacing "
     "rspace scriptlevel separator stretchy voffset width"
 )
-TAGS = nh3.ALLOWED_TAGS | {*MATHML.split(), "button", "section", "source", "video"}
+DRAWN = "d fill font-family font-size font-weight height role rx stroke stroke-opacity viewBox width x y"
+TAGS = nh3.ALLOWED_TAGS | {*MATHML.split(), "button", "section", "source", "video", "svg", "path", "rect", "text"}
 ATTRIBUTES = {
     "*": {"class", "hidden", "id", "title"},
     "a": {"href", "name", "tabindex"},
@@ -32,6 +33,7 @@ ATTRIBUTES = {
     "th": {"style"},
     "video": {"controls", "height", "muted", "playsinline", "poster", "preload", "width"},
     **{key: set(MATHML_ATTRIBUTES.split()) for key in MATHML.split()},
+    **{key: set(DRAWN.split()) for key in ("svg", "path", "rect", "text")},
 }
 
 

@@ -52,7 +52,7 @@ def _script_problems(case: Case) -> Iterator[Problem]:
     """The signals of a code case that are no printed number, and what does not fit its picture's scene."""
     for name, signal in case.record.signals.items():
         path = signal.path if isinstance(signal, PathSignal) else "a measure of a model"
-        if not isinstance(signal, ExpressionSignal) and not re.fullmatch(r"\s*printed\([^()]+\)\s*", path):
+        if not isinstance(signal, ExpressionSignal) and not re.fullmatch(r"printed\([^()]+\)", path):
             expected = "`path: printed(name)` or `expr`: this case is a script"
             yield case.problem(("signals", name), path, expected, "let the script print it")
     if (scene := case.record.picture.scene) is not None:

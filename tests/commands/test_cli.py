@@ -66,7 +66,7 @@ def test_check_of_a_case_that_breaks_a_law(project: Path) -> None:
     assert result.stderr.splitlines() == [
         "cases/odd-script/case.yaml:15: checks.broken",
         "  found:    no-error: passes every check",
-        "  expected: a check that the repair fails",
+        "  expected: a check that it fails",
         "  repair:   tighten one",
         "cases/odd-script/case.yaml:16: checks.broken[0]",
         "  found:    broken: error (final) = 0.500000\u00a0m",

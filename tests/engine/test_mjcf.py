@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from clinic.engine.mjcf import ModelError, check_text
-from helpers import MODEL, SCRIPT_RECORD, changed, only_problem, write_case, write_folder
+from helpers import MODEL, changed, only_problem, write_case
 
 NAMES_A_FILE = [
     pytest.param('<include file="../other/model.xml"/>', id="include"),
@@ -48,16 +48,3 @@ def test_an_edit_that_names_a_file(tmp_path: Path, element: str) -> None:
     assert told.where == "refuted[0].edits"
     assert told.found.startswith("after these edits: <")
     assert told.expected == "a model in one file"
-
-
-@pytest.mark.parametrize("name", ["../pendulum.xml", "absent.xml"])
-def test_a_scene_of_a_script_that_names_a_file_elsewhere(tmp_path: Path, name: str) -> None:
-    files = {
-        "case.yaml": SCRIPT_RECORD.replace("script: script.py", "script: script.py\nfiles: [a.xml, b.xml]"),
-        "script.py": "print('error = 0.5')\n",
-        "a.xml": '<mujoco>\n  <include file="b.xml"/>\n</mujoco>',
-        "b.xml": f'<mujocoinclude>\n\n  <include file="{name}"/>\n</mujocoinclude>',
-    }
-    told = only_problem(write_folder(tmp_path, "odd-script", files))
-    assert (told.file, told.line) == ("cases/odd-script/b.xml", 3)
-    assert told.expected == "a file of the folder: a.xml, b.xml, script.py"

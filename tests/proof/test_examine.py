@@ -30,8 +30,8 @@ def test_nothing_is_said_of_a_valid_case(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("signal", "where"),
     [
-        pytest.param(STARTS.format("fre", 2), "signals.contacts.joint", id="joint-of-starts"),
-        pytest.param(STARTS.format("free", 7), "signals.contacts.index", id="index-of-starts"),
+        pytest.param(STARTS.format("fre", 2), "signals.contacts", id="joint-of-starts"),
+        pytest.param(STARTS.format("free", 7), "signals.contacts", id="index-of-starts"),
         pytest.param(
             "{measure: image_row, camera: top, geom: box}", "signals.contacts.camera", id="camera-of-an-image"
         ),
@@ -53,14 +53,14 @@ def test_every_kind_of_problem_is_reported_at_once(tmp_path: Path) -> None:
         ("{duration: 0.4}", "{duration: 0.4, keyframe: throw}"),
         ("camera: side", "camera: top"),
     )
-    assert places(case) == ["run.keyframe", "signals.height.path", "signals.contacts.path", "picture.camera"]
+    assert places(case) == ["run.keyframe", "signals.height", "signals.contacts", "picture.camera"]
 
 
 def test_unmatched_edits_are_reported_with_bad_paths(tmp_path: Path) -> None:
     case = tiny_case(
         tmp_path, ("{path: ncon}", "{path: 'ncon('}"), ("find: 'timestep=\"0.002\"'", "find: 'timestep=\"0.01\"'")
     )
-    assert places(case) == ["signals.contacts.path", "refuted[0].edits[0].find"]
+    assert places(case) == ["signals.contacts", "refuted[0].edits[0].find"]
 
 
 def test_a_mistake_in_the_model_is_reported_once_although_every_variant_has_it(tmp_path: Path) -> None:
@@ -74,7 +74,7 @@ def test_a_remedy_may_bring_the_name_that_the_broken_model_lacks_but_not_only_it
         ("body(box).xpos[2]", "site(tip).xpos[2]"),
         ("replace: 'timestep=\"0.001\"'", 'replace: \'timestep="0.001"/><size nuserdata="1"\''),
     )
-    assert places(case) == ["signals.height.path"]
+    assert places(case) == ["signals.height"]
 
 
 @pytest.mark.parametrize(

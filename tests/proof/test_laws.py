@@ -9,7 +9,7 @@ import pytest
 from clinic.proof.evidence import collect
 from clinic.proof.laws import LAWS, breaches
 from clinic.proof.robustness import robustness
-from clinic.proof.sweep import grid, measure_points, summarise
+from clinic.proof.sweep import measure_sweep
 from clinic.record.case import Case
 from clinic.record.problem import Problem
 from helpers import MODEL, RECORD, SWEEP, changed, script_case, tiny_case
@@ -37,18 +37,16 @@ EXPLOSIVE = (
 )
 HEIGHT = f"checks.fixed[0]: share-a-bit: height (final) = N{SPACE}m; expected"
 WRONG = "correct the bound, the edits, or the model"
-LAX_FIX = "checks.broken: share-a-bit: passes every check; expected a check that the repair fails; tighten one"
-LAX_REFUTED = (
-    "refuted[0]: passes every check of `fixed`; expected a refuted remedy that fails one; move it to `fixes`, or "
-    "tighten a check"
-)
+PASSES = "passes every check; expected a check that it fails"
+LAX_FIX = f"checks.broken: share-a-bit: {PASSES}; tighten one"
+LAX_REFUTED = f"checks.fixed: small-step: {PASSES}; move it to `fixes`, or tighten one"
 SPARE = "alone repairs it; expected edits of which none can be spared; drop the other edits, or say why in `redundant`"
 SMALL = "changed lines; expected 1 to 5; change the lines that matter, and no others"
 
 
 def told(case: Case, law: str) -> list[str]:
     """What is said of the breaches, `N` in place of a measured number."""
-    sweeps = {key: summarise(case, s, measure_points(case, s, grid(s))) for key, s in case.record.sweep.items()}
+    sweeps = {name: measure_sweep(case, name) for name in case.record.sweep}
     robust = robustness(case) if case.record.run and law in ("lasting", "steady") else {}
     evidence = collect(case).model_copy(update={"sweep": sweeps, "robustness": robust})
     return [re.sub(r"= [\u2212.\d]+\u00a0", f"= N{SPACE}", said(each)) for each in breaches(case, evidence, law)]
@@ -84,7 +82,7 @@ def test_a_breach_tells_file_and_line(tmp_path: Path) -> None:
             "verdicts",
             [("between: [0.045, 0.051]", "below: 0.045")],
             [
-                "checks.fixed: broken: passes every check; expected a check that the broken variant fails; tighten one",
+                f"checks.fixed: broken: {PASSES}; tighten one",
                 f"{HEIGHT} below 0.045 m; {WRONG}",
                 LAX_REFUTED,
             ],
@@ -190,7 +188,7 @@ def test_a_breach_tells_file_and_line(tmp_path: Path) -> None:
             "swept",
             [SWEPT],
             [
-                "sweep.fall.rivals[0]: textbook: never misses; expected a rival that misses somewhere; remove it, or "
+                "sweep.fall.rivals: textbook: never misses; expected a rival that misses somewhere; remove it, or "
                 "choose points that can tell"
             ],
             id="a-rival-that-never-misses",

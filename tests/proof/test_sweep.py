@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from clinic.proof.sweep import grid, measure_points, numbers, substituted, summarise
+from clinic.proof.sweep import grid, measure_sweep, numbers, substituted, summarise
 from clinic.record.case import Case
 from clinic.record.problem import CaseError, Problem
 from clinic.record.sweep import Parameter
@@ -26,10 +26,7 @@ def test_numbers_are_spaced_as_asked() -> None:
 
 
 def test_an_exact_prediction_agrees_and_the_textbook_misses_where_it_matters(tmp_path: Path) -> None:
-    case = falling(tmp_path)
-    sweep = case.record.sweep["fall"]
-
-    found = summarise(case, sweep, measure_points(case, sweep, grid(sweep)))
+    found = measure_sweep(falling(tmp_path), "fall")
 
     assert found.agreement["prediction"].wrong == 0
     assert found.agreement["prediction"].worst == pytest.approx(0, abs=1e-12)
@@ -44,12 +41,9 @@ def test_a_yes_or_no_is_judged_off_the_line(tmp_path: Path) -> None:
         ("0.06 - g * 0.4 * 0.398 / 2, within: 1.0e-9, relative: false", "'4', within: 0.01"),
         ("0.06 - g * 0.4 ** 2 / 2, within: 0.005, relative: false", "'1.5', within: 0.01"),
     )
-    sweep = case.record.sweep["fall"]
-    points = measure_points(case, sweep, grid(sweep))
+    found = measure_sweep(case, "fall")
 
-    found = summarise(case, sweep, points)
-
-    assert [point.holds for point in points] == [True, True, False, False]
+    assert [point.holds for point in found.points] == [True, True, False, False]
     assert (found.agreement["prediction"].judged, found.agreement["prediction"].wrong) == (3, 0)
     assert (found.agreement["textbook"].judged, found.agreement["textbook"].wrong) == (4, 1)
     assert found.agreement["textbook"].good_from == 4
@@ -92,26 +86,24 @@ def test_the_points_are_as_many_as_the_sweep_says(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "where", "found"),
+    ("change", "found"),
     [
         pytest.param(
             ("find: '<option timestep=\"0.002\"/>'", "find: '<opt '"),
-            "sweep.fall.vary[0].find",
-            "text that occurs 0 times in the text of broken",
+            "at g = 1: '<opt ' occurs 0 times in the text of broken",
             id="nowhere",
         ),
         pytest.param(
             ('gravity="0 0 -{}"', 'gravity="x{}"'),
-            "sweep.fall.vary",
             "at g = 1: XML Error: bad format in attribute 'gravity'",
             id="no-model",
         ),
     ],
 )
-def test_a_text_that_cannot_be_made_or_run(tmp_path: Path, change: tuple[str, str], where: str, found: str) -> None:
+def test_a_text_that_cannot_be_made_or_run(tmp_path: Path, change: tuple[str, str], found: str) -> None:
     case = falling(tmp_path, change)
-    told = refused(lambda: measure_points(case, case.record.sweep["fall"], [{"g": 1.0}]))
-    assert told.where == where
+    told = refused(lambda: measure_sweep(case, "fall"))
+    assert told.where == "sweep.fall"
     assert told.found.startswith(found)
 
 
@@ -123,15 +115,14 @@ def refused(act: Callable[[], object]) -> Problem:
     return found
 
 
-@pytest.mark.parametrize(("name", "where"), [("prediction", "prediction"), ("rivals", "rivals[0]")])
-def test_a_prediction_that_cannot_be_computed_is_told(tmp_path: Path, name: str, where: str) -> None:
+@pytest.mark.parametrize("name", ["prediction", "rivals"])
+def test_a_prediction_that_cannot_be_computed_is_told(tmp_path: Path, name: str) -> None:
     case = falling(tmp_path)
     sweep = case.record.sweep["fall"]
     form = sweep.prediction if name == "prediction" else sweep.rivals[0]
     wrong = form.model_copy(update={"expr": "servo_sag(-1, g)"})
     sweep = sweep.model_copy(update={name: wrong if name == "prediction" else [wrong]})
     case = replace(case, record=case.record.model_copy(update={"sweep": {"fall": sweep}}))
-    told = refused(lambda: measure_points(case, sweep, grid(sweep)))
-    assert told.where == f"sweep.fall.{where}.expr"
-    assert told.found.startswith("servo_sag(-1, g) with g = ")
+    told = refused(lambda: measure_sweep(case, "fall"))
+    assert (told.where, told.found) == ("sweep.fall", "at g = 1: servo_sag(-1, g)")
     assert told.expected == "numbers that servo_sag can take: kp above 0 and a load of 0 or more"

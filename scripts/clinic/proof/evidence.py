@@ -24,6 +24,7 @@ from clinic.record.case import Case
 from clinic.record.fields import Check, PathSignal, RowSignal
 from clinic.record.parts import Strict
 from clinic.record.problem import CaseError, LackError, Problem, listed
+from clinic.record.yaml_lines import Where
 
 MAX_SAMPLES = 400
 
@@ -111,17 +112,15 @@ def collect(case: Case) -> Evidence:
     examine(case)
     if missing := lack(case):
         raise LackError(f"case {case.record.number} is not measured: {missing.found}")
-    package, version = engine(case)
     observed: dict[str, VariantEvidence] = {}
     problems: list[Problem] = []
     for variant in variants(case):
         try:
             observed[variant.id] = observe(case, variant)
         except ScriptError as error:
-            edited = (*place_of(case, variant.id), "edits") if variant.edits else ()
-            found = f"{case.record.source}{' after these edits' if edited else ''}: {error.found}"
-            expected = "a script that ends by itself"
-            problems.append(case.problem(edited or ("script",), found, expected, error.repair))
+            where: Where = (*place_of(case, variant.id), "edits") if variant.edits else ("script",)
+            found, expected = f"{variant.id}: {error.found}", "a script that ends by itself"
+            problems.append(case.problem(where, found, expected, error.repair))
         except RunError as error:
             problems.append(case.problem(error.where, error.found, error.expected, error.repair))
     problems += _unprinted(case, observed)
@@ -134,11 +133,12 @@ def collect(case: Case) -> Evidence:
             problems.append(case.problem(("snippet",), error.found, "code that runs as it stands", error.repair))
     if problems:
         raise CaseError(problems)
+    in_node = case.record.language == "javascript"
     return Evidence(
         case=case.slug,
         number=case.record.number,
-        engine=version,
-        package=package,
+        engine=(node.version(node.MUJOCO) or "") if in_node else mujoco.__version__,
+        package=node.MUJOCO if in_node else "mujoco",
         snippet=snippet,
         variants=observed,
     )
@@ -160,13 +160,6 @@ def needs_images(case: Case) -> bool:
     """Whether images are drawn while the case is measured: for a signal, in the script or in the snippet."""
     code = case.text + (case.record.snippet or "")
     return "Renderer(" in code or any(isinstance(signal, RowSignal) for signal in case.record.signals.values())
-
-
-def engine(case: Case) -> tuple[str, str]:
-    """The package that brings MuJoCo to the case's source, and its version."""
-    if case.record.language == "python":
-        return "mujoco", mujoco.__version__
-    return node.MUJOCO, node.version(node.MUJOCO) or "not installed"
 
 
 def observe(case: Case, variant: Variant) -> VariantEvidence:
@@ -196,8 +189,7 @@ def observe(case: Case, variant: Variant) -> VariantEvidence:
 
 def samples(trace: Trace, unit: str) -> Samples:
     """The trace thinned to MAX_SAMPLES; a constant one to its two ends."""
-    n = len(trace.value)
-    constant = n > 2 and bool(np.all(trace.value == trace.value[0]))
+    n, constant = len(trace.value), len(set(trace.value)) == 1
     chosen = np.unique(np.linspace(0, n - 1, min(n, 2 if constant else MAX_SAMPLES)).round().astype(int))
     return Samples(
         unit=unit,
@@ -211,11 +203,10 @@ def _unprinted(case: Case, observed: dict[str, VariantEvidence]) -> Iterator[Pro
     if case.record.script is None or not observed:
         return
     swept = {name for sweep in case.record.sweep.values() for name in names_read(sweep)}
-    printed = sorted({key for variant in observed.values() for key in Output(variant.output or "").traces()})
+    printed = {f"printed({key})" for variant in observed.values() for key in Output(variant.output or "").traces()}
     for name, signal in case.record.signals.items():
-        seen = any(variant.values[name]["final"] is not None for variant in observed.values())
-        if isinstance(signal, PathSignal) and not seen and name not in swept:
-            found, expected = f"{signal.path}, which no variant prints", f"printed(...) of: {listed(printed)}"
+        if isinstance(signal, PathSignal) and signal.path not in printed and name not in swept:
+            found, expected = f"{signal.path}, which no variant prints", f"printed(...) of: {listed(sorted(printed))}"
             repair = "correct the name, or print `name = value` on a line of its own"
             yield case.problem(("signals", name, "path"), found, expected, repair)
 

@@ -8,12 +8,12 @@ from dataclasses import replace
 
 import mujoco
 
-from clinic.engine.mjcf import ModelError, check_text
-from clinic.engine.signals import SignalError, bind, element_names, missing_element, parse_path
+from clinic.engine.mjcf import ModelError
+from clinic.engine.signals import SignalError, bind, missing_element, parse_path
 from clinic.engine.simulate import RunError, compile_model, controls, initial_data, step_count
-from clinic.engine.variant import Variant, place_of, variants
+from clinic.engine.variant import BROKEN, Variant, place_of, variants
 from clinic.record.case import Case
-from clinic.record.fields import PathSignal, Record, RowSignal, StartsSignal
+from clinic.record.fields import ExpressionSignal, PathSignal, RowSignal, StartsSignal
 from clinic.record.problem import CaseError, Problem
 from clinic.record.yaml_lines import Where
 
@@ -24,29 +24,15 @@ def examine(case: Case) -> None:
     Raises:
         CaseError: With all problems found; each names a variant only once.
     """
-    texts = ((name, text) for name, text in case.texts.items() if name.endswith(".xml"))
-    problems = [problem for name, text in texts for problem in _text_problems(case, name, text)]
-    if problems:
-        raise CaseError(problems)
-    problems = list(_path_problems(case))
+    problems: list[Problem] = []
     try:
         made = variants(case)
     except CaseError as error:
-        raise CaseError([*problems, *error.problems]) from None
-    if case.record.run is not None:
-        problems += _model_problems(case, made)
-    elif case.record.picture.scene is not None:
-        problems += _scene_problems(case, case.record.picture.scene)
+        problems += error.problems
+        made = [Variant("broken", BROKEN, "", (), case.text)]
+    problems += _script_problems(case) if case.record.run is None else _model_problems(case, made)
     if problems:
         raise CaseError(problems)
-
-
-def _text_problems(case: Case, name: str, text: str) -> Iterator[Problem]:
-    """The first mistake in the text of an XML file; that of a script's scene may name the files beside it."""
-    try:
-        check_text(text, () if case.record.model else case.texts)
-    except ModelError as error:
-        yield Problem(f"cases/{case.slug}/{name}", error.line, "", error.found, error.expected, error.repair)
 
 
 def _model_problems(case: Case, made: list[Variant]) -> list[Problem]:
@@ -62,32 +48,21 @@ def _model_problems(case: Case, made: list[Variant]) -> list[Problem]:
     return list(problems.values())
 
 
-def _scene_problems(case: Case, scene: str) -> Iterator[Problem]:
-    try:
-        model = compile_model(case.texts[scene])
-    except ValueError as error:
-        yield _compile_problem(case, scene, (), error)
-        return
-    if missing := missing_element(model, "camera", case.record.picture.camera):
-        yield case.problem(("picture", "camera"), *missing)
-
-
-def _path_problems(case: Case) -> Iterator[Problem]:
-    """The signals' paths that cannot be read, and in a code case the signals that are no printed number."""
+def _script_problems(case: Case) -> Iterator[Problem]:
+    """The signals of a code case that are no printed number, and what does not fit its picture's scene."""
     for name, signal in case.record.signals.items():
-        if isinstance(signal, PathSignal):
-            where: Where = ("signals", name, "path")
-            try:
-                path = parse_path(signal.path)
-            except SignalError as error:
-                yield case.problem(where, error.found, error.expected, error.repair)
-                continue
-            if case.record.script and path.kind != "printed":
-                expected = "printed(name): this case is a script"
-                yield case.problem(where, signal.path, expected, "let the script print it")
-        elif case.record.script and isinstance(signal, StartsSignal | RowSignal):
-            expected = "`path: printed(...)` or `expr`"
-            yield case.problem(("signals", name), "a measure of a model", expected, "print it")
+        path = signal.path if isinstance(signal, PathSignal) else "a measure of a model"
+        if not isinstance(signal, ExpressionSignal) and not re.fullmatch(r"printed\([^()]+\)", path):
+            expected = "`path: printed(name)` or `expr`: this case is a script"
+            yield case.problem(("signals", name), path, expected, "let the script print it")
+    if (scene := case.record.picture.scene) is not None:
+        try:
+            model = compile_model(case.texts[scene])
+        except ValueError as error:
+            yield _compile_problem(case, scene, (), error)
+            return
+        if missing := missing_element(model, "camera", case.record.picture.camera):
+            yield case.problem(("picture", "camera"), *missing)
 
 
 def _variant_problems(case: Case, variant: Variant) -> Iterator[Problem]:
@@ -106,30 +81,23 @@ def _variant_problems(case: Case, variant: Variant) -> Iterator[Problem]:
             yield case.problem(error.where, error.found, error.expected, error.repair)
     data = mujoco.MjData(model)
     for name, signal in record.signals.items():
-        if isinstance(signal, PathSignal):
-            try:
+        try:
+            if isinstance(signal, PathSignal):
                 bind(parse_path(signal.path), model, data)
-            except SignalError as error:
-                yield case.problem(("signals", name, "path"), error.found, error.expected, error.repair)
-        elif isinstance(signal, StartsSignal) and signal.joint in element_names(model, "joint"):
-            size = len(data.joint(signal.joint).qpos)
-            if signal.index >= size:
-                found, expected = f"index {signal.index} of {signal.joint}", f"an index below {size}"
-                yield case.problem(("signals", name, "index"), found, expected, "correct the index")
-    for where, kind, element in _elements_named(record):
+            elif isinstance(signal, StartsSignal):
+                bind(parse_path(f"joint({signal.joint}).qpos[{signal.index}]"), model, data)
+        except SignalError as error:
+            yield case.problem(("signals", name), error.found, error.expected, error.repair)
+    named: list[tuple[Where, str, str]] = [(("picture", "camera"), "camera", record.picture.camera)]
+    if record.film is not None and record.film.camera is not None:
+        named.append((("film", "camera"), "camera", record.film.camera))
+    for name, signal in record.signals.items():
+        if isinstance(signal, RowSignal):
+            named.append((("signals", name, "camera"), "camera", signal.camera))
+            named.append((("signals", name, "geom"), "geom", signal.geom))
+    for where, kind, element in named:
         if missing := missing_element(model, kind, element):
             yield case.problem(where, *missing)
-
-
-def _elements_named(record: Record) -> Iterator[tuple[Where, str, str]]:
-    """The place, kind and name of every element that a measure, the picture or the film names."""
-    for name, signal in record.signals.items():
-        for kind in ("joint", "camera", "geom"):
-            if isinstance(signal, StartsSignal | RowSignal) and hasattr(signal, kind):
-                yield ("signals", name, kind), kind, getattr(signal, kind)
-    yield ("picture", "camera"), "camera", record.picture.camera
-    if record.film is not None and record.film.camera is not None:
-        yield ("film", "camera"), "camera", record.film.camera
 
 
 def _compile_problem(case: Case, name: str, place: Where, error: ValueError) -> Problem:

@@ -10,13 +10,14 @@ from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from functools import partial
 
 from pydantic import TypeAdapter
+from pydantic_core import to_json
 
 from clinic.engine import node
 from clinic.engine.signals import SignalError
 from clinic.proof.evidence import Evidence, collect, lack
-from clinic.proof.lookalike import Matrix, group, matrix, unclear
+from clinic.proof.lookalike import Matrix, matrix, unclear
 from clinic.proof.robustness import Robustness, robustness
-from clinic.proof.sweep import Point, grid, measure_points, summarise
+from clinic.proof.sweep import SweepEvidence, measure_sweep
 from clinic.record.case import Case
 from clinic.record.problem import CaseError, Problem
 from clinic.work.cache import Cache, Files, key_of
@@ -25,27 +26,24 @@ from clinic.work.task import Task, run_tasks
 EVIDENCE = "evidence.json"
 WORDS = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "no_sweep"}
 WORDS |= {"tags", "phrases", "looks", "manual", "see", "alike", "exempt"}
-SLICE = 60  # points of a sweep in one task
-POINTS = TypeAdapter(list[Point])
 ROBUST = TypeAdapter(dict[str, Robustness])
 
 
-def measure_cases(cases: Iterable[Case], cache: Cache) -> tuple[dict[str, Files], list[Problem]]:
+def measure_cases(
+    cases: Iterable[Case], cache: Cache, kinds: Container[str] = ("sweeps", "robustness")
+) -> tuple[dict[str, Files], list[Problem]]:
     """The file EVIDENCE of every case that can be run, by slug, and the problems of the others.
 
-    A case has neither on a machine that lacks what its runs need.
+    A case has neither on a machine that lacks what its runs need. Beside the variants, what is of `kinds` is run.
     """
     cases = sorted(cases, key=lambda case: case.record.run is not None)  # what takes long goes first, not last
     first, problems = run_tasks([evidence_task(case) for case in cases], cache)
     cases = [case for case in cases if EVIDENCE in first.get(case.slug, {})]
-    measuring = [task for case in cases for task in measuring_tasks(case)]
+    measuring = [task for case in cases for task in measuring_tasks(case) if task.kind in kinds]
     rest, more = run_tasks(sorted(measuring, key=lambda task: task.kind), cache)
     failed = {task.slug for task in measuring} - rest.keys()
-    made: dict[str, Files] = {}
-    for case in cases:
-        if case.slug not in failed:
-            made[case.slug] = assembled(case, first[case.slug], rest.get(case.slug, {}))
-    return made, problems + more
+    sound = [case for case in cases if case.slug not in failed]
+    return {c.slug: assembled(c, first[c.slug], rest.get(c.slug, {})) for c in sound}, problems + more
 
 
 def measure_case(case: Case, cache: Cache, kinds: Container[str] = ("sweeps", "robustness")) -> Evidence:
@@ -54,9 +52,7 @@ def measure_case(case: Case, cache: Cache, kinds: Container[str] = ("sweeps", "r
     Raises:
         CaseError: If the case cannot be run, on this machine or on any.
     """
-    first = of_one(case, *run_tasks([evidence_task(case)], cache))
-    tasks = [task for task in measuring_tasks(case) if task.kind in kinds]
-    return evidence_of(assembled(case, first, of_one(case, *run_tasks(tasks, cache))) if tasks else first)
+    return evidence_of(of_one(case, *measure_cases([case], cache, kinds)))
 
 
 def of_one(case: Case, made: Mapping[str, Files], problems: Iterable[Problem]) -> Files:
@@ -77,25 +73,22 @@ def evidence_of(files: Files) -> Evidence:
 
 def evidence_task(case: Case) -> Task:
     """Runs every variant and the snippet."""
-    return case_task(case, "evidence", partial(_collect, case))
+    return case_task(case, "evidence", partial(_json_file, EVIDENCE, collect, case))
 
 
 def measuring_tasks(case: Case) -> Iterator[Task]:
-    """Run what needs the variants to be sound: the sweeps in slices, and the variants from other starts."""
-    for name, sweep in case.record.sweep.items():
-        for k in range(0, len(grid(sweep)), SLICE):
-            yield case_task(case, "sweeps", partial(_slice, case, name, k), name, k)
+    """Run what needs the variants to be sound: the sweeps, and the variants from other starts."""
+    for name in case.record.sweep:
+        yield case_task(case, "sweeps", partial(_json_file, f"sweep-{name}.json", measure_sweep, case, name), name)
     if case.record.run is not None:
-        yield case_task(case, "robustness", partial(_robustness, case))
+        yield case_task(case, "robustness", partial(_json_file, "robustness.json", robustness, case))
 
 
 def assembled(case: Case, first: Files, rest: Files) -> Files:
     """The file EVIDENCE, whole, from the files of `evidence_task` and those of `measuring_tasks`."""
-    sweeps = {}
-    for name, sweep in case.record.sweep.items():
-        slices = [rest[_points_file(name, k)] for k in range(0, len(grid(sweep)), SLICE)]
-        sweeps[name] = summarise(case, sweep, [point for part in slices for point in POINTS.validate_json(part)])
-    robust = ROBUST.validate_json(rest["robustness.json"]) if "robustness.json" in rest else {}
+    files = {name: f"sweep-{name}.json" for name in case.record.sweep}
+    sweeps = {key: SweepEvidence.model_validate_json(rest[name]) for key, name in files.items() if name in rest}
+    robust = ROBUST.validate_json(rest.get("robustness.json", "{}"))
     whole = evidence_of(first).model_copy(update={"sweep": sweeps, "robustness": robust})
     return {EVIDENCE: f"{whole.model_dump_json()}\n".encode()}
 
@@ -120,29 +113,17 @@ def compare_alike(case: Case, cases: Mapping[str, Case], cache: Cache) -> tuple[
     """The measurements that tell a case from its look-alikes, None if it has none, and what they do not tell apart."""
     if case.record.alike is None:
         return None, []
-    members = group(case, cases)
+    named = [case, *(cases[slug] for slug in case.record.alike.cases)]
+    members = sorted(named, key=lambda member: member.record.number)
     asked = [[m.slug, m.text, m.record.model_dump(mode="json", include={"run", "alike"})] for m in members]
     key = key_of("alike", asked, of="proof")
     try:
-        files = cache.remember(key, lambda: {"matrix.json": matrix(members).model_dump_json().encode()})
+        files = cache.remember(key, partial(_json_file, "matrix.json", matrix, members))
     except SignalError as error:
         return None, [case.problem(("alike", "path"), error.found, error.expected, error.repair)]
     made = Matrix.model_validate_json(files["matrix.json"])
     return made, list(unclear(case, made))
 
 
-def _collect(case: Case) -> Files:
-    return {EVIDENCE: collect(case).model_dump_json().encode()}
-
-
-def _slice(case: Case, name: str, k: int) -> Files:
-    sweep = case.record.sweep[name]
-    return {_points_file(name, k): POINTS.dump_json(measure_points(case, sweep, grid(sweep)[k : k + SLICE]))}
-
-
-def _robustness(case: Case) -> Files:
-    return {"robustness.json": ROBUST.dump_json(robustness(case))}
-
-
-def _points_file(name: str, k: int) -> str:
-    return f"sweep-{name}-{k}.json"
+def _json_file(name: str, make: Callable[..., object], *of: object) -> Files:
+    return {name: to_json(make(*of))}

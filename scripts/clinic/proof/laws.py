@@ -10,12 +10,11 @@ from clinic.engine.checks import expected
 from clinic.engine.variant import Variant, apply_edits, changed_lines, place_of, variants
 from clinic.proof.evidence import Evidence, VariantEvidence, observe
 from clinic.proof.prose_laws import quoted, typed
-from clinic.proof.sweep import SweepEvidence, agreement, errors_at, with_names
+from clinic.proof.sweep import errors_at, with_names
 from clinic.record.case import Case
 from clinic.record.parts import Edit
 from clinic.record.problem import Problem, listed
 from clinic.record.prose import quantity
-from clinic.record.sweep import Sweep
 from clinic.record.yaml_lines import Where
 
 MAX_CHANGED_LINES = 5
@@ -29,13 +28,10 @@ def verdicts(case: Case, evidence: Evidence) -> Iterator[Problem]:
     for name, variant in evidence.variants.items():
         if variant.kind != "refuted":
             yield from _failing(case, name, variant, "broken" if variant.kind == "broken" else "fixed")
-        if variant.kind == "broken" and variant.well:
-            yield _too_loose(case, name, "fixed", "a check that the broken variant fails")
-        if variant.kind == "fix" and variant.broken:
-            yield _too_loose(case, name, "broken", "a check that the repair fails")
-        if variant.kind == "refuted" and variant.well:
-            found, wanted = "passes every check of `fixed`", "a refuted remedy that fails one"
-            yield case.problem(_place(case, name), found, wanted, "move it to `fixes`, or tighten a check")
+        kind = "broken" if variant.kind == "fix" else "fixed"
+        if variant.broken if kind == "broken" else variant.well:
+            repair = "move it to `fixes`, or tighten one" if variant.kind == "refuted" else "tighten one"
+            yield case.problem(("checks", kind), f"{name}: passes every check", "a check that it fails", repair)
 
 
 def ablation(case: Case, evidence: Evidence) -> Iterator[Problem]:
@@ -58,7 +54,7 @@ def small_edits(case: Case, evidence: Evidence) -> Iterator[Problem]:
     for variant in variants(case)[1:]:
         count = changed_lines(case.text, variant.text)
         if not 1 <= count <= MAX_CHANGED_LINES:
-            place, wanted = (*_place(case, variant.id), "edits"), f"1 to {MAX_CHANGED_LINES}"
+            place, wanted = (*place_of(case, variant.id), "edits"), f"1 to {MAX_CHANGED_LINES}"
             yield case.problem(place, f"{count} changed lines", wanted, "change the lines that matter, and no others")
 
 
@@ -67,7 +63,8 @@ def repeatable(case: Case, evidence: Evidence) -> Iterator[Problem]:
     for variant in variants(case):
         if observe(case, variant) != evidence.variants[variant.id]:
             found, wanted = f"{variant.id}: two runs that differ", "the same numbers from every run"
-            yield case.problem(_place(case, variant.id), found, wanted, "seed what is random, and bound loops by steps")
+            where, repair = place_of(case, variant.id) or ("checks",), "seed what is random, and bound loops by steps"
+            yield case.problem(where, found, wanted, repair)
 
 
 def warned(case: Case, evidence: Evidence) -> Iterator[Problem]:
@@ -76,12 +73,11 @@ def warned(case: Case, evidence: Evidence) -> Iterator[Problem]:
         raised, named = sorted(variant.warnings), sorted(case.record.warnings)
         if variant.kind == "fix" and raised:
             wanted, repair = "a fix that raises no warning", "repair the model until it is silent"
-            yield case.problem(_place(case, name), f"{name}: raises {listed(raised)}", wanted, repair)
+            yield case.problem(place_of(case, name), f"{name}: raises {listed(raised)}", wanted, repair)
         if variant.kind == "broken" and raised != named:
+            wanted = f"what the broken variant raises: {listed(raised)}"
             repair = f"write `warnings: [{', '.join(raised)}]`" if raised else "remove `warnings`"
-            yield case.problem(
-                ("warnings",), listed(named), f"what the broken variant raises: {listed(raised)}", repair
-            )
+            yield case.problem(("warnings",), listed(named), wanted, repair)
 
 
 def lasting(case: Case, evidence: Evidence) -> Iterator[Problem]:
@@ -90,7 +86,7 @@ def lasting(case: Case, evidence: Evidence) -> Iterator[Problem]:
         if robust.longer is False and evidence.variants[name].well:
             found = f"{name}: no longer holds after ten times the duration"
             repair = "repair what builds up, or say in `exempt: {lasting: ...}` why it must"
-            yield case.problem(_place(case, name), found, "a fix that holds", repair)
+            yield case.problem(place_of(case, name), found, "a fix that holds", repair)
 
 
 def steady(case: Case, evidence: Evidence) -> Iterator[Problem]:
@@ -99,36 +95,38 @@ def steady(case: Case, evidence: Evidence) -> Iterator[Problem]:
         if robust.same < robust.runs:
             found = f"{name}: keeps its verdict in {robust.same} of {robust.runs} slightly changed runs"
             repair = "widen a bound, or say in `exempt: {steady: ...}` why it must"
-            yield case.problem(_place(case, name), found, "the same verdict in all of them", repair)
+            where = place_of(case, name) or ("checks",)
+            yield case.problem(where, found, "the same verdict in all of them", repair)
 
 
 def swept(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """The cause is a law: each prediction agrees, moved by 5 % it does not, and rivals miss; or `no_sweep` says why."""
     record = case.record
     if bool(record.sweep) == (record.no_sweep is not None):
-        given = "both" if record.sweep else "neither"
-        yield case.problem(
-            ("sweep",), given, "`sweep`, or the reason why there is none in `no_sweep`", "give one of them"
-        )
+        given, wanted = "both" if record.sweep else "neither", "`sweep`, or the reason why there is none in `no_sweep`"
+        yield case.problem(("sweep",), given, wanted, "give one of them")
     for name, sweep in record.sweep.items():
-        where: Where = ("sweep", name)
-        found = evidence.sweep[name]
+        where: Where = ("sweep", name, "prediction")
+        found, telling = evidence.sweep[name], "choose points that can tell"
         own = found.agreement["prediction"]
         if own.judged == 0:
-            said, repair = "held against no point", "widen its `over`, or correct its `expr`"
-            yield case.problem((*where, "prediction"), said, "points that it can miss", repair)
+            repair = "widen its `over`, or correct its `expr`"
+            yield case.problem(where, "held against no point", "points that it can miss", repair)
         if own.wrong:
-            said = f"misses {own.wrong} of {own.judged} points" + _worst(sweep, found)
-            yield case.problem((*where, "prediction"), said, "a prediction that misses none", "correct its `expr`")
-        telling = "choose points that can tell"
+            point, _ = max(errors_at(sweep, "prediction", found.points), key=lambda each: each[1])
+            seen = "nothing" if point.outcome is None else f"{point.outcome:.4g}"
+            worst = f"{with_names(point.at)}: it says {point.predicted['prediction']:.4g}, and {seen} is measured"
+            said = f"misses {own.wrong} of {own.judged} points; most at {worst}"
+            yield case.problem(where, said, "a prediction that misses none", "correct its `expr`")
         for factor in (0.95, 1.05):
-            if not agreement(sweep, "prediction", found.points, factor).wrong:
-                said, wanted = f"agrees when multiplied by {factor} too", "a prediction that then misses"
-                yield case.problem((*where, "prediction"), said, wanted, telling)
-        for index, rival in enumerate(sweep.rivals):
+            errors = errors_at(sweep, "prediction", found.points, factor)
+            if all(error <= sweep.prediction.within for _, error in errors):
+                said = f"agrees when multiplied by {factor} too"
+                yield case.problem(where, said, "a prediction that then misses", telling)
+        for rival in sweep.rivals:
             if not found.agreement[rival.id].wrong:
-                place, repair = (*where, "rivals", index), f"remove it, or {telling}"
-                yield case.problem(place, f"{rival.id}: never misses", "a rival that misses somewhere", repair)
+                said, repair = f"{rival.id}: never misses", f"remove it, or {telling}"
+                yield case.problem(("sweep", name, "rivals"), said, "a rival that misses somewhere", repair)
 
 
 def filmed(case: Case, evidence: Evidence) -> Iterator[Problem]:
@@ -174,19 +172,3 @@ def _failing(case: Case, name: str, variant: VariantEvidence, kind: Literal["bro
             found = f"{name}: {result.signal} ({result.take}) = {value}"
             wanted = f"{expected(check)} {unit}".rstrip()
             yield case.problem(("checks", kind, index), found, wanted, "correct the bound, the edits, or the model")
-
-
-def _too_loose(case: Case, name: str, kind: str, wanted: str) -> Problem:
-    return case.problem(("checks", kind), f"{name}: passes every check", wanted, "tighten one")
-
-
-def _worst(sweep: Sweep, found: SweepEvidence) -> str:
-    """Where the prediction misses most."""
-    point, _ = max(errors_at(sweep, "prediction", found.points), key=lambda each: each[1])
-    said, seen = ("nothing" if n is None else f"{n:.4g}" for n in (point.predicted["prediction"], point.outcome))
-    return f"; most at {with_names(point.at)}: it says {said}, and {seen} is measured"
-
-
-def _place(case: Case, variant: str) -> Where:
-    """Where the record speaks of a variant: its remedy, or the checks."""
-    return place_of(case, variant) or ("checks",)

@@ -27,13 +27,6 @@ class Matrix(Strict):
     holds: list[list[bool]]
 
 
-def group(case: Case, cases: Mapping[str, Case]) -> list[Case]:
-    """The case and those it names as alike, by number."""
-    assert case.record.alike is not None
-    named = [case, *(cases[slug] for slug in case.record.alike.cases)]
-    return sorted(named, key=lambda member: member.record.number)
-
-
 def alike_problems(cases: Mapping[str, Case]) -> Iterator[Problem]:
     """What is wrong with the cases' `alike` before anything is run."""
     for case in cases.values():
@@ -60,13 +53,14 @@ def matrix(members: list[Case]) -> Matrix:
     Raises:
         SignalError: If a model lacks what a path names.
     """
-    measured = [[_measure(of, on) for on in members] for of in members]
-    holds = [
-        [member.record.alike is not None and satisfies(member.record.alike, value) for value in row]
-        for member, row in zip(members, measured, strict=True)
-    ]
-    numbers = [[value if math.isfinite(value) else None for value in row] for row in measured]
-    return Matrix(cases=[member.slug for member in members], measured=numbers, holds=holds)
+    runs = [(compile_model(member.text), member.record.run) for member in members if member.record.run is not None]
+    made = Matrix(cases=[member.slug for member in members], measured=[], holds=[])
+    for alike in (member.record.alike for member in members if member.record.alike is not None):
+        path = {"x": parse_path(alike.path)}
+        values = [take(simulate(model, run, path).traces["x"], alike.take) for model, run in runs]
+        made.measured.append([value if math.isfinite(value) else None for value in values])
+        made.holds.append([satisfies(alike, value) for value in values])
+    return made
 
 
 def unclear(case: Case, made: Matrix) -> Iterator[Problem]:
@@ -80,10 +74,3 @@ def unclear(case: Case, made: Matrix) -> Iterator[Problem]:
                 found = f"the measurement of {made.cases[i]} {state} {made.cases[j]} ({seen})"
                 wanted = "measurements that hold for their own case alone"
                 yield case.problem(("alike",), found, wanted, "correct its `path`, `take` or bound")
-
-
-def _measure(of: Case, on: Case) -> float:
-    assert of.record.alike is not None
-    assert on.record.run is not None
-    run = simulate(compile_model(on.text), on.record.run, {"x": parse_path(of.record.alike.path)})
-    return take(run.traces["x"], of.record.alike.take)

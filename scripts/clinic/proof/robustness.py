@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from copy import copy
+from functools import partial
 from typing import Literal
 
 import mujoco
@@ -52,7 +54,7 @@ def robustness(case: Case) -> dict[str, Robustness]:
         model, refuted = compile_model(variant.text), variant.kind == "refuted"
         unchanged = outcome(record, model)
         rng = np.random.default_rng(SEED)
-        nudges = [nudge_by(*rng.uniform(-NUDGE, NUDGE, (2, model.nv))) for _ in range(STARTS)]
+        nudges = [partial(nudge_by, *rng.uniform(-NUDGE, NUDGE, (2, model.nv))) for _ in range(STARTS)]
         seen = [outcome(record, model, shrink, nudge=n) for shrink in ((1,) if refuted else (1, 0.5)) for n in nudges]
         made[variant.id] = Robustness(
             runs=len(seen),
@@ -75,12 +77,11 @@ def outcome(
     """
     assert record.run is not None
     spec = record.run.model_copy(update={"duration": record.run.duration * longer})
-    timestep = model.opt.timestep
-    model.opt.timestep = timestep * shrink
-    try:
-        _, traces = measure_model(record, model, spec, single_run_signals(record), nudge)
-    finally:
-        model.opt.timestep = timestep
+    model = copy(model)
+    model.opt.timestep *= shrink
+    checked = {check.signal for check in record.checks.broken + record.checks.fixed}
+    single = [n for n, s in record.signals.items() if n in checked and isinstance(s, PathSignal | ExpressionSignal)]
+    _, traces = measure_model(record, model, spec, single, nudge)
 
     def all_hold(checks: list[Check]) -> bool:
         return all(judge(check, traces).holds for check in checks if check.signal in traces)
@@ -90,17 +91,7 @@ def outcome(
     return "broken" if all_hold(record.checks.broken) else "neither"
 
 
-def single_run_signals(record: Record) -> list[str]:
-    """The signals of checks that one run gives."""
-    checked = {check.signal for check in record.checks.broken + record.checks.fixed}
-    return [n for n, s in record.signals.items() if n in checked and isinstance(s, PathSignal | ExpressionSignal)]
-
-
-def nudge_by(position: np.ndarray, velocity: np.ndarray) -> Nudge:
-    """A change of the start by `position` and `velocity`, each shape (nv,), in m or rad, m/s or rad/s."""
-
-    def nudge(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        mujoco.mj_integratePos(model, data.qpos, position, 1.0)
-        data.qvel += velocity
-
-    return nudge
+def nudge_by(position: np.ndarray, velocity: np.ndarray, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Moves the start by `position` and `velocity`, each shape (nv,), in m or rad, m/s or rad/s."""
+    mujoco.mj_integratePos(model, data.qpos, position, 1.0)
+    data.qvel += velocity

@@ -21,7 +21,6 @@ from clinic.record.parts import Edit, Strict
 from clinic.record.predictions import MODEL_NUMBERS
 from clinic.record.problem import CaseError
 from clinic.record.sweep import Parameter, Prediction, Sweep
-from clinic.record.yaml_lines import Where
 
 
 class Point(Strict):
@@ -65,20 +64,16 @@ class SweepEvidence(Strict):
 
 def numbers(parameter: Parameter) -> list[float]:
     """The parameter's values, increasing."""
-    if parameter.values:
+    if parameter.start is None or parameter.stop is None or parameter.count is None:
         return sorted(parameter.values)
-    assert parameter.start is not None
-    assert parameter.stop is not None
-    assert parameter.count is not None
     spaced = np.geomspace if parameter.scale == "log" else np.linspace
     return [float(f"{value:.12g}") for value in spaced(parameter.start, parameter.stop, parameter.count)]
 
 
 def grid(sweep: Sweep) -> list[dict[str, float]]:
     """Every combination of the parameters' values, the last parameter changing fastest."""
-    columns = [numbers(parameter) for parameter in sweep.vary]
-    keys = [parameter.name for parameter in sweep.vary]
-    return [dict(zip(keys, values, strict=True)) for values in itertools.product(*columns)]
+    columns = {parameter.name: numbers(parameter) for parameter in sweep.vary}
+    return [dict(zip(columns, values, strict=True)) for values in itertools.product(*columns.values())]
 
 
 def substituted(text: str, sweep: Sweep, at: Mapping[str, float]) -> str:
@@ -103,39 +98,33 @@ def names_read(sweep: Sweep) -> set[str]:
     return {sweep.outcome.signal}.union(*(names(parse(form.expr)) for form in predictions(sweep).values()))
 
 
-def measure_points(case: Case, sweep: Sweep, points: Sequence[Mapping[str, float]]) -> list[Point]:
-    """Measures the outcome and computes the predictions at each of the points.
+def measure_sweep(case: Case, name: str) -> SweepEvidence:
+    """Measures the outcome at every point of a sweep of the case, and holds the predictions against it.
 
     Raises:
         CaseError: If a point's text cannot be made or run, or a prediction cannot be computed there.
     """
+    sweep = case.record.sweep[name]
     base = next(variant.text for variant in variants(case) if variant.id == sweep.base)
-    return [_measure(case, sweep, base, dict(at)) for at in points]
+    return summarise(case, sweep, [_measure(case, name, base, at) for at in grid(sweep)])
 
 
-def summarise(case: Case, sweep: Sweep, points: Sequence[Point]) -> SweepEvidence:
+def summarise(case: Case, sweep: Sweep, points: list[Point]) -> SweepEvidence:
     """The points with every prediction's agreement and the variants' marks."""
     unit = "s" if sweep.outcome.take == "onset" else case.record.signals[sweep.outcome.signal].unit
-    return SweepEvidence(
-        points=list(points),
-        agreement={key: agreement(sweep, key, points, unit=unit) for key in predictions(sweep)},
-        marks=marks(case, sweep),
-    )
-
-
-def agreement(sweep: Sweep, key: str, points: Sequence[Point], factor: float = 1.0, unit: str = "") -> Agreement:
-    """How a prediction, multiplied by `factor`, fares against the points; `unit` is the outcome's."""
-    prediction, first = predictions(sweep)[key], sweep.vary[0].name
-    errors = [(point.at[first], error) for point, error in errors_at(sweep, key, points, factor)]
-    bad = [at for at, error in errors if error > prediction.within]
-    finite = [error for _, error in errors if math.isfinite(error)]
-    return Agreement(
-        judged=len(errors),
-        wrong=len(bad),
-        worst=max(finite, default=None) if sweep.holds is None else None,
-        good_from=min((at for at, _ in errors if at > max(bad, default=-math.inf)), default=None),
-        unit="" if prediction.relative else unit,
-    )
+    agreement = {}
+    for key, prediction in predictions(sweep).items():
+        errors = [(point.at[sweep.vary[0].name], error) for point, error in errors_at(sweep, key, points)]
+        bad = [at for at, error in errors if error > prediction.within]
+        finite = [error for _, error in errors if math.isfinite(error)]
+        agreement[key] = Agreement(
+            judged=len(errors),
+            wrong=len(bad),
+            worst=max(finite, default=None) if sweep.holds is None else None,
+            good_from=min((at for at, _ in errors if at > max(bad, default=-math.inf)), default=None),
+            unit="" if prediction.relative else unit,
+        )
+    return SweepEvidence(points=points, agreement=agreement, marks=marks(case, sweep))
 
 
 def errors_at(sweep: Sweep, key: str, points: Sequence[Point], factor: float = 1.0) -> Iterator[tuple[Point, float]]:
@@ -160,7 +149,7 @@ def errors_at(sweep: Sweep, key: str, points: Sequence[Point], factor: float = 1
 
 def marks(case: Case, sweep: Sweep) -> dict[str, dict[str, float]]:
     """Where the broken variant and the fixes stand: where the record says so, or the sweep has the variant's text."""
-    made, texts = {}, {variant.id: variant.text for variant in variants(case)}
+    texts, made = {variant.id: variant.text for variant in variants(case)}, {}
     for variant in variants(case):
         at = {p.name: value for p in sweep.vary if (value := _mark(p, variant)) is not None}
         if variant.kind != "refuted" and len(at) == len(sweep.vary):
@@ -170,25 +159,34 @@ def marks(case: Case, sweep: Sweep) -> dict[str, dict[str, float]]:
     return made
 
 
-def _measure(case: Case, sweep: Sweep, base: str, at: dict[str, float]) -> Point:
+def _measure(case: Case, name: str, base: str, at: dict[str, float]) -> Point:
+    sweep = case.record.sweep[name]
+
+    def error(found: str, expected: str, repair: str, quoted: str = "") -> CaseError:
+        return CaseError([case.problem(("sweep", name), f"at {with_names(at)}: {found}", expected, repair, quoted)])
+
     try:
         traces, values = _run(case, sweep, substituted(base, sweep, at))
-    except EditError as error:
-        k = error.index - len(sweep.edits)
-        place: Where = ("edits", error.index, "find") if k < 0 else ("vary", k, "find")
-        found, expected = f"text that occurs {error.count} times in the text of {sweep.base}", "text that occurs once"
-        raise _error(case, sweep, place, found, expected, "correct `find`") from None
-    except ValueError as error:
-        found = f"at {with_names(at)}: {' '.join(str(error).split())}"
-        raise _error(case, sweep, ("vary",), found, "a text that runs to its end", "correct `replace`") from None
-    values |= at
+    except EditError as wrong:
+        find = [*(edit.find for edit in sweep.edits), *(parameter.find for parameter in sweep.vary)][wrong.index]
+        found = f"{find!r} occurs {wrong.count} times in the text of {sweep.base}"
+        raise error(found, "text that occurs once", "correct `find`", find) from None
+    except ValueError as wrong:
+        raise error(" ".join(str(wrong).split()), "a text that runs to its end", "correct `replace`") from None
     outcome = take(traces[sweep.outcome.signal], sweep.outcome.take, sweep.outcome.window)
-    predicted = {key: _predicted(case, sweep, key, values) for key in predictions(sweep)}
+    predicted = {}
+    for key, prediction in predictions(sweep).items():
+        try:
+            with np.errstate(all="ignore"):
+                value = float(evaluate(parse(prediction.expr), values | at))
+        except ExpressionError as wrong:
+            raise error(prediction.expr, str(wrong), "correct the expression", prediction.expr) from None
+        predicted[key] = value if math.isfinite(value) else None
     return Point(
         at=at,
         outcome=outcome if math.isfinite(outcome) else None,
         holds=None if sweep.holds is None else satisfies(Comparison(**sweep.holds.model_dump()), outcome),
-        predicted={key: value if math.isfinite(value) else None for key, value in predicted.items()},
+        predicted=predicted,
     )
 
 
@@ -198,32 +196,12 @@ def _run(case: Case, sweep: Sweep, text: str) -> tuple[dict[str, Trace], dict[st
     numbers = {}
     if record.run is not None:
         model = compile_model(text)
-        spec = record.run.model_copy(update={"duration": sweep.duration} if sweep.duration else {})
+        spec = record.run.model_copy(update={"duration": sweep.duration or record.run.duration})
         _, traces = measure_model(record, model, spec, read & record.signals.keys())
         numbers = {name: MODEL_NUMBERS[name](model) for name in read & MODEL_NUMBERS.keys()}
     else:
         traces = measure_output(record, run_script(text, case.texts, name=record.source))
     return traces, numbers | {name: take(traces[name], "final") for name in read & traces.keys()}
-
-
-def _predicted(case: Case, sweep: Sweep, key: str, values: Mapping[str, float]) -> float:
-    prediction = predictions(sweep)[key]
-    tree = parse(prediction.expr)
-    try:
-        with np.errstate(all="ignore"):
-            return float(evaluate(tree, values))
-    except ExpressionError as error:
-        given = with_names({name: values[name] for name in sorted(names(tree))})
-        found = prediction.expr + (f" with {given}" if given else "")
-        index = list(predictions(sweep)).index(key)
-        place: Where = ("rivals", index - 1, "expr") if index else ("prediction", "expr")
-        raise _error(case, sweep, place, found, str(error), "correct the expression") from None
-
-
-def _error(case: Case, sweep: Sweep, place: Where, found: str, expected: str, repair: str) -> CaseError:
-    """A problem at a place of the sweep."""
-    name = next(name for name, other in case.record.sweep.items() if other is sweep)
-    return CaseError([case.problem(("sweep", name, *place), found, expected, repair)])
 
 
 def with_names(values: Mapping[str, float]) -> str:

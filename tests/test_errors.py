@@ -19,7 +19,6 @@ from clinic.pages.text.formula import FormulaError
 from clinic.pages.text.prose import FieldError
 from clinic.record.expression import ExpressionError
 from clinic.record.problem import CaseError, LackError, Problem
-from clinic.record.yaml_lines import YamlError
 from clinic.work.parallel import ClusterError
 
 EXAMPLES = [
@@ -37,7 +36,6 @@ EXAMPLES = [
     RunError(("qpos", "elbow"), "x", "y", "z"),
     ScriptError("KeyError: 'x'", "mend it"),
     SignalError("bodi(x)", "a path", "write body(x)"),
-    YamlError(1, "an alias", "no aliases", "write it out"),
 ]
 
 

@@ -128,8 +128,6 @@ def _elements_named(record: Record) -> Iterator[tuple[Where, str, str]]:
             if isinstance(signal, StartsSignal | RowSignal) and hasattr(signal, kind):
                 yield ("signals", name, kind), kind, getattr(signal, kind)
     yield ("picture", "camera"), "camera", record.picture.camera
-    if record.film is not None and record.film.camera is not None:
-        yield ("film", "camera"), "camera", record.film.camera
 
 
 def _compile_problem(case: Case, name: str, place: Where, error: ValueError) -> Problem:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from pathlib import Path
 
 from clinic.record.problem import CaseError, Problem, listed
@@ -63,11 +63,10 @@ def folders(root: Path, wanted: Iterable[str]) -> list[Path]:
     return [root / "cases" / name for name in names]
 
 
-def nearest(word: str, known: Iterable[str], count: int = 3) -> list[str]:
-    """The slugs that `word` most likely means, best first: those that hold it, then those spelt alike."""
-    known = list(known)
+def nearest(word: str, known: Collection[str]) -> list[str]:
+    """The three slugs that `word` most likely means, best first: those that hold it, then those spelt alike."""
     holding = [slug for slug in known if word and word in slug]
-    return list(dict.fromkeys([*holding, *difflib.get_close_matches(word, known, n=count, cutoff=0.6)]))[:count]
+    return list(dict.fromkeys([*holding, *difflib.get_close_matches(word, known)]))[:3]
 
 
 def _unknown(name: str, known: list[str]) -> Problem:

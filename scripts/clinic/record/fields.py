@@ -154,9 +154,8 @@ Overlay = Literal[
 
 
 class Film(Strict):
-    """The film of the broken model beside the first fix: same camera, same clock."""
+    """The film of the broken model beside the first fix: the picture's camera, same clock."""
 
-    camera: str | None = Field(default=None, description="The camera to film from; the picture's when absent.")
     duration: float | None = Field(default=None, gt=0, description="Simulated time filmed, in s; the run's by default.")
     speed: float = Field(default=1.0, gt=0, le=10, description="Simulated seconds a second; below 1 is slow motion.")
     overlays: list[Overlay] = Field(default=[], description="What MuJoCo draws over the scene to show the cause.")
@@ -233,9 +232,6 @@ class Record(Strict):
                 ("model without run", "add `run: {duration: 1}`") if self.model else ("script with run", "remove `run`")
             )
             raise ValueError(f"{found}||`run` beside `model`, and only there||{repair}")
-        if self.model is not None and self.files:
-            found = f"files beside model: {', '.join(self.files)}"
-            raise ValueError(f"{found}||`files` beside `script`||remove `files`; write out in the model what they hold")
         if self.script is not None and not self.script.endswith((".py", ".mjs")):
             raise ValueError(f"{self.script}||a script in Python, .py, or for Node, .mjs||rename the script")
         return self
@@ -248,6 +244,4 @@ class Record(Strict):
     @property
     def source(self) -> str:
         """The name of the file that the edits change."""
-        name = self.model or self.script
-        assert name is not None
-        return name
+        return self.model or self.script or ""

@@ -9,8 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 Identifier = Annotated[str, Field(pattern=r"^[a-z][a-z0-9]*(?:-[a-z0-9]+)*$")]
 Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
-VISIBLE = r"[^\s\u200b-\u200f\u2060\ufeff]"
-Text = Annotated[str, Field(min_length=1, pattern=VISIBLE)]
+Text = Annotated[str, Field(pattern=r"[^\s\u200b-\u200f\u2060\ufeff]")]
 Interval = tuple[float, float]
 WARNINGS = [name.removeprefix("mjWARN_") for name in mujoco.mjtWarning.__members__ if name.startswith("mjWARN_")]
 Take = Literal["final", "first", "min", "max", "mean", "span", "onset"]

@@ -33,7 +33,7 @@ CHAPTERS: dict[str, type[BaseModel]] = {
     "an edit": record_parts.Edit,
     "film": record.Film,
     "sweep": record_sweep.Sweep,
-    "holds in a sweep": record_sweep.Side,
+    "holds in a sweep": record_parts.Comparison,
     "vary": record_sweep.Parameter,
     "prediction": record_sweep.Prediction,
     "rivals": record_sweep.Rival,

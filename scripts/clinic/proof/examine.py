@@ -122,7 +122,7 @@ def _variant_problems(case: Case, variant: Variant) -> Iterator[Problem]:
 
 
 def _elements_named(record: Record) -> Iterator[tuple[Where, str, str]]:
-    """The place, kind and name of every element that a measure, the picture or the film names."""
+    """The place, kind and name of every element that a measure or the picture names."""
     for name, signal in record.signals.items():
         for kind in ("joint", "camera", "geom"):
             if isinstance(signal, StartsSignal | RowSignal) and hasattr(signal, kind):

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from clinic.record.parts import Edit, Identifier, Interval, Name, Strict, Take, Taken, Text
+from clinic.record.parts import Comparison, Edit, Identifier, Interval, Name, Strict, Take, Taken, Text
 from clinic.record.sweep import Sweep
 
 FileName = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]+\.(?:csv|json|mjs|py|txt|xml|yaml)$")]
@@ -26,30 +26,6 @@ Look = Literal[
 ]
 Law = Literal["lasting", "steady", "typed"]
 ManualPage = Annotated[str, Field(pattern=r"^[A-Za-z0-9_/]+\.html(?:#[a-z0-9-]+)?$")]
-
-
-class Comparison(Strict):
-    """A bound for a number."""
-
-    above: float | None = Field(default=None, description="Holds when the number is greater.")
-    below: float | None = Field(default=None, description="Holds when the number is smaller.")
-    between: Interval | None = Field(default=None, description="Holds when low <= number <= high.")
-    equals: float | None = Field(default=None, description="Holds when |number - equals| <= within.")
-    within: float | None = Field(default=None, ge=0, description="The tolerance of `equals`; 0 when absent.")
-
-    @model_validator(mode="after")
-    def _one_comparison(self) -> Comparison:
-        given = [name for name in ("above", "below", "between", "equals") if getattr(self, name) is not None]
-        if len(given) != 1:
-            found, expected = " and ".join(given) or "no comparison", "exactly one of above, below, between, equals"
-            raise ValueError(f"{found}||{expected}||keep one comparison a check")
-        if self.within is not None and self.equals is None:
-            raise ValueError("within without equals||`within` beside `equals`||add `equals`, or remove `within`")
-        for name in ("between", "window"):
-            pair: Interval | None = getattr(self, name, None)
-            if pair is not None and pair[0] >= pair[1]:
-                raise ValueError(f"{name}: {list(pair)}||a low bound below the high bound||swap the two numbers")
-        return self
 
 
 class Check(Taken, Comparison):

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
-from clinic.record.parts import Edit, Identifier, Interval, Name, Strict, Taken, Text
+from clinic.record.parts import Comparison, Edit, Identifier, Interval, Name, Strict, Taken, Text
 
 
 class Parameter(Strict):
@@ -36,19 +36,6 @@ class Parameter(Strict):
             raise ValueError("a logarithmic scale from or to zero or less||numbers above zero||write `scale: linear`")
         if "{}" not in self.replace:
             raise ValueError(f"{self.replace}||`{{}}` where the number goes||write `{{}}` for the number")
-        return self
-
-
-class Side(Strict):
-    """One side of a bound."""
-
-    above: float | None = Field(default=None, description="Yes when the number is greater.")
-    below: float | None = Field(default=None, description="Yes when the number is smaller.")
-
-    @model_validator(mode="after")
-    def _one_side(self) -> Side:
-        if (self.above is None) == (self.below is None):
-            raise ValueError("no bound, or two||one of above, below||keep one of the two")
         return self
 
 
@@ -85,7 +72,7 @@ class Sweep(Strict):
     vary: list[Parameter] = Field(min_length=1, max_length=2, description="One or two parameters.")
     duration: float | None = Field(default=None, gt=0, le=60, description="In s, in place of the run's.")
     outcome: Taken = Field(description="The number measured at every point.")
-    holds: Side | None = Field(default=None, description="Makes of the outcome a yes or no: is it `above`, or `below`?")
+    holds: Comparison | None = Field(default=None, description="Makes of the outcome a yes or no, as a check does.")
     yes: str = Field(default="", description="What a yes means, for the legend.")
     no: str = Field(default="", description="What a no means.")
     side: Literal["below", "above"] = Field(default="below", description="With `holds`: where, of the line, it is yes.")

@@ -22,7 +22,7 @@ import mujoco
 from clinic.engine.simulate import captured_messages, controls, initial_data, step_count
 from clinic.pages.case_files import drawing_tasks
 from clinic.proof.experiments import assembled, evidence_task, measuring_tasks
-from clinic.record.case import Case, load_cases
+from clinic.record.case import Case, read_cases
 from clinic.record.checkout import project_root
 from clinic.work.task import Task
 from measured import PAGE, copied, finished, machine, markdown, put, python, show, surroundings, timed, write
@@ -156,7 +156,7 @@ def builds(root: Path, folder: Path) -> tuple[list[tuple[str, str, str]], float]
         warm.append(timed(lambda: python(copy, cache, *build)))
     limit, again = statistics.median(alone), statistics.median(warm)
     times = statistics.median(ours / theirs for ours, theirs in zip(warm, alone, strict=True))  # side by side
-    slug = min((case.record.number, case.slug) for case in load_cases(copy / "cases") if case.record.model)[1]
+    slug = min((case.record.number, case.slug) for case in read_cases(copy / "cases")[0] if case.record.model)[1]
     prose, numbers, whole = edits(copy, cache, slug)
     rows = [
         ("cold build, with films and sweeps", f"{cold:.1f} s", f"below {COLD:g} s"),
@@ -187,7 +187,7 @@ def main() -> None:
     root = project_root()
     if asked.write:
         put((root / PAGE).read_text(encoding="utf-8"), "cost", "")
-    cases = load_cases(root / "cases")
+    cases = read_cases(root / "cases")[0]
     with tempfile.TemporaryDirectory() as folder:
         rows, alone = builds(root, Path(folder))
         spent, physics = parts(cases)

@@ -28,7 +28,7 @@ import yaml
 from clinic.pages.case_files import drawing_tasks
 from clinic.pages.overviews import screening_tasks
 from clinic.proof.experiments import EVIDENCE, assembled, evidence_of, evidence_task, measuring_tasks
-from clinic.record.case import Case, load_cases
+from clinic.record.case import Case, read_cases
 from clinic.record.checkout import project_root
 from clinic.work.cache import Cache, Files
 from clinic.work.task import Task
@@ -70,7 +70,7 @@ def varied(case: Case, record: dict[str, object], slugs: list[str], turn: int, n
 
 def grow(folder: Path, cache: Cache, size: int) -> None:
     """Adds variations to the cases of a copy until there are as many as asked for, and keeps what they showed."""
-    originals = load_cases(folder / "cases")
+    originals = read_cases(folder / "cases")[0]
     models = [case for case in originals if case.record.run is not None]
     number = max(case.record.number for case in originals)
     turn = 0
@@ -87,7 +87,7 @@ def grow(folder: Path, cache: Cache, size: int) -> None:
             (place / "case.yaml").write_text(yaml.safe_dump(new, allow_unicode=True, sort_keys=False), encoding="utf-8")
             for name, text in case.texts.items():
                 (place / name).write_text(text, encoding="utf-8")
-    for case in load_cases(folder / "cases"):
+    for case in read_cases(folder / "cases")[0]:
         original = next((one for one in models if re.fullmatch(rf"{one.slug}-\d+", case.slug)), None)
         if original is not None:
             keep(original, case, cache)
@@ -242,7 +242,7 @@ def grown(root: Path, folder: Path, cache: Path, size: int) -> Site:
     """A site of so many cases, built until all is kept that can be."""
     copy = copied(root, folder / "copy")
     build(copy, cache, folder / "site")
-    queries = [phrase for case in load_cases(copy / "cases") for phrase in case.record.phrases][:40]
+    queries = [phrase for case in read_cases(copy / "cases")[0] for phrase in case.record.phrases][:40]
     grow(copy, Cache(cache), size)
     build(copy, cache, folder / "site")
     with watched() as seen:

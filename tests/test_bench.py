@@ -14,7 +14,7 @@ import yaml
 from clinic.pages.case_files import files_of_cases
 from clinic.proof.experiments import evidence_of
 from clinic.publish.site import make_site
-from clinic.record.case import load_case, load_cases
+from clinic.record.case import load_case, read_cases
 from clinic.work.cache import Cache
 from helpers import tiny_case
 from project import SILENT, write_project
@@ -80,7 +80,7 @@ def test_variations_are_cases_that_need_no_run(project: Path, tmp_path: Path, mo
     copy, cache = measured.copied(project, tmp_path / "copy"), Cache(project / "cache")
     make_site(copy, cache)
     growth.grow(copy, cache, 5)
-    cases = load_cases(copy / "cases")
+    cases = read_cases(copy / "cases")[0]
     assert [case.record.number for case in cases] == [1, 2, 3, 4, 5]
     assert len({case.record.title for case in cases}) == 5
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from clinic.proof.laws import LAWS, breaches
-from clinic.record.case import load_cases
+from clinic.record.case import read_cases
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -19,6 +19,6 @@ def test_law(slug: str, law: str, proven) -> None:
 
 
 def test_every_file_belongs_to_a_case_and_every_relation_resolves(root: Path) -> None:
-    cases = load_cases(root / "cases")
+    cases = read_cases(root / "cases")[0]
 
     assert {case.slug for case in cases} == {path.name for path in (root / "cases").iterdir()}

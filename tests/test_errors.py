@@ -18,7 +18,6 @@ from clinic.engine.variant import EditError
 from clinic.pages.text.prose import ProseError
 from clinic.record.expression import ExpressionError
 from clinic.record.problem import CaseError, LackError, Problem
-from clinic.record.yaml_lines import YamlError
 from clinic.work.parallel import ClusterError
 
 EXAMPLES = [
@@ -35,7 +34,6 @@ EXAMPLES = [
     RunError(("qpos", "elbow"), "x", "y", "z"),
     ScriptError("KeyError: 'x'", "mend it"),
     SignalError("bodi(x)", "a path", "write body(x)"),
-    YamlError(1, "an alias", "no aliases", "write it out"),
 ]
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from clinic.pages.messages import load_messages
-from clinic.record.case import load_cases
+from clinic.record.case import read_cases
 from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.xdist_group("site")
@@ -134,7 +134,7 @@ def test_queries_find_their_case(ask: Ask, root: Path) -> None:
 def test_every_phrase_of_a_record_finds_its_case(ask: Ask, root: Path) -> None:
     wanted = [
         (phrase, f"cases/{case.slug}/index.html")
-        for case in load_cases(root / "cases")
+        for case in read_cases(root / "cases")[0]
         for phrase in case.record.phrases
     ]
     check(ask, wanted, "make the phrase say more of what is particular to the case")

@@ -13,7 +13,7 @@ from clinic.pages.cases import Shown
 from clinic.pages.text.markup import render
 from clinic.pages.text.prose import opening
 from clinic.proof.evidence import Evidence, collect
-from clinic.record.case import Case, load_cases
+from clinic.record.case import Case, read_cases
 from helpers import page_of, script_case, tiny_case, write_case
 
 SPACE = "\u00a0"
@@ -91,7 +91,7 @@ def test_files_and_command_at_the_foot(page: str) -> None:
 def test_related_cases_are_linked(tmp_path: Path) -> None:
     write_case(tmp_path, ("number: 1", "number: 1\nsee: [sliding-box]"))
     write_case(tmp_path, ("number: 1", "number: 2"), ("A box falls", "A box slides"), slug="sliding-box")
-    case, other = load_cases(tmp_path / "cases")
+    case, other = read_cases(tmp_path / "cases")[0]
     assert "[2. A box slides through the floor](../sliding-box/index.md)" in page_of(case, collect(case), {}, other)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from clinic.engine.node import program as node
 from clinic.pages.playground import playground
-from clinic.record.case import Case, load_cases
+from clinic.record.case import Case, read_cases
 from clinic.record.expression import evaluate, parse
 
 pytestmark = pytest.mark.xdist_group("parity")
@@ -53,7 +53,7 @@ UNWRITTEN: list[tuple[str, dict[str, str], bool]] = [
 
 @pytest.fixture(scope="module")
 def cases(root: Path) -> list[Case]:
-    return [case for case in load_cases(root / "cases") if case.record.model is not None]
+    return [case for case in read_cases(root / "cases")[0] if case.record.model is not None]
 
 
 @pytest.fixture(scope="module")

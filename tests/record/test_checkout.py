@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from clinic.record import checkout as places
-from clinic.record.checkout import cache_folder, cases_root, folders, nearest, project_root, slugs
+from clinic.record.checkout import cache_folder, cases_root, folders, project_root, slugs
 from clinic.record.problem import CaseError
 
 
@@ -58,11 +58,3 @@ def test_every_unknown_name_is_reported_with_those_nearest_to_it(checkout: Path)
         ("no case arm-sag", "write arm-sags"),
         ("no case zzz", "`clinic list` names them all"),
     ]
-
-
-@pytest.mark.parametrize(
-    ("word", "expected"),
-    [("sink", ["box-sinks"]), ("arm", ["arm-explodes", "arm-sags"]), ("bx-sinks", ["box-sinks"]), ("", [])],
-)
-def test_nearest_holds_the_word_or_is_spelt_alike(checkout: Path, word: str, expected: list[str]) -> None:
-    assert nearest(word, slugs(checkout)) == expected

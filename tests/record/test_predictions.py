@@ -103,7 +103,6 @@ def test_a_pendulum_stays_upright_up_to_the_period_that_jurys_criterion_gives(kd
 @pytest.mark.parametrize(
     "ask",
     [
-        lambda: servo_sag(0, 1),
         lambda: held_share(0.1, -8, 0.013, 0.002, 1e-12, 0.04, 2),
         lambda: held_share(1, 0, 0.01, 0.1, 0, 1, 2),
         lambda: upright(0),

@@ -14,7 +14,7 @@ BUILD = """
 import os, signal, sys
 from pathlib import Path
 from clinic.work.cache import Cache
-from clinic.record.case import load_cases
+from clinic.record.case import read_cases
 from clinic.record.checkout import cache_folder
 from clinic.pages.exhibits import all_exhibits
 
@@ -29,7 +29,7 @@ def killed(part, path):
 
 if how != "undisturbed":
     os.replace = killed
-for slug, files in all_exhibits(load_cases(Path("cases")), Cache(cache_folder(Path()))).items():
+for slug, files in all_exhibits(read_cases(Path("cases"))[0], Cache(cache_folder(Path()))).items():
     Path("out", slug).mkdir(parents=True, exist_ok=True)
     for name, content in files.items():
         Path("out", slug, name).write_bytes(content)

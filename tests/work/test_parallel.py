@@ -27,9 +27,9 @@ RUN = """
 import hashlib, sys
 from pathlib import Path
 from clinic.work.cache import Cache
-from clinic.record.case import load_cases
+from clinic.record.case import read_cases
 from clinic.pages.case_files import files_of_cases
-for slug, files in files_of_cases(load_cases(Path("cases")), Cache(Path(sys.argv[1])))[0].items():
+for slug, files in files_of_cases(read_cases(Path("cases"))[0], Cache(Path(sys.argv[1])))[0].items():
     for name, content in files.items():
         print(slug, name, hashlib.sha256(content).hexdigest())
 """

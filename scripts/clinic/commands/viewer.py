@@ -11,8 +11,7 @@ from clinic.engine.simulate import captured_messages, compile_model, controls, i
 from clinic.engine.variant import BROKEN, variants
 from clinic.proof.examine import examine
 from clinic.record.case import Case
-from clinic.record.checkout import nearest
-from clinic.record.problem import CaseError, LackError, listed
+from clinic.record.problem import CaseError, LackError, closest, listed
 
 
 def view(case: Case, variant_id: str = BROKEN) -> None:
@@ -46,8 +45,8 @@ def scene(case: Case, variant_id: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
     examine(case)
     made = {variant.id: variant for variant in variants(case)}
     if variant_id not in made:
-        near = nearest(variant_id, made)
-        repair = f"write {' or '.join(near)}" if near else "leave `--fix` out for the broken model"
+        guess = closest(variant_id, made)
+        repair = f"write {guess}" if guess else "leave `--fix` out for the broken model"
         raise CaseError(
             [case.problem(("fixes",), f"no variant {variant_id}", f"a variant: {listed(made, 30)}", repair)]
         )

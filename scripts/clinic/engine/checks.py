@@ -10,8 +10,8 @@ from typing import get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from clinic.record.fields import Check, Comparison
-from clinic.record.parts import Interval, Take
+from clinic.record.fields import Check
+from clinic.record.parts import Comparison, Interval, Take
 
 TAKES: tuple[Take, ...] = get_args(Take)
 OVER_ALL: dict[str, Callable[[NDArray[np.float64]], np.floating]] = {

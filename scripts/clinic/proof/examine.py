@@ -89,8 +89,6 @@ def _variant_problems(case: Case, variant: Variant) -> Iterator[Problem]:
         except SignalError as error:
             yield case.problem(("signals", name), error.found, error.expected, error.repair)
     named: list[tuple[Where, str, str]] = [(("picture", "camera"), "camera", record.picture.camera)]
-    if record.film is not None and record.film.camera is not None:
-        named.append((("film", "camera"), "camera", record.film.camera))
     for name, signal in record.signals.items():
         if isinstance(signal, RowSignal):
             named.append((("signals", name, "camera"), "camera", signal.camera))

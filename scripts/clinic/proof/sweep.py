@@ -16,7 +16,6 @@ from clinic.engine.simulate import compile_model
 from clinic.engine.variant import EditError, Variant, apply_edits, variants
 from clinic.record.case import Case
 from clinic.record.expression import ExpressionError, evaluate, names, parse
-from clinic.record.fields import Comparison
 from clinic.record.parts import Edit, Strict
 from clinic.record.predictions import MODEL_NUMBERS
 from clinic.record.problem import CaseError
@@ -185,7 +184,7 @@ def _measure(case: Case, name: str, base: str, at: dict[str, float]) -> Point:
     return Point(
         at=at,
         outcome=outcome if math.isfinite(outcome) else None,
-        holds=None if sweep.holds is None else satisfies(Comparison(**sweep.holds.model_dump()), outcome),
+        holds=None if sweep.holds is None else satisfies(sweep.holds, outcome),
         predicted=predicted,
     )
 

@@ -3,7 +3,7 @@
 The stages, in order; each needs the one before:
 
 1. the folder: its name, its `case.yaml`, plain text files only (`folder.py`);
-2. the YAML: parses, no aliases, no key twice (`yaml_lines.py`);
+2. the YAML: parses, no key twice (`yaml_lines.py`);
 3. the record: the fields' types and rules (`fields.py`, in words: `field_errors.py`);
 4. the files: those the record names exist, nothing else lies in the folder; and the references: names used in checks,
    expressions and the run exist, ids are unique.
@@ -19,24 +19,23 @@ import re
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
 
+import yaml
 from pydantic import ValidationError
 
 from clinic.record.expression import ExpressionError, names, parse
 from clinic.record.field_errors import field_problems
-from clinic.record.fields import Check, ExpressionSignal, PathSignal, Record, StartsSignal
+from clinic.record.fields import ExpressionSignal, PathSignal, Record, StartsSignal
 from clinic.record.folder import RECORD, folder_problems
 from clinic.record.parts import WARNINGS
 from clinic.record.predictions import MODEL_NUMBERS
 from clinic.record.problem import CaseError, Problem, article, closest, listed
 from clinic.record.sweep import Prediction
-from clinic.record.yaml_lines import Lines, Where, YamlError, dotted, read_yaml
+from clinic.record.yaml_lines import Lines, Where, dotted, read_yaml, yaml_problem
 
 SCALED = re.compile(r"(?:[mck]m|[mµ]s|[mk]N|g|deg|°)(?![A-Za-z])")
-LIKE = 0.8
-PUBLISHED = (RECORD, "evidence.json", "playground.json")
+PUBLISHED = ("evidence.json", "playground.json")
 
 
 @dataclass(frozen=True)
@@ -80,36 +79,18 @@ def load_case(folder: Path) -> Case:
     if problems := list(folder_problems(folder)):
         raise CaseError(problems)
     texts = {path.name: path.read_text(encoding="utf-8") for path in sorted(folder.iterdir())}
-    return _validated(folder.name, texts.pop(RECORD), tuple(texts.items()))
-
-
-@lru_cache(2048)
-def _validated(slug: str, text: str, texts: tuple[tuple[str, str], ...]) -> Case:
-    """The case of a folder with these texts: a served site reads every case at every save."""
-    file = f"cases/{slug}/{RECORD}"
+    file, text = f"cases/{folder.name}/{RECORD}", texts.pop(RECORD)
     try:
         data, lines = read_yaml(text)
         record = Record.model_validate_json(json.dumps(data, default=str))
-    except YamlError as error:
-        raise CaseError([Problem(file, error.line, "", error.found, error.expected, error.repair)]) from None
+    except (yaml.MarkedYAMLError, yaml.reader.ReaderError) as error:
+        raise CaseError([yaml_problem(file, text, error)]) from None
     except ValidationError as error:
         raise CaseError(field_problems(file, lines, error.errors(), data)) from None
-    case = Case(slug, record, dict(texts), lines)
+    case = Case(folder.name, record, texts, lines)
     if problems := [*_file_problems(case), *_reference_problems(case)]:
         raise CaseError(problems)
     return case
-
-
-def load_cases(root: Path) -> list[Case]:
-    """Reads every folder of `root`, sorted by number.
-
-    Raises:
-        CaseError: With the problems of all cases, and those between cases.
-    """
-    cases, problems = read_cases(root)
-    if problems:
-        raise CaseError(problems)
-    return cases
 
 
 def read_cases(root: Path) -> tuple[list[Case], list[Problem]]:
@@ -123,16 +104,6 @@ def read_cases(root: Path) -> tuple[list[Case], list[Problem]]:
             problems += error.problems
     problems += _relation_problems(cases, {path.name for path in root.iterdir()})
     return sorted(cases, key=lambda case: case.record.number), problems
-
-
-def checks_of(record: Record) -> Iterator[tuple[Where, Check]]:
-    """Every check of the record with its path, the ones inside signals included."""
-    for kind in ("broken", "fixed"):
-        for index, check in enumerate(getattr(record.checks, kind)):
-            yield ("checks", kind, index), check
-    for name, signal in record.signals.items():
-        if isinstance(signal, StartsSignal):
-            yield ("signals", name, "holds"), signal.holds
 
 
 def _file_problems(case: Case) -> Iterator[Problem]:
@@ -156,22 +127,24 @@ def _reference_problems(case: Case) -> Iterator[Problem]:
     """Names that nothing bears, ids taken twice, units that the numbers do not have."""
     record = case.record
     paths = [name for name, signal in record.signals.items() if isinstance(signal, PathSignal)]
-    remedies: dict[Where, str] = {("fixes", k): fix.id for k, fix in enumerate(record.fixes)}
-    remedies |= {("refuted", k): remedy.id for k, remedy in enumerate(record.refuted)}
     taken = ["broken"]
-    for where, remedy_id in remedies.items():
-        if remedy_id in taken:
-            found, expected = f"{remedy_id}, which is taken", "an id used once; not broken"
-            yield case.problem((*where, "id"), found, expected, "rename it")
-        taken.append(remedy_id)
-    for where, check in checks_of(record):
-        known, kind = (paths, "path signal") if where[0] == "signals" else ([*record.signals], "signal")
-        yield from _unknown(case, (*where, "signal"), [check.signal], known, kind)
+    for kind in ("fixes", "refuted"):
+        for index, remedy in enumerate(getattr(record, kind)):
+            if remedy.id in taken:
+                found, expected = f"{remedy.id}, which is taken", "an id used once; not broken"
+                yield case.problem((kind, index, "id"), found, expected, "rename it")
+            taken.append(remedy.id)
+    for kind in ("broken", "fixed"):
+        for index, check in enumerate(getattr(record.checks, kind)):
+            yield from _unknown(case, ("checks", kind, index, "signal"), [check.signal], record.signals, "signal")
     for index, name in enumerate(record.warnings):
         yield from _unknown(case, ("warnings", index), [name], WARNINGS, "MuJoCo warning")
     if record.picture.scene is not None:
         yield from _unknown(case, ("picture", "scene"), [record.picture.scene], list(case.texts), "file")
     for name, signal in record.signals.items():
+        if isinstance(signal, StartsSignal):
+            place: Where = ("signals", name, "holds", "signal")
+            yield from _unknown(case, place, [signal.holds.signal], paths, "path signal")
         if isinstance(signal, ExpressionSignal):
             yield from _misread(case, ("signals", name, "expr"), signal.expr, paths, "path signal")
         computed = isinstance(signal, PathSignal) and not signal.path.startswith(("printed(", "model."))
@@ -181,15 +154,14 @@ def _reference_problems(case: Case) -> Iterator[Problem]:
             yield case.problem(("signals", name, "unit"), signal.unit, expected, repair)
     numbers = [key for key, s in record.signals.items() if isinstance(s, PathSignal | ExpressionSignal)]
     for name, sweep in record.sweep.items():
-        yield from _unknown(
-            case, ("sweep", name, "outcome", "signal"), [sweep.outcome.signal], record.signals, "signal"
-        )
+        place = ("sweep", name, "outcome", "signal")
+        yield from _unknown(case, place, [sweep.outcome.signal], record.signals, "signal")
         yield from _unknown(case, ("sweep", name, "base"), [sweep.base], taken, "variant")
         known = [*(parameter.name for parameter in sweep.vary), *numbers, *MODEL_NUMBERS]
         forms: dict[Where, Prediction] = {("prediction",): sweep.prediction}
         forms |= {("rivals", index): rival for index, rival in enumerate(sweep.rivals)}
         for where, form in forms.items():
-            place: Where = ("sweep", name, *where, "expr")
+            place = ("sweep", name, *where, "expr")
             yield from _misread(case, place, form.expr, known, "name that a prediction can read")
 
 
@@ -227,6 +199,6 @@ def _relation_problems(cases: list[Case], slugs: set[str]) -> Iterator[Problem]:
         for index, slug in enumerate(case.record.see):
             yield from _unknown(case, ("see", index), [slug], others, "case besides this one")
         for index, tag in enumerate(case.record.tags):
-            if tags[tag] == 1 and (guess := closest(tag, shared, LIKE)):
+            if tags[tag] == 1 and (guess := closest(tag, shared, likeness=0.8)):
                 found, expected = f"{tag}, which no other case has", f"a topic: {listed(shared, 30)}, or a new one"
                 yield case.problem(("tags", index), found, expected, f"write {guess}")

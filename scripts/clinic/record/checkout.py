@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 from collections.abc import Iterable
 from pathlib import Path
 
-from clinic.record.problem import CaseError, Problem, listed
+from clinic.record.problem import CaseError, Problem, closest, listed
 
 PACKAGE = Path(__file__).parent.parent
 
@@ -54,23 +53,16 @@ def folders(root: Path, wanted: Iterable[str]) -> list[Path]:
     """The folders of the cases named, each once; of all cases when none is named.
 
     Raises:
-        CaseError: With every name that no case has, and the names nearest to it.
+        CaseError: With every name that no case has, and the name nearest to it.
     """
     known = slugs(root)
     names = list(dict.fromkeys(name.removeprefix("cases/").rstrip("/") for name in wanted)) or known
-    if problems := [_unknown(name, known) for name in names if name not in known]:
+    problems = []
+    for name in set(names) - set(known):
+        guess = closest(name, known)
+        repair = f"write {guess}" if guess else "`clinic list` names them all"
+        expected = f"the folder of a case: {listed(known, 30)}"
+        problems.append(Problem(f"cases/{name}", 1, "", f"no case {name}", expected, repair))
+    if problems:
         raise CaseError(problems)
     return [root / "cases" / name for name in names]
-
-
-def nearest(word: str, known: Iterable[str], count: int = 3) -> list[str]:
-    """The slugs that `word` most likely means, best first: those that hold it, then those spelt alike."""
-    known = list(known)
-    holding = [slug for slug in known if word and word in slug]
-    return list(dict.fromkeys([*holding, *difflib.get_close_matches(word, known, n=count, cutoff=0.6)]))[:count]
-
-
-def _unknown(name: str, known: list[str]) -> Problem:
-    near = nearest(name, known)
-    repair = f"write {' or '.join(near)}" if near else "`clinic list` names them all"
-    return Problem(f"cases/{name}", 1, "", f"no case {name}", f"the folder of a case: {listed(known, 30)}", repair)

@@ -18,20 +18,8 @@ from clinic.record import predictions
 
 Value = float | NDArray[np.float64]
 
-FUNCTIONS: dict[str, Callable[..., Any]] = {
-    "abs": np.abs,
-    "sqrt": np.sqrt,
-    "exp": np.exp,
-    "log": np.log,
-    "sin": np.sin,
-    "cos": np.cos,
-    "tan": np.tan,
-    "arccos": np.arccos,
-    "minimum": np.minimum,
-    "maximum": np.maximum,
-    "floor": np.floor,
-    **predictions.FUNCTIONS,
-}
+NUMPY = ("abs", "sqrt", "exp", "log", "sin", "cos", "tan", "arccos", "minimum", "maximum", "floor")
+FUNCTIONS: dict[str, Callable[..., Any]] = {name: getattr(np, name) for name in NUMPY} | predictions.FUNCTIONS
 BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
@@ -61,7 +49,13 @@ def parse(text: str) -> ast.expr:
         if not isinstance(node, LANGUAGE) or not number:
             raise ExpressionError("numbers, names, + - * / **, parentheses and functions")
         if isinstance(node, ast.Call):
-            _check_call(node)
+            name = ast.unparse(node.func)
+            if name not in FUNCTIONS:
+                raise ExpressionError(f"one of the functions {', '.join(FUNCTIONS)}")
+            function = FUNCTIONS[name]
+            wanted = function.nin if isinstance(function, np.ufunc) else len(inspect.signature(function).parameters)
+            if len(node.args) != wanted or node.keywords:
+                raise ExpressionError(f"{name} with {wanted} argument{'s' if wanted > 1 else ''}")
     return tree
 
 
@@ -94,14 +88,3 @@ def evaluate(tree: ast.expr, values: Mapping[str, Value]) -> Value:
             except (ArithmeticError, TypeError, ValueError) as error:
                 raise ExpressionError(f"numbers that {name} can take: {error}") from None
     raise AssertionError(ast.dump(tree))
-
-
-def _check_call(call: ast.Call) -> None:
-    function = FUNCTIONS.get(ast.unparse(call.func))
-    if function is None:
-        name = ast.unparse(call.func)
-        instead = f"{name}imum in place of {name}: " if name in ("max", "min") else ""
-        raise ExpressionError(f"{instead}one of the functions {', '.join(FUNCTIONS)}")
-    wanted = function.nin if isinstance(function, np.ufunc) else len(inspect.signature(function).parameters)
-    if len(call.args) != wanted or call.keywords:
-        raise ExpressionError(f"{ast.unparse(call.func)} with {wanted} argument{'s' if wanted > 1 else ''}")

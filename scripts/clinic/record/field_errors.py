@@ -21,7 +21,6 @@ EXPECTED = {
     "list_type": "a list",
     "dict_type": "a mapping",
     "model_type": "a mapping",
-    "string_too_short": "text that is not empty",
 }
 PATTERNS = {
     "^[a-z][a-z0-9]*(?:-[a-z0-9]+)*$": "lower-case words joined by hyphens",
@@ -32,15 +31,12 @@ PATTERNS = {
 
 
 def field_problems(file: str, lines: Lines, errors: Sequence[ErrorDetails], data: Any) -> Iterator[Problem]:
-    """What pydantic found wrong with a record, one problem a place."""
-    seen: set[Where] = set()
+    """What pydantic found wrong with a record."""
     for error in errors:
         where, kind = _where(error["loc"], data)
         if error["type"] == "missing" and isinstance(error["loc"][-1], str):
             where = (*where, error["loc"][-1])
-        if where not in seen:
-            seen.add(where)
-            yield Problem(file, lines.at(where), dotted(where), *_explained(error, where, kind))
+        yield Problem(file, lines.at(where), dotted(where), *_explained(error, where, kind))
 
 
 def _where(loc: Where, data: Any) -> tuple[Where, str]:
@@ -59,7 +55,8 @@ def _where(loc: Where, data: Any) -> tuple[Where, str]:
 def _explained(error: ErrorDetails, where: Where, kind: str) -> tuple[str, str, str]:
     """What was found, what was expected, and the repair."""
     said, details = error["type"], error.get("ctx", {})
-    found = _shown(error["input"])
+    found = json.dumps(error["input"], default=str, ensure_ascii=False)
+    found = found if len(found) <= 60 else found[:57] + "..."
     if said == "value_error":
         found, expected, repair = str(details["error"]).split("||")
         return found, expected, repair
@@ -76,7 +73,7 @@ def _explained(error: ErrorDetails, where: Where, kind: str) -> tuple[str, str, 
     if error["input"] is None:
         return "nothing", "a value", "write one, or remove the key"
     if said == "string_pattern_mismatch":
-        return found, PATTERNS.get(details["pattern"], EXPECTED["string_too_short"]), "rename it"
+        return found, PATTERNS.get(details["pattern"], "text that is not empty"), "correct the value"
     if where[:2] == ("run", "ctrl"):
         return found, "a number, or a list of [time, value] pairs", "correct the value"
     if said in ("missing", "too_long") and error["loc"][-1] != where[-1]:
@@ -100,8 +97,3 @@ def _models(annotation: Any) -> Iterator[type[BaseModel]]:
         yield annotation
     for part in get_args(annotation):
         yield from _models(part)
-
-
-def _shown(value: Any) -> str:
-    text = json.dumps(value, default=str, ensure_ascii=False)
-    return text if len(text) <= 60 else text[:57] + "..."

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from clinic.record.parts import Edit, Identifier, Interval, Name, Strict, Take, Taken, Text
+from clinic.record.parts import Comparison, Edit, Identifier, Interval, Name, Strict, Take, Taken, Text
 from clinic.record.sweep import Sweep
 
 FileName = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]+\.(?:csv|json|mjs|py|txt|xml|yaml)$")]
@@ -26,30 +26,6 @@ Look = Literal[
 ]
 Law = Literal["lasting", "steady", "typed"]
 ManualPage = Annotated[str, Field(pattern=r"^[A-Za-z0-9_/]+\.html(?:#[a-z0-9-]+)?$")]
-
-
-class Comparison(Strict):
-    """A bound for a number."""
-
-    above: float | None = Field(default=None, description="Holds when the number is greater.")
-    below: float | None = Field(default=None, description="Holds when the number is smaller.")
-    between: Interval | None = Field(default=None, description="Holds when low <= number <= high.")
-    equals: float | None = Field(default=None, description="Holds when |number - equals| <= within.")
-    within: float | None = Field(default=None, ge=0, description="The tolerance of `equals`; 0 when absent.")
-
-    @model_validator(mode="after")
-    def _one_comparison(self) -> Comparison:
-        given = [name for name in ("above", "below", "between", "equals") if getattr(self, name) is not None]
-        if len(given) != 1:
-            found, expected = " and ".join(given) or "no comparison", "exactly one of above, below, between, equals"
-            raise ValueError(f"{found}||{expected}||keep one comparison a check")
-        if self.within is not None and self.equals is None:
-            raise ValueError("within without equals||`within` beside `equals`||add `equals`, or remove `within`")
-        for name in ("between", "window"):
-            pair: Interval | None = getattr(self, name, None)
-            if pair is not None and pair[0] >= pair[1]:
-                raise ValueError(f"{name}: {list(pair)}||a low bound below the high bound||swap the two numbers")
-        return self
 
 
 class Check(Taken, Comparison):
@@ -154,9 +130,8 @@ Overlay = Literal[
 
 
 class Film(Strict):
-    """The film of the broken model beside the first fix: same camera, same clock."""
+    """The film of the broken model beside the first fix: the picture's camera, same clock."""
 
-    camera: str | None = Field(default=None, description="The camera to film from; the picture's when absent.")
     duration: float | None = Field(default=None, gt=0, description="Simulated time filmed, in s; the run's by default.")
     speed: float = Field(default=1.0, gt=0, le=10, description="Simulated seconds a second; below 1 is slow motion.")
     overlays: list[Overlay] = Field(default=[], description="What MuJoCo draws over the scene to show the cause.")
@@ -233,9 +208,6 @@ class Record(Strict):
                 ("model without run", "add `run: {duration: 1}`") if self.model else ("script with run", "remove `run`")
             )
             raise ValueError(f"{found}||`run` beside `model`, and only there||{repair}")
-        if self.model is not None and self.files:
-            found = f"files beside model: {', '.join(self.files)}"
-            raise ValueError(f"{found}||`files` beside `script`||remove `files`; write out in the model what they hold")
         if self.script is not None and not self.script.endswith((".py", ".mjs")):
             raise ValueError(f"{self.script}||a script in Python, .py, or for Node, .mjs||rename the script")
         return self
@@ -248,6 +220,4 @@ class Record(Strict):
     @property
     def source(self) -> str:
         """The name of the file that the edits change."""
-        name = self.model or self.script
-        assert name is not None
-        return name
+        return self.model or self.script or ""

@@ -25,17 +25,11 @@ def folder_problems(folder: Path) -> Iterator[Problem]:
         expected, repair = f"a {RECORD} in every folder of cases/", "add it, or remove the folder"
         yield Problem(place, 1, "", f"no {RECORD}", expected, repair)
     for path in sorted(folder.iterdir()):
-        if (bad := unreadable(path)) is not None:
-            yield Problem(f"{place}/{path.name}", 1, "", *bad)
-
-
-def unreadable(path: Path) -> tuple[str, str, str] | None:
-    """Why a path is no text file: what was found, expected, and the repair."""
-    if not path.is_file():
-        found = "a folder" if path.is_dir() else "no file"
-        return found, "plain files", "put the file itself into the case's folder"
-    try:
-        path.read_text(encoding="utf-8")
-    except UnicodeDecodeError:
-        return "bytes that are not UTF-8", "text in UTF-8", "save the file as UTF-8"
-    return None
+        try:
+            path.read_text(encoding="utf-8")
+        except UnicodeDecodeError:
+            found, repair = "bytes that are not UTF-8", "save the file as UTF-8"
+            yield Problem(f"{place}/{path.name}", 1, "", found, "text in UTF-8", repair)
+        except OSError:
+            repair = "put the file itself into the case's folder"
+            yield Problem(f"{place}/{path.name}", 1, "", "a folder, or no file", "plain files", repair)

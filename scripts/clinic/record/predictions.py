@@ -46,12 +46,7 @@ def servo_sag(kp: float, load: float) -> float:
 
     `kp` is in N m/rad, `load` the gravity torque of the horizontal arm in N m. Newton's method; both sides are
     monotonic on [0, pi/2], so the root is unique.
-
-    Raises:
-        ValueError: If a number is negative, or `kp` 0.
     """
-    if not (kp > 0 and load >= 0):
-        raise ValueError("kp above 0 and a load of 0 or more")
     angle = min(load / kp, math.pi / 2)
     for _ in range(60):
         angle -= (kp * angle - load * math.cos(angle)) / (kp + load * math.sin(angle))
@@ -161,9 +156,4 @@ SEARCH = 16
 MOST_STEPS = 20_000
 D_MAX = 0.95
 GRAVITY = 9.81
-FUNCTIONS: dict[str, Callable[..., float]] = {
-    "servo_sag": servo_sag,
-    "bits": bits,
-    "held_share": held_share,
-    "upright_time": upright_time,
-}
+FUNCTIONS = {function.__name__: function for function in (servo_sag, bits, held_share, upright_time)}

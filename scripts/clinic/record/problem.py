@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from clinic.record.yaml_lines import CONTROL
-
 LF = "\n"
+CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]")
+"""Characters that no text needs: controls but for tab and line feed, and those that turn the reading direction."""
 
 
 @dataclass(frozen=True, order=True)

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from typing import Literal
 
 from pydantic import Field, model_validator
 
-from clinic.record.parts import Edit, Identifier, Interval, Name, Strict, Taken, Text
-
-MOST_POINTS = 1000
+from clinic.record.parts import Comparison, Edit, Identifier, Interval, Name, Strict, Taken, Text
 
 
 class Parameter(Strict):
@@ -39,24 +36,6 @@ class Parameter(Strict):
             raise ValueError("a logarithmic scale from or to zero or less||numbers above zero||write `scale: linear`")
         if "{}" not in self.replace:
             raise ValueError(f"{self.replace}||`{{}}` where the number goes||write `{{}}` for the number")
-        return self
-
-    @property
-    def size(self) -> int:
-        """How many numbers."""
-        return len(self.values) or self.count or 0
-
-
-class Side(Strict):
-    """One side of a bound."""
-
-    above: float | None = Field(default=None, description="Yes when the number is greater.")
-    below: float | None = Field(default=None, description="Yes when the number is smaller.")
-
-    @model_validator(mode="after")
-    def _one_side(self) -> Side:
-        if (self.above is None) == (self.below is None):
-            raise ValueError("no bound, or two||one of above, below||keep one of the two")
         return self
 
 
@@ -90,23 +69,12 @@ class Sweep(Strict):
     text: Text = Field(description="Prose under Cause; may hold `{{ sweep.ID.points }}`, `.worst`, `.agreed`, ...")
     base: Identifier = Field(default="broken", description="The variant whose text is varied.")
     edits: list[Edit] = Field(default=[], description="Applied to the base variant before the parameters are.")
-    vary: list[Parameter] = Field(min_length=1, max_length=2, description="One or two parameters; 1000 points at most.")
+    vary: list[Parameter] = Field(min_length=1, max_length=2, description="One or two parameters.")
     duration: float | None = Field(default=None, gt=0, le=60, description="In s, in place of the run's.")
     outcome: Taken = Field(description="The number measured at every point.")
-    holds: Side | None = Field(default=None, description="Makes of the outcome a yes or no: is it `above`, or `below`?")
+    holds: Comparison | None = Field(default=None, description="Makes of the outcome a yes or no, as a check does.")
     yes: str = Field(default="", description="What a yes means, for the legend.")
     no: str = Field(default="", description="What a no means.")
     side: Literal["below", "above"] = Field(default="below", description="With `holds`: where, of the line, it is yes.")
     prediction: Prediction = Field(description="The closed form that a law holds to its word.")
     rivals: list[Rival] = Field(default=[], description="Closed forms that are popular and wrong.")
-
-    @model_validator(mode="after")
-    def _bounded(self) -> Sweep:
-        if self.size > MOST_POINTS:
-            raise ValueError(f"{self.size} points||{MOST_POINTS} points at most||take fewer numbers, further apart")
-        return self
-
-    @property
-    def size(self) -> int:
-        """How many points: every number of one parameter with every number of the other."""
-        return math.prod(parameter.size for parameter in self.vary)

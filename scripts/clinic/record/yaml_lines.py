@@ -4,24 +4,14 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
 import yaml
+from yaml.reader import ReaderError
+
+from clinic.record.problem import Problem
 
 Where = tuple[str | int, ...]
-CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]")
-"""Characters that no text needs: controls but for tab and line feed, and those that turn the reading direction."""
-
-
-@dataclass
-class YamlError(Exception):
-    """YAML that is refused: `line` counts from 1."""
-
-    line: int
-    found: str
-    expected: str
-    repair: str
 
 
 @dataclass(frozen=True)
@@ -29,7 +19,7 @@ class Lines:
     """The line, counted from 1, of every field by its path; `text` is the file's."""
 
     by_path: dict[Where, int]
-    text: str = ""
+    text: str
 
     def at(self, where: Where) -> int:
         """The line of the field, or of its nearest ancestor that stands in the file."""
@@ -68,57 +58,47 @@ def dotted(where: Where) -> str:
     return text
 
 
-def named(character: str) -> str:
-    """A character that cannot be shown: `the character U+0007`."""
-    return f"the character U+{ord(character):04X}"
-
-
-@lru_cache(64)
 def read_yaml(text: str) -> tuple[Any, Lines]:
     """The document's data and the line of each of its fields.
 
     Raises:
-        YamlError: For a syntax error, an alias, a key given twice, or a document that is no mapping.
+        yaml.MarkedYAMLError: For a syntax error, a key given twice, or a document that is no mapping.
+        yaml.reader.ReaderError: For a character that YAML cannot hold.
     """
     lines: dict[Where, int] = {}
-    try:
-        node = yaml.compose(text, Loader=_Loader)
-        if not isinstance(node, yaml.MappingNode):
-            raise YamlError(1, "no mapping", "`field: value` lines", "start with `number:` and `title:`")
-        return _value(node, (), lines, set(), yaml.SafeLoader("")), Lines(lines, text)
-    except yaml.MarkedYAMLError as error:
-        line, began = _line(error.problem_mark or error.context_mark), _line(error.context_mark)
-        tab = "\t" in "".join(text.split("\n")[line - 1 : line])
-        inside = f", in what began in line {began}" if began < line else ""
-        found = "a tab" if tab else f"{error.problem or error.context}{inside}"
-        repair = "indent by two spaces; quote text that holds `: `, `#`, `{` or `[`; close what is opened"
-        raise YamlError(line, found, "valid YAML", repair) from None
-    except yaml.reader.ReaderError as error:
-        line = text.encode()[: error.position].count(b"\n") + 1
-        raise YamlError(line, f"text that YAML cannot hold: {error.reason}", "plain text", "delete it") from None
+    node = yaml.compose(text, Loader=_Loader)
+    if not isinstance(node, yaml.MappingNode):
+        raise yaml.MarkedYAMLError(problem="no mapping", problem_mark=node.start_mark if node else None)
+    return _value(node, (), lines, yaml.SafeLoader("")), Lines(lines, text)
 
 
-def _value(
-    node: yaml.Node, where: Where, lines: dict[Where, int], seen: set[yaml.Node], loader: yaml.SafeLoader
-) -> Any:
+def yaml_problem(file: str, text: str, error: yaml.MarkedYAMLError | ReaderError) -> Problem:
+    """What is wrong with a text that `read_yaml` refused."""
+    if isinstance(error, yaml.MarkedYAMLError):
+        mark = error.problem_mark or error.context_mark
+        line, began = _line(mark), _line(error.context_mark or mark)
+        found = f"{error.problem or error.context}" + (f", in what began in line {began}" if began < line else "")
+        repair = "give each field once; indent by two spaces; quote text that holds `: `, `#`, `{` or `[`"
+        return Problem(file, line, "", found, "`field: value` lines of YAML", repair)
+    line = text.encode()[: error.position].count(b"\n") + 1
+    return Problem(file, line, "", f"text that YAML cannot hold: {error.reason}", "plain text", "delete it")
+
+
+def _value(node: yaml.Node, where: Where, lines: dict[Where, int], loader: yaml.SafeLoader) -> Any:
     """The node as data; the lines of all that is in it are added to `lines`."""
-    line = lines.setdefault(where, _line(node.start_mark))
-    if node in seen:
-        raise YamlError(line, "a value that stands elsewhere", "no aliases", "write the value out")
-    seen.add(node)
+    lines.setdefault(where, _line(node.start_mark))
     if isinstance(node, yaml.SequenceNode):
-        return [_value(item, (*where, index), lines, seen, loader) for index, item in enumerate(node.value)]
+        return [_value(item, (*where, index), lines, loader) for index, item in enumerate(node.value)]
     if not isinstance(node, yaml.MappingNode):
         return loader.construct_object(node)
     data = {}
     for key, value in node.value:
-        line, name = _line(key.start_mark), key.value
-        if not isinstance(name, str):
-            raise YamlError(line, "a key that is no text", "`field: value` lines", "write one word")
-        if name in data:
-            raise YamlError(line, f"the key {name} twice", "each key once", "remove or rename one")
-        lines[*where, name] = line
-        data[name] = _value(value, (*where, name), lines, seen, loader)
+        if not isinstance(key.value, str):
+            raise yaml.MarkedYAMLError(problem="a key that is no text", problem_mark=key.start_mark)
+        if key.value in data:
+            raise yaml.MarkedYAMLError(problem=f"the key {key.value} twice", problem_mark=key.start_mark)
+        lines[*where, key.value] = _line(key.start_mark)
+        data[key.value] = _value(value, (*where, key.value), lines, loader)
     return data
 
 

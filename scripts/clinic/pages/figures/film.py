@@ -47,7 +47,7 @@ def film(case: Case) -> Files:
     record = case.record
     assert record.film is not None
     assert record.run is not None
-    camera = record.film.camera or record.picture.camera
+    camera = record.picture.camera
     broken, fixed = (
         list(frames(compile_model(variant.text), record.run, record.film, camera)) for variant in variants(case)[:2]
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from clinic.triage.motion import conservation, halved, warnings
+from clinic.triage.motion import chaos, conservation, halved, warnings
 from clinic.triage.text import Finding
 from helpers import BALL, PENDULUM, RESTING
 from subjects import examination
@@ -61,3 +61,11 @@ def test_nothing_that_moves_is_no_reason_to_fail() -> None:
     examined = examination("<mujoco/>")
     assert conservation(examined) == ("nothing moves", [])
     assert halved(examined)[1] == []
+
+
+def test_a_double_pendulum_on_its_head_is_chaotic_and_a_fall_is_not() -> None:
+    xml = """<mujoco><worldbody><body euler="0 179 0"><joint axis="0 1 0"/><geom type="capsule" size=".02"
+      fromto="0 0 0 0 0 -.1"/><body pos="0 0 -.1"><joint axis="0 1 0"/><geom type="capsule" size=".02"
+      fromto="0 0 0 0 0 -.1"/></body></body></worldbody><option><flag contact="disable"/></option></mujoco>"""
+    assert chaos(examination(xml, duration=8)) > 1e-3
+    assert chaos(examination(BALL)) < 1e-6

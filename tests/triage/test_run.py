@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import copy
-
 import numpy as np
 import pytest
 from clinic.engine.simulate import RunError
-from clinic.triage.run import Budget, distance, record, scale
+from clinic.triage.run import distance, record, scale
 from helpers import BALL, PENDULUM
-from subjects import Ticks, subject
+from subjects import subject
 
 
 def test_a_recording_samples_positions_at_even_times() -> None:
     ball = subject(BALL)
-    made = record(ball, ball.model, Budget())
+    made = record(ball)
     assert made.time == pytest.approx(1.0)
     assert made.points.shape == (100, 3, 3)
     times = np.arange(1, 101) * 0.01
@@ -23,9 +21,7 @@ def test_a_recording_samples_positions_at_even_times() -> None:
 
 def test_a_finer_recording_has_samples_at_the_same_times() -> None:
     ball = subject(BALL)
-    finer = copy.copy(ball.model)
-    finer.opt.timestep /= 4
-    one, other = record(ball, ball.model, Budget()), record(ball, finer, Budget(), finer=4)
+    one, other = record(ball), record(ball, finer=4)
     assert len(one.points) == len(other.points)
     assert distance(one, other) == pytest.approx(9.81 / 2 * (0.001 - 0.00025), rel=1e-6)
 
@@ -36,17 +32,9 @@ def test_controls_and_keyframes_of_the_run_apply() -> None:
     assert driven.data.ctrl[0] == 1.0
 
 
-def test_a_part_of_a_budget_ends_earlier_and_no_budget_never() -> None:
-    clock = Ticks()
-    whole = Budget(100, clock)
-    assert whole.part(0.1).left < 10
-    assert whole.left > 80
-    assert Budget().part(0.1).left == np.inf
-
-
 def test_a_recording_ends_with_the_numbers() -> None:
     broken = subject("<mujoco><worldbody><body pos='nan 0 0'><freejoint/><geom size='.1'/></body></worldbody></mujoco>")
-    made = record(broken, broken.model, Budget())
+    made = record(broken)
     assert not made.finite
     assert made.points.shape[0] == 0
     assert scale(broken, made) > 0
@@ -55,13 +43,14 @@ def test_a_recording_ends_with_the_numbers() -> None:
 def test_a_timestep_of_zero_is_refused_with_a_reason() -> None:
     still = subject("<mujoco><option timestep='0'/></mujoco>")
     with pytest.raises(RunError, match="timestep of 0 s"):
-        record(still, still.model, Budget())
+        record(still)
 
 
-def test_a_budget_that_ends_cuts_the_recording_and_distance_compares_what_both_have() -> None:
+def test_time_cuts_the_recording_and_distance_compares_what_both_have(monkeypatch: pytest.MonkeyPatch) -> None:
     ball = subject(BALL)
-    cut = record(ball, ball.model, Budget(300, Ticks()))
-    whole = record(ball, ball.model, Budget())
+    whole = record(ball)
+    monkeypatch.setattr("clinic.triage.run.perf_counter", iter(range(1000)).__next__)
+    cut = record(ball, seconds=300)
     assert 0 < len(cut.points) < len(whole.points)
     assert 0 < cut.steps < cut.planned
     assert distance(cut, whole) == 0

@@ -13,7 +13,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from clinic.record.problem import CaseError, Problem
-from clinic.triage.run import Budget
 from clinic.triage.steps import SECONDS, STEPS, report, subject_of, triage
 
 LIMIT = 30.0  # s
@@ -69,7 +68,7 @@ def main(path: Path) -> None:
     try:
         subject = subject_of(path)
         _tell({"read": str(path)})
-        for observation in triage(subject, Budget(SECONDS)):
+        for observation in triage(subject, SECONDS):
             _tell({"report": report(observation)})
     except CaseError as error:
         _tell({"problems": [vars(problem) for problem in error.problems]})

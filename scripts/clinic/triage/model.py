@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clinic.engine.releases import control_of
-from clinic.triage.run import Array, Subject
+from clinic.triage.run import Array, Subject, flags
 from clinic.triage.stiffness import HINGE, SLIDE, highest_frequency, inertias, joint_servos
 from clinic.triage.text import Finding, Look, counted, shown
 from clinic.triage.watched_run import Examination
@@ -125,7 +125,7 @@ def gravity(s: Subject) -> Seen:
 def switches(s: Subject) -> Seen:
     """A part of the physics is switched off by a flag."""
     for name in ("constraint", "equality", "limit", "contact", "spring", "damper", "gravity", "actuation", "autoreset"):
-        if s.model.opt.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{name.upper()}"):
+        if s.model.opt.disableflags & flags(name):
             yield "option", f"{name} is disabled by a flag"
 
 
@@ -225,8 +225,8 @@ def look(examination: Examination) -> Look:
 
 def collides(m: mujoco.MjModel, geom: int) -> bool:
     """Whether a geom has contact masks, and contacts are not switched off."""
-    off = mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
-    return bool(m.geom_contype[geom] or m.geom_conaffinity[geom]) and not m.opt.disableflags & off
+    on = not m.opt.disableflags & flags("contact", "constraint")
+    return on and bool(m.geom_contype[geom] or m.geom_conaffinity[geom])
 
 
 def line_of(message: str) -> int:

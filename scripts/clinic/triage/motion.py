@@ -3,25 +3,27 @@
 from __future__ import annotations
 
 import copy
+from dataclasses import replace
 
-import mujoco
 import numpy as np
 
-from clinic.triage.run import Subject, distance, record, scale
+from clinic.triage.run import distance, record, scale
 from clinic.triage.text import Finding, Look, shown
-from clinic.triage.watched_run import NUDGE, Examination, Watcher
+from clinic.triage.watched_run import Examination
 
 FAST = 1000.0
 """A degree of freedom faster than this, in rad/s or m/s, is unusual."""
 SHARE = 0.05
 """A drift or a change of motion of more than this share is unusual."""
+NUDGE = 1e-9
+"""How far every velocity is changed to see whether a motion is chaotic, in rad/s or m/s."""
 
 
 def warnings(examination: Examination) -> Look:
     """What MuJoCo warns of, how often time goes back, and whether numbers stay finite and moderate."""
     s = examination.subject
     run, watcher = examination.watched
-    found = [Finding("warned", name, _message(name, run.messages)) for name in run.warnings]
+    found = [Finding("warned", name, message) for name, message in run.warnings.items()]
     found += [Finding("compiler", "model", note) for note in s.notes]
     if run.resets:
         found.append(Finding("reset", "data.time", f"goes back on {run.resets} of {run.steps} steps by a reset"))
@@ -41,7 +43,7 @@ def conservation(examination: Examination) -> Look:
     if examination.subject.model.nv == 0:
         return "nothing moves", []
     found, said = [], []
-    gained = energy_gained(examination.subject, examination.watched[1])
+    gained = energy_gained(examination)
     if gained is not None:
         said.append("energy appears" if gained > SHARE else "no energy appears")
         if gained > SHARE:
@@ -64,11 +66,9 @@ def halved(examination: Examination) -> Look:
     if len(run.points) < 2:
         return "too few steps to compare", []
     found, said = [], []
-    size, chaos = scale(s, run), examination.chaos
+    size, chaotic = scale(s, run), chaos(examination)
     for finer, name in ((2, "half"), (20, "a twentieth")):
-        model = copy.copy(s.model)
-        model.opt.timestep /= finer
-        again = record(s, model, examination.budget.part(0.3), finer)
+        again = record(s, 0.3 * examination.left, finer=finer)
         if not len(again.points):
             continue
         if again.warnings.keys() != run.warnings.keys() or again.finite != run.finite:
@@ -76,27 +76,33 @@ def halved(examination: Examination) -> Look:
             found.append(Finding(name, "warnings", f"at {name} of the timestep: {now}, before: {before}"))
             continue
         share = distance(run, again) / size
-        if share > SHARE and chaos < 0.5 * share:
+        if share > SHARE and chaotic < 0.5 * share:
             text = f"at {name} of the timestep up to {shown(share * size, 'm')} elsewhere"
             found.append(Finding(name, "motion", text))
         part = "" if len(again.points) >= len(run.points) else f" in the first {shown(again.time, 's')}"
         said.append(f"{name}: {shown(100 * share, '%', 2)} of {shown(size, 'm')}{part}")
-    if chaos > SHARE:
-        said.append(f"chaotic: a change of {NUDGE:g} at the start gives {shown(100 * chaos, '%', 2)}")
+    if chaotic > SHARE:
+        said.append(f"chaotic: a change of {NUDGE:g} at the start gives {shown(100 * chaotic, '%', 2)}")
     return "; ".join(said) or "not enough time for it", found
 
 
-def energy_gained(s: Subject, watcher: Watcher) -> float | None:
+def chaos(examination: Examination) -> float:
+    """How far the motion changes with every start velocity changed by NUDGE, as a share of the scene's scale."""
+    s, (run, _) = examination.subject, examination.watched
+    return distance(run, record(s, 0.15 * examination.left, nudge=NUDGE)) / scale(s, run)
+
+
+def energy_gained(examination: Examination) -> float | None:
     """The energy that nobody supplied, as a share of the energy in play; None where there is none in play.
 
     In play is at least what lifts the whole model by a thousandth of the scene's extent.
     """
-    energies = np.array(watcher.energies).reshape(-1, 2)
-    if len(energies) < 2 or not np.isfinite(energies).all():
+    m, (run, watcher) = examination.subject.model, examination.watched
+    if run.steps < 2 or not np.isfinite(run.energies).all():
         return None
-    total = energies.sum(axis=1)
-    weight = float(s.model.body_subtreemass[0] * np.linalg.norm(s.model.opt.gravity))
-    play = max(float(energies[:, 1].max() + np.ptp(energies[:, 0])), 1e-3 * s.model.stat.extent * weight)
+    total, (potential, kinetic) = run.energies.sum(axis=1), run.energies.T
+    weight = float(m.body_subtreemass[0] * np.linalg.norm(m.opt.gravity))
+    play = max(float(kinetic.max() + np.ptp(potential)), 1e-3 * m.stat.extent * weight)
     surplus = float(np.max(total - total[0] - watcher.supplied[:-1]))
     return surplus / play if play > 1e-9 and np.isfinite(surplus) else None
 
@@ -108,25 +114,11 @@ def energy_drift(examination: Examination) -> float | None:
     where nothing moves then; infinite where the run explodes.
     """
     model = copy.copy(examination.subject.model)
-    for name in ("CONSTRAINT", "DAMPER", "ACTUATION"):
-        model.opt.disableflags |= getattr(mujoco.mjtDisableBit, f"mjDSBL_{name}")
-    model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
     model.opt.density = model.opt.viscosity = 0.0
     model.body_gravcomp[:] = 0
-    energies: list[tuple[float, float]] = []
-
-    def keep(_: mujoco.MjModel, data: mujoco.MjData) -> None:
-        energies.append((float(data.energy[0]), float(data.energy[1])))
-
-    run = record(examination.subject, model, examination.budget.part(0.2), after_step=keep)
+    bare = replace(examination.subject, model=model)
+    run = record(bare, 0.2 * examination.left, without=("constraint", "damper", "actuation"))
     if not run.finite or run.resets or run.warnings:
         return float("inf")
-    values = np.array(energies).reshape(-1, 2)
-    kinetic = float(values[:, 1].max(initial=0.0))
-    return float(np.ptp(values.sum(axis=1))) / kinetic if kinetic > 1e-9 else None
-
-
-def _message(name: str, messages: tuple[str, ...]) -> str:
-    """What MuJoCo printed for a warning."""
-    words = mujoco.mju_warningText(getattr(mujoco.mjtWarning, f"mjWARN_{name}"), 7).partition("7")[0]
-    return next((message for message in messages if message.startswith(words)), "raised")
+    kinetic = float(run.energies[:, 1].max(initial=0.0))
+    return float(np.ptp(run.energies.sum(axis=1))) / kinetic if kinetic > 1e-9 else None

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Iterator
 
-import mujoco
 import numpy as np
 
 from clinic.triage.model import collides
-from clinic.triage.run import Subject, distance, record, scale
+from clinic.triage.run import Subject, distance, flags, record, scale
 from clinic.triage.text import Finding, Look, counted
 from clinic.triage.watched_run import Examination, Watcher
 
@@ -28,11 +26,9 @@ def look(examination: Examination) -> Look:
         return "too few steps to compare", []
     found, matter, idle, size = [], [], [], scale(s, run)
     for effect in effects(s, watcher):
-        if examination.budget.left <= 0:
+        without = record(s, 0.2 * examination.left, without=(effect,))
+        if not without.steps:
             break
-        model = copy.copy(s.model)
-        model.opt.disableflags |= _flag(effect)
-        without = record(s, model, examination.budget.part(0.2))
         share = distance(run, without) / size
         if share > FELT:
             matter.append(effect)
@@ -47,7 +43,8 @@ def look(examination: Examination) -> Look:
         found.append(Finding("idle", "gravity", text))
     said = [f"the motion hangs on {', '.join(matter) or 'nothing'}"]
     said += [f"{', '.join(idle)}: switched off, nothing changes"] if idle else []
-    alone = [s.called("geom", geom) for geom in untouched(s, watcher)]
+    touched = {geom for pair in watcher.touching for geom in pair}
+    alone = [s.called("geom", i) for i in range(s.model.ngeom) if i not in touched and collides(s.model, i)]
     if alone:
         said.append(f"nothing touches {', '.join(alone) if len(alone) < 4 else counted(len(alone), 'geom')}")
     return "; ".join(said), found
@@ -66,14 +63,4 @@ def effects(s: Subject, watcher: Watcher) -> Iterator[str]:
         "equality": np.any(m.eq_active0),
         "frictionloss": np.any(m.dof_frictionloss) or np.any(m.tendon_frictionloss),
     }
-    return (effect for effect, there in present.items() if there and not m.opt.disableflags & _flag(effect))
-
-
-def untouched(s: Subject, watcher: Watcher) -> Iterator[int]:
-    """The geoms that could collide and were in no contact."""
-    touched = {geom for pair in watcher.touching for geom in pair}
-    return (geom for geom in range(s.model.ngeom) if geom not in touched and collides(s.model, geom))
-
-
-def _flag(effect: str) -> int:
-    return int(getattr(mujoco.mjtDisableBit, f"mjDSBL_{effect.upper()}"))
+    return (effect for effect, there in present.items() if there and not m.opt.disableflags & flags(effect))

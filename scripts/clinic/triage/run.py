@@ -1,11 +1,12 @@
-"""What triage runs: a model with a start and controls, and recordings of it under a budget of time."""
+"""What triage runs: a model with a start and controls, and recordings of it that end in time."""
 
 from __future__ import annotations
 
-import time
+import copy
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from time import perf_counter
 
 import mujoco
 import numpy as np
@@ -15,26 +16,13 @@ from clinic.engine.simulate import captured_messages, controls, initial_data, st
 from clinic.record.fields import RunSpec
 
 Array = NDArray[np.float64]
-AfterStep = Callable[[mujoco.MjModel, mujoco.MjData], None]
 SAMPLES = 100  # of a recording
+WARNINGS = {
+    mujoco.mju_warningText(kind, 7).partition("7")[0]: mujoco.mjtWarning(kind).name.removeprefix("mjWARN_")
+    for kind in range(mujoco.mjtWarning.mjNWARNING)
+}
+"""How the text of each kind of warning begins, with its name; MuJoCo prints it when it begins to count the kind."""
 BODY_OF = {"geom": "geom_bodyid", "joint": "jnt_bodyid", "camera": "cam_bodyid"}
-
-
-class Budget:
-    """Seconds of wall time that work may take; without a number, as long as it takes."""
-
-    def __init__(self, seconds: float = np.inf, clock: Callable[[], float] = time.perf_counter) -> None:
-        self._clock = clock
-        self._end = clock() + seconds
-
-    @property
-    def left(self) -> float:
-        """Seconds left, 0 when they are used up."""
-        return max(0.0, self._end - self._clock())
-
-    def part(self, share: float) -> Budget:
-        """A budget of a share of what is left."""
-        return Budget(share * self.left, self._clock)
 
 
 @dataclass(frozen=True)
@@ -64,15 +52,6 @@ class Subject:
             mujoco.mj_forward(self.model, data)
         return data
 
-    @cached_property
-    def steps(self) -> int:
-        """How many steps the run takes.
-
-        Raises:
-            RunError: If there are none, or too many.
-        """
-        return step_count(self.model, self.run)
-
     def called(self, kind: str, index: int) -> str:
         """An element as a report names it: `joint elbow`, or `geom 3 of body torso` without a name."""
         if name := mujoco.mj_id2name(self.model, getattr(mujoco.mjtObj, f"mjOBJ_{kind.upper()}"), index):
@@ -82,79 +61,90 @@ class Subject:
         return f"{kind} {index} of {self.called('body', getattr(self.model, BODY_OF[kind])[index])}"
 
 
-@dataclass
+@dataclass(frozen=True)
 class Recording:
     """What one run showed.
 
     Attributes:
-        timestep: In s.
         planned: How many steps were asked for.
-        steps: How many were made before the budget or the numbers ended.
+        steps: How many were made before the time or the numbers ended.
+        time: What they cover, in s.
         points: Positions of every body frame, then of every geom's centre, in m, shape (samples, n, 3).
-        warnings: The largest count of each MuJoCo warning.
-        messages: The distinct texts that MuJoCo printed.
+        energies: Potential and kinetic energy at the start of each step, in J, shape (steps, 2).
+        warnings: Each MuJoCo warning that was raised, with the first text that MuJoCo printed for it.
         resets: On how many steps time went back.
         finite: Whether all positions and velocities stayed finite.
     """
 
-    timestep: float
     planned: int
-    steps: int = 0
-    points: Array = field(default_factory=lambda: np.empty((0, 0, 3)))
-    warnings: dict[str, int] = field(default_factory=dict)
-    messages: tuple[str, ...] = ()
-    resets: int = 0
-    finite: bool = True
-
-    @property
-    def time(self) -> float:
-        """Simulated time covered, in s."""
-        return self.steps * self.timestep
+    steps: int
+    time: float
+    points: Array
+    energies: Array
+    warnings: dict[str, str]
+    resets: int
+    finite: bool
 
 
 def record(
     subject: Subject,
-    model: mujoco.MjModel,
-    budget: Budget,
+    seconds: float = np.inf,
+    without: tuple[str, ...] = (),
     finer: int = 1,
-    after_step: AfterStep | None = None,
-    nudge: AfterStep | None = None,
+    nudge: float = 0.0,
+    watcher: Callable[[mujoco.MjData], None] | None = None,
 ) -> Recording:
-    """Runs `model`, a changed copy of the subject's, from the subject's start with its controls.
+    """Runs the subject's model from its start with its controls.
 
     Args:
-        subject: Gives the start, the controls and the duration.
-        model: What is run.
-        budget: The run ends when it is used up.
-        finer: The model's timestep is this many times smaller than the subject's; samples stay at the same times.
-        after_step: Called after every step.
-        nudge: Changes the start.
+        subject: What is run.
+        seconds: The wall time after which the run ends.
+        without: The parts of the physics that are switched off, as MuJoCo's flags name them.
+        finer: The timestep is divided by it; samples stay at the same times.
+        nudge: Added to every velocity of the start, in rad/s or m/s.
+        watcher: Called with the data after every step.
     """
-    stride = max(1, subject.steps // SAMPLES) * finer
-    made = Recording(model.opt.timestep, subject.steps * finer)
-    points = []
-    counts = np.zeros(mujoco.mjtWarning.mjNWARNING, dtype=int)
+    end = perf_counter() + seconds
+    model = copy.copy(subject.model)
+    model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
+    model.opt.disableflags |= flags(*without)
+    model.opt.timestep /= finer
+    planned = step_count(subject.model, subject.run) * finer
+    stride = max(1, planned // finer // SAMPLES) * finer
+    steps, resets, finite = 0, 0, True
+    points, energies = [], []
     with captured_messages() as messages:
-        data = initial_data(model, subject.run, nudge)
-        driven = controls(model, subject.run, made.planned)
-        while made.steps < made.planned and made.finite and budget.left > 0:
+        data = initial_data(model, subject.run)
+        data.qvel += nudge
+        driven = controls(model, subject.run, planned)
+        while steps < planned and finite and perf_counter() < end:
             before = data.time
-            step(model, data, driven, made.steps)
-            made.steps += 1
-            made.resets += data.time <= before
-            if after_step is not None:
-                after_step(model, data)
-            if messages:
-                np.maximum(counts, data.warning.number, out=counts)
-            if made.steps % stride == 0 or made.steps == made.planned:
-                made.finite = bool(np.isfinite(data.qpos).all() and np.isfinite(data.qvel).all())
-            if made.finite and made.steps % stride == 0:
+            step(model, data, driven, steps)
+            steps += 1
+            resets += data.time <= before
+            energies.append(data.energy.copy())
+            if watcher is not None:
+                watcher(data)
+            if steps % stride == 0 or steps == planned:
+                finite = bool(np.isfinite(data.qpos).all() and np.isfinite(data.qvel).all())
+            if finite and steps % stride == 0:
                 mujoco.mj_kinematics(model, data)
                 points.append(np.concatenate([data.xpos, data.geom_xpos]))
-    made.warnings = {mujoco.mjtWarning(k).name.removeprefix("mjWARN_"): int(n) for k, n in enumerate(counts) if n}
-    made.messages = tuple(dict.fromkeys(messages))
-    made.points = np.array(points).reshape(len(points), model.nbody + model.ngeom, 3)
-    return made
+    return Recording(
+        planned=planned,
+        steps=steps,
+        time=steps * model.opt.timestep,
+        points=np.array(points).reshape(-1, model.nbody + model.ngeom, 3),
+        energies=np.array(energies).reshape(-1, 2),
+        warnings={name: said[0] for k, name in WARNINGS.items() if (said := [m for m in messages if m.startswith(k)])},
+        resets=resets,
+        finite=finite,
+    )
+
+
+def flags(*parts: str) -> int:
+    """The bits of `opt.disableflags` that switch parts of the physics off."""
+    return sum(int(getattr(mujoco.mjtDisableBit, f"mjDSBL_{part.upper()}")) for part in parts)
 
 
 def distance(one: Recording, other: Recording) -> float:

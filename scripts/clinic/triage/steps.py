@@ -9,6 +9,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from time import perf_counter
 
 import mujoco
 import numpy as np
@@ -22,7 +23,7 @@ from clinic.record.folder import RECORD
 from clinic.record.problem import CaseError, Problem
 from clinic.triage import model as compiled
 from clinic.triage import motion, reduce, scene
-from clinic.triage.run import Budget, Subject
+from clinic.triage.run import Subject
 from clinic.triage.text import Finding, Look
 from clinic.triage.watched_run import Examination
 
@@ -51,11 +52,11 @@ class Observation(BaseModel, frozen=True):
     findings: list[Finding] = []
 
 
-def triage(subject: Subject, budget: Budget | None = None) -> Iterator[Observation]:
-    """The six observations, each as soon as it is made. A step that cannot be taken says why."""
-    examination = Examination(subject, budget or Budget())
+def triage(subject: Subject, seconds: float = np.inf) -> Iterator[Observation]:
+    """The six observations, each as soon as it is made. A step that cannot be taken within `seconds` says why."""
+    examination = Examination(subject, perf_counter() + seconds)
     for step, (_, look) in STEPS.items():
-        if examination.budget.left <= 0:
+        if examination.left <= 0:
             yield Observation(step=step, taken=False, said="the time allowed was used up")
             continue
         try:

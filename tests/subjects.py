@@ -5,17 +5,12 @@ from __future__ import annotations
 import mujoco
 from clinic.record.fields import RunSpec
 from clinic.triage.run import Subject
-from clinic.triage.watched_run import Examination
 
 
 def subject(xml: str, **run: object) -> Subject:
     spec = mujoco.MjSpec.from_string(xml)
     given = {key.name: len(key.qpos) for key in spec.keys}
     return Subject(spec, spec.compile(), RunSpec.model_validate({"duration": 1.0, **run}), given=given)
-
-
-def examination(xml: str, **run: object) -> Examination:
-    return Examination(subject(xml, **run))
 
 
 HINGE = '<body name="arm"><joint name="elbow" {joint}/><geom name="arm" size=".1" pos=".3 0 0" mass="1" {geom}/></body>'

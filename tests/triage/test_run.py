@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from clinic.engine.simulate import RunError
 from clinic.triage.run import distance, record, scale
-from helpers import BALL, PENDULUM
+from helpers import BALL, PENDULUM, RESTING
 from subjects import subject
 
 
@@ -50,7 +52,7 @@ def test_time_cuts_the_recording_and_distance_compares_what_both_have(monkeypatc
     ball = subject(BALL)
     whole = record(ball)
     monkeypatch.setattr("clinic.triage.run.perf_counter", iter(range(1000)).__next__)
-    cut = record(ball, seconds=300)
+    cut = record(replace(ball, end=300))
     assert 0 < len(cut.points) < len(whole.points)
     assert 0 < cut.steps < cut.planned
     assert distance(cut, whole) == 0
@@ -60,3 +62,21 @@ def test_elements_are_called_by_name_or_number() -> None:
     model = subject("<mujoco><worldbody><body name='hand'><joint/><geom size='.1'/></body></worldbody></mujoco>")
     assert model.called("body", 1) == "body hand"
     assert model.called("geom", 0) == "geom 0 of body hand"
+
+
+def test_contacts_are_seen() -> None:
+    _, watch = subject(RESTING).watched
+    assert (0, 1) in watch.touching
+
+
+def test_a_fall_turns_potential_into_kinetic_energy() -> None:
+    run, watch = subject(BALL).watched
+    assert np.ptp(run.energies.sum(axis=1)) < 0.002 * run.energies[:, 1].max()
+    assert watch.supplied[-1] == 0
+    assert watch.fastest[0] == pytest.approx(9.81)
+
+
+def test_the_work_of_a_motor_is_the_energy_gained() -> None:
+    run, watch = subject(PENDULUM, duration=0.2, ctrl={"motor": -1.0}).watched
+    total = run.energies.sum(axis=1)
+    assert total[-1] - total[0] == pytest.approx(watch.supplied[-2], rel=2e-2)

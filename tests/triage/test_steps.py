@@ -36,7 +36,7 @@ BAD = {
     "nothing": ("", "ParseXML: empty file"),
     "no text": (bytes(range(256)).decode("latin-1"), "XML"),
     "no XML": ("hello", "XML_ERROR_PARSING_TEXT"),
-    "unclosed": ("<mujoco>\n<worldbody>\n</mujoco>", "XML_ERROR_MISMATCHED_ELEMENT"),
+    "unclosed": ("<mujoco>\n<worldbody>\n</mujoco>", "model.xml:2:\n.*XML_ERROR_MISMATCHED_ELEMENT"),
     "unknown": ("<mujoco>\n<option colour='1'/></mujoco>", "model.xml:2:\n.*unrecognized attribute: 'colour'"),
     "mesh missing": ('<mujoco><asset><mesh name="m" file="m.stl"/></asset></mujoco>', "Error opening file"),
     "too deep": ("<mujoco><worldbody>" + "<body>" * 900 + "</body>" * 900 + "</worldbody></mujoco>", "too deep"),

@@ -7,9 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from clinic.triage.run import distance, record, scale
+from clinic.triage.run import Subject, distance, record, scale
 from clinic.triage.text import Finding, Look, shown
-from clinic.triage.watched_run import Examination
 
 FAST = 1000.0
 """A degree of freedom faster than this, in rad/s or m/s, is unusual."""
@@ -19,10 +18,9 @@ NUDGE = 1e-9
 """How far every velocity is changed to see whether a motion is chaotic, in rad/s or m/s."""
 
 
-def warnings(examination: Examination) -> Look:
+def warnings(s: Subject) -> Look:
     """What MuJoCo warns of, how often time goes back, and whether numbers stay finite and moderate."""
-    s = examination.subject
-    run, watcher = examination.watched
+    run, watcher = s.watched
     found = [Finding("warned", name, message) for name, message in run.warnings.items()]
     found += [Finding("compiler", "model", note) for note in s.notes]
     if run.resets:
@@ -38,18 +36,18 @@ def warnings(examination: Examination) -> Look:
     return said, found
 
 
-def conservation(examination: Examination) -> Look:
+def conservation(s: Subject) -> Look:
     """Whether energy appears in the run, or drifts where nothing takes it away."""
-    if examination.subject.model.nv == 0:
+    if s.model.nv == 0:
         return "nothing moves", []
     found, said = [], []
-    gained = energy_gained(examination)
+    gained = energy_gained(s)
     if gained is not None:
         said.append("energy appears" if gained > SHARE else "no energy appears")
         if gained > SHARE:
             text = f"{100 * gained:.0f} % of the energy in play was put in by no actuator"
             found.append(Finding("gain", "energy", text))
-    drift = energy_drift(examination)
+    drift = energy_drift(s)
     if drift == np.inf:
         said.append("without contacts, dampers and actuators the motion explodes")
         found.append(Finding("explodes", "energy", "grows beyond all bounds where it should stay"))
@@ -60,15 +58,15 @@ def conservation(examination: Examination) -> Look:
     return "; ".join(said) or "nothing to compare", found
 
 
-def halved(examination: Examination) -> Look:
+def halved(s: Subject) -> Look:
     """Whether the outcome changes with half the timestep, or a twentieth of it."""
-    s, (run, _) = examination.subject, examination.watched
+    run, _ = s.watched
     if len(run.points) < 2:
         return "too few steps to compare", []
     found, said = [], []
-    size, chaotic = scale(s, run), chaos(examination)
+    size, chaotic = scale(s, run), chaos(s)
     for finer, name in ((2, "half"), (20, "a twentieth")):
-        again = record(s, 0.3 * examination.left, finer=finer)
+        again = record(s, 0.3, finer=finer)
         if not len(again.points):
             continue
         if again.warnings.keys() != run.warnings.keys() or again.finite != run.finite:
@@ -86,18 +84,18 @@ def halved(examination: Examination) -> Look:
     return "; ".join(said) or "not enough time for it", found
 
 
-def chaos(examination: Examination) -> float:
+def chaos(s: Subject) -> float:
     """How far the motion changes with every start velocity changed by NUDGE, as a share of the scene's scale."""
-    s, (run, _) = examination.subject, examination.watched
-    return distance(run, record(s, 0.15 * examination.left, nudge=NUDGE)) / scale(s, run)
+    run, _ = s.watched
+    return distance(run, record(s, 0.15, nudge=NUDGE)) / scale(s, run)
 
 
-def energy_gained(examination: Examination) -> float | None:
+def energy_gained(s: Subject) -> float | None:
     """The energy that nobody supplied, as a share of the energy in play; None where there is none in play.
 
     In play is at least what lifts the whole model by a thousandth of the scene's extent.
     """
-    m, (run, watcher) = examination.subject.model, examination.watched
+    m, (run, watcher) = s.model, s.watched
     if run.steps < 2 or not np.isfinite(run.energies).all():
         return None
     total, (potential, kinetic) = run.energies.sum(axis=1), run.energies.T
@@ -107,17 +105,17 @@ def energy_gained(examination: Examination) -> float | None:
     return surplus / play if play > 1e-9 and np.isfinite(surplus) else None
 
 
-def energy_drift(examination: Examination) -> float | None:
+def energy_drift(s: Subject) -> float | None:
     """How far energy drifts, as a share of the largest kinetic energy, with nothing left that may change it.
 
     Contacts, limits, equalities, friction, dampers, fluids, actuators and gravity compensation are taken away. None
     where nothing moves then; infinite where the run explodes.
     """
-    model = copy.copy(examination.subject.model)
+    model = copy.copy(s.model)
     model.opt.density = model.opt.viscosity = 0.0
     model.body_gravcomp[:] = 0
-    bare = replace(examination.subject, model=model)
-    run = record(bare, 0.2 * examination.left, without=("constraint", "damper", "actuation"))
+    bare = replace(s, model=model)
+    run = record(bare, 0.2, without=("constraint", "damper", "actuation"))
     if not run.finite or run.resets or run.warnings:
         return float("inf")
     kinetic = float(run.energies[:, 1].max(initial=0.0))

@@ -7,9 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from clinic.triage.model import collides
-from clinic.triage.run import Subject, distance, flags, record, scale
+from clinic.triage.run import Subject, Watcher, distance, flags, record, scale
 from clinic.triage.text import Finding, Look, counted
-from clinic.triage.watched_run import Examination, Watcher
 
 FELT = 0.05
 """A motion hangs on what changes it by more than this share of the scene's size."""
@@ -17,16 +16,16 @@ SAME = 1e-9
 """Motions that differ by less than this share are the same."""
 
 
-def look(examination: Examination) -> Look:
+def look(s: Subject) -> Look:
     """Says what the motion hangs on and what touches nothing, and finds the parts that its warnings need."""
-    s, (run, watcher) = examination.subject, examination.watched
+    run, watcher = s.watched
     if s.model.nv == 0:
         return "nothing moves", []
     if len(run.points) < 2:
         return "too few steps to compare", []
     found, matter, idle, size = [], [], [], scale(s, run)
     for effect in effects(s, watcher):
-        without = record(s, 0.2 * examination.left, without=(effect,))
+        without = record(s, 0.2, without=(effect,))
         if not without.steps:
             break
         share = distance(run, without) / size

@@ -6,8 +6,10 @@ observation lists what the rules found. Nothing found is an answer too.
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
@@ -25,7 +27,6 @@ from clinic.triage import model as compiled
 from clinic.triage import motion, reduce, scene
 from clinic.triage.run import Subject
 from clinic.triage.text import Finding, Look
-from clinic.triage.watched_run import Examination
 
 SECONDS = 7.0
 DURATION = 2.0
@@ -33,7 +34,7 @@ MAX_STEPS = 4000
 SHOWN = 3
 FIRST = "the first keyframe"
 ENGINE_ERRORS = (ValueError, mujoco.FatalError, mujoco.UnexpectedError)
-STEPS: dict[str, tuple[str, Callable[[Examination], Look]]] = {
+STEPS: dict[str, tuple[str, Callable[[Subject], Look]]] = {
     "warnings": ("MuJoCo's warnings", motion.warnings),
     "model": ("the model as compiled", compiled.look),
     "overlays": ("the scene with overlays", scene.look),
@@ -54,14 +55,14 @@ class Observation(BaseModel, frozen=True):
 
 def triage(subject: Subject, seconds: float = np.inf) -> Iterator[Observation]:
     """The six observations, each as soon as it is made. A step that cannot be taken within `seconds` says why."""
-    examination = Examination(subject, perf_counter() + seconds)
+    subject = replace(subject, end=perf_counter() + seconds)
     for step, (_, look) in STEPS.items():
-        if examination.left <= 0:
+        if perf_counter() >= subject.end:
             yield Observation(step=step, taken=False, said="the time allowed was used up")
             continue
         try:
             with np.errstate(all="ignore"):
-                said, findings = look(examination)
+                said, findings = look(subject)
         except RunError as error:
             yield Observation(step=step, taken=False, said=error.found)
         except (*ENGINE_ERRORS, ArithmeticError) as error:
@@ -99,7 +100,8 @@ def subject_of(path: Path) -> Subject:
         return _compiled(lambda: read_spec(path))
     except ENGINE_ERRORS as error:
         said = " ".join(str(error).split())
-        line, expected = compiled.line_of(said), "XML that MuJoCo compiles"
+        lines = re.findall(r"(?:Element\b.*\bline |Line number=)(\d+)", said)
+        line, expected = max([1, *map(int, lines)]), "XML that MuJoCo compiles"
         raise CaseError([Problem(str(path), line, "", said, expected, "see *What MuJoCo says*")]) from None
 
 

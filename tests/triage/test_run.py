@@ -16,9 +16,9 @@ def test_a_recording_samples_positions_at_even_times() -> None:
     ball = subject(BALL)
     made = record(ball)
     assert made.time == pytest.approx(1.0)
-    assert made.points.shape == (100, 3, 3)
+    assert np.shape(made.points) == (100, 3, 3)
     times = np.arange(1, 101) * 0.01
-    assert made.points[:, 1, 2] == pytest.approx(1 - 9.81 / 2 * times * (times + 0.001))
+    assert np.array(made.points)[:, 1, 2] == pytest.approx(1 - 9.81 / 2 * times * (times + 0.001))
 
 
 def test_a_finer_recording_has_samples_at_the_same_times() -> None:
@@ -38,7 +38,7 @@ def test_a_recording_ends_with_the_numbers() -> None:
     broken = subject("<mujoco><worldbody><body pos='nan 0 0'><freejoint/><geom size='.1'/></body></worldbody></mujoco>")
     made = record(broken)
     assert not made.finite
-    assert made.points.shape[0] == 0
+    assert made.points == []
     assert scale(broken, made) > 0
 
 
@@ -65,18 +65,18 @@ def test_elements_are_called_by_name_or_number() -> None:
 
 
 def test_contacts_are_seen() -> None:
-    _, watch = subject(RESTING).watched
-    assert (0, 1) in watch.touching
+    run = subject(RESTING).watched
+    assert (0, 1) in run.touching
 
 
 def test_a_fall_turns_potential_into_kinetic_energy() -> None:
-    run, watch = subject(BALL).watched
-    assert np.ptp(run.energies.sum(axis=1)) < 0.002 * run.energies[:, 1].max()
-    assert watch.supplied[-1] == 0
-    assert watch.fastest[0] == pytest.approx(9.81)
+    run = subject(BALL).watched
+    assert np.ptp(np.sum(run.energies, axis=1)) < 0.002 * np.max(run.energies, axis=0)[1]
+    assert run.supplied[-1] == 0
+    assert run.fastest[0] == pytest.approx(9.81)
 
 
 def test_the_work_of_a_motor_is_the_energy_gained() -> None:
-    run, watch = subject(PENDULUM, duration=0.2, ctrl={"motor": -1.0}).watched
-    total = run.energies.sum(axis=1)
-    assert total[-1] - total[0] == pytest.approx(watch.supplied[-2], rel=2e-2)
+    run = subject(PENDULUM, duration=0.2, ctrl={"motor": -1.0}).watched
+    total = np.sum(run.energies, axis=1)
+    assert total[-1] - total[0] == pytest.approx(run.supplied[-1], rel=2e-2)

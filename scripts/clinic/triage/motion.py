@@ -20,14 +20,14 @@ NUDGE = 1e-9
 
 def warnings(s: Subject) -> Look:
     """What MuJoCo warns of, how often time goes back, and whether numbers stay finite and moderate."""
-    run, watcher = s.watched
+    run = s.watched
     found = [Finding("warned", name, message) for name, message in run.warnings.items()]
     found += [Finding("compiler", "model", note) for note in s.notes]
     if run.resets:
         found.append(Finding("reset", "data.time", f"goes back on {run.resets} of {run.steps} steps by a reset"))
     if not run.finite:
         found.append(Finding("finite", "state", f"is no longer finite after {shown(run.time, 's')}"))
-    speed, dof = watcher.fastest
+    speed, dof = run.fastest
     if speed > FAST:
         joint = s.called("joint", int(s.model.dof_jntid[dof]))
         found.append(Finding("fast", joint, f"reaches {shown(speed, 'rad/s or m/s')}"))
@@ -60,7 +60,7 @@ def conservation(s: Subject) -> Look:
 
 def halved(s: Subject) -> Look:
     """Whether the outcome changes with half the timestep, or a twentieth of it."""
-    run, _ = s.watched
+    run = s.watched
     if len(run.points) < 2:
         return "too few steps to compare", []
     found, said = [], []
@@ -86,7 +86,7 @@ def halved(s: Subject) -> Look:
 
 def chaos(s: Subject) -> float:
     """How far the motion changes with every start velocity changed by NUDGE, as a share of the scene's scale."""
-    run, _ = s.watched
+    run = s.watched
     return distance(run, record(s, 0.15, nudge=NUDGE)) / scale(s, run)
 
 
@@ -95,13 +95,13 @@ def energy_gained(s: Subject) -> float | None:
 
     In play is at least what lifts the whole model by a thousandth of the scene's extent.
     """
-    m, (run, watcher) = s.model, s.watched
+    m, run = s.model, s.watched
     if run.steps < 2 or not np.isfinite(run.energies).all():
         return None
-    total, (potential, kinetic) = run.energies.sum(axis=1), run.energies.T
+    total, (potential, kinetic) = np.sum(run.energies, axis=1), np.transpose(run.energies)
     weight = float(m.body_subtreemass[0] * np.linalg.norm(m.opt.gravity))
     play = max(float(kinetic.max() + np.ptp(potential)), 1e-3 * m.stat.extent * weight)
-    surplus = float(np.max(total - total[0] - watcher.supplied[:-1]))
+    surplus = float(np.max(total - total[0] - run.supplied))
     return surplus / play if play > 1e-9 and np.isfinite(surplus) else None
 
 
@@ -118,5 +118,5 @@ def energy_drift(s: Subject) -> float | None:
     run = record(bare, 0.2, without=("constraint", "damper", "actuation"))
     if not run.finite or run.resets or run.warnings:
         return float("inf")
-    kinetic = float(run.energies[:, 1].max(initial=0.0))
-    return float(np.ptp(run.energies.sum(axis=1))) / kinetic if kinetic > 1e-9 else None
+    kinetic = float(max(kinetic for _, kinetic in run.energies))
+    return float(np.ptp(np.sum(run.energies, axis=1))) / kinetic if kinetic > 1e-9 else None

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from clinic.triage.model import collides
-from clinic.triage.run import Subject, Watcher, distance, flags, record, scale
+from clinic.triage.run import Recording, Subject, distance, flags, record, scale
 from clinic.triage.text import Finding, Look, counted
 
 FELT = 0.05
@@ -18,13 +18,13 @@ SAME = 1e-9
 
 def look(s: Subject) -> Look:
     """Says what the motion hangs on and what touches nothing, and finds the parts that its warnings need."""
-    run, watcher = s.watched
+    run = s.watched
     if s.model.nv == 0:
         return "nothing moves", []
     if len(run.points) < 2:
         return "too few steps to compare", []
     found, matter, idle, size = [], [], [], scale(s, run)
-    for effect in effects(s, watcher):
+    for effect in effects(s, run):
         without = record(s, 0.2, without=(effect,))
         if not without.steps:
             break
@@ -37,24 +37,24 @@ def look(s: Subject) -> Look:
             text = f"switched off, MuJoCo no longer warns of {', '.join(run.warnings)}"
             found.append(Finding("needed", effect, text))
     still = float(np.ptp(run.points, axis=0).max(initial=0.0)) < SAME * size
-    if still and "gravity" in idle and not watcher.touching:
+    if still and "gravity" in idle and not run.touching:
         text = "nothing moves or touches, and switching it off changes nothing"
         found.append(Finding("idle", "gravity", text))
     said = [f"the motion hangs on {', '.join(matter) or 'nothing'}"]
     said += [f"{', '.join(idle)}: switched off, nothing changes"] if idle else []
-    touched = {geom for pair in watcher.touching for geom in pair}
+    touched = {geom for pair in run.touching for geom in pair}
     alone = [s.called("geom", i) for i in range(s.model.ngeom) if i not in touched and collides(s.model, i)]
     if alone:
         said.append(f"nothing touches {', '.join(alone) if len(alone) < 4 else counted(len(alone), 'geom')}")
     return "; ".join(said), found
 
 
-def effects(s: Subject, watcher: Watcher) -> Iterator[str]:
+def effects(s: Subject, run: Recording) -> Iterator[str]:
     """The parts of the physics that are switched on and have something to act upon."""
     m = s.model
     present = {
         "gravity": np.any(m.opt.gravity),
-        "contact": watcher.touching,
+        "contact": run.touching,
         "limit": np.any(m.jnt_limited) or np.any(m.tendon_limited),
         "spring": np.any(m.jnt_stiffness) or np.any(m.tendon_stiffness),
         "damper": np.any(m.dof_damping) or np.any(m.tendon_damping),

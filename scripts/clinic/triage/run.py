@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from time import perf_counter
@@ -55,14 +55,9 @@ class Subject:
         return data
 
     @cached_property
-    def watched(self) -> tuple[Recording, Watcher]:
-        """The model as it is, run once and watched: what most steps look at.
-
-        Raises:
-            RunError: If the run cannot start.
-        """
-        watcher = Watcher(self)
-        return record(self, 0.25, watcher=watcher), watcher
+    def watched(self) -> Recording:
+        """The run of the model as it is, at which most steps look."""
+        return record(self, 0.25)
 
     def called(self, kind: str, index: int) -> str:
         """An element as a report names it: `joint elbow`, or `geom 3 of body torso` without a name."""
@@ -73,39 +68,7 @@ class Subject:
         return f"{kind} {index} of {self.called('body', getattr(self.model, BODY_OF[kind])[index])}"
 
 
-class Watcher:
-    """Reads what each step of a subject's run shows.
-
-    Attributes:
-        touching: The pairs of geoms seen in contact.
-        farthest: The longest way each geom's centre went in one step, in m, shape (ngeom,).
-        fastest: The largest speed of a degree of freedom, in rad/s or m/s, and its index.
-        supplied: The work done by actuators and gravity compensation up to the start of each step, in J.
-    """
-
-    def __init__(self, subject: Subject) -> None:
-        m = self._model = subject.model
-        self.touching: set[tuple[int, ...]] = set()
-        self.farthest = np.zeros(m.ngeom)
-        self.fastest = (0.0, 0)
-        self.supplied = [0.0]
-        self._in_actuators = np.asarray(m.jnt_actgravcomp, dtype=bool)[m.dof_jntid]  # where gravity compensation is
-        self._qvel, self._centres = subject.data.qvel.copy(), subject.data.geom_xpos.copy()
-
-    def __call__(self, data: mujoco.MjData) -> None:
-        """Reads the data after a step; positions and forces are those of the step's start."""
-        self.touching.update(map(tuple, data.contact.geom.tolist()))
-        np.fmax(self.farthest, np.linalg.norm(data.geom_xpos - self._centres, axis=1), out=self.farthest)
-        speed = np.nan_to_num(np.abs(data.qvel))
-        if speed.max(initial=0.0) > self.fastest[0]:
-            self.fastest = (float(speed.max()), int(speed.argmax()))
-        force = data.qfrc_actuator + np.where(self._in_actuators, 0.0, data.qfrc_gravcomp)
-        work = self._model.opt.timestep * float(force @ (self._qvel + data.qvel)) / 2
-        self.supplied.append(self.supplied[-1] + work)
-        self._qvel, self._centres = data.qvel.copy(), data.geom_xpos.copy()
-
-
-@dataclass(frozen=True)
+@dataclass
 class Recording:
     """What one run showed.
 
@@ -113,32 +76,35 @@ class Recording:
         planned: How many steps were asked for.
         steps: How many were made before the time or the numbers ended.
         time: What they cover, in s.
-        qpos: The joint positions at each sample, shape (nq,).
-        points: Positions of every body frame, then of every geom's centre, in m, shape (samples, n, 3).
-        energies: Potential and kinetic energy at the start of each step, in J, shape (steps, 2).
-        warnings: Each MuJoCo warning that was raised, with the first text that MuJoCo printed for it.
-        resets: On how many steps time went back.
         finite: Whether all positions and velocities stayed finite.
+        resets: On how many steps time went back.
+        warnings: Each MuJoCo warning that was raised, with the first text that MuJoCo printed for it.
+        fastest: The largest speed of a degree of freedom, in rad/s or m/s, and its index.
+        farthest: The longest way each geom's centre went in one step, in m, shape (ngeom,).
+        touching: The pairs of geoms that were in contact.
+        energies: At the start of each step potential and kinetic energy, in J, shape (2,).
+        supplied: The work done by actuators and gravity compensation up to then, in J.
+        qpos: At each sample the joint positions, shape (nq,).
+        points: The positions of every body frame, then of every geom's centre, in m, shape (n, 3).
     """
 
     planned: int
-    steps: int
-    time: float
-    qpos: list[Array]
-    points: Array
-    energies: Array
-    warnings: dict[str, str]
-    resets: int
-    finite: bool
+    farthest: Array
+    steps: int = 0
+    time: float = 0.0
+    finite: bool = True
+    resets: int = 0
+    warnings: dict[str, str] = field(default_factory=dict)
+    fastest: tuple[float, int] = (0.0, 0)
+    touching: set[tuple[int, ...]] = field(default_factory=set)
+    energies: list[Array] = field(default_factory=list)
+    supplied: list[float] = field(default_factory=list)
+    qpos: list[Array] = field(default_factory=list)
+    points: list[Array] = field(default_factory=list)
 
 
 def record(
-    subject: Subject,
-    share: float = 1.0,
-    without: tuple[str, ...] = (),
-    finer: int = 1,
-    nudge: float = 0.0,
-    watcher: Callable[[mujoco.MjData], None] | None = None,
+    subject: Subject, share: float = 1.0, without: tuple[str, ...] = (), finer: int = 1, nudge: float = 0.0
 ) -> Recording:
     """Runs the subject's model from its start with its controls.
 
@@ -148,47 +114,50 @@ def record(
         without: The parts of the physics that are switched off, as MuJoCo's flags name them.
         finer: The timestep is divided by it; samples stay at the same times.
         nudge: Added to every velocity of the start, in rad/s or m/s.
-        watcher: Called with the data after every step.
+
+    Raises:
+        RunError: If the run cannot start.
     """
     now = perf_counter()
     end = now + share * (subject.end - now)
-    model = copy.copy(subject.model)
-    model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
-    model.opt.disableflags |= flags(*without)
-    model.opt.timestep /= finer
-    planned = step_count(subject.model, subject.run) * finer
-    stride = max(1, planned // finer // SAMPLES) * finer
-    steps, resets, finite = 0, 0, True
-    qpos, points, energies = [], [], []
+    m = copy.copy(subject.model)
+    m.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
+    m.opt.disableflags |= flags(*without)
+    m.opt.timestep /= finer
+    made = Recording(step_count(subject.model, subject.run) * finer, np.zeros(m.ngeom))
+    stride = max(1, made.planned // finer // SAMPLES) * finer
+    compensated = np.asarray(m.jnt_actgravcomp, dtype=bool)[m.dof_jntid]  # against gravity by actuators' forces
+    centres, work = subject.data.geom_xpos, 0.0
     with captured_messages() as messages:
-        data = initial_data(model, subject.run)
+        data = initial_data(m, subject.run)
         data.qvel += nudge
-        driven = controls(model, subject.run, planned)
-        while steps < planned and finite and perf_counter() < end:
-            before = data.time
-            step(model, data, driven, steps)
-            steps += 1
-            resets += data.time <= before
-            energies.append(data.energy.copy())
-            if watcher is not None:
-                watcher(data)
-            if steps % stride == 0 or steps == planned:
-                finite = bool(np.isfinite(data.qpos).all() and np.isfinite(data.qvel).all())
-            if finite and steps % stride == 0:
-                mujoco.mj_kinematics(model, data)
-                qpos.append(data.qpos.copy())
-                points.append(np.concatenate([data.xpos, data.geom_xpos]))
-    return Recording(
-        planned=planned,
-        steps=steps,
-        time=steps * model.opt.timestep,
-        qpos=qpos,
-        points=np.array(points).reshape(-1, model.nbody + model.ngeom, 3),
-        energies=np.array(energies).reshape(-1, 2),
-        warnings={name: said[0] for k, name in WARNINGS.items() if (said := [m for m in messages if m.startswith(k)])},
-        resets=resets,
-        finite=finite,
-    )
+        driven = controls(m, subject.run, made.planned)
+        while made.steps < made.planned and made.finite and perf_counter() < end:
+            time, qvel = data.time, data.qvel.copy()
+            step(m, data, driven, made.steps)  # velocities are then those of its end, all else of its start
+            made.steps += 1
+            made.resets += data.time <= time
+            made.touching.update(map(tuple, data.contact.geom.tolist()))
+            made.farthest = np.fmax(made.farthest, np.linalg.norm(data.geom_xpos - centres, axis=1))
+            centres = data.geom_xpos.copy()
+            speed = np.nan_to_num(np.abs(data.qvel))
+            if speed.max(initial=0.0) > made.fastest[0]:
+                made.fastest = (float(speed.max()), int(speed.argmax()))
+            made.energies.append(data.energy.copy())
+            made.supplied.append(work)
+            force = data.qfrc_actuator + np.where(compensated, 0.0, data.qfrc_gravcomp)
+            work += m.opt.timestep * float(force @ (qvel + data.qvel)) / 2
+            if made.steps % stride == 0 or made.steps == made.planned:
+                made.finite = bool(np.isfinite(data.qpos).all() and np.isfinite(data.qvel).all())
+            if made.finite and made.steps % stride == 0:
+                mujoco.mj_kinematics(m, data)
+                made.qpos.append(data.qpos.copy())
+                made.points.append(np.concatenate([data.xpos, data.geom_xpos]))
+    made.time = made.steps * m.opt.timestep
+    for words, name in WARNINGS.items():
+        if said := [message for message in messages if message.startswith(words)]:
+            made.warnings[name] = said[0]
+    return made
 
 
 def flags(*parts: str) -> int:
@@ -199,11 +168,11 @@ def flags(*parts: str) -> int:
 def distance(one: Recording, other: Recording) -> float:
     """The largest distance between the same points of two recordings, in m; infinite where one is not finite."""
     n = min(len(one.points), len(other.points))
-    apart = np.linalg.norm(one.points[:n] - other.points[:n], axis=2)
+    apart = np.linalg.norm(np.subtract(one.points[:n], other.points[:n]), axis=-1)
     return float(np.nan_to_num(apart, nan=np.inf).max(initial=0.0))
 
 
 def scale(subject: Subject, recording: Recording) -> float:
     """What a change is compared with, in m: the scene's extent, or the longest way a point went if that is more."""
-    way = np.linalg.norm(recording.points - recording.points[:1], axis=2)
+    way = np.linalg.norm(np.subtract(recording.points, recording.points[:1]), axis=-1)
     return max(float(subject.model.stat.extent), float(way[np.isfinite(way)].max(initial=0.0)))

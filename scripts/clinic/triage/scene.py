@@ -35,7 +35,7 @@ def deep_start(s: Subject) -> Seen:
 
 def leaps(s: Subject) -> Seen:
     """A colliding geom goes farther in a step than its smallest half-size and the thinnest fixed geom's together."""
-    m, farthest = s.model, s.watched[1].farthest
+    m, farthest = s.model, s.watched.farthest
     colliding = [i for i in range(m.ngeom) if collides(m, i)]
     fixed = {i: _half_size(m, i) for i in colliding if m.body_treeid[m.geom_bodyid[i]] < 0}
     thinnest = min(fixed, key=lambda i: fixed[i], default=-1)
@@ -47,12 +47,12 @@ def leaps(s: Subject) -> Seen:
 
 def ghosts(s: Subject) -> Seen:
     """Two geoms that both have contact masks, which do not match, come to overlap (looked for at 100 moments)."""
-    run, watcher = s.watched
+    run = s.watched
     meeting = copy.copy(s.model)  # all masks match; MuJoCo itself leaves out parent and child, welded, excluded
     for kind in ("body", "geom"):  # it asks those of bodies first
         masks = [getattr(meeting, f"{kind}_{name}") for name in ("contype", "conaffinity")]
         masks[0][:] = masks[1][:] = (masks[0] | masks[1]) != 0
-    data, since, every = mujoco.MjData(meeting), dict.fromkeys(watcher.touching, 0.0), run.time / max(1, len(run.qpos))
+    data, since, every = mujoco.MjData(meeting), dict.fromkeys(run.touching, 0.0), run.time / max(1, len(run.qpos))
     with captured_messages():
         for k, qpos in enumerate([s.data.qpos, *run.qpos]):
             data.qpos[:] = qpos
@@ -70,8 +70,8 @@ RULES: tuple[Rule, ...] = (cameras, deep_start, leaps, ghosts)
 
 def look(s: Subject) -> Look:
     """Applies every rule to the start and to the watched run."""
-    run, watcher = s.watched
-    pairs = counted(len(watcher.touching), "pair")
+    run = s.watched
+    pairs = counted(len(run.touching), "pair")
     said = f"{counted(s.data.ncon, 'contact')} at the start, {pairs} of geoms in contact within {shown(run.time, 's')}"
     return said, apply(RULES, s)
 

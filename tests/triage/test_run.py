@@ -73,7 +73,7 @@ def test_a_fall_turns_potential_into_kinetic_energy() -> None:
     run = subject(BALL).watched
     assert np.ptp(np.sum(run.energies, axis=1)) < 0.002 * np.max(run.energies, axis=0)[1]
     assert run.supplied[-1] == 0
-    assert run.fastest[0] == pytest.approx(9.81)
+    assert run.fastest.max() == pytest.approx(9.81)
 
 
 def test_the_work_of_a_motor_is_the_energy_gained() -> None:

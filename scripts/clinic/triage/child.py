@@ -63,11 +63,10 @@ def main(path: Path) -> None:
         _tell(reports=[])
         for observation in triage(subject, SECONDS):
             _tell(reports=[report(observation)])
+    except CaseError as error:
+        _tell(problems=[vars(problem) for problem in error.problems])
     except Exception as error:
-        problems = (
-            error.problems if isinstance(error, CaseError) else [_problem(path, f"{type(error).__name__}: {error}")]
-        )
-        _tell(problems=[vars(problem) for problem in problems])
+        _tell(problems=[vars(_problem(path, f"{type(error).__name__}: {error}"))])
 
 
 def _problem(path: Path, found: str) -> Problem:

@@ -27,9 +27,8 @@ def warnings(s: Subject) -> Look:
         found.append(Finding("reset", "data.time", f"goes back on {run.resets} of {run.steps} steps by a reset"))
     if not run.finite:
         found.append(Finding("finite", "state", f"is no longer finite after {shown(run.time, 's')}"))
-    speed, dof = run.fastest
-    if speed > FAST:
-        joint = s.called("joint", int(s.model.dof_jntid[dof]))
+    if (speed := run.fastest.max(initial=0.0)) > FAST:
+        joint = s.called("joint", s.model.dof_jntid[run.fastest.argmax()])
         found.append(Finding("fast", joint, f"reaches {shown(speed, 'rad/s or m/s')}"))
     cut = "" if run.steps == run.planned else f" of {run.planned}, then the time or the numbers ended"
     said = f"{'warnings' if run.warnings else 'no warning'} in {run.steps} steps{cut}, {shown(run.time, 's')}"

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 SAMPLES = 100  # of a recording
 WARNINGS = {
     mujoco.mju_warningText(kind, 7).partition("7")[0]: mujoco.mjtWarning(kind).name.removeprefix("mjWARN_")
-    for kind in range(mujoco.mjtWarning.mjNWARNING)
+    for kind in range(int(mujoco.mjtWarning.mjNWARNING))
 }
 """How the text of each kind of warning begins, with its name; MuJoCo prints it when it begins to count the kind."""
 BODY_OF = {"geom": "geom_bodyid", "joint": "jnt_bodyid", "camera": "cam_bodyid"}
@@ -79,7 +79,7 @@ class Recording:
         finite: Whether all positions and velocities stayed finite.
         resets: On how many steps time went back.
         warnings: Each MuJoCo warning that was raised, with the first text that MuJoCo printed for it.
-        fastest: The largest speed of a degree of freedom, in rad/s or m/s, and its index.
+        fastest: The largest speed of each degree of freedom, in rad/s or m/s, shape (nv,).
         farthest: The longest way each geom's centre went in one step, in m, shape (ngeom,).
         touching: The pairs of geoms that were in contact.
         energies: At the start of each step potential and kinetic energy, in J, shape (2,).
@@ -89,13 +89,13 @@ class Recording:
     """
 
     planned: int
+    fastest: Array
     farthest: Array
     steps: int = 0
     time: float = 0.0
     finite: bool = True
     resets: int = 0
     warnings: dict[str, str] = field(default_factory=dict)
-    fastest: tuple[float, int] = (0.0, 0)
     touching: set[tuple[int, ...]] = field(default_factory=set)
     energies: list[Array] = field(default_factory=list)
     supplied: list[float] = field(default_factory=list)
@@ -124,7 +124,7 @@ def record(
     m.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
     m.opt.disableflags |= flags(*without)
     m.opt.timestep /= finer
-    made = Recording(step_count(subject.model, subject.run) * finer, np.zeros(m.ngeom))
+    made = Recording(step_count(subject.model, subject.run) * finer, np.zeros(m.nv), np.zeros(m.ngeom))
     stride = max(1, made.planned // finer // SAMPLES) * finer
     compensated = np.asarray(m.jnt_actgravcomp, dtype=bool)[m.dof_jntid]  # against gravity by actuators' forces
     centres, work = subject.data.geom_xpos, 0.0
@@ -140,9 +140,7 @@ def record(
             made.touching.update(map(tuple, data.contact.geom.tolist()))
             made.farthest = np.fmax(made.farthest, np.linalg.norm(data.geom_xpos - centres, axis=1))
             centres = data.geom_xpos.copy()
-            speed = np.nan_to_num(np.abs(data.qvel))
-            if speed.max(initial=0.0) > made.fastest[0]:
-                made.fastest = (float(speed.max()), int(speed.argmax()))
+            made.fastest = np.fmax(made.fastest, abs(data.qvel))
             made.energies.append(data.energy.copy())
             made.supplied.append(work)
             force = data.qfrc_actuator + np.where(compensated, 0.0, data.qfrc_gravcomp)

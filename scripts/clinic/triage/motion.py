@@ -117,5 +117,5 @@ def energy_drift(s: Subject) -> float | None:
     run = record(bare, 0.2, without=("constraint", "damper", "actuation"))
     if not run.finite or run.resets or run.warnings:
         return float("inf")
-    kinetic = float(max(kinetic for _, kinetic in run.energies))
+    kinetic = max((float(kinetic) for _, kinetic in run.energies), default=0.0)
     return float(np.ptp(np.sum(run.energies, axis=1))) / kinetic if kinetic > 1e-9 else None

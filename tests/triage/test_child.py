@@ -11,8 +11,8 @@ from clinic.triage.child import MARK, reports
 from clinic.triage.steps import STEPS
 from helpers import BALL
 
-READ = f'print({MARK!r} + \'{{"read": "model"}}\', flush=True)\n'
-SAID = f'print({MARK!r} + \'{{"report": "1. warnings"}}\', flush=True)\n'
+READ = f"print({MARK!r} + '{{\"reports\": []}}', flush=True)\n"
+SAID = f'print({MARK!r} + \'{{"reports": ["1. warnings"]}}\', flush=True)\n'
 
 
 def child(code: str) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from clinic.triage.model import RULES, line_of
+from clinic.triage.model import RULES
 from helpers import BALL, RESTING
 from subjects import arm, subject
 
@@ -73,16 +73,3 @@ def test_a_rule_keeps_quiet_about_a_model_that_is_well(rule) -> None:
 def test_every_rule_states_what_it_looks_for() -> None:
     assert [rule.__name__ for rule in RULES if not (rule.__doc__ or "").strip()] == []
     assert {name.split()[0] for name in SEEN} == {rule.__name__ for rule in RULES}
-
-
-@pytest.mark.parametrize(
-    ("message", "line"),
-    [
-        ("Error: mass ... Element name 'hand', id 1, line 7", 7),
-        ("XML Error: Schema violation Element 'geom', line 12", 12),
-        ("XML parse error 7: ErrorID=7 (0x7) Line number=3: XMLElement name=mujoco", 3),
-        ("mj_stackAlloc: out of memory at setInertia0, line 1065 max = 20480", 1),
-    ],
-)
-def test_the_line_of_a_message(message: str, line: int) -> None:
-    assert line_of(message) == line

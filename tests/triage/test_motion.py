@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from clinic.triage.motion import conservation, halved, warnings
+from clinic.triage.motion import chaos, conservation, halved, warnings
 from clinic.triage.text import Finding
 from helpers import BALL, PENDULUM, RESTING
-from subjects import examination
+from subjects import subject
 
 STIFF = """<mujoco><option timestep="0.01"/><worldbody><body euler="0 10 0">
   <joint name="j" axis="0 1 0" stiffness="2000"/>
@@ -19,7 +19,7 @@ def rules(found: list[Finding]) -> set[str]:
 
 
 def test_an_explosion_is_warned_of_and_reset() -> None:
-    said, found = warnings(examination(STIFF.replace('euler="0 10 0"', 'euler="0 170 0"'), qvel={"j": 1.0}))
+    said, found = warnings(subject(STIFF.replace('euler="0 10 0"', 'euler="0 170 0"'), qvel={"j": 1.0}))
     assert rules(found) == {"warned", "reset", "fast"}
     assert ("warned", "BADQACC") in {(rule, element) for rule, element, _ in found}
     assert next(text for rule, _, text in found if rule == "warned").startswith("Nan, Inf or huge value in QACC")
@@ -27,23 +27,23 @@ def test_an_explosion_is_warned_of_and_reset() -> None:
 
 
 def test_a_quiet_run_says_how_long_it_was() -> None:
-    assert warnings(examination(BALL)) == ("no warning in 1000 steps, 1\u00a0s", [])
+    assert warnings(subject(BALL)) == ("no warning in 1000 steps, 1\u00a0s", [])
 
 
 def test_an_explosion_conserves_nothing_and_half_the_timestep_changes_it() -> None:
-    examined = examination(STIFF, qvel={"j": 1.0})
+    examined = subject(STIFF, qvel={"j": 1.0})
     assert "explodes" in rules(conservation(examined)[1])
     assert "a twentieth" in rules(halved(examined)[1])
 
 
 def test_energy_from_a_start_inside_the_floor_is_seen() -> None:
-    _, found = conservation(examination(INSIDE))
+    _, found = conservation(subject(INSIDE))
     assert rules(found) == {"gain"}
 
 
 def test_sound_motions_conserve_and_do_not_hang_on_the_timestep() -> None:
     for xml in (BALL, RESTING, PENDULUM):
-        examined = examination(xml)
+        examined = subject(xml)
         assert conservation(examined)[1] == []
         assert halved(examined)[1] == []
 
@@ -51,13 +51,21 @@ def test_sound_motions_conserve_and_do_not_hang_on_the_timestep() -> None:
 def test_a_servo_does_work_that_is_counted() -> None:
     xml = """<mujoco><worldbody><body><joint name="j"/><geom size=".05" pos=".3 0 0"/></body></worldbody>
       <actuator><position name="servo" joint="j" kp="50"/></actuator></mujoco>"""
-    assert conservation(examination(xml, duration=5, ctrl={"servo": 1.0})) == (
+    assert conservation(subject(xml, duration=5, ctrl={"servo": 1.0})) == (
         "no energy appears",
         [],
     )
 
 
 def test_nothing_that_moves_is_no_reason_to_fail() -> None:
-    examined = examination("<mujoco/>")
+    examined = subject("<mujoco/>")
     assert conservation(examined) == ("nothing moves", [])
     assert halved(examined)[1] == []
+
+
+def test_a_double_pendulum_on_its_head_is_chaotic_and_a_fall_is_not() -> None:
+    xml = """<mujoco><worldbody><body euler="0 179 0"><joint axis="0 1 0"/><geom type="capsule" size=".02"
+      fromto="0 0 0 0 0 -.1"/><body pos="0 0 -.1"><joint axis="0 1 0"/><geom type="capsule" size=".02"
+      fromto="0 0 0 0 0 -.1"/></body></body></worldbody><option><flag contact="disable"/></option></mujoco>"""
+    assert chaos(subject(xml, duration=8)) > 1e-3
+    assert chaos(subject(BALL)) < 1e-6

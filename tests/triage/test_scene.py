@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from clinic.triage.scene import RULES, look
+from clinic.triage.scene import RULES, ghosts, look
 from helpers import BALL, MODEL, RESTING
-from subjects import examination
+from subjects import subject
 
 BALL_AT = '<body pos="0 0 {0}"><freejoint/><geom name="b" size="{1}"/></body></worldbody></mujoco>'
 FLOOR = '<geom name="floor" type="box" size="1 1 .003" pos="0 0 0"/>'
@@ -32,7 +32,7 @@ SEEN = {
 @pytest.mark.parametrize("name", SEEN)
 def test_a_rule_sees_what_it_is_for(name: str) -> None:
     xml, element, text = SEEN[name]
-    _, found = look(examination(xml))
+    _, found = look(subject(xml))
     seen = {where: said for rule, where, said in found if rule == name}
     assert element in seen, found
     assert text in seen[element]
@@ -45,6 +45,14 @@ def test_every_rule_is_tested_and_states_what_it_looks_for() -> None:
 
 @pytest.mark.parametrize("xml", [BALL, RESTING, "<mujoco/>"])
 def test_a_scene_that_is_well(xml: str) -> None:
-    said, found = look(examination(xml))
+    said, found = look(subject(xml))
     assert found == []
     assert "at the start" in said
+
+
+def test_parents_welded_and_excluded_pairs_do_not_overlap() -> None:
+    xml = """<mujoco><worldbody><body name="a"><joint/><geom size=".1" contype="2" conaffinity="2"/>
+      <geom size=".1"/><body name="b"><joint/><geom size=".1"/><body name="c"><joint/>
+      <geom size=".1" contype="4" conaffinity="4"/></body></body></body></worldbody>
+      <contact><exclude body1="a" body2="c"/></contact></mujoco>"""
+    assert list(ghosts(subject(xml))) == []

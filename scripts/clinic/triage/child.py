@@ -6,14 +6,13 @@ Run as a module with a path, it prints each message as a line of JSON behind MAR
 from __future__ import annotations
 
 import json
-import subprocess
 import sys
 import threading
 from collections.abc import Iterator
 from pathlib import Path
+from subprocess import DEVNULL, PIPE, Popen
 
 from clinic.record.problem import CaseError, Problem
-from clinic.triage.run import Budget
 from clinic.triage.steps import SECONDS, STEPS, report, subject_of, triage
 
 LIMIT = 30.0  # s
@@ -28,14 +27,8 @@ def reports(path: Path, limit: float = LIMIT, child: tuple[str, ...] = CHILD) ->
     Raises:
         CaseError: If the model cannot be read, or its process ends early or not within `limit` seconds.
     """
-    process = subprocess.Popen(
-        [*child, str(path)],
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        encoding="utf-8",
-        errors="replace",
-    )
+    command = [*child, str(path)]
+    process = Popen(command, stdin=DEVNULL, stdout=PIPE, stderr=DEVNULL, encoding="utf-8", errors="replace")
     assert process.stdout is not None
     timer = threading.Timer(limit, process.kill)
     timer.start()
@@ -47,8 +40,7 @@ def reports(path: Path, limit: float = LIMIT, child: tuple[str, ...] = CHILD) ->
                 if "problems" in message:
                     raise CaseError(Problem(**problem) for problem in message["problems"])
                 doing.pop(0)
-                if "report" in message:
-                    yield message["report"]
+                yield from message["reports"]
         late = timer.finished.is_set()
         code = process.wait()
     finally:
@@ -68,20 +60,20 @@ def main(path: Path) -> None:
         resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
     try:
         subject = subject_of(path)
-        _tell({"read": str(path)})
-        for observation in triage(subject, Budget(SECONDS)):
-            _tell({"report": report(observation)})
+        _tell(reports=[])
+        for observation in triage(subject, SECONDS):
+            _tell(reports=[report(observation)])
     except CaseError as error:
-        _tell({"problems": [vars(problem) for problem in error.problems]})
+        _tell(problems=[vars(problem) for problem in error.problems])
     except Exception as error:
-        _tell({"problems": [vars(_problem(path, f"{type(error).__name__}: {error}"))]})
+        _tell(problems=[vars(_problem(path, f"{type(error).__name__}: {error}"))])
 
 
 def _problem(path: Path, found: str) -> Problem:
     return Problem(str(path), 1, "", found, "a model that MuJoCo can run", "remove half of the model")
 
 
-def _tell(message: object) -> None:
+def _tell(**message: object) -> None:
     print(MARK + json.dumps(message), flush=True)
 
 

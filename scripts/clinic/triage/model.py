@@ -6,7 +6,6 @@ A rule's docstring states its threshold in one sentence; the triage page lists t
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterator
 
 import mujoco
@@ -14,10 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clinic.engine.releases import control_of
-from clinic.triage.run import Array, Subject
+from clinic.triage.run import Array, Subject, flags
 from clinic.triage.stiffness import HINGE, SLIDE, highest_frequency, inertias, joint_servos
 from clinic.triage.text import Finding, Look, counted, shown
-from clinic.triage.watched_run import Examination
 
 Seen = Iterator[tuple[str, str]]
 Rule = Callable[[Subject], Seen]
@@ -95,7 +93,7 @@ def undamped(s: Subject) -> Seen:
 
 
 def masses(s: Subject) -> Seen:
-    """A moving body is 10,000 times lighter than the heaviest, weighs over 10 t, or has inertia below 1e-9 kg m²."""
+    """A moving body is 10,000 times lighter than the heaviest, or weighs over 10 t."""
     m = s.model
     moving = [int(b) for b in np.flatnonzero(m.body_treeid >= 0)]
     heaviest = max((m.body_mass[b] for b in moving), default=0.0)
@@ -104,8 +102,6 @@ def masses(s: Subject) -> Seen:
             yield s.called("body", b), f"mass {shown(m.body_mass[b], 'kg')}"
         elif 0 < m.body_mass[b] < 1e-4 * heaviest:
             yield s.called("body", b), f"mass {shown(m.body_mass[b], 'kg')} beside {shown(heaviest, 'kg')}"
-        elif m.body_mass[b] > 0 and m.body_inertia[b].max() < 1e-9:
-            yield s.called("body", b), f"inertia {shown(m.body_inertia[b].max(), 'kg m²')}"
 
 
 def lengths(s: Subject) -> Seen:
@@ -125,7 +121,7 @@ def gravity(s: Subject) -> Seen:
 def switches(s: Subject) -> Seen:
     """A part of the physics is switched off by a flag."""
     for name in ("constraint", "equality", "limit", "contact", "spring", "damper", "gravity", "actuation", "autoreset"):
-        if s.model.opt.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{name.upper()}"):
+        if s.model.opt.disableflags & flags(name):
             yield "option", f"{name} is disabled by a flag"
 
 
@@ -215,24 +211,22 @@ RULES: tuple[Rule, ...] = (
 )  # fmt: skip
 
 
-def look(examination: Examination) -> Look:
+def look(s: Subject) -> Look:
     """Applies every rule to the compiled model."""
-    s, m = examination.subject, examination.subject.model
-    found = [Finding(rule.__name__, *seen) for rule in RULES for seen in rule(s)]
+    m = s.model
     sizes = [counted(m.nbody - 1, "body", "bodies"), counted(m.njnt, "joint"), counted(m.nu, "actuator")]
-    return f"{', '.join(sizes)}, timestep {shown(1e3 * m.opt.timestep, 'ms')}", found
+    return f"{', '.join(sizes)}, timestep {shown(1e3 * m.opt.timestep, 'ms')}", apply(RULES, s)
+
+
+def apply(rules: tuple[Rule, ...], s: Subject) -> list[Finding]:
+    """What the rules find, each thing once."""
+    return [Finding(rule.__name__, *seen) for rule in rules for seen in dict.fromkeys(rule(s))]
 
 
 def collides(m: mujoco.MjModel, geom: int) -> bool:
     """Whether a geom has contact masks, and contacts are not switched off."""
-    off = mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
-    return bool(m.geom_contype[geom] or m.geom_conaffinity[geom]) and not m.opt.disableflags & off
-
-
-def line_of(message: str) -> int:
-    """The line that a message of MuJoCo's names, or 1."""
-    match = re.search(r"Element\b.*\bline (\d+)|Line number=(\d+)", message)
-    return max(1, int(match[1] or match[2])) if match else 1
+    on = not m.opt.disableflags & flags("contact", "constraint")
+    return on and bool(m.geom_contype[geom] or m.geom_conaffinity[geom])
 
 
 def _partners(m: mujoco.MjModel, i: int) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Iterator
 
-import mujoco
 import numpy as np
 
 from clinic.triage.model import collides
-from clinic.triage.run import Subject, distance, record, scale
+from clinic.triage.run import Recording, Subject, distance, flags, record, scale
 from clinic.triage.text import Finding, Look, counted
-from clinic.triage.watched_run import Examination, Watcher
 
 FELT = 0.05
 """A motion hangs on what changes it by more than this share of the scene's size."""
@@ -19,20 +16,18 @@ SAME = 1e-9
 """Motions that differ by less than this share are the same."""
 
 
-def look(examination: Examination) -> Look:
+def look(s: Subject) -> Look:
     """Says what the motion hangs on and what touches nothing, and finds the parts that its warnings need."""
-    s, (run, watcher) = examination.subject, examination.watched
+    run = s.watched
     if s.model.nv == 0:
         return "nothing moves", []
     if len(run.points) < 2:
         return "too few steps to compare", []
     found, matter, idle, size = [], [], [], scale(s, run)
-    for effect in effects(s, watcher):
-        if examination.budget.left <= 0:
+    for effect in effects(s, run):
+        without = record(s, 0.2, without=(effect,))
+        if not without.steps:
             break
-        model = copy.copy(s.model)
-        model.opt.disableflags |= _flag(effect)
-        without = record(s, model, examination.budget.part(0.2))
         share = distance(run, without) / size
         if share > FELT:
             matter.append(effect)
@@ -42,23 +37,24 @@ def look(examination: Examination) -> Look:
             text = f"switched off, MuJoCo no longer warns of {', '.join(run.warnings)}"
             found.append(Finding("needed", effect, text))
     still = float(np.ptp(run.points, axis=0).max(initial=0.0)) < SAME * size
-    if still and "gravity" in idle and not watcher.touching:
+    if still and "gravity" in idle and not run.touching:
         text = "nothing moves or touches, and switching it off changes nothing"
         found.append(Finding("idle", "gravity", text))
     said = [f"the motion hangs on {', '.join(matter) or 'nothing'}"]
     said += [f"{', '.join(idle)}: switched off, nothing changes"] if idle else []
-    alone = [s.called("geom", geom) for geom in untouched(s, watcher)]
+    touched = {geom for pair in run.touching for geom in pair}
+    alone = [s.called("geom", i) for i in range(s.model.ngeom) if i not in touched and collides(s.model, i)]
     if alone:
         said.append(f"nothing touches {', '.join(alone) if len(alone) < 4 else counted(len(alone), 'geom')}")
     return "; ".join(said), found
 
 
-def effects(s: Subject, watcher: Watcher) -> Iterator[str]:
+def effects(s: Subject, run: Recording) -> Iterator[str]:
     """The parts of the physics that are switched on and have something to act upon."""
     m = s.model
     present = {
         "gravity": np.any(m.opt.gravity),
-        "contact": watcher.touching,
+        "contact": run.touching,
         "limit": np.any(m.jnt_limited) or np.any(m.tendon_limited),
         "spring": np.any(m.jnt_stiffness) or np.any(m.tendon_stiffness),
         "damper": np.any(m.dof_damping) or np.any(m.tendon_damping),
@@ -66,14 +62,4 @@ def effects(s: Subject, watcher: Watcher) -> Iterator[str]:
         "equality": np.any(m.eq_active0),
         "frictionloss": np.any(m.dof_frictionloss) or np.any(m.tendon_frictionloss),
     }
-    return (effect for effect, there in present.items() if there and not m.opt.disableflags & _flag(effect))
-
-
-def untouched(s: Subject, watcher: Watcher) -> Iterator[int]:
-    """The geoms that could collide and were in no contact."""
-    touched = {geom for pair in watcher.touching for geom in pair}
-    return (geom for geom in range(s.model.ngeom) if geom not in touched and collides(s.model, geom))
-
-
-def _flag(effect: str) -> int:
-    return int(getattr(mujoco.mjtDisableBit, f"mjDSBL_{effect.upper()}"))
+    return (effect for effect, there in present.items() if there and not m.opt.disableflags & flags(effect))

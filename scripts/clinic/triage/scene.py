@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import copy
 
 import mujoco
 import numpy as np
 
-from clinic.triage.model import Seen, collides
+from clinic.engine.simulate import captured_messages
+from clinic.triage.model import Rule, Seen, apply, collides
 from clinic.triage.run import Subject
-from clinic.triage.text import Finding, Look, counted, shown
-from clinic.triage.watched_run import Examination, Watcher
+from clinic.triage.text import Look, counted, shown
 
 FLAT = (int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_HFIELD))
-Rule = Callable[[Subject, Watcher], Seen]
 
 
-def cameras(s: Subject, watcher: Watcher) -> Seen:
+def cameras(s: Subject) -> Seen:
     """A camera fixed in the world has the up direction of its image more than 6° below the horizon."""
     gravity = np.asarray(s.model.opt.gravity, dtype=float)
     for i in range(s.model.ncam):
@@ -26,7 +25,7 @@ def cameras(s: Subject, watcher: Watcher) -> Seen:
             yield s.called("camera", i), f"the image's up is ({axis}): upside down"
 
 
-def deep_start(s: Subject, watcher: Watcher) -> Seen:
+def deep_start(s: Subject) -> Seen:
     """Two geoms start with a contact deeper than 5 % of the thinner one's smallest half-size."""
     for contact in s.data.contact:
         one, two = (int(g) for g in contact.geom)
@@ -34,38 +33,47 @@ def deep_start(s: Subject, watcher: Watcher) -> Seen:
             yield _pair(s, one, two), f"start {shown(-1e3 * contact.dist, 'mm')} inside each other"
 
 
-def leaps(s: Subject, watcher: Watcher) -> Seen:
+def leaps(s: Subject) -> Seen:
     """A colliding geom goes farther in a step than its smallest half-size and the thinnest fixed geom's together."""
-    m = s.model
+    m, farthest = s.model, s.watched.farthest
     colliding = [i for i in range(m.ngeom) if collides(m, i)]
     fixed = {i: _half_size(m, i) for i in colliding if m.body_treeid[m.geom_bodyid[i]] < 0}
     thinnest = min(fixed, key=lambda i: fixed[i], default=-1)
     for i in colliding:
-        way = watcher.farthest[i]
-        if fixed and i not in fixed and way > fixed[thinnest] + _half_size(m, i):
-            yield (
-                s.called("geom", i),
-                f"goes {shown(1e3 * way, 'mm')} in a step; {s.called('geom', thinnest)} is thinner",
-            )
+        if fixed and i not in fixed and farthest[i] > fixed[thinnest] + _half_size(m, i):
+            way = shown(1e3 * farthest[i], "mm")
+            yield s.called("geom", i), f"goes {way} in a step; {s.called('geom', thinnest)} is thinner"
 
 
-def ghosts(s: Subject, watcher: Watcher) -> Seen:
-    """Two geoms that both have contact masks, which do not match, come to overlap (looked for at 20 moments)."""
-    for (one, two), since in watcher.overlaps.items():
-        if since > 0:
-            yield _pair(s, one, two), f"overlap from {shown(since, 's')} on without a contact"
+def ghosts(s: Subject) -> Seen:
+    """Two geoms that both have contact masks, which do not match, come to overlap (looked for at 100 moments)."""
+    run = s.watched
+    meeting = copy.copy(s.model)  # all masks match; MuJoCo itself leaves out parent and child, welded, excluded
+    for kind in ("body", "geom"):  # it asks those of bodies first
+        masks = [getattr(meeting, f"{kind}_{name}") for name in ("contype", "conaffinity")]
+        masks[0][:] = masks[1][:] = (masks[0] | masks[1]) != 0
+    data, since, every = mujoco.MjData(meeting), dict.fromkeys(run.touching, 0.0), run.time / max(1, len(run.qpos))
+    with captured_messages():
+        for k, qpos in enumerate([s.data.qpos, *run.qpos]):
+            data.qpos[:] = qpos
+            mujoco.mj_fwdPosition(meeting, data)
+            for contact in data.contact:
+                if contact.dist < 0 and contact.geom.min() >= 0:
+                    since.setdefault(tuple(contact.geom.tolist()), k * every)
+    for (one, two), time in since.items():
+        if time > 0:
+            yield _pair(s, one, two), f"overlap from {shown(time, 's')} on without a contact"
 
 
 RULES: tuple[Rule, ...] = (cameras, deep_start, leaps, ghosts)
 
 
-def look(examination: Examination) -> Look:
+def look(s: Subject) -> Look:
     """Applies every rule to the start and to the watched run."""
-    s, (run, watcher) = examination.subject, examination.watched
-    found = [Finding(rule.__name__, *seen) for rule in RULES for seen in dict(rule(s, watcher)).items()]
-    pairs = counted(len(watcher.touching), "pair")
+    run = s.watched
+    pairs = counted(len(run.touching), "pair")
     said = f"{counted(s.data.ncon, 'contact')} at the start, {pairs} of geoms in contact within {shown(run.time, 's')}"
-    return said, found
+    return said, apply(RULES, s)
 
 
 def _half_size(m: mujoco.MjModel, i: int) -> float:

@@ -6,9 +6,12 @@ observation lists what the rules found. Nothing found is an answer too.
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
+from time import perf_counter
 
 import mujoco
 import numpy as np
@@ -22,9 +25,8 @@ from clinic.record.folder import RECORD
 from clinic.record.problem import CaseError, Problem
 from clinic.triage import model as compiled
 from clinic.triage import motion, reduce, scene
-from clinic.triage.run import Budget, Subject
+from clinic.triage.run import Subject
 from clinic.triage.text import Finding, Look
-from clinic.triage.watched_run import Examination
 
 SECONDS = 7.0
 DURATION = 2.0
@@ -32,7 +34,7 @@ MAX_STEPS = 4000
 SHOWN = 3
 FIRST = "the first keyframe"
 ENGINE_ERRORS = (ValueError, mujoco.FatalError, mujoco.UnexpectedError)
-STEPS: dict[str, tuple[str, Callable[[Examination], Look]]] = {
+STEPS: dict[str, tuple[str, Callable[[Subject], Look]]] = {
     "warnings": ("MuJoCo's warnings", motion.warnings),
     "model": ("the model as compiled", compiled.look),
     "overlays": ("the scene with overlays", scene.look),
@@ -51,16 +53,16 @@ class Observation(BaseModel, frozen=True):
     findings: list[Finding] = []
 
 
-def triage(subject: Subject, budget: Budget | None = None) -> Iterator[Observation]:
-    """The six observations, each as soon as it is made. A step that cannot be taken says why."""
-    examination = Examination(subject, budget or Budget())
+def triage(subject: Subject, seconds: float = np.inf) -> Iterator[Observation]:
+    """The six observations, each as soon as it is made. A step that cannot be taken within `seconds` says why."""
+    subject = replace(subject, end=perf_counter() + seconds)
     for step, (_, look) in STEPS.items():
-        if examination.budget.left <= 0:
+        if perf_counter() >= subject.end:
             yield Observation(step=step, taken=False, said="the time allowed was used up")
             continue
         try:
             with np.errstate(all="ignore"):
-                said, findings = look(examination)
+                said, findings = look(subject)
         except RunError as error:
             yield Observation(step=step, taken=False, said=error.found)
         except (*ENGINE_ERRORS, ArithmeticError) as error:
@@ -98,7 +100,8 @@ def subject_of(path: Path) -> Subject:
         return _compiled(lambda: read_spec(path))
     except ENGINE_ERRORS as error:
         said = " ".join(str(error).split())
-        line, expected = compiled.line_of(said), "XML that MuJoCo compiles"
+        lines = re.findall(r"(?:Element\b.*\bline |Line number=)(\d+)", said)
+        line, expected = max([1, *map(int, lines)]), "XML that MuJoCo compiles"
         raise CaseError([Problem(str(path), line, "", said, expected, "see *What MuJoCo says*")]) from None
 
 

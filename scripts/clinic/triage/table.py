@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import partial
 
 from pydantic import BaseModel
@@ -36,10 +36,6 @@ class Screening(BaseModel, frozen=True):
         caught = [finding for finding in before if (finding.rule, finding.element) not in left]
         return caught, [finding for finding in before if finding not in caught]
 
-    def catching(self) -> set[str]:
-        """The steps that found what the repair removes."""
-        return {step for step in STEPS if self.seen(step)[0]}
-
 
 def screening_tasks(cases: Iterable[Case]) -> Iterator[Task]:
     """The work for every case that has a model."""
@@ -67,7 +63,9 @@ def table(cases: Iterable[Case], files: Mapping[str, Files]) -> str:
         name = f"{case.record.number}. {case.record.title.translate(MEANS_SOMETHING)}"
         cells = [f"[{text}]({link})" for text in (name, *(cell(found.get(case.slug), step) for step in STEPS))]
         lines.append(f"| {' | '.join(cells)} |")
-    return "\n".join(['<div class="triage" markdown>', "", *lines, "", "</div>", "", _sum(cases, found), "", *_rules()])
+    return "\n".join(
+        ['<div class="triage" markdown>', "", *lines, "", "</div>", "", _sum(cases, found.values()), "", *_rules()]
+    )
 
 
 def cell(screening: Screening | None, step: str) -> str:
@@ -88,16 +86,11 @@ def _said(findings: list[Finding]) -> str:
     return first.translate(MEANS_SOMETHING) + more
 
 
-def _sum(cases: list[Case], found: Mapping[str, Screening]) -> str:
-    catching = {slug: screening.catching() for slug, screening in found.items()}
-    missed = [case for case in cases if catching.get(case.slug) == set()]
-    counts = ", ".join(f"{title} {sum(step in s for s in catching.values())}" for step, (title, _) in STEPS.items())
-    caught = len(catching) - len(missed)
-    said = f"Of {len(catching)} cases with a model, {caught} are caught by at least one step: {counts}."
-    if missed:
-        links = ", ".join(f"[{case.record.number}](cases/{case.slug}/index.md)" for case in missed)
-        said += f" No step sees anything that the repair removes in {links}."
-    if others := len(cases) - len(catching):
+def _sum(cases: list[Case], screenings: Collection[Screening]) -> str:
+    caught = [[step for step in STEPS if screening.seen(step)[0]] for screening in screenings]
+    counts = ", ".join(f"{title} {sum(step in steps for steps in caught)}" for step, (title, _) in STEPS.items())
+    said = f"Of {len(caught)} cases with a model, {sum(map(bool, caught))} are caught by at least one step: {counts}."
+    if others := len(cases) - len(caught):
         said += f" The other {others} are bugs in code: no step that looks at a model can see them."
     return said
 

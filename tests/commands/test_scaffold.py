@@ -6,14 +6,11 @@ from pathlib import Path
 
 import pytest
 from clinic.commands.scaffold import SOURCES, case_texts, free_number, write_case
-from clinic.pages.reference import CHAPTERS
 from clinic.pages.schema import MODELINE
 from clinic.record.case import load_case
 from clinic.record.fields import Record
 from clinic.record.problem import CaseError
 from helpers import write_folder
-
-ELSEWHERE = {"signals: measure: fraction_of_starts", "signals: measure: image_row"}
 
 
 @pytest.fixture
@@ -27,18 +24,6 @@ def test_record_is_read_with_its_title_and_number(checkout: Path, kind: str) -> 
     case = load_case(write_case(checkout, "it-moves", "It moves: on  its 'own' #1.", kind))
     assert (case.record.title, case.record.number) == ("It moves: on its 'own' #1", 1)
     assert (case.record.script is None) == (kind == "model")
-
-
-def test_every_field_of_the_record_is_explained_in_a_comment_or_stands_there() -> None:
-    text = case_texts("it-moves", "It moves", "model", 1)["case.yaml"]
-    named = {
-        (chapter, field)
-        for chapter, made in CHAPTERS.items()
-        if chapter not in ELSEWHERE
-        for field in made.model_fields
-        if not any(f"{mark}{field}" in text for mark in (" ", "\n", "{", "`", "_")) and field not in ("script", "scene")
-    }
-    assert named == set()
 
 
 @pytest.mark.parametrize("kind", SOURCES)
@@ -83,4 +68,3 @@ def test_a_title_that_the_record_refuses_leaves_nothing_behind(checkout: Path, t
     with pytest.raises(CaseError, match="title"):
         write_case(checkout, "it-moves", title, "model")
     assert list((checkout / "cases").iterdir()) == []
-    assert list((checkout / ".cache").iterdir()) == []

@@ -5,29 +5,15 @@ from __future__ import annotations
 import json
 import shutil
 import sys
-import tempfile
-from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated, Literal
 
 import typer
 
 from clinic.record.checkout import cache_folder, cases_root, folders, project_root, slugs
 from clinic.record.problem import CaseError, LackError
 
-if TYPE_CHECKING:
-    from clinic.proof.evidence import Evidence
-    from clinic.record.case import Case
-
 app = typer.Typer(no_args_is_help=True, help="Broken MuJoCo simulations that prove themselves.")
-
-
-class Kind(StrEnum):
-    """Where a bug lives."""
-
-    model = "model"
-    python = "python"
-    javascript = "javascript"
 
 
 def complete(incomplete: str) -> list[str]:
@@ -49,7 +35,7 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print data for a program."
 def new(
     slug: Annotated[str, typer.Argument(help="The folder's name: words that name the symptom, joined by hyphens.")],
     title: Annotated[str, typer.Option(help="The symptom as a sentence, without a full stop.", prompt="The symptom")],
-    kind: Annotated[Kind, typer.Option(help="Where the bug lives.")] = Kind.model,
+    kind: Annotated[Literal["model", "python", "javascript"], typer.Option(help="Where the bug lives.")] = "model",
 ) -> None:
     """Write the folder of a new case, which passes every law until you put your bug into it."""
     from clinic.commands.scaffold import write_case
@@ -114,10 +100,26 @@ def show(
     as_json: AsJson = False,
 ) -> None:
     """Show a case in the terminal, its numbers filled in from the runs."""
-    from clinic.commands import terminal
-    from clinic.pages.text.prose import prose_problems
+    import mujoco
 
-    case, evidence = _run(slug, sweeps=answer)
+    from clinic.commands import terminal
+    from clinic.engine.releases import CASES, installed
+    from clinic.pages.text.prose import prose_problems
+    from clinic.proof.evidence import lack
+    from clinic.proof.experiments import measure_case
+    from clinic.record.case import load_case
+    from clinic.work.cache import Cache
+
+    root = cases_root()
+    (folder,) = folders(root, [slug])
+    case = load_case(folder)
+    try:
+        with terminal.console(stderr=True).status(f"running {case.slug}"):
+            evidence = measure_case(case, Cache(cache_folder(root)), ("sweeps",) if answer else ())
+    except CaseError:
+        if installed() >= CASES or lack(case):
+            raise
+        sys.exit(f"clinic: {slug} uses what MuJoCo {mujoco.__version__} does not have: pip install -U mujoco")
     if problems := list(prose_problems(case, evidence)):
         raise CaseError(problems)
     if as_json:
@@ -132,26 +134,12 @@ def view(
     fix: Annotated[str, typer.Option(help="A fix or refuted remedy, by its id; the broken model when left out.")] = "",
 ) -> None:
     """Open a case's model in MuJoCo's viewer, at the start of its run."""
-    from clinic.commands.viewer import view as open_viewer
+    from clinic.commands.viewer import open_viewer
     from clinic.engine.variant import BROKEN
     from clinic.record.case import load_case
 
     (folder,) = folders(cases_root(), [slug])
     open_viewer(load_case(folder), fix or BROKEN)
-
-
-@app.command()
-def cache(clear: Annotated[bool, typer.Option("--clear", help="Forget everything kept.")] = False) -> None:
-    """Show where finished work is kept and how much of it, or clear it."""
-    from clinic.work.cache import Cache
-
-    kept = Cache(cache_folder(cases_root()))
-    entries = kept.entries()
-    size = sum(entry.stat().st_size for entry in entries)
-    if clear:
-        for entry in entries:
-            entry.unlink(missing_ok=True)
-    print(f"{len(entries)} entries, {size / 1e6:.1f} MB, {'cleared from' if clear else 'in'} {kept.folder}")
 
 
 @app.command()
@@ -161,20 +149,15 @@ def build(out: Annotated[Path, typer.Option(help="The folder to write; made anew
     from clinic.publish.site import build as build_site
 
     root, out = project_root(), out.resolve()
-    ours = not out.exists() or (out.is_dir() and (not any(out.iterdir()) or (out / SCHEMA).is_file()))
-    if not ours or root.is_relative_to(out) or out.is_relative_to(root / "docs"):
-        raise typer.BadParameter(f"{out} holds what no build wrote, and would be deleted; name another folder")
+    foreign = out.exists() and not (out / SCHEMA).is_file()
+    if foreign or root.is_relative_to(out) or out.is_relative_to(root / "docs"):
+        raise typer.BadParameter(f"{out} is not a folder that a build wrote, and would be deleted; name another")
     made = build_site(root)
-    out.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix=f"{out.name}-", dir=out.parent) as work:
-        whole = Path(shutil.copytree(root / "docs", Path(work, "whole")))
-        for name, content in made.items():
-            path = whole / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(content)
-        if out.exists():
-            shutil.rmtree(out)
-        whole.rename(out)
+    shutil.rmtree(out, ignore_errors=True)
+    shutil.copytree(root / "docs", out)
+    for name, content in made.items():
+        (out / name).parent.mkdir(parents=True, exist_ok=True)
+        (out / name).write_bytes(content)
     print(f"{len(made)} files in {out}")
 
 
@@ -196,40 +179,11 @@ def print_reference() -> None:
 
 
 @app.command(name="schema")
-def print_schema(
-    write: Annotated[
-        bool, typer.Option("--write", help="Write it where the editor's lines in cases/ find it.")
-    ] = False,
-) -> None:
+def print_schema() -> None:
     """Print the record's JSON Schema."""
-    from clinic.pages.schema import schema_text, write_schema
+    from clinic.pages.schema import schema_text
 
-    if write:
-        write_schema(project_root())
-    else:
-        print(schema_text(), end="")
-
-
-def _run(slug: str, sweeps: bool) -> tuple[Case, Evidence]:
-    """A case and what its runs show, with those of its sweeps if asked for."""
-    import mujoco
-
-    from clinic.commands import terminal
-    from clinic.engine.releases import CASES, installed
-    from clinic.proof.evidence import lack
-    from clinic.proof.experiments import measure_case
-    from clinic.record.case import load_case
-    from clinic.work.cache import Cache
-
-    root = cases_root()
-    case = load_case(folders(root, [slug])[0])
-    try:
-        with terminal.console(stderr=True).status(f"running {case.slug}"):
-            return case, measure_case(case, Cache(cache_folder(root)), ("sweeps",) if sweeps else ())
-    except CaseError:
-        if installed() >= CASES or lack(case):
-            raise
-        sys.exit(f"clinic: {slug} uses what MuJoCo {mujoco.__version__} does not have: pip install -U mujoco")
+    print(schema_text(), end="")
 
 
 def _print_json(data: object) -> None:
@@ -246,7 +200,5 @@ def main() -> None:
         if (error.name or "").startswith("clinic"):
             raise
         sys.exit(f"clinic: {error.name} is not installed; this needs pip install 'mujoco-clinic[site]'")
-    except ImportError as error:  # an engine that is too old
-        sys.exit(f"clinic: {error}")
-    except (FileNotFoundError, ConnectionError, LackError) as error:
+    except (ImportError, FileNotFoundError, ConnectionError, LackError) as error:  # the first: too old an engine
         sys.exit(f"clinic: {error}")

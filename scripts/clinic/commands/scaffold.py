@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
-import tempfile
+import shutil
 from pathlib import Path
 
 import jinja2
@@ -45,15 +45,15 @@ def write_case(root: Path, slug: str, title: str, kind: str) -> Path:
     if place.exists():
         expected = "a slug of its own"
         raise CaseError([Problem(f"cases/{slug}", 1, "", "a folder that is there", expected, "take another name")])
-    work = root / ".cache"  # beside `cases`, which a running `make serve` watches
-    work.mkdir(exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix="new-", dir=work) as made:
-        folder = Path(made, slug)
-        folder.mkdir()
-        for name, text in case_texts(slug, title, kind, free_number(root)).items():
-            (folder / name).write_text(text, encoding="utf-8")
-        load_case(folder)
-        folder.rename(place)
+    texts = case_texts(slug, title, kind, free_number(root))
+    place.mkdir()
+    for name, text in texts.items():
+        (place / name).write_text(text, encoding="utf-8")
+    try:
+        load_case(place)
+    except CaseError:
+        shutil.rmtree(place)
+        raise
     return place
 
 

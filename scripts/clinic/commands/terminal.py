@@ -116,13 +116,11 @@ def case_data(case: Case, evidence: Evidence, answer: bool) -> dict[str, Any]:
         return made
     made |= {fold: fill(getattr(record, fold), evidence) for fold in FOLDS}
     made |= {"snippet": record.snippet, "printed": evidence.snippet, "see": record.see}
-    texts = {variant.id: variant.text for variant in variants(case)}
+    diffs = {variant.id: diff(case.text, variant.text, record.source) for variant in variants(case)}
     for kind, remedies in (("fixes", record.fixes), ("refuted", record.refuted)):
-        made[kind] = [
-            {"id": remedy.id, "title": remedy.title, "diff": diff(case.text, texts[remedy.id], record.source)}
-            | ({"why": fill(why, evidence)} if (why := getattr(remedy, "why", "")) else {})
-            for remedy in remedies
-        ]
+        made[kind] = [{"id": remedy.id, "title": remedy.title, "diff": diffs[remedy.id]} for remedy in remedies]
+    for told, remedy in zip(made["refuted"], record.refuted, strict=True):
+        told["why"] = fill(remedy.why, evidence)
     return made
 
 

@@ -44,22 +44,11 @@ def test_number_is_the_next_free_one_though_a_record_is_broken(checkout: Path) -
     assert free_number(checkout) == 3
 
 
-@pytest.mark.parametrize(
-    ("name", "repair"),
-    [
-        ("It Moves", "write it-moves"),
-        ("7-moves", "write moves"),
-        ("../moves", "write moves"),
-        ("", "name the symptom: box-falls-through-floor"),
-        ("a" * 200, "write " + "a" * 60),
-        ("taken", "take another name"),
-    ],
-)
-def test_bad_slug_is_refused_with_what_to_do(checkout: Path, name: str, repair: str) -> None:
+@pytest.mark.parametrize("name", ["It Moves", "7-moves", "../moves", "", "a" * 200, "taken"])
+def test_bad_slug_is_refused(checkout: Path, name: str) -> None:
     write_folder(checkout, "taken", {"mine.txt": "kept"})
-    with pytest.raises(CaseError) as caught:
+    with pytest.raises(CaseError, match="lower-case words joined by hyphens"):
         write_case(checkout, name, "It moves", "model")
-    assert [problem.repair for problem in caught.value.problems] == [repair]
     assert [path.name for path in checkout.rglob("*.*")] == ["mine.txt"]
 
 

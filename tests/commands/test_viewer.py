@@ -46,5 +46,5 @@ def test_unknown_variant_is_reported_with_those_there_are(tmp_path: Path) -> Non
 
 
 def test_a_script_has_nothing_to_view(tmp_path: Path) -> None:
-    with pytest.raises(CaseError, match=r"a bug in script\.py, a script"):
+    with pytest.raises(CaseError, match=r"repair:   read script\.py"):
         scene(script_case(tmp_path), "broken")

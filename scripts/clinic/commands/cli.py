@@ -42,11 +42,11 @@ def new(
     from clinic.pages.schema import write_schema
 
     root = project_root()
-    folder = write_case(root, slug, title, kind)
+    write_case(root, slug, title, kind)
     write_schema(root)
-    for path in sorted(folder.iterdir()):
-        print(path.relative_to(root).as_posix())
-    print(f"It passes every law: clinic check {slug}. Now put your bug into it; `make serve` shows the page.")
+    print(
+        f"cases/{slug}/ passes every law: clinic check {slug}. Now put your bug into it; `make serve` shows the page."
+    )
 
 
 @app.command()
@@ -61,8 +61,7 @@ def check(slugs: Slugs = None, as_json: AsJson = False) -> None:
     root, out, err = project_root(), terminal.console(), terminal.console(stderr=True)
     wanted = [folder.name for folder in folders(root, slugs or [])]
     checking = check_cases(root, wanted, Cache(cache_folder(root)))
-    quiet = not err.is_terminal
-    reports = list(track(checking, "checking", len(wanted), console=err, transient=True, disable=quiet))
+    reports = list(track(checking, "checking", len(wanted), console=err, transient=True, disable=not err.is_terminal))
     reports.sort(key=lambda report: report.case.record.number if report.case else 0)
     if as_json:
         _print_json([report_data(report) for report in reports])
@@ -115,7 +114,7 @@ def show(
     case = load_case(folder)
     try:
         with terminal.console(stderr=True).status(f"running {case.slug}"):
-            evidence = measure_case(case, Cache(cache_folder(root)), ("sweeps",) if answer else ())
+            evidence = measure_case(case, Cache(cache_folder(root)), ("sweeps",))
     except CaseError:
         if installed() >= CASES or lack(case):
             raise
@@ -131,15 +130,14 @@ def show(
 @app.command()
 def view(
     slug: Slug,
-    fix: Annotated[str, typer.Option(help="A fix or refuted remedy, by its id; the broken model when left out.")] = "",
+    fix: Annotated[str, typer.Option(help="A fix or refuted remedy, by its id.")] = "broken",
 ) -> None:
     """Open a case's model in MuJoCo's viewer, at the start of its run."""
     from clinic.commands.viewer import open_viewer
-    from clinic.engine.variant import BROKEN
     from clinic.record.case import load_case
 
     (folder,) = folders(cases_root(), [slug])
-    open_viewer(load_case(folder), fix or BROKEN)
+    open_viewer(load_case(folder), fix)
 
 
 @app.command()
@@ -197,8 +195,6 @@ def main() -> None:
     except CaseError as error:
         sys.exit(str(error))
     except ModuleNotFoundError as error:
-        if (error.name or "").startswith("clinic"):
-            raise
         sys.exit(f"clinic: {error.name} is not installed; this needs pip install 'mujoco-clinic[site]'")
     except (ImportError, FileNotFoundError, ConnectionError, LackError) as error:  # the first: too old an engine
         sys.exit(f"clinic: {error}")

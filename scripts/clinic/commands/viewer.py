@@ -37,8 +37,7 @@ def scene(case: Case, variant_id: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """
     run = case.record.run
     if run is None:
-        found, expected = f"a bug in {case.record.source}, a script", "a case with a model"
-        raise CaseError([case.problem(("script",), found, expected, f"read it in cases/{case.slug}/")])
+        raise CaseError([case.problem(("script",), "a script", "a case with a model", f"read {case.record.source}")])
     examine(case)
     texts = {variant.id: variant.text for variant in variants(case)}
     if variant_id not in texts:

@@ -144,19 +144,22 @@ def view(
 def build(out: Annotated[Path, typer.Option(help="The folder to write; made anew.")]) -> None:
     """Write the site's pages as real files, beside those written by hand."""
     from clinic.pages.schema import FILE as SCHEMA
-    from clinic.publish.site import build as build_site
+    from clinic.publish.site import make_site
+    from clinic.work.cache import Cache
 
     root, out = project_root(), out.resolve()
     foreign = out.exists() and not (out / SCHEMA).is_file()
     if foreign or root.is_relative_to(out) or out.is_relative_to(root / "docs"):
         raise typer.BadParameter(f"{out} is not a folder that a build wrote, and would be deleted; name another")
-    made = build_site(root)
+    made = make_site(root, Cache(cache_folder(root)))
+    if made.problems:
+        raise CaseError(made.problems)
     shutil.rmtree(out, ignore_errors=True)
     shutil.copytree(root / "docs", out)
-    for name, content in made.items():
+    for name, content in made.files.items():
         (out / name).parent.mkdir(parents=True, exist_ok=True)
         (out / name).write_bytes(content)
-    print(f"{len(made)} files in {out}")
+    print(f"{len(made.files)} files in {out}")
 
 
 @app.command()

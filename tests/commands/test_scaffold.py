@@ -44,7 +44,7 @@ def test_number_is_the_next_free_one_though_a_record_is_broken(checkout: Path) -
     assert free_number(checkout) == 3
 
 
-@pytest.mark.parametrize("name", ["It Moves", "7-moves", "../moves", "", "a" * 200, "taken"])
+@pytest.mark.parametrize("name", ["It Moves", "7-moves", "../moves", "", "taken"])
 def test_bad_slug_is_refused(checkout: Path, name: str) -> None:
     write_folder(checkout, "taken", {"mine.txt": "kept"})
     with pytest.raises(CaseError, match="lower-case words joined by hyphens"):

@@ -25,9 +25,7 @@ def complete(incomplete: str) -> list[str]:
 
 
 Slug = Annotated[str, typer.Argument(help="A case, by its folder's name.", autocompletion=complete)]
-Slugs = Annotated[
-    list[str] | None, typer.Argument(metavar="[SLUG]...", help="Cases; all when left out.", autocompletion=complete)
-]
+Slugs = Annotated[list[str] | None, typer.Argument(help="Cases; all when left out.", autocompletion=complete)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print data for a program.")]
 
 

@@ -15,7 +15,6 @@ from clinic.record.case import load_case
 from clinic.record.folder import RECORD, SLUG
 from clinic.record.problem import CaseError, Problem
 
-MAX_SLUG = 60
 SOURCES = {"model": "model.xml", "python": "script.py", "javascript": "script.mjs"}  # the broken file, by kind
 TEMPLATES = jinja2.Environment(  # `{{ }}` is what a record's prose writes
     loader=jinja2.PackageLoader("clinic.commands", "new"),
@@ -36,9 +35,9 @@ def write_case(root: Path, slug: str, title: str, kind: str) -> Path:
         CaseError: If the slug or the title will not do.
     """
     place = root / "cases" / slug
-    if not SLUG.fullmatch(slug) or len(slug) > MAX_SLUG or place.exists():
+    if not SLUG.fullmatch(slug) or place.exists():
         found = f"the slug {slug}{', which is taken' if place.exists() else ''}"
-        expected = f"a name of its own: lower-case words joined by hyphens, {MAX_SLUG} characters at most"
+        expected = "a name of its own: lower-case words joined by hyphens"
         repair = "name the symptom, as in box-falls-through-floor"
         raise CaseError([Problem(f"cases/{slug}", 1, "", found, expected, repair)])
     place.mkdir()

@@ -19,6 +19,7 @@ export DISABLE_MKDOCS_2_WARNING := true
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
 .PHONY: help setup serve site test bench growth lint lock audit clean
 
 help:
@@ -32,8 +33,7 @@ $(VENV)/.ready: requirements.txt requirements-parity.txt pyproject.toml package-
 
 # What an editor asks while a record is typed; see the first line of a new case.
 case.schema.json: $(VENV)/.ready $(wildcard scripts/clinic/record/*.py) scripts/clinic/pages/schema.py
-	@$(BIN)/clinic schema --write
-	@touch $@
+	@$(BIN)/clinic schema > $@
 
 serve: setup
 	$(BIN)/mkdocs serve --livereload --dirty --dev-addr localhost:$(or $(PORT),8000)

@@ -64,8 +64,7 @@ def followed(root: Path, copy: Path, environment: dict[str, str]) -> list[tuple[
     done = []
     for command in commands(root):
         if not command.startswith(NOT_HERE):
-            cache = str(copy / ".cache/clinic" if command.startswith("clinic cache") else cache_folder(root))
-            own = environment | {"PYTHONPATH": str(copy / "scripts"), "CLINIC_CACHE": cache}
+            own = environment | {"PYTHONPATH": str(copy / "scripts"), "CLINIC_CACHE": str(cache_folder(root))}
             script = f"source .venv/bin/activate\n{command}\nexit"  # or this shell would become the command
             run = subprocess.run(["bash", "-c", script], cwd=copy, env=own, check=False, capture_output=True, text=True)
             done.append((command, run.returncode, run.stdout + run.stderr))

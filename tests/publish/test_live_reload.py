@@ -11,8 +11,8 @@ import pytest
 from bench import MEASURING
 from clinic.publish import live_reload
 from clinic.publish.kept_site import Site
-from clinic.publish.live_reload import LiveSite, unmeasured
-from clinic.publish.site import make_site
+from clinic.publish.live_reload import LiveSite
+from clinic.publish.site import make_site, unmeasured
 from clinic.work.cache import Cache
 from helpers import changed
 from mkdocs.config import load_config
@@ -66,7 +66,8 @@ def ended(live: LiveSite) -> None:
 
 
 def site(live: LiveSite, project: Path) -> Site:
-    return live.site(project, Cache(project / "cache"))
+    live.shown = live.site(project, Cache(project / "cache"))
+    return live.shown
 
 
 def differing(one: Site, other: Site) -> set[str]:

@@ -40,15 +40,15 @@ def linked(page: Path) -> set[str]:
 def test_a_page_among_many_links_to_its_section_alone(tmp_path: Path, kept: Path) -> None:
     folder = write_project(tmp_path, SILENT, kept=kept)
     for number in range(3, 56):
-        case = folder / "cases" / f"case-{number}"
+        case = folder / "cases" / f"case-{number:02}"
         case.mkdir()
         (case / "case.yaml").write_text(f"number: {number}\ntitle: Case {number}\n", encoding="utf-8")
     done = run(folder, "-m", "mkdocs", "build")
     assert done.returncode == 0, done.stderr
     site = folder / "site"
-    first, last = ({f"case-{number}" for number in numbers} for numbers in (range(3, 51), range(51, 56)))
+    first, last = ({f"case-{number:02}" for number in numbers} for numbers in (range(3, 51), range(51, 56)))
     assert linked(site / "cases" / "case-55" / "index.html") & (first | last) == last - {"case-55"}
-    assert linked(site / "cases" / "case-9" / "index.html") & first == first - {"case-9"}
+    assert linked(site / "cases" / "case-09" / "index.html") & first == first - {"case-09"}
     assert not linked(site / "symptoms.html") & (first | last)
 
 

@@ -8,8 +8,9 @@ from urllib.parse import unquote, urlparse
 
 import lxml.html
 import pytest
-from clinic.publish.site import build
+from clinic.publish.site import make_site
 from clinic.record.checkout import cache_folder
+from clinic.work.cache import Cache
 from project import run
 
 pytestmark = pytest.mark.xdist_group("site")
@@ -106,7 +107,7 @@ def test_clinic_build_writes_the_bytes_that_mkdocs_is_given(site: Path, root: Pa
     out = tmp_path / "pages"
     done = run(root, "-m", "clinic", "build", "--out", str(out), CLINIC_CACHE=str(cache_folder(root)))
     assert done.returncode == 0, done.stderr
-    made = build(root)
+    made = make_site(root, Cache(cache_folder(root))).files
     assert {str(p.relative_to(out)): p.read_bytes() for p in out.rglob("*") if str(p.relative_to(out)) in made} == made
     for name, content in made.items():
         if not name.endswith(".md"):

@@ -25,9 +25,8 @@ from clinic.work.cache import Cache
 class Report:
     """What was found about one case.
 
-    Args:
-        slug: The case's folder.
-        case: The case; None if its record could not be read.
+    Attributes:
+        case: None if its record could not be read.
         evidence: What its runs showed; None if it could not be run.
         problems: Mistakes in its files, and those of other cases that concern it.
         breaches: Of laws.

@@ -5,29 +5,15 @@ from __future__ import annotations
 import json
 import shutil
 import sys
-import tempfile
-from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated, Literal
 
 import typer
 
 from clinic.record.checkout import cache_folder, cases_root, folders, project_root, slugs
 from clinic.record.problem import CaseError, LackError
 
-if TYPE_CHECKING:
-    from clinic.proof.evidence import Evidence
-    from clinic.record.case import Case
-
 app = typer.Typer(no_args_is_help=True, help="Broken MuJoCo simulations that prove themselves.")
-
-
-class Kind(StrEnum):
-    """Where a bug lives."""
-
-    model = "model"
-    python = "python"
-    javascript = "javascript"
 
 
 def complete(incomplete: str) -> list[str]:
@@ -39,9 +25,7 @@ def complete(incomplete: str) -> list[str]:
 
 
 Slug = Annotated[str, typer.Argument(help="A case, by its folder's name.", autocompletion=complete)]
-Slugs = Annotated[
-    list[str] | None, typer.Argument(metavar="[SLUG]...", help="Cases; all when left out.", autocompletion=complete)
-]
+Slugs = Annotated[list[str] | None, typer.Argument(help="Cases; all when left out.", autocompletion=complete)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print data for a program.")]
 
 
@@ -49,18 +33,18 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print data for a program."
 def new(
     slug: Annotated[str, typer.Argument(help="The folder's name: words that name the symptom, joined by hyphens.")],
     title: Annotated[str, typer.Option(help="The symptom as a sentence, without a full stop.", prompt="The symptom")],
-    kind: Annotated[Kind, typer.Option(help="Where the bug lives.")] = Kind.model,
+    kind: Annotated[Literal["model", "python", "javascript"], typer.Option(help="Where the bug lives.")] = "model",
 ) -> None:
     """Write the folder of a new case, which passes every law until you put your bug into it."""
     from clinic.commands.scaffold import write_case
     from clinic.pages.schema import write_schema
 
     root = project_root()
-    folder = write_case(root, slug, title, kind)
+    write_case(root, slug, title, kind)
     write_schema(root)
-    for path in sorted(folder.iterdir()):
-        print(path.relative_to(root).as_posix())
-    print(f"It passes every law: clinic check {slug}. Now put your bug into it; `make serve` shows the page.")
+    print(
+        f"cases/{slug}/ passes every law: clinic check {slug}. Now put your bug into it; `make serve` shows the page."
+    )
 
 
 @app.command()
@@ -75,8 +59,7 @@ def check(slugs: Slugs = None, as_json: AsJson = False) -> None:
     root, out, err = project_root(), terminal.console(), terminal.console(stderr=True)
     wanted = [folder.name for folder in folders(root, slugs or [])]
     checking = check_cases(root, wanted, Cache(cache_folder(root)))
-    quiet = not err.is_terminal
-    reports = list(track(checking, "checking", len(wanted), console=err, transient=True, disable=quiet))
+    reports = list(track(checking, "checking", len(wanted), console=err, transient=True, disable=not err.is_terminal))
     reports.sort(key=lambda report: report.case.record.number if report.case else 0)
     if as_json:
         _print_json([report_data(report) for report in reports])
@@ -114,10 +97,26 @@ def show(
     as_json: AsJson = False,
 ) -> None:
     """Show a case in the terminal, its numbers filled in from the runs."""
-    from clinic.commands import terminal
-    from clinic.pages.text.prose import prose_problems
+    import mujoco
 
-    case, evidence = _run(slug, sweeps=answer)
+    from clinic.commands import terminal
+    from clinic.engine.releases import CASES, installed
+    from clinic.pages.text.prose import prose_problems
+    from clinic.proof.evidence import lack
+    from clinic.proof.experiments import measure_case
+    from clinic.record.case import load_case
+    from clinic.work.cache import Cache
+
+    root = cases_root()
+    (folder,) = folders(root, [slug])
+    case = load_case(folder)
+    try:
+        with terminal.console(stderr=True).status(f"running {case.slug}"):
+            evidence = measure_case(case, Cache(cache_folder(root)), ("sweeps",))
+    except CaseError:
+        if installed() >= CASES or lack(case):
+            raise
+        sys.exit(f"clinic: {slug} uses what MuJoCo {mujoco.__version__} does not have: pip install -U mujoco")
     if problems := list(prose_problems(case, evidence)):
         raise CaseError(problems)
     if as_json:
@@ -129,53 +128,36 @@ def show(
 @app.command()
 def view(
     slug: Slug,
-    fix: Annotated[str, typer.Option(help="A fix or refuted remedy, by its id; the broken model when left out.")] = "",
+    fix: Annotated[str, typer.Option(help="A fix or refuted remedy, by its id.")] = "broken",
 ) -> None:
     """Open a case's model in MuJoCo's viewer, at the start of its run."""
-    from clinic.commands.viewer import view as open_viewer
-    from clinic.engine.variant import BROKEN
+    from clinic.commands.viewer import open_viewer
     from clinic.record.case import load_case
 
     (folder,) = folders(cases_root(), [slug])
-    open_viewer(load_case(folder), fix or BROKEN)
-
-
-@app.command()
-def cache(clear: Annotated[bool, typer.Option("--clear", help="Forget everything kept.")] = False) -> None:
-    """Show where finished work is kept and how much of it, or clear it."""
-    from clinic.work.cache import Cache
-
-    kept = Cache(cache_folder(cases_root()))
-    entries = kept.entries()
-    size = sum(entry.stat().st_size for entry in entries)
-    if clear:
-        for entry in entries:
-            entry.unlink(missing_ok=True)
-    print(f"{len(entries)} entries, {size / 1e6:.1f} MB, {'cleared from' if clear else 'in'} {kept.folder}")
+    open_viewer(load_case(folder), fix)
 
 
 @app.command()
 def build(out: Annotated[Path, typer.Option(help="The folder to write; made anew.")]) -> None:
     """Write the site's pages as real files, beside those written by hand."""
     from clinic.pages.schema import FILE as SCHEMA
-    from clinic.publish.site import build as build_site
+    from clinic.publish.site import make_site
+    from clinic.work.cache import Cache
 
     root, out = project_root(), out.resolve()
-    ours = not out.exists() or (out.is_dir() and (not any(out.iterdir()) or (out / SCHEMA).is_file()))
-    if not ours or root.is_relative_to(out) or out.is_relative_to(root / "docs"):
-        raise typer.BadParameter(f"{out} holds what no build wrote, and would be deleted; name another folder")
-    made = build_site(root)
-    out.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix=f"{out.name}-", dir=out.parent) as work:
-        whole = Path(shutil.copytree(root / "docs", Path(work, "whole")))
-        for name, content in made.items():
-            path = whole / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(content)
-        if out.exists():
-            shutil.rmtree(out)
-        whole.rename(out)
-    print(f"{len(made)} files in {out}")
+    foreign = out.exists() and not (out / SCHEMA).is_file()
+    if foreign or root.is_relative_to(out) or out.is_relative_to(root / "docs"):
+        raise typer.BadParameter(f"{out} is not a folder that a build wrote, and would be deleted; name another")
+    made = make_site(root, Cache(cache_folder(root)))
+    if made.problems:
+        raise CaseError(made.problems)
+    shutil.rmtree(out, ignore_errors=True)
+    shutil.copytree(root / "docs", out)
+    for name, content in made.files.items():
+        (out / name).parent.mkdir(parents=True, exist_ok=True)
+        (out / name).write_bytes(content)
+    print(f"{len(made.files)} files in {out}")
 
 
 @app.command()
@@ -196,40 +178,11 @@ def print_reference() -> None:
 
 
 @app.command(name="schema")
-def print_schema(
-    write: Annotated[
-        bool, typer.Option("--write", help="Write it where the editor's lines in cases/ find it.")
-    ] = False,
-) -> None:
+def print_schema() -> None:
     """Print the record's JSON Schema."""
-    from clinic.pages.schema import schema_text, write_schema
+    from clinic.pages.schema import schema_text
 
-    if write:
-        write_schema(project_root())
-    else:
-        print(schema_text(), end="")
-
-
-def _run(slug: str, sweeps: bool) -> tuple[Case, Evidence]:
-    """A case and what its runs show, with those of its sweeps if asked for."""
-    import mujoco
-
-    from clinic.commands import terminal
-    from clinic.engine.releases import CASES, installed
-    from clinic.proof.evidence import lack
-    from clinic.proof.experiments import measure_case
-    from clinic.record.case import load_case
-    from clinic.work.cache import Cache
-
-    root = cases_root()
-    case = load_case(folders(root, [slug])[0])
-    try:
-        with terminal.console(stderr=True).status(f"running {case.slug}"):
-            return case, measure_case(case, Cache(cache_folder(root)), ("sweeps",) if sweeps else ())
-    except CaseError:
-        if installed() >= CASES or lack(case):
-            raise
-        sys.exit(f"clinic: {slug} uses what MuJoCo {mujoco.__version__} does not have: pip install -U mujoco")
+    print(schema_text(), end="")
 
 
 def _print_json(data: object) -> None:
@@ -243,10 +196,6 @@ def main() -> None:
     except CaseError as error:
         sys.exit(str(error))
     except ModuleNotFoundError as error:
-        if (error.name or "").startswith("clinic"):
-            raise
         sys.exit(f"clinic: {error.name} is not installed; this needs pip install 'mujoco-clinic[site]'")
-    except ImportError as error:  # an engine that is too old
-        sys.exit(f"clinic: {error}")
-    except (FileNotFoundError, ConnectionError, LackError) as error:
+    except (ImportError, FileNotFoundError, ConnectionError, LackError) as error:  # the first: too old an engine
         sys.exit(f"clinic: {error}")

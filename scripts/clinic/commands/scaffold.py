@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
-import tempfile
+import shutil
 from pathlib import Path
 
 import jinja2
@@ -15,9 +15,7 @@ from clinic.record.case import load_case
 from clinic.record.folder import RECORD, SLUG
 from clinic.record.problem import CaseError, Problem
 
-MAX_SLUG = 60
-SOURCES = {"model": "model.xml", "python": "script.py", "javascript": "script.mjs"}
-"""The broken file, by the place where the bug lives."""
+SOURCES = {"model": "model.xml", "python": "script.py", "javascript": "script.mjs"}  # the broken file, by kind
 TEMPLATES = jinja2.Environment(  # `{{ }}` is what a record's prose writes
     loader=jinja2.PackageLoader("clinic.commands", "new"),
     variable_start_string="<<",
@@ -37,23 +35,19 @@ def write_case(root: Path, slug: str, title: str, kind: str) -> Path:
         CaseError: If the slug or the title will not do.
     """
     place = root / "cases" / slug
-    if not SLUG.fullmatch(slug) or len(slug) > MAX_SLUG:
-        guess = "-".join(re.findall(r"[a-z0-9]+", slug.lower())).lstrip("0123456789-")[:MAX_SLUG]
-        repair = f"write {guess}" if guess else "name the symptom: box-falls-through-floor"
-        expected = f"lower-case words joined by hyphens, {MAX_SLUG} characters at most"
-        raise CaseError([Problem(f"cases/{slug}", 1, "", f"the slug {slug}", expected, repair)])
-    if place.exists():
-        expected = "a slug of its own"
-        raise CaseError([Problem(f"cases/{slug}", 1, "", "a folder that is there", expected, "take another name")])
-    work = root / ".cache"  # beside `cases`, which a running `make serve` watches
-    work.mkdir(exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix="new-", dir=work) as made:
-        folder = Path(made, slug)
-        folder.mkdir()
-        for name, text in case_texts(slug, title, kind, free_number(root)).items():
-            (folder / name).write_text(text, encoding="utf-8")
-        load_case(folder)
-        folder.rename(place)
+    if not SLUG.fullmatch(slug) or place.exists():
+        found = f"the slug {slug}{', which is taken' if place.exists() else ''}"
+        expected = "a name of its own: lower-case words joined by hyphens"
+        repair = "name the symptom, as in box-falls-through-floor"
+        raise CaseError([Problem(f"cases/{slug}", 1, "", found, expected, repair)])
+    place.mkdir()
+    for name, text in case_texts(slug, title, kind, free_number(root)).items():
+        (place / name).write_text(text, encoding="utf-8")
+    try:
+        load_case(place)
+    except CaseError:
+        shutil.rmtree(place)
+        raise
     return place
 
 

@@ -6,16 +6,14 @@ import sys
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from rich.console import Console, Group, RenderableType
+from rich.console import Console
 from rich.markdown import Markdown
-from rich.padding import Padding
-from rich.rule import Rule
-from rich.syntax import Syntax
-from rich.table import Table
+from rich.table import Column, Table
 from rich.text import Text
 
 from clinic.engine.variant import diff, variants
 from clinic.pages.text.claim import claim
+from clinic.pages.text.markup import fence, line
 from clinic.pages.text.prose import fill
 from clinic.proof.evidence import Evidence
 from clinic.record.case import Case
@@ -38,8 +36,7 @@ def console(stderr: bool = False) -> Console:
 
 def cases_table(cases: Iterable[Case]) -> Table:
     """Every case in a row."""
-    table = Table("number", "slug", "title", "tags")
-    table.columns[0].justify = "right"
+    table = Table(Column("number", justify="right"), "slug", "title", "tags")
     for case in cases:
         table.add_row(str(case.record.number), case.slug, Text(case.record.title), ", ".join(case.record.tags))
     return table
@@ -47,8 +44,7 @@ def cases_table(cases: Iterable[Case]) -> Table:
 
 def reports_table(reports: Iterable[Report]) -> Table:
     """Every report in a row."""
-    table = Table("number", "slug", "variants", "checks", "result")
-    table.columns[0].justify = "right"
+    table = Table(Column("number", justify="right"), "slug", "variants", "checks", "result")
     for report in reports:
         made = report.evidence.variants.values() if report.evidence else ()
         checks = sum(len(results) for variant in made for results in variant.checks.values())
@@ -62,7 +58,8 @@ def reports_table(reports: Iterable[Report]) -> Table:
 
 def checks_table(case: Case, evidence: Evidence) -> Table:
     """Every check of every variant, with what was measured."""
-    table = Table("variant", "asks whether", "check", "measured", "holds", title=heading(case), title_justify="left")
+    title = Text(f"{case.record.number}. {case.record.title}", "bold")
+    table = Table("variant", "asks whether", "check", "measured", "holds", title=title, title_justify="left")
     for key, variant in evidence.variants.items():
         name = key if variant.kind == key else f"{key}, {variant.kind}"
         for kind, results in variant.checks.items():
@@ -79,33 +76,26 @@ def checks_table(case: Case, evidence: Evidence) -> Table:
     return table
 
 
-def heading(case: Case) -> Text:
-    """The case's number and title."""
-    return Text(f"{case.record.number}. {case.record.title}", "bold")
-
-
-def case_text(case: Case, evidence: Evidence, answer: bool) -> Group:
+def case_text(case: Case, evidence: Evidence, answer: bool) -> Markdown:
     """The case to read: the symptom, and the folds if `answer` is asked for."""
     data = case_data(case, evidence, answer)
-    tags = Text(f"{', '.join(data['tags'])}   cases/{case.slug}/", "dim")
-    parts: list[RenderableType] = [heading(case), tags, Text(), Markdown(data["symptom"])]
+    parts = [f"## {case.record.number}. {line(case.record.title)}"]
+    parts += [f"*{', '.join(case.record.tags)}* cases/{case.slug}/", data["symptom"]]
     if not answer:
-        closed = ", ".join(fold.capitalize() for fold in FOLDS)
-        return Group(*parts, Text(), Text(f"Folded: {closed}. Open them with --answer.", "dim"))
+        parts += [f"*Folded: {', '.join(FOLDS)}. Open them with `--answer`.*"]
+        return Markdown("\n\n".join(parts))
     for fold in FOLDS:
-        parts += [Text(), Rule(fold.capitalize(), align="left"), Markdown(data[fold])]
+        parts += [f"### {fold.capitalize()}", data[fold]]
         if fold == "diagnosis" and data["snippet"]:
-            parts += [Text(), _code(data["snippet"], case.record.language), Text(), Text("It prints:")]
-            parts += [Text(data["printed"].rstrip())]
+            parts += [fence(data["snippet"], case.record.language), "It prints:", fence(data["printed"])]
         if fold == "cause":
-            for sweep in case.record.sweep.values():
-                parts += [Text(), Markdown(f"**{sweep.title}.** {fill(sweep.text, evidence)}")]
+            parts += [f"**{line(sweep.title)}.** {fill(sweep.text, evidence)}" for sweep in case.record.sweep.values()]
         if fold == "fix":
             for remedy in data["fixes"] + data["refuted"]:
                 sign = "✗ does not work:" if remedy in data["refuted"] else "✓"
-                parts += [Text(), Text(f"{sign} {remedy['title']} ({remedy['id']})", "bold")]
-                parts += [_code(remedy["diff"], "diff"), Markdown(remedy.get("why", ""))]
-    return Group(*parts)
+                parts += [f"**{sign} {line(remedy['title'])}** ({remedy['id']})", fence(remedy["diff"], "diff")]
+                parts += [remedy.get("why", "")]
+    return Markdown("\n\n".join(parts))
 
 
 def case_data(case: Case, evidence: Evidence, answer: bool) -> dict[str, Any]:
@@ -116,20 +106,14 @@ def case_data(case: Case, evidence: Evidence, answer: bool) -> dict[str, Any]:
         return made
     made |= {fold: fill(getattr(record, fold), evidence) for fold in FOLDS}
     made |= {"snippet": record.snippet, "printed": evidence.snippet, "see": record.see}
-    texts = {variant.id: variant.text for variant in variants(case)}
+    diffs = {variant.id: diff(case.text, variant.text, record.source) for variant in variants(case)}
     for kind, remedies in (("fixes", record.fixes), ("refuted", record.refuted)):
-        made[kind] = [
-            {"id": remedy.id, "title": remedy.title, "diff": diff(case.text, texts[remedy.id], record.source)}
-            | ({"why": fill(why, evidence)} if (why := getattr(remedy, "why", "")) else {})
-            for remedy in remedies
-        ]
+        made[kind] = [{"id": remedy.id, "title": remedy.title, "diff": diffs[remedy.id]} for remedy in remedies]
+    for told, remedy in zip(made["refuted"], record.refuted, strict=True):
+        told["why"] = fill(remedy.why, evidence)
     return made
 
 
 def row_data(case: Case) -> dict[str, Any]:
     """What `clinic list --json` says of a case."""
     return {"number": case.record.number, "case": case.slug, "title": case.record.title, "tags": case.record.tags}
-
-
-def _code(text: str, language: str) -> Padding:
-    return Padding(Syntax(text.rstrip(), language, word_wrap=True), (0, 2))

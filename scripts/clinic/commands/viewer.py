@@ -7,29 +7,26 @@ import sys
 
 import mujoco
 
-from clinic.engine.simulate import captured_messages, compile_model, controls, initial_data
-from clinic.engine.variant import BROKEN, variants
+from clinic.engine.simulate import compile_model, controls, data_at
+from clinic.engine.variant import variants
 from clinic.proof.examine import examine
 from clinic.record.case import Case
-from clinic.record.problem import CaseError, LackError, closest, listed
+from clinic.record.problem import CaseError, LackError, listed
 
 
-def view(case: Case, variant_id: str = BROKEN) -> None:
+def open_viewer(case: Case, variant_id: str) -> None:
     """Opens the viewer and returns when its window is closed.
 
     Raises:
         CaseError: If the case has no model, or no such variant.
-        LackError: If no window can be opened here.
+        LackError: If there is no display.
     """
     model, data = scene(case, variant_id)
     if sys.platform == "linux" and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         raise LackError("no display here: MuJoCo's viewer needs a desktop session (DISPLAY or WAYLAND_DISPLAY)")
     import mujoco.viewer
 
-    try:
-        mujoco.viewer.launch(model, data)
-    except mujoco.FatalError as error:
-        raise LackError(f"MuJoCo's viewer does not open: {error}") from None
+    mujoco.viewer.launch(model, data)
 
 
 def scene(case: Case, variant_id: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
@@ -38,21 +35,15 @@ def scene(case: Case, variant_id: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
     Raises:
         CaseError: If the case has no model, or no such variant, or cannot be run.
     """
-    record = case.record
-    if record.run is None:
-        found, expected = f"a bug in {record.source}, a script", "a case with a model"
-        raise CaseError([case.problem(("script",), found, expected, f"read it in cases/{case.slug}/")])
+    run = case.record.run
+    if run is None:
+        raise CaseError([case.problem(("script",), "a script", "a case with a model", f"read {case.record.source}")])
     examine(case)
-    made = {variant.id: variant for variant in variants(case)}
-    if variant_id not in made:
-        guess = closest(variant_id, made)
-        repair = f"write {guess}" if guess else "leave `--fix` out for the broken model"
-        raise CaseError(
-            [case.problem(("fixes",), f"no variant {variant_id}", f"a variant: {listed(made, 30)}", repair)]
-        )
-    model = compile_model(made[variant_id].text)
-    data = initial_data(model, record.run)
-    controls(model, record.run, 1).apply(data, 0)
-    with captured_messages():
-        mujoco.mj_forward(model, data)
+    texts = {variant.id: variant.text for variant in variants(case)}
+    if variant_id not in texts:
+        expected = f"a variant: {listed(texts, 30)}"
+        raise CaseError([case.problem(("fixes",), f"no variant {variant_id}", expected, "name one of these")])
+    model = compile_model(texts[variant_id])
+    data = data_at(model, run, 0)
+    controls(model, run, 1).apply(data, 0)
     return model, data

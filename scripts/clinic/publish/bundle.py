@@ -17,7 +17,7 @@ LOADER = "docs/playground/loader.js"
 STYLE = "docs/stylesheets/playground.css"
 BUNDLER = "scripts/bundle.mjs"
 ENGINE = "node_modules/@mujoco/mujoco/mujoco.wasm"
-ESBUILD = "node_modules/esbuild"
+INSTALLED = "node_modules/.package-lock.json"
 CUSTOM_SECTION = 0
 HEADER = 8  # bytes: WebAssembly's mark and version
 
@@ -28,9 +28,9 @@ def parts(root: Path, cache: Cache) -> Files:
     Raises:
         RuntimeError: If the modules do not bundle, with what the bundler says.
     """
-    if node.found() and (root / ENGINE).is_file() and (root / ESBUILD).is_dir():
+    if node.found() and (root / ENGINE).is_file():
         modules = sorted((root / "docs/playground").rglob("*.js"))
-        sources = [*modules, root / STYLE, root / BUNDLER, root / "package-lock.json", Path(__file__)]
+        sources = [*modules, root / STYLE, root / BUNDLER, root / INSTALLED, Path(__file__)]
         key = key_of("playground", [[path.name, path.read_text(encoding="utf-8")] for path in sources], of="record")
         made = cache.remember(key, lambda: _bundle(root))
         return {f"{FOLDER}/{name}": content for name, content in made.items()}

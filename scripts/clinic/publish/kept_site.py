@@ -6,16 +6,16 @@ It is found without importing what makes it: MuJoCo, NumPy and pydantic.
 from __future__ import annotations
 
 import json
+import shutil
 import sys
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 
-from clinic.engine import node
 from clinic.record.problem import Problem
 from clinic.work.cache import Cache, Files, key_of
 
-INPUTS = ("cases", "docs", "scripts/bundle.mjs", "CONTRIBUTING.md", "package-lock.json")
+INPUTS = ("cases", "docs", "scripts/bundle.mjs", "CONTRIBUTING.md", "node_modules/.package-lock.json")
 ABOUT = "site.json"
 SECTION = 50  # cases; more than these are shown in sections
 Navigation = list[dict[str, object]]
@@ -58,10 +58,9 @@ def kept_or_made(root: Path, cache: Cache) -> Site:
 def inputs_digest(root: Path) -> str:
     """A digest of all that a site is made from: the files of the checkout, the package, what is installed, and Node."""
     given = [root / name for name in INPUTS]
-    if installed := node.modules():
-        given.append(installed / ".package-lock.json")
     paths = sorted(path for place in given for path in (place, *place.rglob("*")))
     content = {str(path): sha256(path.read_bytes()).hexdigest() for path in paths if path.is_file()}
     packages = sorted({path.name for place in sys.path for path in Path(place).glob("*.dist-info")})
-    programs = [(found, Path(found).stat().st_mtime_ns) for found in node.found()]
-    return key_of(content, [str(path) for path in paths], packages, programs, of="publish")
+    program = shutil.which("node")
+    made = Path(program).stat().st_mtime_ns if program else 0
+    return key_of(content, [str(path) for path in paths], packages, program, made, of="publish")

@@ -1,37 +1,29 @@
-"""The whole site's generated pages, as {path: bytes}: what every adapter writes."""
+"""The site's generated pages, as {path: bytes}: what every adapter writes."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from html import escape
 from pathlib import Path
 
+from clinic.pages.case_files import picture_tasks
+from clinic.pages.case_page import interim_page
 from clinic.pages.cases import FOLDER, PAGE, shown_cases
 from clinic.pages.error_page import by_case, error_page, unmeasured_page, with_problems
 from clinic.pages.overviews import overviews
 from clinic.pages.schema import FILE as SCHEMA
 from clinic.pages.schema import schema_text
 from clinic.proof.evidence import lack
+from clinic.proof.experiments import EVIDENCE, evidence_of, evidence_task, measuring_tasks
 from clinic.publish import bundle
 from clinic.publish.kept_site import SECTION, Navigation, Site
 from clinic.record.case import read_cases
-from clinic.record.checkout import cache_folder, slugs
+from clinic.record.checkout import slugs
 from clinic.record.problem import CaseError
 from clinic.work.cache import Cache, Files
+from clinic.work.task import Task, run_tasks
 
 BROWSER_PARTS = {"javascripts/iframe-worker.js": "node_modules/iframe-worker/shim/index.js"}
-
-
-def build(root: Path, cache: Cache | None = None) -> Files:
-    """Every generated file of a site without errors.
-
-    Raises:
-        CaseError: With all problems of all cases, and every claim that the runs do not bear out.
-    """
-    made = make_site(root, cache or Cache(cache_folder(root)))
-    if made.problems:
-        raise CaseError(made.problems)
-    return made.files
 
 
 def make_site(root: Path, cache: Cache) -> Site:
@@ -60,6 +52,22 @@ def make_site(root: Path, cache: Cache) -> Site:
             page = unmeasured_page(heading, lack(known[slug]))
         made[PAGE.format(slug=slug)] = page.encode()
     return Site(made, navigation(headings), CaseError(problems).problems)
+
+
+def unmeasured(root: Path, cache: Cache) -> list[Task]:
+    """What takes long and is not kept: all but the variants' runs and the plots."""
+    tasks = [task for case in read_cases(root / "cases")[0] for task in (*measuring_tasks(case), *picture_tasks(case))]
+    return [task for task in tasks if not cache.path(task.key).exists()]
+
+
+def number_pages(root: Path, cache: Cache, slugs: Container[str]) -> Files | None:
+    """The pages of these cases with what their checks measured; None if there are none, or one cannot be run."""
+    cases = [case for case in read_cases(root / "cases")[0] if case.slug in slugs]
+    found, failed = run_tasks([evidence_task(case) for case in cases], cache)
+    if failed or not all(EVIDENCE in files for files in found.values()):
+        return None
+    pages = {case.slug: interim_page(case, evidence_of(found[case.slug])) for case in cases}
+    return {PAGE.format(slug=slug): page.encode() for slug, page in pages.items()} or None
 
 
 def navigation(headings: Mapping[str, str]) -> Navigation:

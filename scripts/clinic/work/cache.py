@@ -69,10 +69,6 @@ class Cache:
             self.put(key, files)
         return files
 
-    def entries(self) -> list[Path]:
-        """Every archive, and what builds that were killed left of one."""
-        return list(self.folder.glob(f"{'[0-9a-f]' * 32}.*"))
-
 
 @lru_cache
 def say_unkept(folder: Path, reason: str) -> None:

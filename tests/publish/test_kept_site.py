@@ -96,7 +96,7 @@ def test_another_package_or_another_node_makes_the_site_anew(
     (tmp_path / "numpy-99.0.dist-info").mkdir()
     monkeypatch.syspath_prepend(str(tmp_path))
     assert [build(), build()] == [True, False]
-    monkeypatch.setattr("clinic.publish.kept_site.node.found", lambda: [__file__])
+    monkeypatch.setattr("clinic.publish.kept_site.node.found", lambda: __file__)
     assert build()
 
 

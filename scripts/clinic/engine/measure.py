@@ -10,7 +10,7 @@ import numpy as np
 
 from clinic.engine.checks import Trace, judge
 from clinic.engine.render import geom_row
-from clinic.engine.script import Output
+from clinic.engine.script import printed_numbers
 from clinic.engine.signals import Path, parse_path
 from clinic.engine.simulate import Nudge, Run, RunError, data_at, simulate
 from clinic.record.expression import ExpressionError, evaluate, parse
@@ -58,9 +58,9 @@ def measure_model(
     return run, {name: traces[name] for name in names}
 
 
-def measure_output(record: Record, output: Output) -> dict[str, Trace]:
+def measure_output(record: Record, output: str) -> dict[str, Trace]:
     """Every signal of a code case, from what its script printed; an empty trace where it printed nothing."""
-    printed = output.traces()
+    printed = printed_numbers(output)
     return with_expressions(record, {name: printed.get(path.name, NOTHING) for name, path in paths(record).items()})
 
 

@@ -39,7 +39,7 @@ def provoke(codes: Mapping[str, str]) -> dict[str, str]:
 
 def _said(code: str) -> str:
     done = sandbox.run([sys.executable, "script.py"], {"script.py": SCRIPT, "code.py": code}, SECONDS)
-    return done.stdout + (f"\nended by signal {-done.code}" if done.code < 0 else "")
+    return done.stdout + (f"\nended by signal {-done.returncode}" if done.returncode < 0 else "")
 
 
 def tidied(text: str) -> str:

@@ -10,7 +10,6 @@ run, and it answers each on stdout with how the script ended.
 
 from __future__ import annotations
 
-import atexit
 import json
 import os
 import re
@@ -21,15 +20,14 @@ import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from subprocess import CompletedProcess
 from typing import Any
 
 SECONDS = 20.0  # on the clock
-OUTPUT = 256_000  # bytes, of stdout and of stderr
 MIB = 2**20
 LIMITS = {resource.RLIMIT_DATA: 2048 * MIB, resource.RLIMIT_FSIZE: 64 * MIB, resource.RLIMIT_CORE: 0}
 SEEN = re.compile("PATH|LANG|LD_LIBRARY_PATH|MUJOCO_GL|PYOPENGL_|LIBGL_|EGL_|__EGL_|__GLX_|MESA_|GALLIUM_")
@@ -38,26 +36,11 @@ QUIET = "ignore:This process:DeprecationWarning"  # Python warns of forks beside
 _one_at_a_time = threading.Lock()
 
 
-@dataclass(frozen=True)
-class Result:
-    """How a script ended.
-
-    Args:
-        code: Its exit code, negative for the number of the signal that ended it.
-        stdout: What it printed, the first OUTPUT bytes; those that are not UTF-8 are replaced.
-        stderr: Likewise.
-        limit: The limit that it went beyond, "time" or "output"; else "". A script that asks for more memory, or a
-            larger file, than LIMITS allow meets an error of its own.
-    """
-
-    code: int
-    stdout: str
-    stderr: str
-    limit: str
-
-
-def run(command: Sequence[str], files: Mapping[str, str | Path], seconds: float = SECONDS) -> Result:
+def run(command: list[str], files: Mapping[str, str | Path], seconds: float = SECONDS) -> CompletedProcess[str]:
     """Runs a script in a temporary folder, which is its home too, without input.
+
+    SIGALRM ends one that takes too long. One that asks for more memory, or a larger file, than LIMITS allow meets an
+    error of its own. Of what it prints, bytes that are not UTF-8 are replaced.
 
     Args:
         command: A program, and the script's name in the folder.
@@ -73,14 +56,10 @@ def run(command: Sequence[str], files: Mapping[str, str | Path], seconds: float 
                 path.symlink_to(content)
             else:
                 path.write_text(content, encoding="utf-8")
-        order = {"command": list(command), "folder": folder, "seconds": seconds, "environment": _environment(home)}
+        order = {"command": command, "folder": folder, "seconds": seconds, "environment": _environment(home)}
         code = _ask(json.dumps(order))
-        printed = [Path(folder, stream).read_bytes() for stream in ("stdout", "stderr")]
-    limit = "time" if code == -signal.SIGALRM else ""
-    if len(max(printed, key=len)) > OUTPUT:
-        limit = "output"
-    out, err = (text[:OUTPUT].decode(errors="replace") for text in printed)
-    return Result(code, out, err, limit)
+        printed = [Path(folder, name).read_text(encoding="utf-8", errors="replace") for name in ("stdout", "stderr")]
+    return CompletedProcess(command, code, *printed)
 
 
 def _environment(home: Path) -> dict[str, str]:
@@ -97,19 +76,20 @@ def _ask(order: str) -> int:
         assert starter.stdout is not None
         try:
             print(order, file=starter.stdin, flush=True)
-            if not (answer := starter.stdout.readline()):
-                raise ConnectionError("the process that starts scripts was killed: run this again")
+            if answer := starter.stdout.readline():
+                return int(answer)
+            raise ConnectionError("the process that starts scripts was killed: run this again")
         except BaseException:  # else the next script would get this one's answer
             _starter.cache_clear()
-            _end(starter)
+            starter.kill()
+            starter.communicate()
             raise
-    return int(answer)
 
 
 @cache
 def _starter(owner: int) -> subprocess.Popen[str]:
     """The process that starts scripts for the process `owner`, which is this one: a fork must not share it."""
-    starter = subprocess.Popen(
+    return subprocess.Popen(
         [sys.executable, "-P", "-s", "-W", QUIET, __file__],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
@@ -117,14 +97,6 @@ def _starter(owner: int) -> subprocess.Popen[str]:
         text=True,
         start_new_session=True,
     )
-    atexit.register(_end, starter)
-    return starter
-
-
-def _end(starter: subprocess.Popen[str]) -> None:
-    """Kills the process that starts scripts; one that still runs ends by itself when its time is up."""
-    starter.kill()
-    starter.communicate()
 
 
 def _wait_for_order() -> dict[str, Any]:
@@ -157,16 +129,7 @@ def _start(command: list[str], folder: str, seconds: float, environment: dict[st
         os.execv(program, command)
     sys.argv = [script]
     sys.path.insert(0, os.getcwd())
-    ended_well = False
-
-    def leave() -> None:
-        if ended_well:
-            sys.stdout.flush()
-            os._exit(0)  # else Python takes its modules apart, for longer than most scripts run
-
-    atexit.register(leave)
     runpy.run_path(script, run_name="__main__")
-    ended_well = True
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ from clinic.engine import node
 from clinic.engine.checks import TAKES, Trace, judge, take
 from clinic.engine.measure import measure_model, measure_output
 from clinic.engine.render import why_no_images
-from clinic.engine.script import Output, ScriptError, run_script
+from clinic.engine.script import ScriptError, printed_numbers, run_script
 from clinic.engine.simulate import RunError, compile_model
 from clinic.engine.variant import Variant, place_of, variants
 from clinic.proof.examine import examine
@@ -129,7 +129,7 @@ def collect(case: Case) -> Evidence:
     if case.record.snippet is not None:
         name = "snippet.mjs" if case.record.language == "javascript" else "snippet.py"
         try:
-            snippet = run_script(case.record.snippet, case.texts, name=name).text
+            snippet = run_script(case.record.snippet, case.texts, name=name)
         except ScriptError as error:
             problems.append(case.problem(("snippet",), error.found, "code that runs as it stands", error.repair))
     if problems:
@@ -179,7 +179,7 @@ def observe(case: Case, variant: Variant) -> VariantEvidence:
     else:
         output = run_script(variant.text, case.texts, name=record.source)
         traces = measure_output(record, output)
-        details = {"output": output.text}
+        details = {"output": output}
     return VariantEvidence(
         kind=variant.kind,
         title=variant.title,
@@ -211,7 +211,7 @@ def _unprinted(case: Case, observed: dict[str, VariantEvidence]) -> Iterator[Pro
     if case.record.script is None or not observed:
         return
     swept = {name for sweep in case.record.sweep.values() for name in names_read(sweep)}
-    printed = sorted({key for variant in observed.values() for key in Output(variant.output or "").traces()})
+    printed = sorted({key for variant in observed.values() for key in printed_numbers(variant.output or "")})
     for name, signal in case.record.signals.items():
         seen = any(variant.values[name]["final"] is not None for variant in observed.values())
         if isinstance(signal, PathSignal) and not seen and name not in swept:

@@ -63,5 +63,5 @@ def inputs_digest(root: Path) -> str:
     paths = sorted(path for place in given for path in (place, *place.rglob("*")))
     content = {str(path): sha256(path.read_bytes()).hexdigest() for path in paths if path.is_file()}
     packages = sorted({path.name for place in sys.path for path in Path(place).glob("*.dist-info")})
-    programs = [(found, Path(found).stat().st_mtime_ns) for found in node.found()]
+    programs = [(found, Path(found).stat().st_mtime_ns) for found in [node.found()] if found]
     return key_of(content, [str(path) for path in paths], packages, programs, of="publish")

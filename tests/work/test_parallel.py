@@ -38,12 +38,10 @@ for slug, files in files_of_cases(load_cases(Path("cases")), Cache(Path(sys.argv
 @contextmanager
 def cluster(folder: Path, **environment: str) -> Iterator[str]:
     """A cluster of two workers on this machine, by its scheduler's address."""
-    surroundings = settings(folder) | environment
-    surroundings.pop("PYOPENGL_PLATFORM", None)  # which this process has from importing MuJoCo
     with subprocess.Popen(
         [sys.executable, "-c", CLUSTER],
         cwd=folder,
-        env=surroundings,
+        env=settings(folder) | environment,
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,

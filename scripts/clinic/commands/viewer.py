@@ -53,7 +53,7 @@ def scene(case: Case, variant_id: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
         )
     model = compile_model(made[variant_id].text)
     data = initial_data(model, record.run)
-    controls(model, record.run, 1).apply(data, 0)
+    controls(model, record.run, 1)(data, 0)
     with captured_messages():
         mujoco.mj_forward(model, data)
     return model, data

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Mapping
 
 import mujoco
@@ -96,7 +95,7 @@ def _computed(name: str, signal: ExpressionSignal, traces: Mapping[str, Trace]) 
 
 def fraction_of_starts(record: Record, signal: StartsSignal, model: mujoco.MjModel, spec: RunSpec) -> float:
     """The share of evenly spaced start positions from which `signal.holds` holds, 0 to 1."""
-    path = {signal.holds.signal: paths(record)[signal.holds.signal]}
+    path = paths(record, [signal.holds.signal])
 
     def holds_from(offset: float) -> bool:
         def nudge(_: mujoco.MjModel, data: mujoco.MjData) -> None:
@@ -104,4 +103,4 @@ def fraction_of_starts(record: Record, signal: StartsSignal, model: mujoco.MjMod
 
         return judge(signal.holds, simulate(model, spec, path, nudge).traces).holds
 
-    return math.fsum(map(holds_from, np.linspace(*signal.offset, signal.count))) / signal.count
+    return sum(map(holds_from, np.linspace(*signal.offset, signal.count))) / signal.count

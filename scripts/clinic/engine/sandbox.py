@@ -19,7 +19,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import threading
 from collections.abc import Mapping
 from contextlib import suppress
 from functools import cache
@@ -33,7 +32,6 @@ LIMITS = {resource.RLIMIT_DATA: 2048 * MIB, resource.RLIMIT_FSIZE: 64 * MIB, res
 SEEN = re.compile("PATH|LANG|LD_LIBRARY_PATH|MUJOCO_GL|PYOPENGL_|LIBGL_|EGL_|__EGL_|__GLX_|MESA_|GALLIUM_")
 FORKS = sys.platform == "linux"  # elsewhere a fork may not use what MuJoCo's import has loaded
 QUIET = "ignore:This process:DeprecationWarning"  # Python warns of forks beside threads; those of NumPy bear it
-_one_at_a_time = threading.Lock()
 
 
 def run(command: list[str], files: Mapping[str, str | Path], seconds: float = SECONDS) -> CompletedProcess[str]:
@@ -71,24 +69,23 @@ def _environment(home: Path) -> dict[str, str]:
 
 def _ask(order: str) -> int:
     """Has a script run; its exit code."""
-    with _one_at_a_time:
-        starter = _starter(os.getpid())
-        assert starter.stdout is not None
-        try:
-            print(order, file=starter.stdin, flush=True)
-            if answer := starter.stdout.readline():
-                return int(answer)
-            raise ConnectionError("the process that starts scripts was killed: run this again")
-        except BaseException:  # else the next script would get this one's answer
-            _starter.cache_clear()
-            starter.kill()
-            starter.communicate()
-            raise
+    starter = _starter()
+    assert starter.stdout is not None
+    try:
+        print(order, file=starter.stdin, flush=True)
+        if answer := starter.stdout.readline():
+            return int(answer)
+        raise ConnectionError("the process that starts scripts was killed: run this again")
+    except BaseException:  # else the next script would get this one's answer
+        _starter.cache_clear()
+        starter.kill()
+        starter.communicate()
+        raise
 
 
 @cache
-def _starter(owner: int) -> subprocess.Popen[str]:
-    """The process that starts scripts for the process `owner`, which is this one: a fork must not share it."""
+def _starter() -> subprocess.Popen[str]:
+    """The process that starts scripts; it ends when this one does."""
     return subprocess.Popen(
         [sys.executable, "-P", "-s", "-W", QUIET, __file__],
         stdin=subprocess.PIPE,

@@ -16,7 +16,7 @@ from clinic.engine.measure import measure_model, measure_output
 from clinic.engine.render import why_no_images
 from clinic.engine.script import ScriptError, printed_numbers, run_script
 from clinic.engine.simulate import RunError, compile_model
-from clinic.engine.variant import Variant, place_of, variants
+from clinic.engine.variant import Variant, variants
 from clinic.proof.examine import examine
 from clinic.proof.robustness import Robustness
 from clinic.proof.sweep import SweepEvidence, names_read
@@ -118,7 +118,7 @@ def collect(case: Case) -> Evidence:
         try:
             observed[variant.id] = observe(case, variant)
         except ScriptError as error:
-            edited = (*place_of(case, variant.id), "edits") if variant.edits else ()
+            edited = (*variant.where, "edits") if variant.edits else ()
             found = f"{case.record.source}{' after these edits' if edited else ''}: {error.found}"
             expected = "a script that ends by itself"
             problems.append(case.problem(edited or ("script",), found, expected, error.repair))

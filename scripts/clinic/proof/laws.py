@@ -7,7 +7,7 @@ from itertools import combinations
 from typing import Literal
 
 from clinic.engine.checks import expected
-from clinic.engine.variant import Variant, apply_edits, changed_lines, place_of, variants
+from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
 from clinic.proof.evidence import Evidence, VariantEvidence, observe
 from clinic.proof.prose_laws import quoted, typed
 from clinic.proof.sweep import SweepEvidence, agreement, errors_at, with_names
@@ -189,4 +189,4 @@ def _worst(sweep: Sweep, found: SweepEvidence) -> str:
 
 def _place(case: Case, variant: str) -> Where:
     """Where the record speaks of a variant: its remedy, or the checks."""
-    return place_of(case, variant) or ("checks",)
+    return next(made.where for made in variants(case) if made.id == variant) or ("checks",)

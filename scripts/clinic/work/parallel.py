@@ -34,12 +34,9 @@ def parallel(work: Callable[..., T], tasks: Sequence[tuple[Any, ...]]) -> Iterat
     import joblib
 
     warnings.filterwarnings("ignore", "A worker stopped", UserWarning)  # one that has grown by 300 MB is replaced
-    calls = [joblib.delayed(work)(*task) for task in tasks]
-    if address := os.environ.get("CLINIC_DASK"):
-        with _cluster(address):
-            yield from joblib.Parallel(return_as="generator_unordered")(calls)
-    else:
-        yield from joblib.Parallel(min(jobs(), len(tasks)), return_as="generator_unordered")(calls)
+    address, here = os.environ.get("CLINIC_DASK"), joblib.parallel_config(n_jobs=min(jobs(), len(tasks)))
+    with _cluster(address) if address else here:
+        yield from joblib.Parallel(return_as="generator_unordered")(joblib.delayed(work)(*task) for task in tasks)
 
 
 def jobs() -> int:

@@ -65,9 +65,7 @@ def judge(check: Check, traces: Mapping[str, Trace]) -> Verdict:
 
 
 def satisfies(check: Comparison, measured: float) -> bool:
-    """Whether a measured number satisfies the check's comparison."""
-    if math.isnan(measured):
-        return False
+    """Whether a measured number satisfies the check's comparison; what is not a number satisfies none."""
     if check.above is not None:
         return measured > check.above
     if check.below is not None:

@@ -45,11 +45,8 @@ def _said(expression: str) -> str | None:
 
 def modules() -> Path | None:
     """The nearest `node_modules` at or above the working directory or this package; None if there is none."""
-    here = Path.cwd()
-    for folder in (here, *here.parents, *Path(__file__).resolve().parents):
-        if (found := folder / "node_modules").is_dir():
-            return found
-    return None
+    folders = (Path.cwd(), *Path.cwd().parents, *Path(__file__).resolve().parents)
+    return next((place for folder in folders if (place := folder / "node_modules").is_dir()), None)
 
 
 def version(package: str) -> str | None:

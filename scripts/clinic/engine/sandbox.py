@@ -54,17 +54,10 @@ def run(command: list[str], files: Mapping[str, str | Path], seconds: float = SE
                 path.symlink_to(content)
             else:
                 path.write_text(content, encoding="utf-8")
-        order = {"command": command, "folder": folder, "seconds": seconds, "environment": _environment(home)}
+        order = {"command": command, "folder": folder, "seconds": seconds}
         code = _ask(json.dumps(order))
         printed = [Path(folder, name).read_text(encoding="utf-8", errors="replace") for name in ("stdout", "stderr")]
     return CompletedProcess(command, code, *printed)
-
-
-def _environment(home: Path) -> dict[str, str]:
-    """What a script sees of this process's environment: where programs and OpenGL are, and no more."""
-    seen = {name: value for name, value in os.environ.items() if SEEN.match(name)}
-    own = {"HOME": str(home), "TMPDIR": str(home), "PYTHONHASHSEED": "0", "PYTHONDONTWRITEBYTECODE": "1"}
-    return {"PATH": os.defpath, "LANG": "C.UTF-8", "MUJOCO_GL": "egl", **seen, **own}
 
 
 def _ask(order: str) -> int:
@@ -85,12 +78,17 @@ def _ask(order: str) -> int:
 
 @cache
 def _starter() -> subprocess.Popen[str]:
-    """The process that starts scripts; it ends when this one does."""
+    """The process that starts scripts; it ends when this one does.
+
+    It and the scripts see of this process's environment where programs and OpenGL are, and no more.
+    """
+    seen = {name: value for name, value in os.environ.items() if SEEN.match(name)}
+    own = {"PYTHONHASHSEED": "0", "PYTHONDONTWRITEBYTECODE": "1"}
     return subprocess.Popen(
         [sys.executable, "-P", "-s", "-W", QUIET, __file__],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
-        env=_environment(Path(tempfile.gettempdir())),
+        env={"PATH": os.defpath, "LANG": "C.UTF-8", "MUJOCO_GL": "egl", **seen, **own},
         text=True,
         start_new_session=True,
     )
@@ -109,7 +107,7 @@ def _wait_for_order() -> dict[str, Any]:
     sys.exit()
 
 
-def _start(command: list[str], folder: str, seconds: float, environment: dict[str, str]) -> None:
+def _start(command: list[str], folder: str, seconds: float) -> None:
     """Turns this process into the script's."""
     os.setsid()
     for number, file in enumerate((os.devnull, f"{folder}/stdout", f"{folder}/stderr")):
@@ -119,8 +117,7 @@ def _start(command: list[str], folder: str, seconds: float, environment: dict[st
         with suppress(ValueError):  # a lower one holds already
             resource.setrlimit(kind, (limit, limit))
     signal.setitimer(signal.ITIMER_REAL, seconds)  # SIGALRM ends it
-    os.environ.clear()
-    os.environ.update(environment)
+    os.environ |= {"HOME": os.getcwd(), "TMPDIR": os.getcwd()}
     program, script = command
     if program != sys.executable or not FORKS:
         os.execv(program, command)

@@ -25,9 +25,6 @@ class EditError(ValueError):
     index: int
     count: int
 
-    def __str__(self) -> str:
-        return f"edit {self.index} matches {self.count} times"
-
 
 @dataclass(frozen=True)
 class Variant:

@@ -75,7 +75,7 @@ def test_a_worker_with_another_checkout_is_refused(project: Path, tmp_path: Path
     with cluster(project, PYTHONPATH=str(tmp_path)) as address:
         done = run(project, "-c", RUN, str(tmp_path / "cache"), CLINIC_DASK=address)
     last = done.stderr.splitlines()[-1]
-    assert last.startswith("clinic.work.parallel.ClusterError: the worker tcp://")
+    assert last.startswith("clinic.work.parallel.ClusterError: nothing can be run on CLINIC_DASK, tcp://")
     assert " has clinic " in last
     assert not (tmp_path / "cache").exists()
 

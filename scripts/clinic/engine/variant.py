@@ -75,7 +75,13 @@ def variants(case: Case) -> list[Variant]:
             text = apply_edits(case.text, remedy.edits)
             made.append(Variant(kind, remedy.id, remedy.title, tuple(remedy.edits), text, where))
         except EditError as error:
-            problems.append(_edit_problem(case, where, remedy, error))
+            before = " after the edits before it" if error.index else ""
+            occurs, repair = "does not occur", f"copy the text from {case.record.source}, character by character"
+            if error.count:
+                occurs, repair = f"occurs {error.count} times", "lengthen `find` until it names one place"
+            found = f"text that {occurs} in {case.record.source}{before}: {remedy.edits[error.index].find!r}"
+            place = (*where, "edits", error.index, "find")
+            problems.append(case.problem(place, found, "text that occurs exactly once", repair))
     if problems:
         raise CaseError(problems)
     return made
@@ -91,13 +97,3 @@ def changed_lines(before: str, after: str) -> int:
     """Counts the lines that the diff removes, or those that it adds, whichever are more."""
     lines = diff(before, after, "", 0).splitlines()
     return max(sum(line.startswith(sign) for line in lines) for sign in "-+")
-
-
-def _edit_problem(case: Case, where: Where, remedy: Remedy, error: EditError) -> Problem:
-    name = case.record.source
-    before = " after the edits before it" if error.index else ""
-    occurs, repair = "does not occur", f"copy the text from {name}, character by character"
-    if error.count:
-        occurs, repair = f"occurs {error.count} times", "lengthen `find` until it names one place"
-    found = f"text that {occurs} in {name}{before}: {remedy.edits[error.index].find!r}"
-    return case.problem((*where, "edits", error.index, "find"), found, "text that occurs exactly once", repair)

@@ -65,8 +65,6 @@ def _cluster(address: str) -> Iterator[None]:
             compare({name: {**found, "threads": threads[name]} for name, found in client.run(versions).items()})
             with joblib.parallel_config(backend="dask", client=client):
                 yield
-    except ClusterError:
-        raise
     except Exception as error:
         found = f"{type(error).__name__}: {error}".splitlines()[0]
         raise ClusterError(f"nothing can be run on CLINIC_DASK, {address} ({found})") from None

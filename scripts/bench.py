@@ -48,7 +48,7 @@ class Physics:
     def simulate(self, model: mujoco.MjModel, spec: Any, paths: Any, nudge: Any = None) -> Any:
         """What `clinic.engine.simulate.simulate` gives."""
         data, steps = initial_data(model, spec, nudge), step_count(model, spec)
-        controls(model, spec, steps).apply(data, 0)
+        controls(model, spec, steps)(data, 0)
         with captured_messages():
             self.bare += timed(lambda: mujoco.mj_step(model, data, nstep=steps))
         self.steps += steps

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from clinic.engine.measure import measure_model, measure_output
-from clinic.engine.script import Output
 from clinic.engine.simulate import compile_model
 from clinic.record.fields import Record
 from helpers import MODEL, script_case, tiny_case
@@ -84,13 +83,13 @@ def test_image_row_of_a_box_below_the_cameras_axis(tmp_path: Path) -> None:
 def test_printed_signals_are_read_from_the_output(tmp_path: Path) -> None:
     two = ("{path: printed(error), unit: m}", "{path: printed(error)}\n  twice: {expr: 2 * error}")
     record = script_case(tmp_path, two).record
-    traces = measure_output(record, Output("error = 1\nother = 9\nerror = 3\n"))
+    traces = measure_output(record, "error = 1\nother = 9\nerror = 3\n")
     assert {name: trace.value.tolist() for name, trace in traces.items()} == {"error": [1, 3], "twice": [2, 6]}
 
 
 def test_what_was_not_printed_is_an_empty_trace_and_so_is_what_is_computed_from_it(tmp_path: Path) -> None:
     more = "{path: printed(error)}\n  other: {path: printed(other)}\n  sum: {expr: error + other}"
     traces = measure_output(
-        script_case(tmp_path, ("{path: printed(error), unit: m}", more)).record, Output("error = 1\nerror = 2\n")
+        script_case(tmp_path, ("{path: printed(error), unit: m}", more)).record, "error = 1\nerror = 2\n"
     )
     assert {name: len(trace.value) for name, trace in traces.items()} == {"error": 2, "other": 0, "sum": 0}

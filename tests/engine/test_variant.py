@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from clinic.engine.variant import EditError, apply_edits, changed_lines, diff, place_of, variants
+from clinic.engine.variant import EditError, apply_edits, changed_lines, diff, variants
 from clinic.record.parts import Edit
 from clinic.record.problem import CaseError
 from helpers import MODEL, tiny_case
@@ -54,7 +54,7 @@ def test_variants_are_the_broken_one_then_fixes_then_refuted(tmp_path: Path) -> 
         ("fix", "share-a-bit"),
         ("refuted", "small-step"),
     ]
-    assert [place_of(case, v.id) for v in (broken, fix, refuted)] == [(), ("fixes", 0), ("refuted", 0)]
+    assert [v.where for v in (broken, fix, refuted)] == [(), ("fixes", 0), ("refuted", 0)]
     assert broken.text == MODEL
     assert fix.text == MODEL.replace(' contype="2" conaffinity="2"', "")
     assert refuted.text == MODEL.replace("0.002", "0.001")

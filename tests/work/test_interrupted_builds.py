@@ -16,7 +16,7 @@ from pathlib import Path
 from clinic.work.cache import Cache
 from clinic.record.case import read_cases
 from clinic.record.checkout import cache_folder
-from clinic.pages.exhibits import all_exhibits
+from clinic.pages.case_files import files_of_cases
 
 how, replace = sys.argv[1], os.replace
 
@@ -29,7 +29,7 @@ def killed(part, path):
 
 if how != "undisturbed":
     os.replace = killed
-for slug, files in all_exhibits(read_cases(Path("cases"))[0], Cache(cache_folder(Path()))).items():
+for slug, files in files_of_cases(read_cases(Path("cases"))[0], Cache(cache_folder(Path())))[0].items():
     Path("out", slug).mkdir(parents=True, exist_ok=True)
     for name, content in files.items():
         Path("out", slug, name).write_bytes(content)

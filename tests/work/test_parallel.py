@@ -38,12 +38,10 @@ for slug, files in files_of_cases(read_cases(Path("cases"))[0], Cache(Path(sys.a
 @contextmanager
 def cluster(folder: Path, **environment: str) -> Iterator[str]:
     """A cluster of two workers on this machine, by its scheduler's address."""
-    surroundings = settings(folder) | environment
-    surroundings.pop("PYOPENGL_PLATFORM", None)  # which this process has from importing MuJoCo
     with subprocess.Popen(
         [sys.executable, "-c", CLUSTER],
         cwd=folder,
-        env=surroundings,
+        env=settings(folder) | environment,
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
@@ -77,7 +75,7 @@ def test_a_worker_with_another_checkout_is_refused(project: Path, tmp_path: Path
     with cluster(project, PYTHONPATH=str(tmp_path)) as address:
         done = run(project, "-c", RUN, str(tmp_path / "cache"), CLINIC_DASK=address)
     last = done.stderr.splitlines()[-1]
-    assert last.startswith("clinic.work.parallel.ClusterError: the worker tcp://")
+    assert last.startswith("clinic.work.parallel.ClusterError: nothing can be run on CLINIC_DASK, tcp://")
     assert " has clinic " in last
     assert not (tmp_path / "cache").exists()
 

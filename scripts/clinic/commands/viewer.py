@@ -45,5 +45,5 @@ def scene(case: Case, variant_id: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
         raise CaseError([case.problem(("fixes",), f"no variant {variant_id}", expected, "name one of these")])
     model = compile_model(texts[variant_id])
     data = data_at(model, run, 0)
-    controls(model, run, 1).apply(data, 0)
+    controls(model, run, 1)(data, 0)
     return model, data

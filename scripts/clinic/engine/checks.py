@@ -14,12 +14,7 @@ from clinic.record.fields import Check
 from clinic.record.parts import Comparison, Interval, Take
 
 TAKES: tuple[Take, ...] = get_args(Take)
-OVER_ALL: dict[str, Callable[[NDArray[np.float64]], np.floating]] = {
-    "min": np.min,
-    "max": np.max,
-    "mean": np.mean,
-    "span": np.ptp,
-}
+OVER_ALL: dict[str, Callable[..., float]] = {"min": np.min, "max": np.max, "mean": np.mean, "span": np.ptp}
 
 
 @dataclass(frozen=True)
@@ -39,7 +34,6 @@ class Trace:
 class Verdict:
     """A check's outcome: the measured number, and whether it satisfies the check."""
 
-    check: Check
     measured: float
     holds: bool
 
@@ -67,13 +61,11 @@ def take(trace: Trace, which: Take, window: Interval | None = None) -> float:
 def judge(check: Check, traces: Mapping[str, Trace]) -> Verdict:
     """Measures a check and says whether it holds. A number that could not be measured satisfies no check."""
     measured = take(traces[check.signal], check.take, check.window)
-    return Verdict(check, measured, satisfies(check, measured))
+    return Verdict(measured, satisfies(check, measured))
 
 
 def satisfies(check: Comparison, measured: float) -> bool:
-    """Whether a measured number satisfies the check's comparison."""
-    if math.isnan(measured):
-        return False
+    """Whether a measured number satisfies the check's comparison; what is not a number satisfies none."""
     if check.above is not None:
         return measured > check.above
     if check.below is not None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Mapping
 
 import mujoco
@@ -10,7 +9,7 @@ import numpy as np
 
 from clinic.engine.checks import Trace, judge
 from clinic.engine.render import geom_row
-from clinic.engine.script import Output
+from clinic.engine.script import printed_numbers
 from clinic.engine.signals import Path, parse_path
 from clinic.engine.simulate import Nudge, Run, RunError, data_at, simulate
 from clinic.record.expression import ExpressionError, evaluate, parse
@@ -58,9 +57,9 @@ def measure_model(
     return run, {name: traces[name] for name in names}
 
 
-def measure_output(record: Record, output: Output) -> dict[str, Trace]:
+def measure_output(record: Record, output: str) -> dict[str, Trace]:
     """Every signal of a code case, from what its script printed; an empty trace where it printed nothing."""
-    printed = output.traces()
+    printed = printed_numbers(output)
     return with_expressions(record, {name: printed.get(path.name, NOTHING) for name, path in paths(record).items()})
 
 
@@ -96,7 +95,7 @@ def _computed(name: str, signal: ExpressionSignal, traces: Mapping[str, Trace]) 
 
 def fraction_of_starts(record: Record, signal: StartsSignal, model: mujoco.MjModel, spec: RunSpec) -> float:
     """The share of evenly spaced start positions from which `signal.holds` holds, 0 to 1."""
-    path = {signal.holds.signal: paths(record)[signal.holds.signal]}
+    path = paths(record, [signal.holds.signal])
 
     def holds_from(offset: float) -> bool:
         def nudge(_: mujoco.MjModel, data: mujoco.MjData) -> None:
@@ -104,4 +103,4 @@ def fraction_of_starts(record: Record, signal: StartsSignal, model: mujoco.MjMod
 
         return judge(signal.holds, simulate(model, spec, path, nudge).traces).holds
 
-    return math.fsum(map(holds_from, np.linspace(*signal.offset, signal.count))) / signal.count
+    return sum(map(holds_from, np.linspace(*signal.offset, signal.count))) / signal.count

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -19,50 +20,39 @@ CARET = re.compile(
 )
 
 
+def found() -> str | None:
+    """The Node of the virtual environment, else the one on the path, or a script that starts it; None if neither."""
+    places = (str(Path(sys.executable).parent), os.environ.get("PATH", os.defpath))
+    return shutil.which("node", path=os.pathsep.join(places))
+
+
 def program() -> str | None:
-    """The Node of the virtual environment, else the one on the path; None if there is neither."""
-    first = next(iter(found()), None)
-    return None if first is None else _binary(first)
+    """The program itself, which what is found may only start; None if there is none."""
+    return _said("process.execPath")
 
 
-def found() -> list[str]:
-    """Every Node there is, or what starts it, by its path: the virtual environment's first."""
-    both = (shutil.which("node", path=str(Path(sys.executable).parent)), shutil.which("node"))
-    return [path for path in both if path]
+def release() -> str | None:
+    """The version of Node itself; None if there is none."""
+    return _said("process.version")
 
 
 @cache
-def _binary(found: str) -> str:
-    """The program itself: what is found may be a script that starts it."""
-    said = subprocess.run([found, "-p", "process.execPath"], check=False, capture_output=True, text=True)
-    return said.stdout.strip() or found
+def _said(expression: str) -> str | None:
+    if (path := found()) is None:
+        return None
+    return subprocess.run([path, "-p", expression], check=False, capture_output=True, text=True).stdout.strip() or None
 
 
 def modules() -> Path | None:
     """The nearest `node_modules` at or above the working directory or this package; None if there is none."""
-    here = Path.cwd()
-    for folder in (here, *here.parents, *Path(__file__).resolve().parents):
-        if (found := folder / "node_modules").is_dir():
-            return found
-    return None
+    folders = (Path.cwd(), *Path.cwd().parents, *Path(__file__).resolve().parents)
+    return next((place for folder in folders if (place := folder / "node_modules").is_dir()), None)
 
 
 def version(package: str) -> str | None:
     """The version of an installed package; None if it is not installed."""
-    found = modules()
-    described = found / package / "package.json" if found else None
-    if described is None or not described.is_file():
-        return None
-    return str(json.loads(described.read_text(encoding="utf-8"))["version"])
-
-
-@cache
-def release() -> str | None:
-    """The version of Node itself; None if there is none."""
-    found = program()
-    if found is None:
-        return None
-    return subprocess.run([found, "--version"], check=True, capture_output=True, text=True).stdout.strip()
+    described = (modules() or Path()) / package / "package.json"
+    return str(json.loads(described.read_text(encoding="utf-8"))["version"]) if described.is_file() else None
 
 
 def failure(stderr: str, name: str) -> tuple[str, str | None]:

@@ -34,12 +34,12 @@ def provoke(codes: Mapping[str, str]) -> dict[str, str]:
     A piece has `mujoco`, `np` and `load(xml, files)`, which compiles a model. Where it ended by a signal, a crash or
     more than SECONDS, a last line says so: `ended by signal 11`.
     """
-    return {name: tidied(_said(code)) for name, code in codes.items()}
-
-
-def _said(code: str) -> str:
-    done = sandbox.run([sys.executable, "script.py"], {"script.py": SCRIPT, "code.py": code}, SECONDS)
-    return done.stdout + (f"\nended by signal {-done.code}" if done.code < 0 else "")
+    said = {}
+    for name, code in codes.items():
+        done = sandbox.run([sys.executable, "script.py"], {"script.py": SCRIPT, "code.py": code}, SECONDS)
+        ended = f"\nended by signal {-done.returncode}" if done.returncode < 0 else ""
+        said[name] = tidied(done.stdout + ended)
+    return said
 
 
 def tidied(text: str) -> str:

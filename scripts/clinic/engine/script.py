@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import signal
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,6 +13,7 @@ import numpy as np
 from clinic.engine import node, sandbox
 from clinic.engine.checks import Trace
 
+OUTPUT = 256_000  # characters, of stdout and of stderr
 BY_HAND = "run it by hand and mend it"
 PRINTED = re.compile(
     r"^\s*(?P<name>[a-z](?:[a-z0-9 _,()-]*[a-z0-9_,()-])?)\s*="
@@ -19,39 +21,33 @@ PRINTED = re.compile(
 )
 
 
+@dataclass(eq=False)
 class ScriptError(ValueError):
     """A script that did not end well; `found` says how, `repair` what to do."""
 
-    def __init__(self, found: str, repair: str) -> None:
-        self.found, self.repair = found, repair
-        super().__init__(found, repair)
+    found: str
+    repair: str
 
     def __str__(self) -> str:
         return f"{self.found}; {self.repair}"
 
 
-@dataclass(frozen=True)
-class Output:
-    """What a script printed to stdout."""
+def printed_numbers(output: str) -> dict[str, Trace]:
+    """The numbers of the lines `name = value` of a script's output, by name; a name printed twice gives two samples.
 
-    text: str
-
-    def traces(self) -> dict[str, Trace]:
-        """The numbers of the lines `name = value`, by name; a name printed twice gives two samples.
-
-        The time of a sample is its position, counted from 0.
-        """
-        values: dict[str, list[float]] = {}
-        for line in self.text.splitlines():
-            if match := PRINTED.match(line):
-                values.setdefault(match["name"], []).append(float(match["value"]))
-        return {name: Trace(np.arange(len(v), dtype=float), np.array(v)) for name, v in values.items()}
+    The time of a sample is its position, counted from 0.
+    """
+    values: dict[str, list[float]] = {}
+    for line in output.splitlines():
+        if match := PRINTED.match(line):
+            values.setdefault(match["name"], []).append(float(match["value"]))
+    return {name: Trace(np.arange(len(v), dtype=float), np.array(v)) for name, v in values.items()}
 
 
-def run_script(
-    code: str, files: Mapping[str, str], name: str = "script.py", seconds: float = sandbox.SECONDS
-) -> Output:
-    """Runs `code` in a temporary folder that holds `files`: with Node where `name` ends in `.mjs`, else with Python.
+def run_script(code: str, files: Mapping[str, str], name: str = "script.py", seconds: float = sandbox.SECONDS) -> str:
+    """Runs `code` in a temporary folder that holds `files`, and gives what it printed to stdout.
+
+    With Node where `name` ends in `.mjs`, else with Python.
 
     Args:
         code: The text of the script.
@@ -69,15 +65,15 @@ def run_script(
     packages = node.modules() if javascript else None
     linked = {packages.name: packages} if packages else {}
     done = sandbox.run([program, name], {**files, name: code, **linked}, seconds)
-    if done.limit == "time":
+    if max(len(done.stdout), len(done.stderr)) > OUTPUT:
+        raise ScriptError(f"prints more than {OUTPUT} characters", "print what the page shows, not every step")
+    if done.returncode == -signal.SIGALRM:
         raise ScriptError(f"still running after {seconds:g} s", "bound its loops by steps")
-    if done.limit == "output":
-        raise ScriptError(f"prints more than {sandbox.OUTPUT} bytes", "print what the page shows, not every step")
-    if done.code:
+    if done.returncode:
         message, line = (node.failure if javascript else _failure)(done.stderr, name)
         at = f" (line {line} of {name})" if line else ""
-        raise ScriptError((message or f"exit code {done.code}") + at, BY_HAND)
-    return Output(done.stdout)
+        raise ScriptError((message or f"exit code {done.returncode}") + at, BY_HAND)
+    return done.stdout
 
 
 def _failure(stderr: str, name: str) -> tuple[str, str | None]:

@@ -117,7 +117,10 @@ def bind(path: Path, model: mujoco.MjModel, data: mujoco.MjData) -> Reader:
         case "printed":
             raise SignalError(f"printed({path.name})", "a path into MuJoCo: this case is a model", "read the model")
         case "warning":
-            return _bind_warning(path, data)
+            if path.name not in WARNINGS:
+                raise SignalError(f"warning({path.name})", f"one of {listed(WARNINGS, 20)}", "correct the name")
+            number = int(getattr(mujoco.mjtWarning, f"mjWARN_{path.name}"))
+            return lambda: float(data.warning.number[number])
         case "contact":
             return _bind_contact(path, model, data)
         case "":
@@ -182,13 +185,6 @@ def _attribute(owner: Any, name: str, shown: str) -> Any:
     return value
 
 
-def _bind_warning(path: Path, data: mujoco.MjData) -> Reader:
-    if path.name not in WARNINGS:
-        raise SignalError(f"warning({path.name})", f"one of {listed(WARNINGS, 20)}", "correct the name")
-    number = int(getattr(mujoco.mjtWarning, f"mjWARN_{path.name}"))
-    return lambda: float(data.warning.number[number])
-
-
 def _bind_contact(path: Path, model: mujoco.MjModel, data: mujoco.MjData) -> Reader:
     field, index = path.field, path.index or (0,)
     if field not in CONTACT:
@@ -202,19 +198,17 @@ def _bind_contact(path: Path, model: mujoco.MjModel, data: mujoco.MjData) -> Rea
             expected = f"`*`, or two geoms: {listed(known)}"
             raise SignalError(f"contact({path.name})", expected, "name the two geoms of the contact")
         pair = sorted(int(model.geom(name).id) for name in names)
-    force = np.zeros(6)
-
-    def contact_force(i: int) -> float:
-        mujoco.mj_contactForce(model, data, i, force)
-        return float(force[index[0]])
 
     def read() -> float:
         found = [i for i, geoms in enumerate(data.contact.geom.tolist()) if not pair or sorted(geoms) == pair]
         if field == "count":
             return float(len(found))
         if field == "force":
-            return max(map(contact_force, found), default=float("nan"))
-        numbers = getattr(data.contact, field)[found].reshape(len(found), CONTACT[field])
+            numbers = np.zeros((len(found), 6))
+            for row, i in zip(numbers, found, strict=True):
+                mujoco.mj_contactForce(model, data, i, row)
+        else:
+            numbers = getattr(data.contact, field)[found].reshape(len(found), CONTACT[field])
         return float(numbers[:, index[0]].max()) if found else float("nan")
 
     return read

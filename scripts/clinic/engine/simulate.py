@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -12,7 +11,6 @@ from time import process_time
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from clinic.engine.checks import Trace
 from clinic.engine.mjcf import check_text
@@ -23,7 +21,7 @@ from clinic.record.yaml_lines import Where
 MAX_STEPS = 2_000_000
 MAX_SECONDS = 30.0  # of the processor
 Nudge = Callable[[mujoco.MjModel, mujoco.MjData], None]
-_log = threading.Lock()
+Drive = Callable[[mujoco.MjData, int], None]
 
 
 @dataclass(eq=False)
@@ -56,18 +54,6 @@ class Run:
     traces: dict[str, Trace]
     warnings: dict[str, int]
     messages: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class Controls:
-    """The controls of a run: `values`, shape (steps, n), for the n actuators with ids `actuators`, shape (n,)."""
-
-    actuators: NDArray[np.int64]
-    values: NDArray[np.float64]
-
-    def apply(self, data: mujoco.MjData, i: int) -> None:
-        """Writes the controls of step `i`, counted from 0, into `data`."""
-        data.ctrl[self.actuators] = self.values[i]
 
 
 def compile_model(xml: str) -> mujoco.MjModel:
@@ -115,7 +101,7 @@ def simulate(model: mujoco.MjModel, spec: RunSpec, paths: Mapping[str, Path], nu
         SignalError: If a path cannot be bound to the model.
     """
     steps = step_count(model, spec)
-    data, driven = initial_data(model, spec, nudge), controls(model, spec, steps)
+    data, drive = initial_data(model, spec, nudge), controls(model, spec, steps)
     readers = [bind(path, model, data) for path in paths.values()]
     counts = np.zeros(len(data.warning), dtype=int)
     samples: list[list[float]] = []
@@ -125,7 +111,7 @@ def simulate(model: mujoco.MjModel, spec: RunSpec, paths: Mapping[str, Path], nu
             if i % 64 == 0 and process_time() - begun > MAX_SECONDS:
                 found, expected = f"{steps} steps, of which {i} take {MAX_SECONDS:g} s", "a run that comes to an end"
                 raise RunError(("run", "duration"), found, expected, "make the model smaller, or the run shorter")
-            step(model, data, driven, i)
+            step(model, data, drive, i)
             samples.append([read() for read in readers])
             if messages:  # a type's first warning is printed, also after a reset: until then nothing is counted
                 np.maximum(counts, data.warning.number, out=counts)
@@ -149,27 +135,26 @@ def print_warning(text: str) -> None:
 def captured_messages() -> Iterator[list[str]]:
     """Collects what MuJoCo would print as warnings, and keeps it out of stderr and MUJOCO_LOG.TXT."""
     messages: list[str] = []
-    with _log:
-        mujoco.set_mju_user_warning(messages.append)
-        try:
-            yield messages
-        finally:
-            mujoco.set_mju_user_warning(print_warning)
+    mujoco.set_mju_user_warning(messages.append)
+    try:
+        yield messages
+    finally:
+        mujoco.set_mju_user_warning(print_warning)
 
 
-def step(model: mujoco.MjModel, data: mujoco.MjData, driven: Controls, i: int) -> None:
+def step(model: mujoco.MjModel, data: mujoco.MjData, drive: Drive, i: int) -> None:
     """Makes step `i`, counted from 0, with the controls of time i * timestep."""
-    driven.apply(data, i)
+    drive(data, i)
     mujoco.mj_step(model, data)
 
 
 def data_at(model: mujoco.MjModel, spec: RunSpec, time: float) -> mujoco.MjData:
     """The data after round(time / timestep) steps of the run, with everything derived from its state up to date."""
     steps = round(time / model.opt.timestep)
-    data, driven = initial_data(model, spec), controls(model, spec, steps)
+    data, drive = initial_data(model, spec), controls(model, spec, steps)
     with captured_messages():
         for i in range(steps):
-            step(model, data, driven, i)
+            step(model, data, drive, i)
         mujoco.mj_forward(model, data)
     return data
 
@@ -188,8 +173,8 @@ def step_count(model: mujoco.MjModel, spec: RunSpec) -> int:
     return steps
 
 
-def controls(model: mujoco.MjModel, spec: RunSpec, steps: int) -> Controls:
-    """The controls of every driven actuator at the start of each step.
+def controls(model: mujoco.MjModel, spec: RunSpec, steps: int) -> Drive:
+    """Gives a function that writes the controls at the start of a step, counted from 0, into the data.
 
     Raises:
         RunError: If the model lacks an actuator, or the times of a schedule do not increase.
@@ -204,7 +189,12 @@ def controls(model: mujoco.MjModel, spec: RunSpec, steps: int) -> Controls:
             expected = "one or more times, each after the one before"
             raise RunError(("run", "ctrl", name), f"times {times}", expected, "sort them")
         values[:, k] = np.interp(moments, times, [target for _, target in points])
-    return Controls(np.array([model.actuator(name).id for name in spec.ctrl], dtype=np.int64), values)
+    actuators = np.array([model.actuator(name).id for name in spec.ctrl], dtype=np.int64)
+
+    def drive(data: mujoco.MjData, i: int) -> None:
+        data.ctrl[actuators] = values[i]
+
+    return drive
 
 
 def _require(model: mujoco.MjModel, kind: str, name: str, *field: str) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -25,9 +25,6 @@ class EditError(ValueError):
     index: int
     count: int
 
-    def __str__(self) -> str:
-        return f"edit {self.index} matches {self.count} times"
-
 
 @dataclass(frozen=True)
 class Variant:
@@ -39,6 +36,7 @@ class Variant:
         title: What the edits do; empty for the broken variant.
         edits: What was applied to the broken text, in order.
         text: The text after the edits.
+        where: Where the record has the remedy; empty for the broken variant.
     """
 
     kind: Kind
@@ -46,6 +44,7 @@ class Variant:
     title: str
     edits: tuple[Edit, ...]
     text: str
+    where: Where = ()
 
 
 def apply_edits(text: str, edits: Sequence[Edit]) -> str:
@@ -69,28 +68,23 @@ def variants(case: Case) -> list[Variant]:
     """
     made = [Variant("broken", BROKEN, "", (), case.text)]
     problems: list[Problem] = []
-    for where, kind, remedy in remedies(case):
+    remedies: list[tuple[Where, Kind, Remedy]] = [(("fixes", k), "fix", fix) for k, fix in enumerate(case.record.fixes)]
+    remedies += [(("refuted", k), "refuted", refuted) for k, refuted in enumerate(case.record.refuted)]
+    for where, kind, remedy in remedies:
         try:
             text = apply_edits(case.text, remedy.edits)
-            made.append(Variant(kind, remedy.id, remedy.title, tuple(remedy.edits), text))
+            made.append(Variant(kind, remedy.id, remedy.title, tuple(remedy.edits), text, where))
         except EditError as error:
-            problems.append(_edit_problem(case, where, remedy, error))
+            before = " after the edits before it" if error.index else ""
+            occurs, repair = "does not occur", f"copy the text from {case.record.source}, character by character"
+            if error.count:
+                occurs, repair = f"occurs {error.count} times", "lengthen `find` until it names one place"
+            found = f"text that {occurs} in {case.record.source}{before}: {remedy.edits[error.index].find!r}"
+            place = (*where, "edits", error.index, "find")
+            problems.append(case.problem(place, found, "text that occurs exactly once", repair))
     if problems:
         raise CaseError(problems)
     return made
-
-
-def remedies(case: Case) -> Iterator[tuple[Where, Kind, Remedy]]:
-    """Every fix, then every refuted remedy, each with its place in the record."""
-    for index, fix in enumerate(case.record.fixes):
-        yield ("fixes", index), "fix", fix
-    for index, refuted in enumerate(case.record.refuted):
-        yield ("refuted", index), "refuted", refuted
-
-
-def place_of(case: Case, variant: str) -> Where:
-    """Where the record has a variant's remedy; empty for the broken variant."""
-    return next((where for where, _, remedy in remedies(case) if remedy.id == variant), ())
 
 
 def diff(before: str, after: str, name: str, context: int = 1) -> str:
@@ -103,14 +97,3 @@ def changed_lines(before: str, after: str) -> int:
     """Counts the lines that the diff removes, or those that it adds, whichever are more."""
     lines = diff(before, after, "", 0).splitlines()
     return max(sum(line.startswith(sign) for line in lines) for sign in "-+")
-
-
-def _edit_problem(case: Case, where: Where, remedy: Remedy, error: EditError) -> Problem:
-    name = case.record.source
-    occurs = f"occurs {error.count} times" if error.count else "does not occur"
-    before = " after the edits before it" if error.index else ""
-    repair = f"copy the text from {name}, character by character"
-    if error.count:
-        repair = "lengthen `find` until it names one place"
-    found = f"text that {occurs} in {name}{before}: {remedy.edits[error.index].find!r}"
-    return case.problem((*where, "edits", error.index, "find"), found, "text that occurs exactly once", repair)

@@ -46,7 +46,7 @@ def run_fences(file: str, text: str, cases: Mapping[str, Case], cache: Cache) ->
 
 def _run(code: str, files: dict[str, str], cache: Cache) -> str:
     key = key_of("fence", code, files, of="engine")
-    made = cache.remember(key, lambda: {"output": run_script(code, files, name="snippet.py").text.encode()})
+    made = cache.remember(key, lambda: {"output": run_script(code, files, name="snippet.py").encode()})
     return made["output"].decode()
 
 

@@ -14,9 +14,9 @@ from clinic.engine import node
 from clinic.engine.checks import TAKES, Trace, judge, take
 from clinic.engine.measure import measure_model, measure_output
 from clinic.engine.render import why_no_images
-from clinic.engine.script import Output, ScriptError, run_script
+from clinic.engine.script import ScriptError, printed_numbers, run_script
 from clinic.engine.simulate import RunError, compile_model
-from clinic.engine.variant import Variant, place_of, variants
+from clinic.engine.variant import Variant, variants
 from clinic.proof.examine import examine
 from clinic.proof.robustness import Robustness
 from clinic.proof.sweep import SweepEvidence, names_read
@@ -118,7 +118,7 @@ def collect(case: Case) -> Evidence:
         try:
             observed[variant.id] = observe(case, variant)
         except ScriptError as error:
-            where: Where = (*place_of(case, variant.id), "edits") if variant.edits else ("script",)
+            where: Where = (*variant.where, "edits") if variant.edits else ("script",)
             found, expected = f"{variant.id}: {error.found}", "a script that ends by itself"
             problems.append(case.problem(where, found, expected, error.repair))
         except RunError as error:
@@ -128,7 +128,7 @@ def collect(case: Case) -> Evidence:
     if case.record.snippet is not None:
         name = "snippet.mjs" if case.record.language == "javascript" else "snippet.py"
         try:
-            snippet = run_script(case.record.snippet, case.texts, name=name).text
+            snippet = run_script(case.record.snippet, case.texts, name=name)
         except ScriptError as error:
             problems.append(case.problem(("snippet",), error.found, "code that runs as it stands", error.repair))
     if problems:
@@ -172,7 +172,7 @@ def observe(case: Case, variant: Variant) -> VariantEvidence:
     else:
         output = run_script(variant.text, case.texts, name=record.source)
         traces = measure_output(record, output)
-        details = {"output": output.text}
+        details = {"output": output}
     return VariantEvidence(
         kind=variant.kind,
         title=variant.title,
@@ -203,7 +203,7 @@ def _unprinted(case: Case, observed: dict[str, VariantEvidence]) -> Iterator[Pro
     if case.record.script is None or not observed:
         return
     swept = {name for sweep in case.record.sweep.values() for name in names_read(sweep)}
-    printed = {f"printed({key})" for variant in observed.values() for key in Output(variant.output or "").traces()}
+    printed = {f"printed({key})" for variant in observed.values() for key in printed_numbers(variant.output or "")}
     for name, signal in case.record.signals.items():
         if isinstance(signal, PathSignal) and signal.path not in printed and name not in swept:
             found, expected = f"{signal.path}, which no variant prints", f"printed(...) of: {listed(sorted(printed))}"

@@ -11,7 +11,7 @@ import mujoco
 from clinic.engine.mjcf import ModelError
 from clinic.engine.signals import SignalError, bind, missing_element, parse_path
 from clinic.engine.simulate import RunError, compile_model, controls, initial_data, step_count
-from clinic.engine.variant import BROKEN, Variant, place_of, variants
+from clinic.engine.variant import BROKEN, Variant, variants
 from clinic.record.case import Case
 from clinic.record.fields import ExpressionSignal, PathSignal, RowSignal, StartsSignal
 from clinic.record.problem import CaseError, Problem
@@ -72,7 +72,7 @@ def _variant_problems(case: Case, variant: Variant) -> Iterator[Problem]:
     try:
         model = compile_model(variant.text)
     except ValueError as error:
-        yield _compile_problem(case, record.source, place_of(case, variant.id), error)
+        yield _compile_problem(case, record.source, variant.where, error)
         return
     for prepare in (initial_data, step_count, lambda m, spec: controls(m, spec, 1)):
         try:

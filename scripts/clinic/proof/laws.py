@@ -7,7 +7,7 @@ from itertools import combinations
 from typing import Literal
 
 from clinic.engine.checks import expected
-from clinic.engine.variant import Variant, apply_edits, changed_lines, place_of, variants
+from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
 from clinic.proof.evidence import Evidence, VariantEvidence, observe
 from clinic.proof.prose_laws import quoted, typed
 from clinic.proof.sweep import errors_at, with_names
@@ -54,7 +54,7 @@ def small_edits(case: Case, evidence: Evidence) -> Iterator[Problem]:
     for variant in variants(case)[1:]:
         count = changed_lines(case.text, variant.text)
         if not 1 <= count <= MAX_CHANGED_LINES:
-            place, wanted = (*place_of(case, variant.id), "edits"), f"1 to {MAX_CHANGED_LINES}"
+            place, wanted = (*variant.where, "edits"), f"1 to {MAX_CHANGED_LINES}"
             yield case.problem(place, f"{count} changed lines", wanted, "change the lines that matter, and no others")
 
 
@@ -63,7 +63,7 @@ def repeatable(case: Case, evidence: Evidence) -> Iterator[Problem]:
     for variant in variants(case):
         if observe(case, variant) != evidence.variants[variant.id]:
             found, wanted = f"{variant.id}: two runs that differ", "the same numbers from every run"
-            where, repair = place_of(case, variant.id) or ("checks",), "seed what is random, and bound loops by steps"
+            where, repair = variant.where or ("checks",), "seed what is random, and bound loops by steps"
             yield case.problem(where, found, wanted, repair)
 
 
@@ -73,7 +73,7 @@ def warned(case: Case, evidence: Evidence) -> Iterator[Problem]:
         raised, named = sorted(variant.warnings), sorted(case.record.warnings)
         if variant.kind == "fix" and raised:
             wanted, repair = "a fix that raises no warning", "repair the model until it is silent"
-            yield case.problem(place_of(case, name), f"{name}: raises {listed(raised)}", wanted, repair)
+            yield case.problem(_place(case, name), f"{name}: raises {listed(raised)}", wanted, repair)
         if variant.kind == "broken" and raised != named:
             wanted = f"what the broken variant raises: {listed(raised)}"
             repair = f"write `warnings: [{', '.join(raised)}]`" if raised else "remove `warnings`"
@@ -86,7 +86,7 @@ def lasting(case: Case, evidence: Evidence) -> Iterator[Problem]:
         if robust.longer is False and evidence.variants[name].well:
             found = f"{name}: no longer holds after ten times the duration"
             repair = "repair what builds up, or say in `exempt: {lasting: ...}` why it must"
-            yield case.problem(place_of(case, name), found, "a fix that holds", repair)
+            yield case.problem(_place(case, name), found, "a fix that holds", repair)
 
 
 def steady(case: Case, evidence: Evidence) -> Iterator[Problem]:
@@ -95,8 +95,7 @@ def steady(case: Case, evidence: Evidence) -> Iterator[Problem]:
         if robust.same < robust.runs:
             found = f"{name}: keeps its verdict in {robust.same} of {robust.runs} slightly changed runs"
             repair = "widen a bound, or say in `exempt: {steady: ...}` why it must"
-            where = place_of(case, name) or ("checks",)
-            yield case.problem(where, found, "the same verdict in all of them", repair)
+            yield case.problem(_place(case, name), found, "the same verdict in all of them", repair)
 
 
 def swept(case: Case, evidence: Evidence) -> Iterator[Problem]:
@@ -172,3 +171,8 @@ def _failing(case: Case, name: str, variant: VariantEvidence, kind: Literal["bro
             found = f"{name}: {result.signal} ({result.take}) = {value}"
             wanted = f"{expected(check)} {unit}".rstrip()
             yield case.problem(("checks", kind, index), found, wanted, "correct the bound, the edits, or the model")
+
+
+def _place(case: Case, name: str) -> Where:
+    """Where the record speaks of a variant."""
+    return next(variant.where for variant in variants(case) if variant.id == name) or ("checks",)

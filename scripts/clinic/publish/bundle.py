@@ -52,7 +52,7 @@ def strip_custom_sections(wasm: bytes) -> bytes:
 
 def _bundle(root: Path) -> Files:
     with tempfile.TemporaryDirectory(prefix="clinic-") as folder:
-        command = [node.found()[0], BUNDLER, folder]
+        command = [str(node.found()), BUNDLER, folder]
         done = subprocess.run(command, cwd=root, check=False, capture_output=True, text=True)
         if done.returncode:
             raise RuntimeError(f"{BUNDLER} failed:\n{done.stderr.strip()}")

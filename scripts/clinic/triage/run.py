@@ -50,7 +50,7 @@ class Subject:
         """The start of the run, with everything derived from it."""
         with captured_messages():
             data = initial_data(self.model, self.run)
-            controls(self.model, self.run, 1).apply(data, 0)
+            controls(self.model, self.run, 1)(data, 0)
             mujoco.mj_forward(self.model, data)
         return data
 

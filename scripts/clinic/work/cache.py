@@ -18,7 +18,7 @@ Files = dict[str, bytes]
 PACKAGE = Path(__file__).parent.parent
 STOREYS = ("record", "engine", "work", "proof", "triage", "pages", "publish", "commands")
 ENGINES = ("mujoco", "numpy", "matplotlib", "kiwisolver", "pillow", "av")
-SETTINGS = ("MUJOCO_GL", "MUJOCO_EGL_DEVICE_ID", "PYOPENGL_PLATFORM", "LIBGL_ALWAYS_SOFTWARE", "GALLIUM_DRIVER")
+SETTINGS = ("MUJOCO_GL", "MUJOCO_EGL_DEVICE_ID", "LIBGL_ALWAYS_SOFTWARE", "GALLIUM_DRIVER")
 log = logging.getLogger("clinic")
 
 
@@ -63,8 +63,7 @@ class Cache:
 
     def remember(self, key: str, make: Callable[[], Files]) -> Files:
         """The files of a key, made and stored if they are not there."""
-        files = self.get(key)
-        if files is None:
+        if (files := self.get(key)) is None:
             files = make()
             self.put(key, files)
         return files
@@ -77,21 +76,13 @@ def say_unkept(folder: Path, reason: str) -> None:
 
 
 def key_of(*parts: object, of: str) -> str:
-    """A key for work that depends on `parts` and on its origin.
-
-    Args:
-        parts: As JSON takes them.
-        of: The folder of the package that does the work.
-    """
-    text = json.dumps([*parts, origin(of)], sort_keys=True)
-    return hashlib.sha256(text.encode()).hexdigest()[:32]
+    """A key for work of the package's folder `of` that depends on `parts`, as JSON takes them, and on its origin."""
+    return hashlib.sha256(json.dumps([*parts, origin(of)], sort_keys=True).encode()).hexdigest()[:32]
 
 
 def origin(folder: str = STOREYS[-1]) -> dict[str, str | None]:
     """What every result of a folder hangs on: the source of the package up to there, the engines, and how they draw."""
-    settings = {name: os.environ.get(name) for name in SETTINGS}
-    settings["PYOPENGL_PLATFORM"] = settings["PYOPENGL_PLATFORM"] or settings["MUJOCO_GL"]  # as MuJoCo will set it
-    return {"clinic": source_digest(folder), **engines(), **settings}
+    return {"clinic": source_digest(folder), **engines(), **{name: os.environ.get(name) for name in SETTINGS}}
 
 
 @lru_cache

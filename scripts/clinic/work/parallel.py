@@ -34,12 +34,9 @@ def parallel(work: Callable[..., T], tasks: Sequence[tuple[Any, ...]]) -> Iterat
     import joblib
 
     warnings.filterwarnings("ignore", "A worker stopped", UserWarning)  # one that has grown by 300 MB is replaced
-    calls = [joblib.delayed(work)(*task) for task in tasks]
-    if address := os.environ.get("CLINIC_DASK"):
-        with _cluster(address):
-            yield from joblib.Parallel(return_as="generator_unordered")(calls)
-    else:
-        yield from joblib.Parallel(min(jobs(), len(tasks)), return_as="generator_unordered")(calls)
+    address, here = os.environ.get("CLINIC_DASK"), joblib.parallel_config(n_jobs=min(jobs(), len(tasks)))
+    with _cluster(address) if address else here:
+        yield from joblib.Parallel(return_as="generator_unordered")(joblib.delayed(work)(*task) for task in tasks)
 
 
 def jobs() -> int:
@@ -68,8 +65,6 @@ def _cluster(address: str) -> Iterator[None]:
             compare({name: {**found, "threads": threads[name]} for name, found in client.run(versions).items()})
             with joblib.parallel_config(backend="dask", client=client):
                 yield
-    except ClusterError:
-        raise
     except Exception as error:
         found = f"{type(error).__name__}: {error}".splitlines()[0]
         raise ClusterError(f"nothing can be run on CLINIC_DASK, {address} ({found})") from None

@@ -39,23 +39,18 @@ def run_tasks(tasks: list[Task], cache: Cache) -> tuple[dict[str, Files], list[P
     if len(missing) >= MANY:
         log.info("%d cases are run and drawn: of a whole site that takes minutes, once", len({t.slug for t in missing}))
     problems: list[Problem] = []
-    lacks: set[str] = set()
-    failed: set[str] = set()
-    for count, (k, files, wrong, lack) in enumerate(parallel(_attempt, list(enumerate(missing))), start=1):
-        task = missing[k]
-        done[task.key] = files
+    for count, (key, made) in enumerate(parallel(_attempt, [(task,) for task in missing]), start=1):
         if count % MANY == 0:
             log.info("%d of %d parts are made", count, len(missing))
-        if wrong:
-            problems += wrong
-            failed.add(task.slug)
-        elif lack:
-            lacks.add(lack)
+        if isinstance(made, CaseError):
+            problems += made.problems
+        elif isinstance(made, LackError):
+            done[key], cache.incomplete = {}, True
+            say_lack(str(made))
         else:
-            cache.put(task.key, files)
-    for lack in sorted(lacks):
-        cache.incomplete = True
-        say_lack(lack)
+            done[key] = made
+            cache.put(key, made)
+    failed = {task.slug for task in tasks if task.key not in done}
     merged: dict[str, Files] = {}
     for task in tasks:
         if task.slug not in failed:
@@ -69,18 +64,16 @@ def say_lack(reason: str) -> None:
     log.log(logging.WARNING if os.environ.get("CI") else logging.INFO, reason)
 
 
-def _attempt(k: int, task: Task) -> tuple[int, Files, tuple[Problem, ...], str]:
-    """The task's index and files, or the problems it has, or what this machine lacks for it."""
+def _attempt(task: Task) -> tuple[str, Files | CaseError | LackError]:
+    """The task's key, and its files or why there are none."""
     try:
-        return k, task.make(), (), ""
-    except CaseError as error:
-        return k, {}, error.problems, ""
+        return task.key, task.make()
     except RenderError as error:
-        return k, {}, (), f"no pictures and no films: {error}"
-    except LackError as error:
-        return k, {}, (), str(error)
+        return task.key, LackError(f"no pictures and no films: {error}")
+    except (CaseError, LackError) as error:
+        return task.key, error
     except Exception as error:  # one case, whatever it does to the engine, leaves the others alone
         found = f"{type(error).__name__}: {error}".strip(": ")
-        place = f"{traceback.extract_tb(error.__traceback__)[-1].name} of the {task.kind}"
-        expected, repair = f"{place} to come to an end", "correct what the message names"
-        return k, {}, (Problem(f"cases/{task.slug}/{RECORD}", 1, "", found, expected, repair),), ""
+        expected = f"{traceback.extract_tb(error.__traceback__)[-1].name} of the {task.kind} to come to an end"
+        where = f"cases/{task.slug}/{RECORD}"
+        return task.key, CaseError([Problem(where, 1, "", found, expected, "correct what the message names")])

@@ -11,9 +11,9 @@ import pytest
 import yaml
 from clinic.pages.cases import Shown
 from clinic.pages.figures.plots import plots
-from clinic.pages.text.markup import render
 from clinic.pages.text.prose import ProseError, markdown, opening
 from clinic.pages.text.sanitize import sanitized
+from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence, collect
 from clinic.record.case import load_case
 from helpers import MODEL, RECORD, page_of, script_case, tiny_case, write_folder

@@ -10,8 +10,8 @@ import pytest
 import yaml
 from clinic.pages.case_page import interim_page
 from clinic.pages.cases import Shown
-from clinic.pages.text.markup import render
 from clinic.pages.text.prose import opening
+from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence, collect
 from clinic.record.case import Case, read_cases
 from helpers import page_of, script_case, tiny_case, write_case

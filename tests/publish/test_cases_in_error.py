@@ -18,7 +18,7 @@ pytestmark = pytest.mark.xdist_group("kill")
 RECORD, MODEL = "cases/falling-box/case.yaml", "cases/falling-box/model.xml"
 PAGE, OTHER = "cases/falling-box/index.md", "cases/odd-script/index.md"
 MISTAKES = {
-    "yaml": (RECORD, "title: A box", "title: {A box", "valid YAML"),
+    "yaml": (RECORD, "title: A box", "title: {A box", "give each field once"),
     "field": (RECORD, "signals:", "signal:", "signal"),
     "model": (MODEL, "<freejoint", "<freejiont", "freejiont"),
     "edit": (RECORD, 'find: \' contype="2"', 'find: \' contype="3"', "exactly once"),

@@ -12,8 +12,9 @@ from clinic.engine.variant import diff, variants
 from clinic.pages.error_page import plain_page
 from clinic.pages.text import manual
 from clinic.pages.text.claim import TAKES, taken
-from clinic.pages.text.markup import code, line, render
+from clinic.pages.text.markup import code, line
 from clinic.pages.text.prose import markdown, opening, prose_problems
+from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence, VariantEvidence
 from clinic.proof.lookalike import Matrix
 from clinic.proof.prose_laws import PROSE

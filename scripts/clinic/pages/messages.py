@@ -12,7 +12,7 @@ import yaml
 from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
 from clinic.engine.provoke import provoke
-from clinic.pages.text.markup import render
+from clinic.pages.text.template import render
 from clinic.record.case import Case
 from clinic.record.parts import Identifier, Strict, Text
 from clinic.record.problem import CaseError, Problem

@@ -15,7 +15,7 @@ from clinic.pages.reference import reference
 from clinic.pages.snippets import NAMED, run_fences
 from clinic.pages.storeys import storeys
 from clinic.pages.symptoms import symptoms_page
-from clinic.pages.text.markup import render
+from clinic.pages.text.template import render
 from clinic.record.case import Case
 from clinic.record.problem import CaseError, Problem
 from clinic.triage.table import MARK as TRIAGE_MARK

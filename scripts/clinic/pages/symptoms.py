@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from clinic.pages.cases import Shown
-from clinic.pages.text.markup import render
+from clinic.pages.text.template import render
 from clinic.record.case import Case
 from clinic.record.fields import Look
 from clinic.record.problem import Problem

@@ -6,6 +6,7 @@ import logging
 import os
 
 import mkdocs_gen_files
+from mkdocs.exceptions import PluginError
 
 from clinic.publish.kept_site import SECTION
 from clinic.publish.live_reload import LIVE
@@ -20,7 +21,10 @@ def write() -> None:
     """Writes every page into the running MkDocs build; what is wrong with cases is logged, which fails a strict one."""
     os.environ.setdefault("SOURCE_DATE_EPOCH", "0")  # MkDocs dates pages by the day of the build
     root, config = project_root(), mkdocs_gen_files.config
-    made = LIVE.site(root, Cache(cache_folder(root)))
+    try:
+        made = LIVE.site(root, Cache(cache_folder(root)))
+    except ConnectionError as error:  # to a cluster; MkDocs prints it without a traceback
+        raise PluginError(str(error)) from None
     if made.problems:
         log.error("%s", CaseError(made.problems))
     config["nav"] = made.navigation

@@ -1,10 +1,8 @@
-"""Text as Markdown that shows it to the letter, and the templates of pages, which use it."""
+"""Text as Markdown that shows it to the letter."""
 
 from __future__ import annotations
 
 import re
-
-import jinja2
 
 MARKDOWN = "[]{}|\\`*_"
 
@@ -28,14 +26,3 @@ def fence(text: str, language: str = "text") -> str:
     """A block of code, whatever fences stand in it."""
     bars = "`" * (1 + max([2, *map(len, re.findall("`+", text))]))
     return f"{bars}{language}\n{text.rstrip(chr(10))}\n{bars}"
-
-
-TEMPLATES = jinja2.Environment(
-    loader=jinja2.PackageLoader("clinic.pages"), undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
-)
-TEMPLATES.filters |= {"code": code, "fence": fence, "line": line}
-
-
-def render(name: str, **values: object) -> str:
-    """The Markdown of a template, by its name: `case`, `home`, ..."""
-    return TEMPLATES.get_template(f"{name}.md.j2").render(values)

@@ -228,6 +228,9 @@ class Record(Strict):
     )
     fixes: list[Fix] = Field(min_length=1, description="At least one repair; the first is the one plotted.")
     refuted: list[Refuted] = Field(default=[], description="Remedies people try that do not work.")
+    older: dict[str, Text] = Field(
+        default={}, description="What older releases of MuJoCo do otherwise, and why: `{\"<3.13\": reason}`."
+    )
     sweep: dict[Identifier, Sweep] = Field(default={}, description="Sweeps by name.")
     no_sweep: str | None = Field(default=None, description="Why no sweep would tell anything; without one, required.")
     film: Film | None = Field(default=None, description="Required for a model.")

@@ -7,14 +7,14 @@ from itertools import combinations
 from math import isfinite
 from typing import Literal
 
-from clinic.engine.checks import expected, judge
-from clinic.engine.measure import measure_model, measure_output
-from clinic.engine.script import run_script
+from clinic.engine.checks import expected
 from clinic.engine.simulate import compile_model
 from clinic.engine.variant import EditError, apply_edits, changed_lines, remedies, variants
-from clinic.proof.evidence import Evidence, VariantEvidence, observe
+from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.proof.prose_laws import quoted, typed
 from clinic.proof.sweep import SweepEvidence, agreement, misses
+from clinic.proof.task import changes
+from clinic.proof.trials import passes
 from clinic.record.case import Case
 from clinic.record.fields import Check, Fix
 from clinic.record.parts import Edit
@@ -47,7 +47,7 @@ def ablation(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 2. Of a fix with several edits, no proper subset passes `fixed`, or `redundant` says why."""
     for index, fix in enumerate(case.record.fixes):
         where: Where = ("fixes", index)
-        enough = [subset for subset in _subsets(fix) if passes(case, subset)]
+        enough = [subset for subset in _subsets(fix) if _enough(case, subset)]
         if enough and fix.redundant is None:
             part = " and ".join(f"{edit.find!r}" for edit in enough[0])
             found, repair = f"the edit of {part} alone repairs it", "drop the other edits, or say why in `redundant`"
@@ -143,9 +143,34 @@ def filmed(case: Case, evidence: Evidence) -> Iterator[Problem]:
         yield case.problem(("film",), "a film of a script", "none: there is nothing to see", "remove `film`")
 
 
+def same_task(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 7. A fix of a model leaves the task alone, but for what `task.may` names."""
+    if case.record.run is None:
+        return
+    broken, *others = variants(case)
+    for variant in others:
+        told = changes(compile_model(broken.text), compile_model(variant.text), case.record.task)
+        if variant.kind == "fix" and told:
+            wanted, repair = "a repair that leaves the task alone", "name what it may change in `task: {may: [...]}`"
+            yield case.problem(_place(case, variant.id), f"{variant.id}: {' '.join(told)}", wanted, repair)
+
+
 LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
     law.__name__: law
-    for law in (verdicts, ablation, small_edits, repeatable, warned, quoted, typed, lasting, steady, swept, filmed)
+    for law in (
+        verdicts,
+        ablation,
+        small_edits,
+        repeatable,
+        warned,
+        quoted,
+        typed,
+        lasting,
+        steady,
+        swept,
+        filmed,
+        same_task,
+    )
 }
 
 
@@ -162,17 +187,12 @@ def breaches(case: Case, evidence: Evidence, *laws: str) -> list[Problem]:
     return made
 
 
-def passes(case: Case, edits: tuple[Edit, ...]) -> bool:
-    """Whether the broken text after these edits passes every check of `fixed`."""
+def _enough(case: Case, edits: tuple[Edit, ...]) -> bool:
+    """Whether the broken text after these edits is repaired."""
     try:
-        text = apply_edits(case.text, edits)
-        if case.record.run is not None:
-            _, traces = measure_model(case.record, compile_model(text), case.record.run)
-        else:
-            traces = measure_output(case.record, run_script(text, case.texts, name=case.record.source))
-    except (EditError, ValueError):
+        return passes(case, apply_edits(case.text, edits))
+    except EditError:
         return False
-    return all(judge(check, traces).holds for check in case.record.checks.fixed)
 
 
 def _subsets(fix: Fix) -> Iterator[tuple[Edit, ...]]:
@@ -181,16 +201,20 @@ def _subsets(fix: Fix) -> Iterator[tuple[Edit, ...]]:
 
 
 def _failing(case: Case, name: str, variant: VariantEvidence, kind: Literal["broken", "fixed"]) -> Iterator[Problem]:
-    for index, result in enumerate(variant.checks[kind]):
+    results: list[tuple[Where, str, CheckResult]] = []
+    results += [(("checks", kind, index), "", result) for index, result in enumerate(variant.checks[kind])]
+    for index, trial in enumerate(case.record.trials):
+        results += [(("trials", index), f" in {trial.id}", result) for result in variant.trials[trial.id][kind]]
+    for where, inside, result in results:
         if not result.holds:
             unit = "s" if result.take == "onset" else variant.traces[result.signal].unit
             value = "nothing" if result.measured is None else quantity(result.measured, unit, 6)
             check = Check.model_validate(
                 {"signal": result.signal, "take": result.take, **result.expected}, strict=False
             )
-            found = f"{name}: {result.signal} ({result.take}) = {value}"
+            found = f"{name}{inside}: {result.signal} ({result.take}) = {value}"
             wanted = f"{expected(check)} {unit}".rstrip()
-            yield case.problem(("checks", kind, index), found, wanted, "correct the bound, the edits, or the model")
+            yield case.problem(where, found, wanted, "correct the bound, the edits, or the model")
 
 
 def _lax(case: Case, name: str, kind: str, wanted: str) -> Problem:

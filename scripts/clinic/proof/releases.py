@@ -118,7 +118,9 @@ def differences(here: Mapping[str, Behaviour], there: Mapping[str, Behaviour]) -
             yield f"{name} warns {listed(other.warnings)} instead of {listed(one.warnings)}"
         elif (other.broken, other.fixed) != (one.broken, one.fixed):
             yield f"{name} is judged otherwise"
-        elif any(_apart(*pair) for kind in one.checks for pair in zip(one.checks[kind], other.checks[kind], strict=True)):
+        elif any(
+            _apart(*pair) for kind in one.checks for pair in zip(one.checks[kind], other.checks[kind], strict=True)
+        ):
             yield f"{name} measures other numbers"
 
 

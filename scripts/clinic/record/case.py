@@ -235,6 +235,10 @@ def checks_of(record: Record) -> Iterator[tuple[Where, Check]]:
     for kind in ("broken", "fixed"):
         for index, check in enumerate(getattr(record.checks, kind)):
             yield ("checks", kind, index), check
+    for index, trial in enumerate(record.trials):
+        for kind in ("broken", "fixed"):
+            for k, check in enumerate(getattr(trial.checks, kind, None) or []):
+                yield ("trials", index, "checks", kind, k), check
     for name, signal in record.signals.items():
         if isinstance(signal, StartsSignal):
             yield ("signals", name, "holds"), signal.holds

@@ -154,8 +154,8 @@ def _changed(case: Case, trial: Trial) -> Iterator[tuple[float, float]]:
     data = start(model, case.record.run)
     for path, value in {**trial.set, **trial.start}.items():
         yield bind(parse_path(path), model, data)(), value
-    for name, value in trial.ctrl.items():
-        yield _largest(case.record.run.ctrl.get(name, 0.0)), _largest(value)
+    for name, control in trial.ctrl.items():
+        yield _largest(case.record.run.ctrl.get(name, 0.0)), _largest(control)
 
 
 def _largest(control: float | list[Interval]) -> float:

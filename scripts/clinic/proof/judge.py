@@ -69,16 +69,16 @@ def judge_text(case: Case, text: str) -> Judgement:
         for trial in (None, *case.record.trials):
             try:
                 failed += _failed(case, try_text(case, text, trial), trial)
-            except ValueError as error:
+            except (ValueError, KeyError) as error:  # a KeyError names an element that the text lacks
                 if trial is None and not changed:
                     raise
                 failed += [_stopped(trial, error)] if trial else []
-    except ValueError as error:
+    except (ValueError, KeyError) as error:
         return Judgement(case.slug, " ".join(str(error).split()) or type(error).__name__)
     return Judgement(case.slug, failed=tuple(failed), changes=tuple(changed))
 
 
-def _stopped(trial: Trial, error: ValueError) -> str:
+def _stopped(trial: Trial, error: Exception) -> str:
     """Why a text that runs cannot be run in a trial."""
     if isinstance(error, EditError):
         return f"The trial {trial.title!r} changes {trial.edits[error.index].find!r}: leave that in the script, once."

@@ -14,7 +14,7 @@ from clinic.engine.measure import measure_model, measure_output
 from clinic.engine.script import run_script
 from clinic.engine.signals import bind, parse_path
 from clinic.engine.simulate import compile_model, start
-from clinic.engine.variant import apply_edits
+from clinic.engine.variant import apply_edits, variants
 from clinic.record.case import Case
 from clinic.record.fields import Checks, Record, RunSpec, Trial
 from clinic.record.parts import Interval
@@ -64,18 +64,19 @@ def checks_in(record: Record, trial: Trial | None) -> Checks:
 
 
 def trial_problems(case: Case) -> Iterator[Problem]:
-    """Trials that the broken text cannot be run in, and trials of which none differs by FACTOR or in sign."""
+    """Trials that do not fit a variant, and trials of which none differs from the run by FACTOR or in sign."""
     telling = False
     for index, trial in enumerate(case.record.trials):
         where: Where = ("trials", index)
         if trial.id in [other.id for other in case.record.trials[:index]]:
             yield case.problem((*where, "id"), f"{trial.id}, which is taken", "an id used once", "rename it")
-        try:
-            telling |= any(far(*pair) for pair in _changed(case, trial))
-        except ValueError as error:
-            found = " ".join(str(error).split())
-            yield case.problem(where, found, "what the broken variant has", "correct the path, the name or the text")
-            return
+        for variant in variants(case):
+            try:
+                telling |= any(far(*pair) for pair in _changed(case, variant.text, trial))
+            except ValueError as error:
+                found = f"in the text of {variant.id}: {' '.join(str(error).split())}"
+                yield case.problem(where, found, "what every variant has", "correct the path, the name or the text")
+                return
     if case.record.trials and not telling:
         found, wanted = "no number that differs by a factor of two or in sign", "a trial in which what decides differs"
         yield case.problem(("trials",), found, wanted, "double the load, turn the scene, drive it the other way")
@@ -141,16 +142,15 @@ def write(model: mujoco.MjModel, data: mujoco.MjData, text: str, value: float) -
         setattr(owner, last, value)
 
 
-def _changed(case: Case, trial: Trial) -> Iterator[tuple[float, float]]:
+def _changed(case: Case, text: str, trial: Trial) -> Iterator[tuple[float, float]]:
     """Each number that a trial changes: as the case has it, and as the trial does."""
     if case.record.run is None:
-        text = case.texts[trial.file or case.record.source]
-        apply_edits(text, trial.edits)
+        apply_edits(case.texts[trial.file] if trial.file else text, trial.edits)
         for edit in trial.edits:
             found, made = ([float(n) for n in NUMBER.findall(part)] for part in (edit.find, edit.replace))
             yield from zip(found, made, strict=False)
         return
-    model = compile_model(case.text)
+    model = compile_model(text)
     data = start(model, case.record.run)
     for path, value in {**trial.set, **trial.start}.items():
         yield bind(parse_path(path), model, data)(), value

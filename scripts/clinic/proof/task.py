@@ -78,7 +78,8 @@ def _of_kind(broken: mujoco.MjModel, model: mujoco.MjModel, kind: str, may: Sequ
             continue
         for field in FIELDS[kind].split():
             before, after = _value(broken, kind, field, i), _value(model, kind, field, there[name])
-            if f"{kind}({name}).{field}" not in may and not _same(before, after, field):
+            allowed = {f"{kind}({name}).{word}" for word in (field, WORDS.get(field, field))} & set(may)
+            if not allowed and not _same(before, after, field):
                 yield _changed(field, f" of {kind} {name}", before, after)
     for name in there.keys() - here.keys() if kind not in (*FURTHER, *may) else ():
         yield f"You added {kind} {name}."
@@ -164,6 +165,7 @@ def _same(before: Any, after: Any, field: str) -> bool:
         return True  # a range where there was none: the checks tell whether it holds anything back
     if before is None or after is None or isinstance(before, str) or isinstance(after, str):
         return bool(np.array_equal(before, after))
+    after = after[: len(before)]  # a keyframe is longer where an actuator was added
     if np.shape(before) != np.shape(after):
         return False
     close = np.allclose(before, after, rtol=1e-4, atol=1e-6)
@@ -173,8 +175,10 @@ def _same(before: Any, after: Any, field: str) -> bool:
 def _changed(field: str, of: str, before: Any, after: Any) -> str:
     if field == "gravity" and not np.any(after):
         return "You turned gravity off."
-    here, there = (
-        value if isinstance(value, str) else " ".join(f"{float(number):.4g}" for number in np.ravel(value))
-        for value in (before, after)
-    )
+    here, there = (value if isinstance(value, str) else _numbers(value) for value in (before, after))
     return f"You changed the {WORDS.get(field, field)}{of} from {here} to {there} {UNITS.get(field, '')}".rstrip() + "."
+
+
+def _numbers(value: Any) -> str:
+    found = np.ravel(value)
+    return "none" if np.all(np.isinf(found)) else " ".join(f"{float(number):.4g}" for number in found)

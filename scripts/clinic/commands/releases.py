@@ -17,7 +17,7 @@ from clinic.proof.releases import LOCK, Behaviour, Lock, Locked, files_digest, l
 from clinic.record.case import Case
 from clinic.work.parallel import jobs
 
-PYTHON = ("3.3.7", "3.4.0", "3.5.0", "3.6.0", "3.7.0", "3.8.1", "3.9.0", "3.10.0", "3.11.0", "3.12.0")
+PYTHON: tuple[str, ...] = ("3.3.7", "3.4.0", "3.5.0", "3.6.0", "3.7.0", "3.8.1", "3.9.0", "3.10.0", "3.11.0", "3.12.0")
 PYTHON += ("3.13.0", "3.14.0", "3.15.0", "3.16.0", "3.17.0", "4.0.0")  # the last patch of each minor release since 3.3
 NPM = ("3.9.0", "3.10.0", "3.12.0", "3.13.0", "3.14.0")
 WHOLE = "whole"

@@ -60,6 +60,7 @@ MOST = {  # beyond it nothing is repaired, but frozen; SI units
     "geom_friction": 1e2,
     "pair_friction": 1e2,
     "geom_margin": 0.05,
+    "pair_adhesion": 0.0,
 }
 HEAVIEST = 100  # times the inertia of the model, which an armature may be
 
@@ -101,10 +102,10 @@ def _options(broken: mujoco.MjModel, model: mujoco.MjModel) -> Iterator[str]:
             yield _changed(field, "", before, after)
     changed = broken.opt.disableflags ^ model.opt.disableflags
     for flag in FLAGS.split():
-        bit = int(getattr(mujoco.mjtDisableBit, f"mjDSBL_{flag}"))
+        bit = int(getattr(mujoco.mjtDisableBit, f"mjDSBL_{flag}", 0))
         if changed & bit:
             yield f"You switched {flag.lower()} {'off' if model.opt.disableflags & bit else 'on'}."
-    if (broken.opt.enableflags ^ model.opt.enableflags) & int(mujoco.mjtEnableBit.mjENBL_SLEEP):
+    if (broken.opt.enableflags ^ model.opt.enableflags) & int(getattr(mujoco.mjtEnableBit, "mjENBL_SLEEP", 0)):
         yield "You switched sleep on or off."
     if broken.opt.disableactuator != model.opt.disableactuator:
         yield "You switched actuators on or off."
@@ -114,7 +115,7 @@ def _excessive(broken: mujoco.MjModel, model: mujoco.MjModel) -> Iterator[str]:
     for field, most in MOST.items():
         before, after = (np.max(np.abs(getattr(each, field, 0.0)), initial=0.0) for each in (broken, model))
         if after > max(most, before):
-            yield f"{field} is {after:g}: that freezes what moves; at most {most:g} is accepted."
+            yield f"{field} is {after:g}: that holds what should move; at most {most:g} is accepted."
     inertia = np.max(broken.dof_M0, initial=0.0)
     for field in ("dof_armature", "actuator_armature"):
         if (after := np.max(getattr(model, field, 0.0), initial=0.0)) > HEAVIEST * inertia:

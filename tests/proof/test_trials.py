@@ -91,7 +91,11 @@ def test_a_refuted_remedy_may_pass_where_it_fails_in_a_trial(tmp_path: Path) -> 
         ("{id: a, title: A, set: {'model.opt.gravity[2]': -9.9}}", "no number that differs by a factor of two"),
         ("{id: a, title: A, start: {'joint(box).qpos[2]': 1}}", "in the text of broken: joint(box), which the model"),
         ("{id: a, title: A, set: {'model.opt.gravity[3]': 1}}", "in the text of broken: model.opt.gravity[3]"),
-        ("{id: a, title: A, ctrl: {motor: 1}}", "the actuator motor, which the model does not have"),
+        ("{id: a, title: A, edits: [{find: a, replace: b}]}", "trials[0]\n  found:    edits"),
+        (
+            "{id: a, title: A, ctrl: {motor: 1}}",
+            "in the text of broken: ctrl.motor: the actuator motor, which the model does not have",
+        ),
     ],
 )
 def test_a_mistake_in_a_trial_is_told(tmp_path: Path, trial: str, found: str) -> None:

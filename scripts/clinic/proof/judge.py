@@ -10,6 +10,7 @@ import resource
 import subprocess
 import sys
 from dataclasses import asdict, dataclass
+from math import isnan
 from pathlib import Path
 
 from clinic.engine.checks import expected
@@ -92,7 +93,7 @@ def _failed(case: Case, tried: Tried, trial: Trial | None) -> list[str]:
         if not verdict.holds:
             check, signal = verdict.check, case.record.signals[verdict.check.signal]
             unit = "s" if check.take == "onset" else signal.unit
-            measured = f"{verdict.measured:.4g} {unit}".rstrip()
+            measured = "nothing" if isnan(verdict.measured) else f"{verdict.measured:.4g} {unit}".rstrip()
             taken = f"{signal.label or check.signal} ({check.take}"
             taken += f", {check.window[0]:g} to {check.window[1]:g} s)" if check.window else ")"
             told.append(f"{where}{taken} is {measured}; expected {expected(check)} {unit}".rstrip() + ".")

@@ -13,12 +13,12 @@ from clinic.engine.checks import Trace, Verdict, judge
 from clinic.engine.measure import measure_model, measure_output
 from clinic.engine.script import run_script
 from clinic.engine.signals import bind, parse_path
-from clinic.engine.simulate import compile_model, start
+from clinic.engine.simulate import compile_model, controls, start
 from clinic.engine.variant import apply_edits, variants
 from clinic.record.case import Case
 from clinic.record.fields import Checks, Record, RunSpec, Trial
 from clinic.record.parts import Interval
-from clinic.record.problem import Problem
+from clinic.record.problem import Problem, listed
 from clinic.record.yaml_lines import Where
 
 FACTOR = 2.0
@@ -70,6 +70,15 @@ def trial_problems(case: Case) -> Iterator[Problem]:
         where: Where = ("trials", index)
         if trial.id in [other.id for other in case.record.trials[:index]]:
             yield case.problem((*where, "id"), f"{trial.id}, which is taken", "an id used once", "rename it")
+        other = ("set", "start", "ctrl", "duration") if case.record.run is None else ("edits", "file")
+        if misplaced := [name for name in other if getattr(trial, name)]:
+            expected = "`edits` for a script; `set`, `start`, `ctrl` or `duration` for a model"
+            yield case.problem(where, listed(misplaced), expected, "change the situation in the case's own way")
+            return
+        if trial.file not in (None, *case.texts):
+            expected = f"a file of the folder: {listed(case.texts)}"
+            yield case.problem((*where, "file"), str(trial.file), expected, "correct the name")
+            return
         for variant in variants(case):
             try:
                 telling |= any(far(*pair) for pair in _changed(case, variant.text, trial))
@@ -152,6 +161,7 @@ def _changed(case: Case, text: str, trial: Trial) -> Iterator[tuple[float, float
         return
     model = compile_model(text)
     data = start(model, case.record.run)
+    controls(model, run_in(case.record.run, trial), 1)
     for path, value in {**trial.set, **trial.start}.items():
         yield bind(parse_path(path), model, data)(), value
     for name, control in trial.ctrl.items():

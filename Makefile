@@ -36,7 +36,7 @@ case.schema.json: $(VENV)/.ready $(wildcard scripts/clinic/record/*.py) scripts/
 	@touch $@
 
 serve: setup
-	$(BIN)/mkdocs serve --livereload --dev-addr localhost:$(or $(PORT),8000)
+	$(BIN)/mkdocs serve --livereload --dirty --dev-addr localhost:$(or $(PORT),8000)
 
 site: setup
 	$(BIN)/mkdocs build --strict
@@ -56,7 +56,7 @@ lint: setup
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo
-	PATH="$(CURDIR)/$(BIN):$$PATH" npx --no-install tsc -p docs/playground/jsconfig.json
+	PATH="$(CURDIR)/$(BIN):$$PATH" npx --no-install tsc -b docs/playground
 
 lock: setup
 	$(BIN)/uv pip compile pyproject.toml --extra dev --universal --python-version 3.11 --generate-hashes \

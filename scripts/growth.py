@@ -25,8 +25,9 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import yaml
-from clinic.pages.exhibits import EVIDENCE, assembled, evidence_of, evidence_task, figure_task, measuring_tasks
+from clinic.pages.case_files import drawing_tasks
 from clinic.pages.overviews import screening_tasks
+from clinic.proof.experiments import EVIDENCE, assembled, evidence_of, evidence_task, measuring_tasks
 from clinic.record.case import Case, load_cases
 from clinic.record.checkout import project_root
 from clinic.work.cache import Cache, Files
@@ -103,8 +104,9 @@ def keep(original: Case, case: Case, cache: Cache) -> None:
         files = kept(cache, old)
         cache.put(new.key, files)
         rest |= files
-    drawn = kept(cache, figure_task(original, assembled(original, first, rest)))
-    cache.put(figure_task(case, assembled(case, renamed, rest)).key, drawn)
+    before, after = assembled(original, first, rest), assembled(case, renamed, rest)
+    for old, new in zip(drawing_tasks(original, before), drawing_tasks(case, after), strict=True):
+        cache.put(new.key, kept(cache, old))
     for old, new in zip(screening_tasks([original]), screening_tasks([case]), strict=True):
         cache.put(new.key, kept(cache, old))
 

@@ -1,18 +1,5 @@
-"""What MkDocs calls: events that keep compiled templates, and finished pages while the site is served, and put off what
-takes long.
-"""
+"""What MkDocs calls while it serves the site."""
 
-from clinic.publish.later import on_serve
-from clinic.publish.serving import on_page_content, on_page_context, on_page_markdown, on_post_page, on_startup
-from clinic.publish.theme_templates import on_env, on_post_build
+from clinic.publish.live_reload import on_serve
 
-__all__ = [
-    "on_env",
-    "on_page_content",
-    "on_page_context",
-    "on_page_markdown",
-    "on_post_build",
-    "on_post_page",
-    "on_serve",
-    "on_startup",
-]
+__all__ = ["on_serve"]

@@ -75,9 +75,11 @@ def plain_settings(folder: Path, pages: Path) -> Path:
 FINISHED = """
 import sys, yaml
 from pathlib import Path
-from clinic.publish.site import survey
+from clinic.publish.site import make_site
+from clinic.record.checkout import cache_folder
+from clinic.work.cache import Cache
 out = Path(sys.argv[1])
-made = survey(Path())
+made = make_site(Path(), Cache(cache_folder(Path())))
 for name, content in made.files.items():
     (out / name).parent.mkdir(parents=True, exist_ok=True)
     (out / name).write_bytes(content)

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import growth
 import pytest
-from clinic.pages.exhibits import evidence_of, exhibits
 from clinic.proof.evidence import Evidence
+from clinic.proof.experiments import measure_case
 from clinic.record.case import Case, load_case
 from clinic.record.checkout import cache_folder
 from clinic.work.cache import Cache
@@ -56,7 +56,7 @@ def proven() -> Proven:
     def get(slug: str) -> tuple[Case, Evidence]:
         if slug not in made:
             case = load_case(ROOT / "cases" / slug)
-            made[slug] = case, evidence_of(exhibits(case, Cache(cache_folder(ROOT))))
+            made[slug] = case, measure_case(case, Cache(cache_folder(ROOT)))
         return made[slug]
 
     return get

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
+from typing import Any
 
 import mujoco
+import numpy as np
 import pytest
+from clinic.engine.checks import TAKES, Trace, take
 from clinic.pages.case_page import case_page
-from clinic.proof.evidence import Evidence, VariantEvidence
+from clinic.proof.evidence import Evidence, Samples, VariantEvidence
 from clinic.proof.examine import examine
 from clinic.record.case import Case, load_case
 from clinic.record.problem import CaseError, Problem
@@ -216,36 +220,17 @@ def script_case(root: Path, *changes: tuple[str, str], script: str = SCRIPT) -> 
     return load_case(write_script_case(root, *changes, script=script))
 
 
-def variant_evidence(kind: str = "broken", **values: list[float | None]) -> VariantEvidence:
+def variant_evidence(kind: Any = "broken", **signals: list[float | None]) -> VariantEvidence:
     """What a variant showed whose signals had these samples, 1 s apart; `angle_rad` is the signal `angle` in rad."""
-    names = {name: name.partition("_") for name in values}
-    traces = {
-        names[name][0]: {"unit": names[name][2], "time": [float(t) for t in range(1, len(v) + 1)], "value": v}
-        for name, v in values.items()
-    }
-    takes = {}
-    for name, samples in values.items():
-        known = [v for v in samples if v is not None]
-        takes[names[name][0]] = {
-            "final": samples[-1],
-            "max": max(known, default=None),
-            "onset": next((float(t) for t, v in enumerate(samples, 1) if v), None),
-        }
-    return VariantEvidence.model_validate(
-        {
-            "kind": kind,
-            "title": "",
-            "edits": [],
-            "timestep": 1.0,
-            "steps": max(map(len, values.values())),
-            "warnings": {},
-            "messages": [],
-            "output": None,
-            "checks": {"broken": [], "fixed": []},
-            "values": takes,
-            "traces": traces,
-        }
-    )
+    traces, values = {}, {}
+    for key, samples in signals.items():
+        name, _, unit = key.partition("_")
+        trace = Trace(np.arange(1.0, len(samples) + 1), np.array(samples, dtype=float))
+        traces[name] = Samples(unit=unit, time=trace.time.tolist(), value=samples)
+        taken = {which: take(trace, which) for which in TAKES}
+        values[name] = {which: None if math.isnan(number) else number for which, number in taken.items()}
+    common: dict[str, Any] = {"title": "", "edits": [], "timestep": 1.0, "steps": max(map(len, signals.values()))}
+    return VariantEvidence(kind=kind, checks={"broken": [], "fixed": []}, values=values, traces=traces, **common)
 
 
 def evidence_of_variants(**variants: VariantEvidence) -> Evidence:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from functools import cache
 from html.parser import HTMLParser
 from pathlib import Path
@@ -13,13 +12,9 @@ import markdown
 import yaml
 
 ROOT = Path(__file__).parent.parent
-ELEMENTS = re.compile(
-    "a|abbr|blockquote|br|button|code|dd|del|details|div|dl|dt|em|figcaption|figure|h1|h2|h3|h4|"
-    "h5|h6|hr|img|li|math|mfrac|menclose|mfenced|mi|mn|mo|mover|mpadded|mphantom|mroot|mrow|mspace|"
-    "msqrt|mstyle|msub|msubsup|msup|mtable|mtd|mtext|mtr|munder|munderover|ol|p|pre|source|span|"
-    "strong|summary|sub|sup|table|tbody|td|th|thead|tr|ul|video"
-)
 ADDRESSES = ("href", "src", "poster", "action", "formaction", "data", "xlink:href", "srcset")
+SCHEME = re.compile(r"[a-z][a-z0-9+.-]*:")
+ACTING = "script style iframe object embed form base link svg input template textarea foreignobject"
 
 
 class Settings(yaml.SafeLoader):
@@ -38,72 +33,36 @@ def extensions() -> tuple[list[str], dict[str, Any]]:
 
 
 def rendered(text: str) -> str:
-    """The HTML of a page."""
+    """The HTML of a page's Markdown, without its front matter."""
     names, options = extensions()
-    return markdown.Markdown(extensions=names, extension_configs=options).convert(text)
+    body = text.split("\n---\n", 1)[1] if text.startswith("---\n") else text
+    return markdown.Markdown(extensions=names, extension_configs=options).convert(body)
 
 
-class Elements(HTMLParser):
-    """Collects what acts: elements that are not of a page of prose, handlers, styles, addresses of other kinds."""
-
+class _Reader(HTMLParser):
     def __init__(self) -> None:
         super().__init__()
-        self.wrong: str | None = None
+        self.found: list[str] = []
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        if tag in ACTING.split():
+            self.found.append(f"<{tag} {attrs}>")
         for name, value in attrs:
-            address = (value or "").replace("\t", "").replace("\n", "").strip().lower()
-            strange = ":" in address.split("/")[0] and not address.startswith(("http://", "https://"))
+            address = "".join((value or "").split()).lower()
+            scheme = SCHEME.match(address) and not address.startswith(("http://", "https://"))
             abroad = tag != "a" and "//" in address
-            if name.startswith("on") or (name in ("style", "srcdoc", "http-equiv") and tag != "td"):
-                self.wrong = f"<{tag} {name}={value}>"
-            if name in ADDRESSES and (strange or abroad):
-                self.wrong = f"<{tag} {name}={value}>"
-        if not ELEMENTS.fullmatch(tag):
-            self.wrong = f"<{tag}>"
+            styled = name in ("style", "srcdoc") and not address.startswith("text-align:")
+            if name.startswith("on") or name == "http-equiv" or styled or (name in ADDRESSES and (scheme or abroad)):
+                self.found.append(f"<{tag} {name}={value}>")
 
-    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.handle_starttag(tag, attrs)
-
-    def handle_comment(self, data: str) -> None:
-        self.wrong = f"<!--{data}-->"
-
-    def handle_decl(self, decl: str) -> None:
-        self.wrong = f"<!{decl}>"
-
-    def handle_pi(self, data: str) -> None:
-        self.wrong = f"<?{data}>"
-
-    def unknown_decl(self, data: str) -> None:
-        self.wrong = f"<![{data}]>"
+    def handle_data(self, data: str) -> None:
+        if self.lasttag in ("script", "style") and self.cdata_elem:
+            self.found.append(data)
 
 
-def elements(html: str) -> str | None:
-    """The last thing of a page that acts, or None."""
-    reader = Elements()
+def acting(html: str) -> list[str]:
+    """What acts in HTML: elements, handlers, styles and addresses that no text needs."""
+    reader = _Reader()
     reader.feed(html)
     reader.close()
-    return reader.wrong
-
-
-class Active(HTMLParser):
-    """Counts the elements that are not text's, the handlers, and the addresses that are not of pages."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.seen: Counter[str] = Counter()
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        if tag in ("script", "style", "iframe", "object", "embed", "form", "base", "link", "svg", "input", "template"):
-            self.seen[tag] += 1
-        for name, value in attrs:
-            if name.startswith("on") or (name in ADDRESSES and "script:" in (value or "").lower()):
-                self.seen[f"{tag} {name}"] += 1
-
-
-def active(html: str) -> Counter[str]:
-    """How many of each kind of active thing a whole page holds, its theme's included."""
-    reader = Active()
-    reader.feed(html)
-    reader.close()
-    return reader.seen
+    return reader.found

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import mujoco
 from clinic.record.fields import RunSpec
-from clinic.triage.run import Subject
+from clinic.triage.run import Budget, Subject
+from clinic.triage.watched_run import Examination
 
 
 def subject(xml: str, **run: object) -> Subject:
     spec = mujoco.MjSpec.from_string(xml)
     given = {key.name: len(key.qpos) for key in spec.keys}
-    return Subject("model", spec, spec.compile(), RunSpec.model_validate({"duration": 1.0, **run}), given=given)
+    return Subject(spec, spec.compile(), RunSpec.model_validate({"duration": 1.0, **run}), given=given)
+
+
+def examination(xml: str, **run: object) -> Examination:
+    return Examination(subject(xml, **run), Budget())
 
 
 class Ticks:

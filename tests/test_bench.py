@@ -11,8 +11,9 @@ import growth
 import measured
 import pytest
 import yaml
-from clinic.pages.exhibits import all_exhibits, evidence_of
-from clinic.publish.site import survey
+from clinic.pages.case_files import files_of_cases
+from clinic.proof.experiments import evidence_of
+from clinic.publish.site import make_site
 from clinic.record.case import load_case, load_cases
 from clinic.work.cache import Cache
 from helpers import tiny_case
@@ -77,7 +78,7 @@ def test_a_plain_site_has_the_same_pages_and_nothing_of_ours(project: Path, tmp_
 
 def test_variations_are_cases_that_need_no_run(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     copy, cache = measured.copied(project, tmp_path / "copy"), Cache(project / "cache")
-    survey(copy, cache)
+    make_site(copy, cache)
     growth.grow(copy, cache, 5)
     cases = load_cases(copy / "cases")
     assert [case.record.number for case in cases] == [1, 2, 3, 4, 5]
@@ -88,8 +89,8 @@ def test_variations_are_cases_that_need_no_run(project: Path, tmp_path: Path, mo
         return []
 
     monkeypatch.setattr("clinic.work.task.parallel", none)
-    made = survey(copy, cache)
+    made = make_site(copy, cache)
     assert not made.problems
-    shown = all_exhibits([load_case(copy / "cases" / "falling-box-2")], cache)
+    shown, _ = files_of_cases([load_case(copy / "cases" / "falling-box-2")], cache)
     assert evidence_of(shown["falling-box-2"]).number == 4
     assert "cases/falling-box-3/index.md" in made.files

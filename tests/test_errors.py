@@ -9,18 +9,15 @@ import pkgutil
 
 import clinic
 import pytest
-from clinic.engine.limits import LimitError, ProgramError
-from clinic.engine.measure import SampleError
 from clinic.engine.mjcf import ModelError
 from clinic.engine.render import RenderError
 from clinic.engine.script import ScriptError
 from clinic.engine.signals import SignalError
 from clinic.engine.simulate import RunError
 from clinic.engine.variant import EditError
+from clinic.pages.text.formula import FormulaError
 from clinic.pages.text.prose import FieldError
-from clinic.publish.bundle import UnavailableError
 from clinic.record.expression import ExpressionError
-from clinic.record.formula import FormulaError
 from clinic.record.problem import CaseError, LackError, Problem
 from clinic.record.yaml_lines import YamlError
 from clinic.work.parallel import ClusterError
@@ -35,15 +32,11 @@ EXAMPLES = [
     FieldError("{{ x }}", "a field", "correct it"),
     FormulaError("x_", "nothing below"),
     LackError("no Node"),
-    LimitError("still running after 1 s", "bound its loops"),
     ModelError(3, "a file", "none", "write it out"),
-    ProgramError("exit code 1", "mend it"),
     RenderError("no OpenGL"),
     RunError(("qpos", "elbow"), "x", "y", "z"),
-    SampleError("error", "samples that do not pair up", "as many", "print each"),
     ScriptError("KeyError: 'x'", "mend it"),
     SignalError("bodi(x)", "a path", "write body(x)"),
-    UnavailableError("no Node"),
     YamlError(1, "an alias", "no aliases", "write it out"),
 ]
 

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import logging
-import threading
 from collections.abc import Callable
 from pathlib import Path
 
 import mujoco
 import pytest
-from clinic.engine import node, render
-from clinic.pages.error_page import lacking_page
-from clinic.pages.exhibits import evidence_task, exhibits, possible_exhibits
-from clinic.proof.evidence import draws, lack
-from clinic.publish.site import survey
+from clinic.engine import node
+from clinic.pages.case_files import files_of_case, files_of_cases
+from clinic.pages.error_page import unmeasured_page
+from clinic.proof.evidence import lack, needs_images
+from clinic.proof.experiments import evidence_task
+from clinic.publish.site import make_site
 from clinic.record.case import Case, load_case
 from clinic.record.checkout import project_root
 from clinic.record.problem import CaseError
@@ -46,8 +46,7 @@ def blind(monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object) -> None:
         raise RuntimeError("no display")
 
-    monkeypatch.setattr(mujoco, "GLContext", fail)
-    monkeypatch.setattr(render, "_own", threading.local())
+    monkeypatch.setattr(mujoco, "Renderer", fail)
     monkeypatch.setenv("CLINIC_JOBS", "1")
     say_lack.cache_clear()
 
@@ -55,8 +54,8 @@ def blind(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("make", MEASURED_IN_IMAGES)
 def test_what_draws_is_measured_where_images_can_be_drawn(tmp_path: Path, cache: Cache, make: Make) -> None:
     case = make(tmp_path)
-    assert draws(case)
-    assert "evidence.json" in exhibits(case, cache)
+    assert needs_images(case)
+    assert "evidence.json" in files_of_case(case, cache)
 
 
 @pytest.mark.usefixtures("blind")
@@ -78,12 +77,12 @@ def test_it_is_left_out_and_not_kept_and_said_once(
     case, other = make(tmp_path / "one"), script_case(tmp_path / "two")
 
     for _ in range(2):
-        assert possible_exhibits([case], cache) == ({}, [])
+        assert files_of_cases([case], cache) == ({}, [])
 
     assert cache.get(evidence_task(case).key) is None
     said = [(record.levelname, record.getMessage()) for record in caplog.records]
     assert [name for name, text in said if "is not measured" in text and "no display" in text] == [level]
-    assert "evidence.json" in exhibits(other, cache)
+    assert "evidence.json" in files_of_case(other, cache)
 
 
 @pytest.mark.usefixtures("blind")
@@ -92,12 +91,12 @@ def test_it_cannot_be_judged(tmp_path: Path, cache: Cache, make: Make) -> None:
     with pytest.raises(
         CaseError, match=r"no display\n.*OpenGL: this case is measured in images\n.*a machine that draws"
     ):
-        exhibits(make(tmp_path), cache)
+        files_of_case(make(tmp_path), cache)
 
 
 @pytest.mark.usefixtures("blind")
 def test_a_case_that_only_shows_pictures_is_measured_without_them(tmp_path: Path, cache: Cache) -> None:
-    files = exhibits(tiny_case(tmp_path, NO_FILM), cache)
+    files = files_of_case(tiny_case(tmp_path, NO_FILM), cache)
     assert "evidence.json" in files
     assert not [name for name in files if name.endswith(".webp")]
 
@@ -107,9 +106,9 @@ def test_its_page_says_so_and_the_others_are_as_ever(tmp_path: Path, cache: Cach
     folder = write_project(tmp_path, NO_FILM)
     script = folder / "cases" / "odd-script" / "script.py"
     script.write_text(DRAWS + SCRIPT, encoding="utf-8")
-    assert draws(load_case(script.parent))
+    assert needs_images(load_case(script.parent))
 
-    site = survey(folder, cache)
+    site = make_site(folder, cache)
 
     assert site.problems == ()
     page = site.files["cases/odd-script/index.md"].decode()
@@ -131,12 +130,12 @@ def test_a_case_in_javascript_waits_for_node_and_its_package(
     monkeypatch.setenv("CI", "")
     caplog.set_level(logging.INFO, "mkdocs.clinic")
 
-    assert possible_exhibits([case], cache) == ({}, [])
+    assert files_of_cases([case], cache) == ({}, [])
 
     found = {"program": "no Node on this machine", "version": "@mujoco/mujoco is not installed"}[gone]
     assert f"case {case.record.number} is not measured: {found}" in caplog.messages
     missing = lack(case)
     assert missing is not None
-    assert found in lacking_page("15. A view", missing)
+    assert found in unmeasured_page("15. A view", missing)
     with pytest.raises(CaseError, match=rf"found: +{found}\n.*this case is run by them"):
-        exhibits(case, cache)
+        files_of_case(case, cache)

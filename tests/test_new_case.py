@@ -6,9 +6,9 @@ import shutil
 from pathlib import Path
 
 import pytest
-from clinic.commands.judgement import Neighbours, judge_folder
-from clinic.commands.scaffold import Kind, start
-from clinic.publish.site import survey
+from clinic.commands import scaffold
+from clinic.commands.check import check_cases
+from clinic.publish.site import make_site
 from clinic.record.checkout import cache_folder
 from clinic.work.cache import Cache
 from helpers import MODEL, RECORD, write_case
@@ -28,28 +28,28 @@ def checkout(root: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def begun(checkout: Path) -> dict[Kind, Path]:
-    """The folder of a new case of each kind."""
-    return {kind: start(checkout, f"begun-in-{kind}", f"It stands askew in {kind}", kind) for kind in Kind}
+def begun(checkout: Path) -> list[str]:
+    """A new case of each kind, by its slug."""
+    kinds = scaffold.SOURCES
+    return [scaffold.write_case(checkout, f"begun-in-{kind}", f"It is askew in {kind}", kind).name for kind in kinds]
 
 
-@pytest.mark.parametrize("kind", Kind)
-def test_a_new_case_passes_every_law(root: Path, checkout: Path, begun: dict[Kind, Path], kind: Kind) -> None:
-    judgement = judge_folder(begun[kind], Neighbours(checkout), Cache(cache_folder(root)))
-    assert (judgement.problems, judgement.breaches) == ((), ())
-    assert judgement.evidence is not None
+def test_a_new_case_passes_every_law(root: Path, checkout: Path, begun: list[str]) -> None:
+    for report in check_cases(checkout, begun, Cache(cache_folder(root))):
+        assert (report.problems, report.breaches) == ((), ())
+        assert report.evidence is not None
 
 
-def test_folders_dropped_in_become_cases(root: Path, checkout: Path, begun: dict[Kind, Path]) -> None:
+def test_folders_dropped_in_become_cases(root: Path, checkout: Path, begun: list[str]) -> None:
     write_case(checkout, ("number: 1", "number: 9999"), slug="dropped-in", record=RECORD, model=MODEL)
 
-    site = survey(checkout, Cache(cache_folder(root)))
+    site = make_site(checkout, Cache(cache_folder(root)))
 
     assert site.problems == ()
     assert b"# 9999. A box falls through the floor" in site.files["cases/dropped-in/index.md"]
-    assert {"evidence.json", "plot-light.svg", "model.xml", "case.yaml"} <= {
+    assert {"evidence.json", "plot.svg", "model.xml", "case.yaml"} <= {
         Path(name).name for name in site.files if name.startswith("cases/dropped-in/")
     }
-    for slug in ("dropped-in", *(folder.name for folder in begun.values())):
+    for slug in ("dropped-in", *begun):
         assert f"cases/{slug}/index.md" in str(site.navigation)
         assert f"cases/{slug}/index.md".encode() in site.files["index.md"]

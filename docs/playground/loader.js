@@ -1,7 +1,7 @@
 // On every page: offers the playground, and ticks what has been solved. The playground itself is fetched on a click.
 
 const base = new URL(".", /** @type {HTMLScriptElement} */ (document.currentScript).src);
-const KEY = "mujoco-clinic"; // as in progress.js
+const KEY = "mujoco-clinic"; // as in page/solved.js
 let leave = () => {};
 
 /** @returns {string[]} */

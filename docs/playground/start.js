@@ -1,11 +1,11 @@
 // The first thing fetched after the click: starts the engine while the rest is on its way.
 
-import { Engine } from "./client.js";
-import { fromFragment } from "./link.js";
+import { Engine } from "./engine/client.js";
+import { fromFragment } from "./page/link.js";
 import "uplot/dist/uPlot.min.css";
 import "../stylesheets/playground.css";
 
-/** @import {Playground} from "./record.js" */
+/** @import {CaseRecord} from "./record/types.js" */
 
 /**
  * Fills the playground's place.
@@ -14,19 +14,19 @@ import "../stylesheets/playground.css";
  * @returns {Promise<() => void>} takes everything away again
  */
 export async function mount(root, base) {
-  const rest = import("./view.js");
+  const rest = import("./playground.js");
   const style = stylesheet(new URL("start.css", base));
   const response = await fetch(new URL(root.dataset.case ?? "", location.href));
   if (!response.ok) throw new Error(`${root.dataset.case}: ${response.status}`);
-  const record = /** @type {Playground} */ (await response.json());
+  const record = /** @type {CaseRecord} */ (await response.json());
   const linked = await fromFragment(location.hash);
   const address = (/** @type {string} */ name) => String(new URL(name, base));
   const engine = new Engine({ worker: address("worker.js"), wasm: address("mujoco.wasm.gz"), record });
   if (linked === null) engine.renew();
   try {
-    const [{ View }] = await Promise.all([rest, style]);
-    const view = new View(root, record, engine, linked);
-    return () => view.leave();
+    const [{ Playground }] = await Promise.all([rest, style]);
+    const playground = new Playground(root, record, engine, linked);
+    return () => playground.leave();
   } catch (error) {
     engine.end();
     throw error;

@@ -1,22 +1,22 @@
 // The engine in a worker: compiles, runs and judges models. Every message carries a generation, and so does its answer.
 
 import loadMujoco from "@mujoco/mujoco";
-import { assets } from "./assets.js";
-import { Live } from "./live.js";
-import { examine } from "./measure.js";
+import { assets } from "./engine/assets.js";
+import { InteractiveSimulation } from "./engine/interactive.js";
+import { judgeModel } from "./judge/judgement.js";
 
 /** @import {MainModule} from "@mujoco/mujoco" */
-/** @import {Playground} from "./record.js" */
+/** @import {CaseRecord} from "./record/types.js" */
 
 const TURN = 25; // ms of judging between two looks at the messages
 const MAX_STEPS_A_TURN = 1000;
 
 /** @type {Promise<MainModule>} */
 let booted;
-/** @type {Playground} */
+/** @type {CaseRecord} */
 let record;
-/** @type {Live | null} */
-let live = null;
+/** @type {InteractiveSimulation | null} */
+let simulation = null;
 let failures = 0;
 let judging = 0;
 
@@ -27,35 +27,35 @@ const HANDLERS = {
 
   /** Compiles a text; the model before it stays if that fails. */
   open: (mujoco, { text }) => {
-    const made = compiled(() => new Live(mujoco, text, record));
+    const made = compiled(() => new InteractiveSimulation(mujoco, text, record));
     if ("message" in made) return { type: "refused", ...made };
-    live?.delete();
-    live = made;
-    return { type: "opened", assets: assets(mujoco, live.model, live.scene), missing: live.missing };
+    simulation?.delete();
+    simulation = made;
+    return { type: "opened", assets: assets(mujoco, simulation.model, simulation.scene), missing: simulation.missing };
   },
 
   reset: () => {
-    live?.restart();
+    simulation?.restart();
     return null;
   },
 
   /** Moves on and gives what is to be drawn. */
   frame: (_, { seconds, steps, overlays, camera }) => {
-    if (!live) return { type: "frame", frame: null };
-    return { type: "frame", frame: live.frame(overlays, camera, live.advance(seconds, steps)) };
+    if (!simulation) return { type: "frame", frame: null };
+    return { type: "frame", frame: simulation.frame(overlays, camera, simulation.advance(seconds, steps)) };
   },
 
-  grab: (_, { origin, direction }) => ({ type: "grabbed", held: live?.grab(origin, direction) ?? null }),
+  grab: (_, { origin, direction }) => ({ type: "grabbed", held: simulation?.grab(origin, direction) ?? null }),
 
-  hold: (_, { body }) => ({ type: "grabbed", held: live?.hold(body) ?? null }),
+  hold: (_, { body }) => ({ type: "grabbed", held: simulation?.hold(body) ?? null }),
 
   drag: (_, { point }) => {
-    live?.drag(point);
+    simulation?.drag(point);
     return null;
   },
 
   release: () => {
-    live?.release();
+    simulation?.release();
     return null;
   },
 
@@ -64,7 +64,7 @@ const HANDLERS = {
     const id = ++judging;
     const model = compiled(() => mujoco.MjModel.from_xml_string(text));
     if ("message" in model) return { type: "refused", checking: true, ...model };
-    const work = examine(mujoco, model, record);
+    const work = judgeModel(mujoco, model, record);
     try {
       for (let turn = 1; ; turn++) {
         const end = performance.now() + TURN;

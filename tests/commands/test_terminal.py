@@ -6,8 +6,8 @@ import io
 from pathlib import Path
 
 import pytest
-from clinic.commands.judgement import Judgement
-from clinic.commands.terminal import case_data, case_text, cases_table, checks_table, counted, summary
+from clinic.commands.check import Report
+from clinic.commands.terminal import case_data, case_text, cases_table, checks_table, reports_table
 from clinic.pages.text.claim import claim
 from clinic.proof.evidence import Evidence, collect
 from clinic.record.case import Case
@@ -41,24 +41,19 @@ def test_list_names_number_slug_title_and_tags(made: tuple[Case, Evidence]) -> N
 
 
 def test_checks_are_shown_in_words_with_what_was_measured(made: tuple[Case, Evidence]) -> None:
-    case = made[0]
+    checks = made[0].record.checks
     lines = [" ".join(line.split()) for line in printed(checks_table(*made)).splitlines()]
     assert "1. A box falls through the floor" in lines[0]
-    assert any(
-        f"│ broken │ it is broken │ {claim(case, case.record.checks.broken[0])} │ 0 │ yes │" in line for line in lines
-    )
-    assert any(f"fix │ it is well │ {claim(case, case.record.checks.fixed[0])} │ 0.04989 m" in line for line in lines)
+    broken, fixed = claim(made[0], checks.broken[0]), claim(made[0], checks.fixed[0])
+    assert f"│ broken │ it is broken │ {broken} │ 0 │ yes │" in lines
+    assert f"│ share-a-bit, fix │ it is well │ {fixed} │ 0.04989 m │ yes │" in lines
 
 
 def test_summary_counts_what_is_wrong(made: tuple[Case, Evidence]) -> None:
     problem = Problem("cases/b/case.yaml", 1, "", "x", "y", "z")
-    text = printed(summary([Judgement("a", *made, (), ()), Judgement("b", None, None, (problem,), ("law", "law"))]))
+    text = printed(reports_table([Report("a", *made, ()), Report("b", None, None, (problem,), (problem, problem))]))
     assert "sound" in text
     assert "1 mistake, 2 broken laws" in text
-
-
-def test_counts() -> None:
-    assert [counted(n, "law") for n in (0, 1, 2)] == ["", "1 law", "2 laws"]
 
 
 def test_folds_are_closed_until_the_answer_is_asked_for(made: tuple[Case, Evidence]) -> None:

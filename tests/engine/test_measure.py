@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from clinic.engine.measure import measure_model, measure_output, paths
+from clinic.engine.measure import measure_model, measure_output
 from clinic.engine.script import Output
 from clinic.engine.simulate import compile_model
 from clinic.record.fields import Record
@@ -25,11 +25,6 @@ def measured(record: Record, xml: str = MODEL) -> dict[str, np.ndarray]:
     assert record.run is not None
     _, traces = measure_model(record, compile_model(xml), record.run)
     return {name: trace.value for name, trace in traces.items()}
-
-
-def test_paths_are_those_of_path_signals(tmp_path: Path) -> None:
-    record = with_signals(tmp_path, "twice: {expr: 2 * height}")
-    assert {name: path.field for name, path in paths(record).items()} == {"height": "xpos", "contacts": "ncon"}
 
 
 def test_every_signal_is_measured_in_the_records_order(tmp_path: Path) -> None:
@@ -81,17 +76,9 @@ def test_fraction_of_starts(tmp_path: Path, holds: str, fraction: float) -> None
     assert measured(with_signals(tmp_path, signal))["share"].tolist() == pytest.approx([fraction])
 
 
-@pytest.mark.parametrize(
-    ("camera", "above"),
-    [
-        pytest.param('xyaxes="1 0 0 0 0 1"', False, id="upright"),
-        pytest.param('xyaxes="-1 0 0 0 0 -1"', True, id="upside-down"),
-    ],
-)
-def test_image_row_of_a_box_below_the_cameras_axis(tmp_path: Path, camera: str, above: bool) -> None:
-    record = with_signals(tmp_path, "row: {measure: image_row, camera: side, geom: box}")
-    (row,) = measured(record, MODEL.replace('xyaxes="1 0 0 0 0 1"', camera))["row"]
-    assert bool(row < 0.5) is above
+def test_image_row_of_a_box_below_the_cameras_axis(tmp_path: Path) -> None:
+    (row,) = measured(with_signals(tmp_path, "row: {measure: image_row, camera: side, geom: box}"))["row"]
+    assert 0.5 < row < 1
 
 
 def test_printed_signals_are_read_from_the_output(tmp_path: Path) -> None:
@@ -101,14 +88,9 @@ def test_printed_signals_are_read_from_the_output(tmp_path: Path) -> None:
     assert {name: trace.value.tolist() for name, trace in traces.items()} == {"error": [1, 3], "twice": [2, 6]}
 
 
-def test_what_was_not_printed_is_an_empty_trace(tmp_path: Path) -> None:
-    assert measure_output(script_case(tmp_path).record, Output("nothing\n"))["error"].value.tolist() == []
-
-
-def test_expression_over_what_was_not_printed_is_empty(tmp_path: Path) -> None:
-    two = (
-        "{path: printed(error), unit: m}",
-        "{path: printed(error)}\n  other: {path: printed(other)}\n  sum: {expr: error + other}",
+def test_what_was_not_printed_is_an_empty_trace_and_so_is_what_is_computed_from_it(tmp_path: Path) -> None:
+    more = "{path: printed(error)}\n  other: {path: printed(other)}\n  sum: {expr: error + other}"
+    traces = measure_output(
+        script_case(tmp_path, ("{path: printed(error), unit: m}", more)).record, Output("error = 1\nerror = 2\n")
     )
-    traces = measure_output(script_case(tmp_path, two).record, Output("error = 1\nerror = 2\n"))
-    assert traces["sum"].value.tolist() == []
+    assert {name: len(trace.value) for name, trace in traces.items()} == {"error": 2, "other": 0, "sum": 0}

@@ -9,14 +9,14 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
-from clinic.engine.signals import SignalError, parse_path
+from clinic.engine.signals import parse_path
 from clinic.engine.simulate import (
     MAX_STEPS,
     RunError,
     compile_model,
+    data_at,
+    initial_data,
     simulate,
-    start,
-    state_at,
     step_count,
 )
 from clinic.record.fields import RunSpec
@@ -59,41 +59,6 @@ def test_free_fall_is_sampled_after_every_step() -> None:
     assert made.traces["height"].value[1:] == pytest.approx(made.traces["fallen"].value[:-1], abs=1e-12)
 
 
-def test_two_runs_are_bitwise_equal() -> None:
-    first, second = (run(PENDULUM, spec(), angle="qpos[0]").traces["angle"].value for _ in range(2))
-    assert first.tobytes() == second.tobytes()
-
-
-@pytest.mark.parametrize(
-    ("xml", "fields", "paths"),
-    [
-        pytest.param(BALL, {}, {"height": "body(ball).xpos[2]", "timestep": "model.opt.timestep"}, id="left-alone"),
-        pytest.param(EXPLODING, {}, {"bad": "warning(BADQACC)", "x": "qpos[0]"}, id="explodes"),
-        pytest.param(
-            EXPLODING, {"ctrl": {"motor": 5}, "duration": 0.52}, {"x": "qpos[0]"}, id="explodes-with-a-control"
-        ),
-        pytest.param(
-            EXPLODING, {"ctrl": {"motor": [[0, 1], [0.03, 0]]}, "duration": 0.03}, {"x": "qpos[0]"}, id="driven"
-        ),
-        pytest.param(BALL, {"duration": 0.001}, {"height": "qpos[2]"}, id="one-step"),
-        pytest.param(BALL, {"duration": 0.002}, {"height": "qpos[2]"}, id="two-steps"),
-    ],
-)
-def test_the_last_sample_alone_is_that_of_the_whole_run(xml: str, fields: Any, paths: dict[str, str]) -> None:
-    model, asked = compile_model(xml), {name: parse_path(path) for name, path in paths.items()}
-    used = start(model, spec())
-    for _ in range(7):
-        mujoco.mj_step(model, used)
-
-    whole = simulate(model, spec(**fields), asked)
-    last = simulate(model, spec(**fields), asked, data=used, last=True)
-
-    assert (last.steps, last.warnings, last.messages) == (whole.steps, whole.warnings, whole.messages)
-    for name, trace in whole.traces.items():
-        assert last.traces[name].time.tobytes() == trace.time[-1:].tobytes()
-        assert last.traces[name].value.tobytes() == trace.value[-1:].tobytes()
-
-
 @pytest.mark.parametrize(
     ("fields", "position", "velocity"),
     [
@@ -105,7 +70,7 @@ def test_the_last_sample_alone_is_that_of_the_whole_run(xml: str, fields: Any, p
     ],
 )
 def test_start(fields: dict[str, Any], position: float, velocity: float) -> None:
-    data = start(compile_model(PENDULUM), spec(**fields))
+    data = initial_data(compile_model(PENDULUM), spec(**fields))
     assert (data.qpos[0], data.qvel[0]) == pytest.approx((position, velocity))
 
 
@@ -113,7 +78,7 @@ def test_nudge_acts_on_the_start() -> None:
     def nudge(model: mujoco.MjModel, data: mujoco.MjData) -> None:
         data.qpos[2] += model.nq
 
-    assert start(compile_model(BALL), spec(), nudge).qpos[2] == 8
+    assert initial_data(compile_model(BALL), spec(), nudge).qpos[2] == 8
 
 
 @pytest.mark.parametrize(
@@ -134,72 +99,26 @@ def test_keyframe_brings_its_control() -> None:
     assert made.traces["force"].value == pytest.approx([2])
 
 
-def test_gear_times_control_is_the_torque_that_holds_the_bob() -> None:
-    holding = run(PENDULUM, spec(ctrl={"motor": -2 * GRAVITY * 0.5 / 3}), angle="qpos[0]")
-    assert np.abs(holding.traces["angle"].value).max() < 1e-9
-
-
 @pytest.mark.parametrize(
-    ("fields", "where", "found", "expected"),
+    ("fields", "told"),
     [
-        pytest.param(
-            {"keyframe": "hangin"},
-            ("keyframe",),
-            "the key hangin, which the model does not have",
-            "a key: hanging",
-            id="keyframe",
-        ),
-        pytest.param(
-            {"qpos": {"hnge": 1}},
-            ("qpos", "hnge"),
-            "the joint hnge, which the model does not have",
-            "a joint: hinge",
-            id="joint",
-        ),
-        pytest.param(
-            {"ctrl": {"motr": 1}},
-            ("ctrl", "motr"),
-            "the actuator motr, which the model does not have",
-            "an actuator: motor",
-            id="actuator",
-        ),
-        pytest.param(
-            {"ctrl": {"motor": [(1, 0), (1, 2)]}},
-            ("ctrl", "motor"),
-            "times [1.0, 1.0]",
-            "one or more times, each after the one before",
-            id="times-that-do-not-increase",
-        ),
-        pytest.param(
-            {"ctrl": {"motor": []}},
-            ("ctrl", "motor"),
-            "times []",
-            "one or more times, each after the one before",
-            id="no-times",
-        ),
-        pytest.param(
-            {"duration": 1e-5},
-            ("duration",),
-            "1e-05 s at a timestep of 0.001 s",
-            f"1 to {MAX_STEPS} steps",
-            id="less-than-a-step",
-        ),
+        ({"keyframe": "hangin"}, "keyframe: the key hangin, which the model does not have; expected a key: hanging"),
+        ({"qpos": {"hnge": 1}}, "qpos.hnge: the joint hnge, which the model does not have; expected a joint: hinge"),
+        ({"ctrl": {"motr": 1}}, "ctrl.motr: the actuator motr, which the model does not have; expected an actuator"),
+        ({"ctrl": {"motor": [(1, 0), (1, 2)]}}, "ctrl.motor: times [1.0, 1.0]; expected one or more times, each after"),
+        ({"ctrl": {"motor": []}}, "ctrl.motor: times []; expected one or more times"),
+        ({"duration": 1e-5}, f"duration: 1e-05 s at a timestep of 0.001 s; expected 1 to {MAX_STEPS} steps"),
     ],
 )
-def test_run_that_cannot_start(fields: dict[str, Any], where: tuple[str, ...], found: str, expected: str) -> None:
+def test_run_that_cannot_start(fields: dict[str, Any], told: str) -> None:
     with pytest.raises(RunError) as caught:
         run(PENDULUM, spec(**fields))
-    assert (caught.value.where, caught.value.found, caught.value.expected) == (where, found, expected)
+    assert str(caught.value).startswith(f"run.{told}")
 
 
 def test_start_of_a_joint_with_many_numbers_is_refused() -> None:
     with pytest.raises(RunError, match="a joint with 6 numbers"):
-        start(compile_model(BALL), spec(qvel={"free": 1}))
-
-
-def test_path_that_does_not_fit_is_refused() -> None:
-    with pytest.raises(SignalError):
-        run(BALL, spec(), height="body(box).xpos[2]")
+        initial_data(compile_model(BALL), spec(qvel={"free": 1}))
 
 
 @pytest.mark.parametrize(
@@ -210,14 +129,6 @@ def test_steps_are_duration_over_timestep_rounded(timestep: float, duration: flo
     model = compile_model(BALL)
     model.opt.timestep = timestep
     assert step_count(model, spec(duration=duration)) == steps
-
-
-@pytest.mark.parametrize(("timestep", "duration"), [(1e-5, 100.0), (0.0, 1.0)])
-def test_too_many_steps_are_refused(timestep: float, duration: float) -> None:
-    model = compile_model(BALL)
-    model.opt.timestep = timestep
-    with pytest.raises(RunError):
-        step_count(model, spec(duration=duration))
 
 
 def test_explosion_is_counted_although_the_reset_clears_it_and_ends_after_its_steps(
@@ -239,36 +150,18 @@ def test_quiet_run_has_no_warnings() -> None:
     assert (made.warnings, made.messages, made.traces) == ({}, (), {})
 
 
-@pytest.mark.parametrize(
-    "asked",
-    ['<option iterations="2147483647"/>', '<visual><quality numslices="2000000000"/></visual>'],
-    ids=["solver", "picture"],
-)
-def test_a_model_whose_step_or_picture_would_not_end_is_refused(asked: str) -> None:
-    with pytest.raises(ValueError, match=r"iterations|numslices"):
-        compile_model(f"<mujoco>{asked}</mujoco>")
-
-
 def test_compile_error_is_said_by_mujoco() -> None:
     with pytest.raises(ValueError, match="unrecognized element"):
         compile_model("<mujoco><worldbdy/></mujoco>")
 
 
 @pytest.mark.parametrize("time", [0.0, 0.1, 0.25])
-def test_state_at_is_the_state_of_the_run_brought_up_to_date(time: float) -> None:
-    data = state_at(compile_model(BALL), spec(), time)
+def test_data_at_is_the_state_of_the_run_brought_up_to_date(time: float) -> None:
+    data = data_at(compile_model(BALL), spec(), time)
     n = round(time / 0.001)
     height = 1 - GRAVITY * 0.001**2 * n * (n + 1) / 2
     assert data.time == pytest.approx(time)
     assert data.body("ball").xpos[2] == pytest.approx(height, abs=1e-12)
-
-
-def test_a_run_that_takes_too_long_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("clinic.engine.simulate.MOST_SECONDS", -1.0)
-    with pytest.raises(
-        RunError, match=r"^duration: 500 steps, of which 0 take -1 s; expected a run that comes to an end"
-    ):
-        run(BALL, spec())
 
 
 @pytest.mark.parametrize("timestep", [1e-9, 1e-320, 0.0, -1.0, math.nan])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from clinic.engine.variant import EditError, apply_edits, changed_lines, diff, remedies, variants
+from clinic.engine.variant import EditError, apply_edits, changed_lines, diff, place_of, variants
 from clinic.record.parts import Edit
 from clinic.record.problem import CaseError
 from helpers import MODEL, tiny_case
@@ -46,13 +46,15 @@ def test_edit_must_match_once(text: str, changes: list[tuple[str, str]], index: 
 
 
 def test_variants_are_the_broken_one_then_fixes_then_refuted(tmp_path: Path) -> None:
-    broken, fix, refuted = variants(tiny_case(tmp_path))
+    case = tiny_case(tmp_path)
+    broken, fix, refuted = variants(case)
 
     assert [(v.kind, v.id) for v in (broken, fix, refuted)] == [
         ("broken", "broken"),
         ("fix", "share-a-bit"),
         ("refuted", "small-step"),
     ]
+    assert [place_of(case, v.id) for v in (broken, fix, refuted)] == [(), ("fixes", 0), ("refuted", 0)]
     assert broken.text == MODEL
     assert fix.text == MODEL.replace(' contype="2" conaffinity="2"', "")
     assert refuted.text == MODEL.replace("0.002", "0.001")
@@ -69,11 +71,6 @@ def test_edits_that_do_not_match_are_reported_for_all_remedies(tmp_path: Path) -
         "fixes[0].edits[0].find",
         "refuted[0].edits[0].find",
     ]
-
-
-def test_remedies_have_their_place_in_the_record(tmp_path: Path) -> None:
-    places = {remedy.id: where for where, _, remedy in remedies(tiny_case(tmp_path))}
-    assert places == {"share-a-bit": ("fixes", 0), "small-step": ("refuted", 0)}
 
 
 BEFORE = "one\ntwo\nthree\nfour\n"

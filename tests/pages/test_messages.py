@@ -2,37 +2,38 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 from clinic.engine.signals import WARNINGS
-from clinic.pages.messages import heard, load_messages, messages_page
+from clinic.pages.messages import Message, load_messages, messages_page, provoke_messages
 from clinic.record.problem import CaseError
 from clinic.work.cache import Cache
 from helpers import tiny_case
 
 MESSAGES = load_messages()
 ENTRY = """\
-odd-text:
-  group: While it runs
-  title: odd text
-  xml: <mujoco/
-  says: odd
-  meaning: It is odd.
-  look_at: The text.
+While it runs:
+  odd-text:
+    title: odd text
+    xml: <mujoco/
+    meaning: It is odd.
+    look_at: The text.
 """
 
 
 @pytest.fixture(scope="module")
 def said(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
-    return heard(MESSAGES, Cache(tmp_path_factory.mktemp("cache")))
+    return provoke_messages(MESSAGES, Cache(tmp_path_factory.mktemp("cache")))
 
 
 @pytest.mark.parametrize("message", [m for m in MESSAGES if m.code is not None], ids=lambda message: message.id)
-def test_the_engine_still_says_it(message, said: dict[str, str]) -> None:
-    assert said[message.id] == message.says.strip(), (
-        f"messages.yaml: {message.id}: the installed MuJoCo says something else now. Read both texts; correct `says`, "
-        "and `meaning` where it no longer holds; keep the former text under `older`."
+def test_the_engine_still_says_it(message: Message, said: dict[str, str]) -> None:
+    words = re.findall(r"\w{3,}", message.title)
+    assert re.search(".*".join(words), said[message.id], re.DOTALL), (
+        f"messages.yaml: {message.id}: the installed MuJoCo says something else now: {said[message.id]}\n"
+        "Correct `title`, and `meaning` where it no longer holds; keep the former text under `older`."
     )
 
 
@@ -52,18 +53,11 @@ def test_every_case_named_exists(root: Path) -> None:
     assert {message.case for message in MESSAGES if message.case} <= slugs
 
 
-def test_the_title_is_found_in_a_text() -> None:
-    for message in MESSAGES:
-        words = [word for word in message.title.replace("`", "").split() if word.isalpha() and len(word) > 3]
-        texts = " ".join([message.says, *message.older]).lower()
-        assert sum(word.lower() in texts for word in words) >= len(words) / 2, message.id
-
-
 def test_the_page_says_what_was_heard(tmp_path: Path, said: dict[str, str]) -> None:
     case = tiny_case(tmp_path)
     named = MESSAGES[0].model_copy(update={"case": case.slug})
-    page = messages_page([named, *MESSAGES[1:]], {**said, named.id: "WARNING: heard today"}, {case.slug: case})
-    assert "WARNING: heard today" in page
+    page = messages_page([named, *MESSAGES[1:]], {**said, named.id: "WARNING: said today"}, {case.slug: case})
+    assert "WARNING: said today" in page
     assert f"[1. A box falls through the floor](cases/{case.slug}/index.md)" in page
     assert page.count("\n### ") == len(MESSAGES)
     assert "mjWARN_BADQACC" in page
@@ -73,12 +67,12 @@ def test_the_page_says_what_was_heard(tmp_path: Path, said: dict[str, str]) -> N
 @pytest.mark.parametrize(
     ("old", "new", "expected"),
     [
-        ("  title: odd text\n", "", "odd-text.title"),
+        ("    title: odd text\n", "", "odd-text.title"),
         ("xml: <mujoco/", "wxl: <mujoco/", "odd-text.wxl"),
-        ("  says:", "  python: x\n  says:", "xml and python instead of exactly one of"),
-        ("  says:", "  warning: BADNEWS\n  says:", "BADNEWS is no MuJoCo warning"),
+        ("    meaning:", "    python: x\n    meaning:", "xml and python instead of exactly one of"),
+        ("    meaning:", "    says: x\n    meaning:", "`says` stands beside `unprovoked`"),
         ("odd-text:", "Odd text:", "pattern"),
-        ("  meaning: It", "  meaning: [It", "found"),
+        ("    meaning: It", "    meaning: [It", "line 6"),
     ],
 )
 def test_a_wrong_entry_is_a_problem(tmp_path: Path, old: str, new: str, expected: str) -> None:

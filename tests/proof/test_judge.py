@@ -73,7 +73,7 @@ def test_a_file_is_judged_by_another_process(root: Path, sags: Case, tmp_path: P
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        (b"", "empty file"),
+        (b"", "no element found"),
         (b"<mujoco><worldbody/></mujoco>", ""),
         (b"\xff\xfe\x00", "mine.xml: "),
         (b'<mujoco><include file="/etc/passwd"/></mujoco>', '<include file="/etc/passwd">'),

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import mujoco
 from clinic.engine.simulate import compile_model
-from clinic.proof.robustness import STARTS, robustness, state
+from clinic.proof.robustness import STARTS, outcome, robustness
 from helpers import tiny_case
 
 
@@ -34,6 +33,6 @@ def test_the_timestep_is_put_back(tmp_path) -> None:
     case = tiny_case(tmp_path)
     model = compile_model(case.text)
 
-    state(case.record, model, mujoco.MjData(model), shrink=0.5)
+    outcome(case.record, model, shrink=0.5)
 
     assert model.opt.timestep == 0.002

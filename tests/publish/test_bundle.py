@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 from clinic.publish import bundle
-from clinic.publish.bundle import has_playground, parts, strip_custom_sections
+from clinic.publish.bundle import START, parts, strip_custom_sections
+from clinic.work.cache import Cache
+from clinic.work.task import say_lack
 
 HEADER = b"\0asm\x01\0\0\0"
 TYPE = b"\x01\x04\x01\x60\0\0"
@@ -35,50 +37,47 @@ def test_custom_sections_are_stripped_and_all_else_stays() -> None:
     assert strip_custom_sections(HEADER) == HEADER
 
 
-def test_what_is_no_module_is_refused() -> None:
-    with pytest.raises(ValueError, match="not a WebAssembly module"):
-        strip_custom_sections(b"<html>")
-
-
 def test_the_same_sources_give_the_same_bytes(root: Path, tmp_path: Path) -> None:
-    first = parts(copied(root, tmp_path / "one"))
-    second = parts(copied(root, tmp_path / "two"))
+    made = [parts(copied(root, tmp_path / name), Cache(tmp_path / name / "cache")) for name in ("one", "two")]
 
-    assert first == second
-    assert has_playground(first)
-    engine = gzip.decompress(first[f"{bundle.FOLDER}/mujoco.wasm.gz"])
+    assert made[0] == made[1]
+    assert START in made[0]
+    engine = gzip.decompress(made[0][f"{bundle.FOLDER}/mujoco.wasm.gz"])
     assert engine.startswith(HEADER)
     assert len(engine) < (root / bundle.ENGINE).stat().st_size / 2
-    assert b"three" in first[f"{bundle.FOLDER}/licenses.txt"]
+    assert b"three" in made[0][f"{bundle.FOLDER}/licenses.txt"]
 
 
 def test_a_second_bundle_is_taken_from_the_cache(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    sources = copied(root, tmp_path)
-    made = parts(sources)
-    monkeypatch.setenv("PATH", "")
-    monkeypatch.setattr(bundle, "node", lambda: pytest.fail("bundled again"))
+    sources, cache = copied(root, tmp_path), Cache(tmp_path / "cache")
+    made = parts(sources, cache)
+    monkeypatch.setattr(bundle, "_bundle", lambda root: pytest.fail("bundled again"))
 
-    assert parts(sources) == made
+    assert parts(sources, cache) == made
+    (sources / bundle.STYLE).write_text("", encoding="utf-8")
+    with pytest.raises(pytest.fail.Exception, match="bundled again"):
+        parts(sources, cache)
 
 
 def test_without_its_packages_the_site_has_the_loader_alone(
     root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     monkeypatch.setenv("CI", "true")
-    sources = copied(root, tmp_path)
+    say_lack.cache_clear()
+    sources, cache = copied(root, tmp_path), Cache(tmp_path / "cache")
     (sources / "node_modules").unlink()
 
-    made = parts(sources)
+    made = parts(sources, cache)
 
     assert list(made) == [f"{bundle.FOLDER}/loader.js"]
-    assert not has_playground(made)
-    assert caplog.messages == [f"no playground: {bundle.ENGINE} is not there; run `make setup`"]
+    assert cache.incomplete
     assert [record.levelname for record in caplog.records] == ["WARNING"]
 
 
 def test_a_mistake_in_a_module_stops_the_build(root: Path, tmp_path: Path) -> None:
     sources = copied(root, tmp_path)
-    (sources / "docs/playground/checks.js").write_text("export const = 1;", encoding="utf-8")
+    start = sources / "docs/playground/start.js"
+    start.write_text(f"export const = 1;\n{start.read_text(encoding='utf-8')}", encoding="utf-8")
 
-    with pytest.raises(RuntimeError, match=r"checks\.js:1:13: ERROR"):
-        parts(sources)
+    with pytest.raises(RuntimeError, match=r"start\.js:1:13: ERROR"):
+        parts(sources, Cache(tmp_path / "cache"))

@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from clinic.record.checkout import folders, nearest, project_root, slugs
+from clinic.record import checkout as places
+from clinic.record.checkout import cache_folder, cases_root, folders, nearest, project_root, slugs
 from clinic.record.problem import CaseError
 
 
@@ -27,6 +28,17 @@ def test_outside_there_is_no_root(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     monkeypatch.chdir(tmp_path)
     with pytest.raises(FileNotFoundError, match="no folder with cases/"):
         project_root()
+
+
+def test_outside_the_cases_are_those_of_the_installed_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(places, "PACKAGE", tmp_path / "clinic")
+    monkeypatch.delenv("CLINIC_CACHE", raising=False)
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(FileNotFoundError, match="needs a checkout"):
+        cases_root()
+    (tmp_path / "clinic" / "cases").mkdir(parents=True)
+    assert cases_root() == tmp_path / "clinic"
+    assert cache_folder(cases_root()) == Path.home() / ".cache" / "clinic"
 
 
 def test_slugs_are_the_folders(checkout: Path) -> None:

@@ -68,7 +68,6 @@ LANGUAGE = "numbers, names, + - * / **, parentheses and functions"
         pytest.param("", "arithmetic that can be parsed", id="empty"),
         pytest.param("1 +", "arithmetic that can be parsed", id="unfinished"),
         pytest.param("a = 1", "arithmetic that can be parsed", id="assignment"),
-        pytest.param("(" * 500 + "1" + ")" * 500, "300 characters at most", id="too-deep"),
         pytest.param("a if b else 0", LANGUAGE, id="condition"),
         pytest.param("a < b", LANGUAGE, id="comparison"),
         pytest.param("a and b", LANGUAGE, id="logic"),
@@ -83,28 +82,13 @@ LANGUAGE = "numbers, names, + - * / **, parentheses and functions"
         pytest.param("'a'", LANGUAGE, id="text"),
         pytest.param("True", LANGUAGE, id="truth-value"),
         pytest.param("1j", LANGUAGE, id="complex-number"),
-        pytest.param("sqrt()", LANGUAGE, id="no-arguments"),
-        pytest.param("sqrt(x=a)", LANGUAGE, id="named-argument"),
         pytest.param("sqrt(*a)", LANGUAGE, id="star"),
-        pytest.param("(sqrt)(a)(b)", LANGUAGE, id="call-of-a-call"),
     ],
 )
 def test_refused(text: str, expected: str) -> None:
     with pytest.raises(ExpressionError) as caught:
         parse(text)
     assert str(caught.value) == expected
-
-
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        pytest.param("1 + " * 100 + "1", "300 characters at most", id="long"),
-        pytest.param("9e299 * 1e301", "numbers of 1e.300 at most", id="large-as-a-power"),
-    ],
-)
-def test_expression_beyond_all_measure(text: str, expected: str) -> None:
-    with pytest.raises(ExpressionError, match=expected):
-        parse(text)
 
 
 @pytest.mark.parametrize(
@@ -116,7 +100,7 @@ def test_function_that_cannot_take_its_numbers(text: str) -> None:
         evaluate(parse(text), {"trace": np.array([1.0, 2.0])})
 
 
-@pytest.mark.parametrize("text", ["__import__('os')", "eval(a)", "square(a)"])
+@pytest.mark.parametrize("text", ["__import__('os')", "eval(a)", "square(a)", "sqrt(a)(b)"])
 def test_unknown_function(text: str) -> None:
     with pytest.raises(ExpressionError, match=r"^one of the functions abs, sqrt, "):
         parse(text)
@@ -126,6 +110,8 @@ def test_unknown_function(text: str) -> None:
     ("text", "expected"),
     [
         pytest.param("sqrt(a, b)", "sqrt with 1 argument", id="one-too-many"),
+        pytest.param("sqrt()", "sqrt with 1 argument", id="none"),
+        pytest.param("sqrt(a, x=b)", "sqrt with 1 argument", id="named-argument"),
         pytest.param("minimum(a)", "minimum with 2 arguments", id="one-too-few"),
         pytest.param("minimum(a, b, trace)", "minimum with 2 arguments", id="three"),
     ],

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from clinic.record.yaml_lines import Lines, Where, YamlError, dotted, read_yaml
+from clinic.record.yaml_lines import Where, YamlError, dotted, read_yaml
 
 TEXT = """\
 number: 1
@@ -74,39 +74,35 @@ def test_dotted(where: Where, text: str) -> None:
     ("text", "line", "found"),
     [
         pytest.param("a: 1\nb: {c: 1,\n    c: 2}\n", 3, "the key c twice", id="key-twice"),
-        pytest.param("a: &x 1\nb: *x\n", 2, "the alias *x", id="alias"),
-        pytest.param("a: 1\n- b\n", 2, "a line that does not go on with what began in line 1", id="syntax"),
-        pytest.param("a: b: c\n", 1, "mapping values are not allowed here", id="colon-in-plain-text"),
+        pytest.param("a: &x 1\nb: *x\n", 2, "a value that stands elsewhere", id="alias"),
+        pytest.param("a: &x [*x]\n", 1, "a value that stands elsewhere", id="alias-of-itself"),
+        pytest.param("b: 0\na:\n  - [b]\n   - c\n", 4, "did not find expected", id="list-out-of-line"),
+        pytest.param("a: b: c\n", 1, "mapping values are not allowed", id="colon-in-plain-text"),
         pytest.param("a: 1\n\tb: 2\n", 2, "a tab", id="tab"),
         pytest.param("a: 1\n? [b, c]\n: 2\n", 2, "a key that is no text", id="list-as-a-key"),
-        pytest.param("a: [\n  1\n" + "b: {c: 2}\n - d\n", 3, None, id="list-not-closed"),
-        pytest.param("a:\n  - [b]\n   - c\n", 3, "a line that does not go on with what began in line 2", id="three"),
-        pytest.param('"a\\nb": 1\n', 1, "a key of several lines", id="key-of-two-lines"),
-        pytest.param("", 1, "no mapping", id="empty"),
         pytest.param("# nothing\n", 1, "no mapping", id="only-a-comment"),
         pytest.param("- a\n- b\n", 1, "no mapping", id="list"),
-        pytest.param("text\n", 1, "no mapping", id="scalar"),
-        pytest.param("a: 2024-13-45\n", 1, None, id="impossible-date"),
-        pytest.param("a: \x07\n", 1, "the character U+0007", id="bell"),
-        pytest.param("a: 1\nb: [1:30]\n", 2, "1:30, read as 90", id="to-base-60"),
-        pytest.param("a: 012\n", 1, "012, read as 10", id="to-base-8"),
-        pytest.param("a: 0x1F\n", 1, "0x1F, read as 31", id="to-base-16"),
-        pytest.param("a: 1_000.5\n", 1, "1_000.5, read as 1000.5", id="underscore"),
-        pytest.param("a: !!python/name:os.system\n", 1, None, id="python-object"),
+        pytest.param("a: 1\nb: \x07\n", 2, "text that YAML cannot hold: control characters", id="bell"),
+        pytest.param("a: !!python/name:os.system\n", 1, "could not determine a constructor", id="python-object"),
     ],
 )
-def test_refused(text: str, line: int, found: str | None) -> None:
+def test_refused(text: str, line: int, found: str) -> None:
     with pytest.raises(YamlError) as caught:
         read_yaml(text)
     assert caught.value.line == line
-    if found is not None:
-        assert caught.value.found == found
+    assert caught.value.found.startswith(found)
 
 
-@pytest.mark.parametrize("number", ["0", "-0", "+1", "10", "1.", "-0.5", "1.0e-3", "2.5E+7", ".5"])
-def test_a_decimal_number(number: str) -> None:
+@pytest.mark.parametrize("number", ["0", "-0", "+1", "10", "1.", "-0.5", "1e3", "1.0e-3", "2.5E+7", ".5"])
+def test_a_number(number: str) -> None:
     assert read_yaml(f"a: {number}")[0] == {"a": float(number)}
 
 
-def test_lines_of_nothing_are_the_first() -> None:
-    assert Lines({}).at(("a", 0)) == 1
+@pytest.mark.parametrize("text", ["012", "0x1F", "1_000", "1:30", "2024-01-02", "2024-13-45", "yes", "off", "1e"])
+def test_text_that_looks_like_something_else(text: str) -> None:
+    assert read_yaml(f"a: {text}")[0] == {"a": text}
+
+
+@pytest.mark.parametrize(("text", "value"), [("true", True), ("false", False), ("null", None), ("~", None), ("", None)])
+def test_a_word_of_yaml(text: str, value: bool | None) -> None:
+    assert read_yaml(f"a: {text}")[0] == {"a": value}

@@ -50,6 +50,14 @@ def test_a_process_that_hangs_is_stopped(model: Path) -> None:
         list(reports(model, limit=0.5, child=hang))
 
 
+def test_a_mistake_in_the_examination_is_named_as_one(model: Path) -> None:
+    code = (
+        "import sys\nfrom pathlib import Path\nfrom clinic.triage import child\nchild.subject_of = lambda path: 1 / 0\n"
+    )
+    with pytest.raises(CaseError, match="ZeroDivisionError: division by zero"):
+        list(reports(model, child=child(f"{code}child.main(Path(sys.argv[1]))")))
+
+
 def test_a_process_that_cannot_read_the_model(model: Path) -> None:
     with pytest.raises(CaseError, match="at: reading the model"):
         list(reports(model, child=child("raise SystemExit(3)")))

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from clinic.triage.motion import conservation, halved, warnings
-from clinic.triage.run import Budget
-from clinic.triage.watch import Trial
+from clinic.triage.text import Finding
 from helpers import BALL, PENDULUM, RESTING
-from subjects import subject
+from subjects import examination
 
 STIFF = """<mujoco><option timestep="0.01"/><worldbody><body euler="0 10 0">
   <joint name="j" axis="0 1 0" stiffness="2000"/>
@@ -15,14 +14,12 @@ INSIDE = """<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="0 0 .
   solref="0.005 .2"/></body></worldbody></mujoco>"""
 
 
-def rules(found: list[tuple[str, str, str]]) -> set[str]:
+def rules(found: list[Finding]) -> set[str]:
     return {rule for rule, _, _ in found}
 
 
 def test_an_explosion_is_warned_of_and_reset() -> None:
-    said, found = warnings(
-        Trial(subject(STIFF.replace('euler="0 10 0"', 'euler="0 170 0"'), qvel={"j": 1.0}), Budget())
-    )
+    said, found = warnings(examination(STIFF.replace('euler="0 10 0"', 'euler="0 170 0"'), qvel={"j": 1.0}))
     assert rules(found) == {"warned", "reset", "fast"}
     assert ("warned", "BADQACC") in {(rule, element) for rule, element, _ in found}
     assert next(text for rule, _, text in found if rule == "warned").startswith("Nan, Inf or huge value in QACC")
@@ -30,34 +27,37 @@ def test_an_explosion_is_warned_of_and_reset() -> None:
 
 
 def test_a_quiet_run_says_how_long_it_was() -> None:
-    assert warnings(Trial(subject(BALL), Budget())) == ("no warning in 1000 steps, 1\u00a0s", [])
+    assert warnings(examination(BALL)) == ("no warning in 1000 steps, 1\u00a0s", [])
 
 
 def test_an_explosion_conserves_nothing_and_half_the_timestep_changes_it() -> None:
-    trial = Trial(subject(STIFF, qvel={"j": 1.0}), Budget())
-    assert "explodes" in rules(conservation(trial)[1])
-    assert "a twentieth" in rules(halved(trial)[1])
+    examined = examination(STIFF, qvel={"j": 1.0})
+    assert "explodes" in rules(conservation(examined)[1])
+    assert "a twentieth" in rules(halved(examined)[1])
 
 
 def test_energy_from_a_start_inside_the_floor_is_seen() -> None:
-    _, found = conservation(Trial(subject(INSIDE), Budget()))
+    _, found = conservation(examination(INSIDE))
     assert rules(found) == {"gain"}
 
 
 def test_sound_motions_conserve_and_do_not_hang_on_the_timestep() -> None:
     for xml in (BALL, RESTING, PENDULUM):
-        trial = Trial(subject(xml), Budget())
-        assert conservation(trial)[1] == []
-        assert halved(trial)[1] == []
+        examined = examination(xml)
+        assert conservation(examined)[1] == []
+        assert halved(examined)[1] == []
 
 
 def test_a_servo_does_work_that_is_counted() -> None:
     xml = """<mujoco><worldbody><body><joint name="j"/><geom size=".05" pos=".3 0 0"/></body></worldbody>
       <actuator><position name="servo" joint="j" kp="50"/></actuator></mujoco>"""
-    assert conservation(Trial(subject(xml, duration=5, ctrl={"servo": 1.0}), Budget())) == ("no energy appears", [])
+    assert conservation(examination(xml, duration=5, ctrl={"servo": 1.0})) == (
+        "no energy appears",
+        [],
+    )
 
 
 def test_nothing_that_moves_is_no_reason_to_fail() -> None:
-    trial = Trial(subject("<mujoco/>"), Budget())
-    assert conservation(trial) == ("nothing moves", [])
-    assert halved(trial)[1] == []
+    examined = examination("<mujoco/>")
+    assert conservation(examined) == ("nothing moves", [])
+    assert halved(examined)[1] == []

@@ -7,7 +7,7 @@ import copy
 import numpy as np
 import pytest
 from clinic.engine.simulate import RunError
-from clinic.triage.run import Budget, apart, gap, record, scale
+from clinic.triage.run import Budget, distance, record, scale
 from helpers import BALL, PENDULUM
 from subjects import Ticks, subject
 
@@ -15,7 +15,6 @@ from subjects import Ticks, subject
 def test_a_recording_samples_positions_at_even_times() -> None:
     ball = subject(BALL)
     made = record(ball, ball.model, Budget())
-    assert made.whole
     assert made.time == pytest.approx(1.0)
     assert made.points.shape == (100, 3, 3)
     times = np.arange(1, 101) * 0.01
@@ -28,20 +27,13 @@ def test_a_finer_recording_has_samples_at_the_same_times() -> None:
     finer.opt.timestep /= 4
     one, other = record(ball, ball.model, Budget()), record(ball, finer, Budget(), finer=4)
     assert len(one.points) == len(other.points)
-    assert gap(one, other) == pytest.approx(9.81 / 2 * (0.001 - 0.00025), rel=1e-6)
+    assert distance(one, other) == pytest.approx(9.81 / 2 * (0.001 - 0.00025), rel=1e-6)
 
 
 def test_controls_and_keyframes_of_the_run_apply() -> None:
     driven = subject(PENDULUM, keyframe="hanging", ctrl={"motor": 1.0})
     assert driven.data.qpos[0] == pytest.approx(np.pi / 2)
     assert driven.data.ctrl[0] == 1.0
-
-
-def test_a_budget_that_ends_cuts_the_recording() -> None:
-    ball = subject(BALL)
-    made = record(ball, ball.model, Budget(8, Ticks()), watch=lambda model, data: None)
-    assert 0 < made.steps < made.planned
-    assert not made.whole
 
 
 def test_a_part_of_a_budget_ends_earlier_and_no_budget_never() -> None:
@@ -66,10 +58,13 @@ def test_a_timestep_of_zero_is_refused_with_a_reason() -> None:
         record(still, still.model, Budget())
 
 
-def test_apart_compares_what_both_have() -> None:
+def test_a_budget_that_ends_cuts_the_recording_and_distance_compares_what_both_have() -> None:
     ball = subject(BALL)
-    short = subject(BALL, duration=0.5)
-    assert apart(record(ball, ball.model, Budget()), record(short, short.model, Budget())).shape[0] == 100
+    cut = record(ball, ball.model, Budget(300, Ticks()))
+    whole = record(ball, ball.model, Budget())
+    assert 0 < len(cut.points) < len(whole.points)
+    assert 0 < cut.steps < cut.planned
+    assert distance(cut, whole) == 0
 
 
 def test_elements_are_called_by_name_or_number() -> None:

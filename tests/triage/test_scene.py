@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from clinic.triage.run import Budget
 from clinic.triage.scene import RULES, look
-from clinic.triage.watch import Trial
 from helpers import BALL, MODEL, RESTING
-from subjects import subject
+from subjects import examination
 
 BALL_AT = '<body pos="0 0 {0}"><freejoint/><geom name="b" size="{1}"/></body></worldbody></mujoco>'
 FLOOR = '<geom name="floor" type="box" size="1 1 .003" pos="0 0 0"/>'
@@ -17,20 +15,10 @@ SEEN = {
         "camera c",
         "(0, 0, −1)",
     ),
-    "axes": (
-        '<mujoco><worldbody><body><joint name="j"/><geom size=".1" pos=".3 0 0"/></body></worldbody></mujoco>',
-        "joint j",
-        "mass 300\u00a0mm off it",
-    ),
     "deep_start": (
         f"<mujoco><worldbody>{FLOOR}{BALL_AT.format(0.05, 0.1)}",
         "geom b and geom floor",
         "start 53.0\u00a0mm inside",
-    ),
-    "deep": (
-        f"<mujoco><worldbody>{FLOOR}{BALL_AT.format(1, 0.1)}",
-        "geom b and geom floor",
-        "inside each other",
     ),
     "leaps": (
         f'<mujoco><option timestep=".02"/><worldbody>{FLOOR}{BALL_AT.format(3, 0.01)}',
@@ -44,7 +32,7 @@ SEEN = {
 @pytest.mark.parametrize("name", SEEN)
 def test_a_rule_sees_what_it_is_for(name: str) -> None:
     xml, element, text = SEEN[name]
-    _, found = look(Trial(subject(xml), Budget()))
+    _, found = look(examination(xml))
     seen = {where: said for rule, where, said in found if rule == name}
     assert element in seen, found
     assert text in seen[element]
@@ -57,6 +45,6 @@ def test_every_rule_is_tested_and_states_what_it_looks_for() -> None:
 
 @pytest.mark.parametrize("xml", [BALL, RESTING, "<mujoco/>"])
 def test_a_scene_that_is_well(xml: str) -> None:
-    said, found = look(Trial(subject(xml), Budget()))
+    said, found = look(examination(xml))
     assert found == []
     assert "at the start" in said

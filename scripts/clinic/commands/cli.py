@@ -6,26 +6,34 @@ import json
 import shutil
 import sys
 import tempfile
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from clinic.record.checkout import cache_folder, folders, project_root, slugs
-from clinic.record.problem import CaseError
+from clinic.record.checkout import cache_folder, cases_root, folders, project_root, slugs
+from clinic.record.problem import CaseError, LackError
 
 if TYPE_CHECKING:
-    from clinic.commands.judgement import Judgement
     from clinic.proof.evidence import Evidence
     from clinic.record.case import Case
 
 app = typer.Typer(no_args_is_help=True, help="Broken MuJoCo simulations that prove themselves.")
 
 
+class Kind(StrEnum):
+    """Where a bug lives."""
+
+    model = "model"
+    python = "python"
+    javascript = "javascript"
+
+
 def complete(incomplete: str) -> list[str]:
     """The slugs that begin like this, for the shell."""
     try:
-        return [slug for slug in slugs(project_root()) if slug.startswith(incomplete)]
+        return [slug for slug in slugs(cases_root()) if slug.startswith(incomplete)]
     except OSError:
         return []
 
@@ -40,23 +48,17 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print data for a program."
 @app.command()
 def new(
     slug: Annotated[str, typer.Argument(help="The folder's name: words that name the symptom, joined by hyphens.")],
-    title: Annotated[str | None, typer.Option(help="The symptom as a sentence, without a full stop.")] = None,
-    kind: Annotated[str | None, typer.Option(help="Where the bug lives: model, python or javascript.")] = None,
+    title: Annotated[str, typer.Option(help="The symptom as a sentence, without a full stop.", prompt="The symptom")],
+    kind: Annotated[Kind, typer.Option(help="Where the bug lives.")] = Kind.model,
 ) -> None:
     """Write the folder of a new case, which passes every law until you put your bug into it."""
-    from clinic.commands.scaffold import Kind, slug_problems, start
+    from clinic.commands.scaffold import write_case
     from clinic.pages.schema import write_schema
 
     root = project_root()
-    if problems := list(slug_problems(root, slug)):
-        raise CaseError(problems)
-    title = title or _asked("title", "Title, the symptom as a sentence")
-    kind = kind or _asked("kind", "Where the bug lives (model, python, javascript)", "model")
-    if kind not in list(Kind):
-        raise typer.BadParameter(f"{kind} is none of {', '.join(Kind)}", param_hint="--kind")
-    place = start(root, slug, title, Kind(kind))
+    folder = write_case(root, slug, title, kind)
     write_schema(root)
-    for path in sorted(place.iterdir()):
+    for path in sorted(folder.iterdir()):
         print(path.relative_to(root).as_posix())
     print(f"It passes every law: clinic check {slug}. Now put your bug into it; `make serve` shows the page.")
 
@@ -64,22 +66,29 @@ def new(
 @app.command()
 def check(slugs: Slugs = None, as_json: AsJson = False) -> None:
     """Run cases and judge them by every law; exit code 1 if anything is wrong."""
-    from clinic.commands import terminal
-    from clinic.commands.judgement import plain
+    from rich.progress import track
 
-    judgements = _judged(project_root(), slugs or [])
+    from clinic.commands import terminal
+    from clinic.commands.check import check_cases, report_data
+    from clinic.work.cache import Cache
+
+    root, out, err = project_root(), terminal.console(), terminal.console(stderr=True)
+    wanted = [folder.name for folder in folders(root, slugs or [])]
+    checking = check_cases(root, wanted, Cache(cache_folder(root)))
+    quiet = not err.is_terminal
+    reports = list(track(checking, "checking", len(wanted), console=err, transient=True, disable=quiet))
+    reports.sort(key=lambda report: report.case.record.number if report.case else 0)
     if as_json:
-        _print_json([plain(judgement) for judgement in judgements])
+        _print_json([report_data(report) for report in reports])
     else:
-        out = terminal.console()
-        for judgement in judgements if slugs else []:
-            if judgement.case and judgement.evidence:
-                out.print(terminal.checks_table(judgement.case, judgement.evidence))
-        out.print(terminal.summary(judgements))
-        for judgement in judgements:
-            for said in (*judgement.problems, *judgement.breaches):
+        for report in reports if slugs else []:
+            if report.case and report.evidence:
+                out.print(terminal.checks_table(report.case, report.evidence))
+        out.print(terminal.reports_table(reports))
+        for report in reports:
+            for said in (*report.problems, *report.breaches):
                 print(said, file=sys.stderr)
-    if not all(judgement.sound for judgement in judgements):
+    if not all(report.sound for report in reports):
         raise typer.Exit(1)
 
 
@@ -89,7 +98,7 @@ def list_cases(as_json: AsJson = False) -> None:
     from clinic.commands import terminal
     from clinic.record.case import read_cases
 
-    cases, problems = read_cases(project_root() / "cases")
+    cases, problems = read_cases(cases_root() / "cases")
     if as_json:
         _print_json([terminal.row_data(case) for case in cases])
     else:
@@ -106,16 +115,15 @@ def show(
 ) -> None:
     """Show a case in the terminal, its numbers filled in from the runs."""
     from clinic.commands import terminal
-    from clinic.pages.text.prose import FieldError
+    from clinic.pages.text.prose import prose_problems
 
-    case, evidence = _run(slug)
-    try:
-        if as_json:
-            _print_json(terminal.case_data(case, evidence, answer))
-        else:
-            terminal.console().print(terminal.case_text(case, evidence, answer))
-    except FieldError as error:
-        raise CaseError([case.problem((), error.found, error.expected, error.repair)]) from None
+    case, evidence = _run(slug, sweeps=answer)
+    if problems := list(prose_problems(case, evidence)):
+        raise CaseError(problems)
+    if as_json:
+        _print_json(terminal.case_data(case, evidence, answer))
+    else:
+        terminal.console().print(terminal.case_text(case, evidence, answer))
 
 
 @app.command()
@@ -128,11 +136,8 @@ def view(
     from clinic.engine.variant import BROKEN
     from clinic.record.case import load_case
 
-    (folder,) = folders(project_root(), [slug])
-    try:
-        open_viewer(load_case(folder), fix or BROKEN)
-    except RuntimeError as error:
-        sys.exit(f"clinic: {error}")
+    (folder,) = folders(cases_root(), [slug])
+    open_viewer(load_case(folder), fix or BROKEN)
 
 
 @app.command()
@@ -140,7 +145,7 @@ def cache(clear: Annotated[bool, typer.Option("--clear", help="Forget everything
     """Show where finished work is kept and how much of it, or clear it."""
     from clinic.work.cache import Cache
 
-    kept = Cache(cache_folder(project_root()))
+    kept = Cache(cache_folder(cases_root()))
     entries = kept.entries()
     size = sum(entry.stat().st_size for entry in entries)
     if clear:
@@ -155,13 +160,9 @@ def build(out: Annotated[Path, typer.Option(help="The folder to write; made anew
     from clinic.pages.schema import FILE as SCHEMA
     from clinic.publish.site import build as build_site
 
-    root = project_root()
-    own = [root / name for name in ("docs", "cases", "scripts", "tests", ".git", ".venv", "node_modules")]
-    if root.is_relative_to(out.resolve()) or any(out.resolve().is_relative_to(folder) for folder in own):
-        raise typer.BadParameter(f"{out} holds the project's own files and would be deleted; name another folder")
-    if out.is_symlink() or (out.exists() and not out.is_dir()):
-        raise typer.BadParameter(f"{out} is no folder; name one")
-    if out.exists() and any(out.iterdir()) and not (out / SCHEMA).is_file():
+    root, out = project_root(), out.resolve()
+    ours = not out.exists() or (out.is_dir() and (not any(out.iterdir()) or (out / SCHEMA).is_file()))
+    if not ours or root.is_relative_to(out) or out.is_relative_to(root / "docs"):
         raise typer.BadParameter(f"{out} holds what no build wrote, and would be deleted; name another folder")
     made = build_site(root)
     out.parent.mkdir(parents=True, exist_ok=True)
@@ -197,7 +198,7 @@ def judge(
 
     from clinic.proof.judge import judge_file
 
-    (folder,) = folders(project_root(), [slug])
+    (folder,) = folders(cases_root(), [slug])
     made = judge_file(folder, file)
     if as_json:
         _print_json({**asdict(made), "repaired": made.repaired})
@@ -232,54 +233,26 @@ def print_schema(
         print(schema_text(), end="")
 
 
-def _judged(root: Path, wanted: list[str]) -> list[Judgement]:
-    """The judgements of the cases named, of all when none is, by number; progress goes to stderr."""
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+def _run(slug: str, sweeps: bool) -> tuple[Case, Evidence]:
+    """A case and what its runs show, with those of its sweeps if asked for."""
+    import mujoco
 
     from clinic.commands import terminal
-    from clinic.commands.judgement import Neighbours, judge_folder
-    from clinic.work.cache import Cache
-
-    named = folders(root, wanted)
-    err = terminal.console(stderr=True)
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=err, transient=True, disable=not err.is_terminal) as progress:
-        task = progress.add_task("reading", total=len(named))
-        neighbours, store, judgements = Neighbours(root), Cache(cache_folder(root)), []
-        for folder in named:
-
-            def tell(said: str, name: str = folder.name) -> None:
-                progress.update(task, description=f"{name}: {said}")
-
-            judgements.append(judge_folder(folder, neighbours, store, tell))
-            progress.advance(task)
-    return sorted(judgements, key=lambda found: found.case.record.number if found.case else 0)
-
-
-def _run(slug: str) -> tuple[Case, Evidence]:
-    """A case and what its runs show."""
-    from clinic.commands import terminal
-    from clinic.pages.exhibits import evidence_of, exhibits
+    from clinic.engine.releases import CASES, installed
+    from clinic.proof.evidence import lack
+    from clinic.proof.experiments import measure_case
     from clinic.record.case import load_case
     from clinic.work.cache import Cache
 
-    root = project_root()
+    root = cases_root()
     case = load_case(folders(root, [slug])[0])
-    with terminal.console(stderr=True).status(f"running {case.slug}"):
-        return case, evidence_of(exhibits(case, Cache(cache_folder(root))))
-
-
-def _asked(option: str, question: str, default: str | None = None) -> str:
-    """The answer of whoever sits at the terminal; the default where nobody does."""
-    if _asks():
-        return str(typer.prompt(question, default=default))
-    if default is None:
-        raise typer.BadParameter("give it, for nobody can be asked here", param_hint=f"--{option}")
-    return default
-
-
-def _asks() -> bool:
-    return sys.stdin.isatty()
+    try:
+        with terminal.console(stderr=True).status(f"running {case.slug}"):
+            return case, measure_case(case, Cache(cache_folder(root)), ("sweeps",) if sweeps else ())
+    except CaseError:
+        if installed() >= CASES or lack(case):
+            raise
+        sys.exit(f"clinic: {slug} uses what MuJoCo {mujoco.__version__} does not have: pip install -U mujoco")
 
 
 def _print_json(data: object) -> None:
@@ -292,5 +265,11 @@ def main() -> None:
         app()
     except CaseError as error:
         sys.exit(str(error))
-    except (FileNotFoundError, ConnectionError) as error:
+    except ModuleNotFoundError as error:
+        if (error.name or "").startswith("clinic"):
+            raise
+        sys.exit(f"clinic: {error.name} is not installed; this needs pip install 'mujoco-clinic[site]'")
+    except ImportError as error:  # an engine that is too old
+        sys.exit(f"clinic: {error}")
+    except (FileNotFoundError, ConnectionError, LackError) as error:
         sys.exit(f"clinic: {error}")

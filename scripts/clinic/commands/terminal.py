@@ -1,10 +1,10 @@
-"""What the commands print: tables of cases and judgements, and a case as a page to read."""
+"""What the commands print: tables of cases and of what was found about them, and a case as a page to read."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator
-from typing import Any
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console, Group, RenderableType
 from rich.markdown import Markdown
@@ -14,23 +14,19 @@ from rich.syntax import Syntax
 from rich.table import Table
 from rich.text import Text
 
-from clinic.commands.judgement import Judgement
 from clinic.engine.variant import diff, variants
 from clinic.pages.text.claim import claim
 from clinic.pages.text.prose import fill
-from clinic.proof.evidence import Evidence, VariantEvidence
+from clinic.proof.evidence import Evidence
 from clinic.record.case import Case
-from clinic.record.fields import Check
 from clinic.record.prose import quantity
 
+if TYPE_CHECKING:
+    from clinic.commands.check import Report
+
 WIDTH = 120
-KINDS = ("broken", "fixed")
 MEANS = {"broken": "it is broken", "fixed": "it is well"}
-WANTED = {
-    "broken": {"broken": True, "fixed": False},
-    "fix": {"broken": False, "fixed": True},
-    "refuted": {"fixed": False},
-}
+WANTED = {"broken": "broken", "fix": "fixed", "refuted": ""}  # which checks must all hold, by kind of variant
 FOLDS = ("diagnosis", "cause", "fix", "lesson")
 
 
@@ -49,46 +45,37 @@ def cases_table(cases: Iterable[Case]) -> Table:
     return table
 
 
-def summary(judgements: Iterable[Judgement]) -> Table:
-    """Every judgement in a row."""
+def reports_table(reports: Iterable[Report]) -> Table:
+    """Every report in a row."""
     table = Table("number", "slug", "variants", "checks", "result")
     table.columns[0].justify = "right"
-    for judgement in judgements:
-        made = judgement.evidence.variants.values() if judgement.evidence else ()
+    for report in reports:
+        made = report.evidence.variants.values() if report.evidence else ()
         checks = sum(len(results) for variant in made for results in variant.checks.values())
-        number = str(judgement.case.record.number) if judgement.case else ""
-        table.add_row(number, judgement.slug, str(len(made) or ""), str(checks or ""), result(judgement))
+        number = str(report.case.record.number) if report.case else ""
+        counts = {"mistake": len(report.problems), "broken law": len(report.breaches)}
+        wrong = ", ".join(f"{count} {noun}{'s' * (count > 1)}" for noun, count in counts.items() if count)
+        result = Text(wrong, "red") if wrong else Text("sound", "green")
+        table.add_row(number, report.slug, str(len(made) or ""), str(checks or ""), result)
     return table
-
-
-def result(judgement: Judgement) -> Text:
-    """The judgement in a word or two."""
-    if judgement.sound:
-        return Text("sound", "green")
-    parts = [counted(len(judgement.problems), "mistake"), counted(len(judgement.breaches), "broken law")]
-    return Text(", ".join(part for part in parts if part), "red")
-
-
-def counted(count: int, noun: str) -> str:
-    """`2 mistakes`; empty for none."""
-    return f"{count} {noun}{'s' if count > 1 else ''}" if count else ""
 
 
 def checks_table(case: Case, evidence: Evidence) -> Table:
     """Every check of every variant, with what was measured."""
     table = Table("variant", "asks whether", "check", "measured", "holds", title=heading(case), title_justify="left")
     for key, variant in evidence.variants.items():
-        rows = list(_rows(case, variant))
-        for k, (kind, check, measured, holds) in enumerate(rows):
-            name = Text(key) if k == 0 else Text(f"  {variant.kind}" if k == 1 and variant.kind != key else "")
-            asked = MEANS[kind] if k == 0 or rows[k - 1][0] != kind else ""
-            wanted = WANTED[variant.kind].get(kind) is True
-            word = (
-                Text("yes", "green" if wanted else "")
-                if holds
-                else Text("no, must" if wanted else "no", "red" * wanted)
-            )
-            table.add_row(name, asked, Text(claim(case, check)), measured, word, end_section=k == len(rows) - 1)
+        name = key if variant.kind == key else f"{key}, {variant.kind}"
+        for kind, results in variant.checks.items():
+            wanted = kind == WANTED[variant.kind]
+            for check, found in zip(getattr(case.record.checks, kind), results, strict=True):
+                unit = "s" if check.take == "onset" else variant.traces[check.signal].unit
+                measured = "nothing" if found.measured is None else quantity(found.measured, unit, 4)
+                if found.holds:
+                    word = Text("yes", "green" if wanted else "")
+                else:
+                    word = Text("no, must", "red") if wanted else Text("no")
+                table.add_row(name, MEANS[kind], Text(claim(case, check)), measured, word)
+        table.add_section()
     return table
 
 
@@ -98,42 +85,31 @@ def heading(case: Case) -> Text:
 
 
 def case_text(case: Case, evidence: Evidence, answer: bool) -> Group:
-    """The case to read: the symptom, and the folds if `answer` is asked for.
-
-    Raises:
-        FieldError: If a field of the prose resolves to nothing.
-    """
-    record = case.record
-    said = fill(record.symptom, evidence)
-    tags = Text(f"{', '.join(record.tags)}   cases/{case.slug}/", "dim")
-    parts: list[RenderableType] = [heading(case), tags, Text(), Markdown(said)]
+    """The case to read: the symptom, and the folds if `answer` is asked for."""
+    data = case_data(case, evidence, answer)
+    tags = Text(f"{', '.join(data['tags'])}   cases/{case.slug}/", "dim")
+    parts: list[RenderableType] = [heading(case), tags, Text(), Markdown(data["symptom"])]
     if not answer:
         closed = ", ".join(fold.capitalize() for fold in FOLDS)
         return Group(*parts, Text(), Text(f"Folded: {closed}. Open them with --answer.", "dim"))
     for fold in FOLDS:
-        parts += [Text(), Rule(fold.capitalize(), align="left"), Markdown(fill(getattr(record, fold), evidence))]
-        if fold == "diagnosis" and record.snippet:
-            printed = Text(f"It prints:\n{(evidence.snippet or '').rstrip()}")
-            parts += [
-                Text(),
-                Padding(Syntax(record.snippet.rstrip(), record.language, word_wrap=True), (0, 2)),
-                Text(),
-                printed,
-            ]
+        parts += [Text(), Rule(fold.capitalize(), align="left"), Markdown(data[fold])]
+        if fold == "diagnosis" and data["snippet"]:
+            parts += [Text(), _code(data["snippet"], case.record.language), Text(), Text("It prints:")]
+            parts += [Text(data["printed"].rstrip())]
         if fold == "cause":
-            for sweep in record.sweep.values():
+            for sweep in case.record.sweep.values():
                 parts += [Text(), Markdown(f"**{sweep.title}.** {fill(sweep.text, evidence)}")]
         if fold == "fix":
-            parts += list(_remedies(case, evidence))
+            for remedy in data["fixes"] + data["refuted"]:
+                sign = "✗ does not work:" if remedy in data["refuted"] else "✓"
+                parts += [Text(), Text(f"{sign} {remedy['title']} ({remedy['id']})", "bold")]
+                parts += [_code(remedy["diff"], "diff"), Markdown(remedy.get("why", ""))]
     return Group(*parts)
 
 
 def case_data(case: Case, evidence: Evidence, answer: bool) -> dict[str, Any]:
-    """The case as data: the public form of `clinic show --json`. Without `answer` the folds are left out.
-
-    Raises:
-        FieldError: If a field of the prose resolves to nothing.
-    """
+    """The case as data: the public form of `clinic show --json`. Without `answer` the folds are left out."""
     record = case.record
     made: dict[str, Any] = {**row_data(case), "symptom": fill(record.symptom, evidence)}
     if not answer:
@@ -155,19 +131,5 @@ def row_data(case: Case) -> dict[str, Any]:
     return {"number": case.record.number, "case": case.slug, "title": case.record.title, "tags": case.record.tags}
 
 
-def _remedies(case: Case, evidence: Evidence) -> Iterator[RenderableType]:
-    whys = {remedy.id: fill(remedy.why, evidence) for remedy in case.record.refuted}
-    for variant in variants(case)[1:]:
-        sign = "✓" if variant.kind == "fix" else "✗ does not work:"
-        yield from (Text(), Text(f"{sign} {variant.title} ({variant.id})", "bold"))
-        yield Padding(Syntax(diff(case.text, variant.text, case.record.source), "diff", word_wrap=True), (0, 2))
-        if variant.id in whys:
-            yield Markdown(whys[variant.id])
-
-
-def _rows(case: Case, variant: VariantEvidence) -> Iterator[tuple[str, Check, str, bool]]:
-    for kind in KINDS:
-        checks: list[Check] = getattr(case.record.checks, kind)
-        for check, found in zip(checks, variant.checks[kind], strict=True):  # type: ignore[index]
-            unit = "s" if check.take == "onset" else variant.traces[check.signal].unit
-            yield kind, check, "nothing" if found.measured is None else quantity(found.measured, unit, 4), found.holds
+def _code(text: str, language: str) -> Padding:
+    return Padding(Syntax(text.rstrip(), language, word_wrap=True), (0, 2))

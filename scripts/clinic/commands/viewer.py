@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Mapping
 
 import mujoco
 
-from clinic.engine.simulate import captured_messages, compile_model, controls, start
+from clinic.engine.simulate import captured_messages, compile_model, controls, initial_data
 from clinic.engine.variant import BROKEN, variants
 from clinic.proof.examine import examine
 from clinic.record.case import Case
 from clinic.record.checkout import nearest
-from clinic.record.problem import CaseError, listed
-
-NO_DISPLAY = "no display here: MuJoCo's viewer needs a desktop session (DISPLAY or WAYLAND_DISPLAY)"
+from clinic.record.problem import CaseError, LackError, listed
 
 
 def view(case: Case, variant_id: str = BROKEN) -> None:
@@ -23,17 +20,17 @@ def view(case: Case, variant_id: str = BROKEN) -> None:
 
     Raises:
         CaseError: If the case has no model, or no such variant.
-        RuntimeError: If no window can be opened here.
+        LackError: If no window can be opened here.
     """
     model, data = scene(case, variant_id)
-    if not has_display(sys.platform, os.environ):
-        raise RuntimeError(NO_DISPLAY)
+    if sys.platform == "linux" and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        raise LackError("no display here: MuJoCo's viewer needs a desktop session (DISPLAY or WAYLAND_DISPLAY)")
     import mujoco.viewer
 
     try:
         mujoco.viewer.launch(model, data)
     except mujoco.FatalError as error:
-        raise RuntimeError(f"MuJoCo's viewer does not open: {error}") from None
+        raise LackError(f"MuJoCo's viewer does not open: {error}") from None
 
 
 def scene(case: Case, variant_id: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
@@ -55,15 +52,8 @@ def scene(case: Case, variant_id: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
             [case.problem(("fixes",), f"no variant {variant_id}", f"a variant: {listed(made, 30)}", repair)]
         )
     model = compile_model(made[variant_id].text)
-    data = start(model, record.run)
-    drive = controls(model, record.run, 1)
-    if len(drive.actuators):
-        data.ctrl[drive.actuators] = drive.values[0]
+    data = initial_data(model, record.run)
+    controls(model, record.run, 1).apply(data, 0)
     with captured_messages():
         mujoco.mj_forward(model, data)
     return model, data
-
-
-def has_display(platform: str, environment: Mapping[str, str]) -> bool:
-    """Whether a window can be expected to open."""
-    return platform != "linux" or bool(environment.get("DISPLAY") or environment.get("WAYLAND_DISPLAY"))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,13 @@ from numpy.typing import NDArray
 from clinic.record.fields import Check, Comparison
 from clinic.record.parts import Interval, Take
 
-TAKES: tuple[Take, ...] = ("final", "first", "min", "max", "mean", "span", "onset")
+TAKES: tuple[Take, ...] = get_args(Take)
+OVER_ALL: dict[str, Callable[[NDArray[np.float64]], np.floating]] = {
+    "min": np.min,
+    "max": np.max,
+    "mean": np.mean,
+    "span": np.ptp,
+}
 
 
 @dataclass(frozen=True)
@@ -38,7 +45,7 @@ class Verdict:
 
 
 def take(trace: Trace, which: Take, window: Interval | None = None) -> float:
-    """One number of a trace; not a number when there is no sample to take it from.
+    """Takes one number from a trace; not a number when there is no sample to take it from.
 
     Samples that are not numbers are skipped, except by `final` and `first`.
     """
@@ -52,22 +59,13 @@ def take(trace: Trace, which: Take, window: Interval | None = None) -> float:
     time, value = time[seen], value[seen]
     if not len(value):
         return math.nan
-    match which:
-        case "min":
-            return float(value.min())
-        case "max":
-            return float(value.max())
-        case "mean":
-            return float(value.mean())
-        case "span":
-            return float(value.max() - value.min())
-        case "onset":
-            return float(time[np.argmax(value != 0)]) if np.any(value != 0) else math.nan
-    raise AssertionError(which)
+    if which == "onset":
+        return float(time[np.argmax(value != 0)]) if np.any(value != 0) else math.nan
+    return float(OVER_ALL[which](value))
 
 
 def judge(check: Check, traces: Mapping[str, Trace]) -> Verdict:
-    """The check's verdict. A number that could not be measured satisfies no check."""
+    """Measures a check and says whether it holds. A number that could not be measured satisfies no check."""
     measured = take(traces[check.signal], check.take, check.window)
     return Verdict(check, measured, satisfies(check, measured))
 

@@ -21,7 +21,7 @@ An index defaults to 0. Several indices are allowed on a field with as many dime
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -35,7 +35,9 @@ from clinic.record.problem import article, closest, listed
 Reader = Callable[[], float]
 
 KINDS = ("body", "joint", "geom", "site", "camera", "actuator", "tendon", "sensor", "light", "equality", "key")
-CONTACT = ("friction", "dist", "pos", "frame", "includemargin", "dim", "force", "count")
+COUNTS = {"body": "nbody", "joint": "njnt", "camera": "ncam", "actuator": "nu", "equality": "neq"}
+CONTACT = {"friction": 5, "dist": 1, "pos": 3, "frame": 9, "includemargin": 1, "dim": 1, "force": 6, "count": 1}
+"""What can be read of a contact, and how many numbers it has."""
 PATH = re.compile(
     r"""(?P<model>model\.)?
         (?:(?P<kind>[a-z]+)\((?P<name>[^()]*)\)(?:\.(?=\w)|(?=\[|$)))?
@@ -45,12 +47,13 @@ PATH = re.compile(
 )
 
 
+@dataclass(eq=False)
 class SignalError(ValueError):
-    """A path that cannot be read: what was found, expected, and the repair."""
+    """A path that cannot be read: what was found, what was expected, and the repair."""
 
-    def __init__(self, found: str, expected: str, repair: str) -> None:
-        self.found, self.expected, self.repair = found, expected, repair
-        super().__init__(found, expected, repair)
+    found: str
+    expected: str
+    repair: str
 
     def __str__(self) -> str:
         return f"{self.found}; expected {self.expected}; {self.repair}"
@@ -76,39 +79,40 @@ class Path:
 
 
 def parse_path(text: str) -> Path:
-    """The path's parts.
+    """Reads the parts of a path.
 
     Raises:
         SignalError: If the text is no path.
     """
     match = PATH.fullmatch(text.strip())
-    kinds = (*KINDS, "contact", "warning", "printed")
     if match is None or not (match["kind"] or match["field"]):
         raise SignalError(text, "a path such as body(box).xpos[2], ncon or sensor(force)[0]", "see *Signal paths*")
-    kind, name, field = match["kind"] or "", match["name"] or "", match["field"] or ""
+    kind, name, field = ((match[part] or "").strip() for part in ("kind", "name", "field"))
+    kinds = (*KINDS, "contact", "warning", "printed")
     if kind and kind not in kinds:
         guess = closest(kind, kinds)
-        raise SignalError(
-            f"{kind}(...)", f"one of {listed(kinds, 20)}", f"write {guess}({name})" if guess else "correct it"
-        )
-    if kind and not name.strip():
+        repair = f"write {guess}({name})" if guess else "correct it"
+        raise SignalError(f"{kind}(...)", f"one of {listed(kinds, 20)}", repair)
+    if kind and not name:
         raise SignalError(f"{kind}()", "a name in the parentheses", "name the element")
     if kind == "sensor" and not field:
         field = "data"
-    if kind in ("warning", "printed") and (field or match["index"] or match["model"]):
-        raise SignalError(text, f"{kind}({name}) alone", "remove what stands around it")
-    if kind not in ("", "warning", "printed") and not field:
+    if kind in ("warning", "printed"):
+        if field or match["index"] or match["model"]:
+            raise SignalError(text, f"{kind}({name}) alone", "remove what stands around it")
+    elif kind and not field:
         raise SignalError(text, f"a field, as in {kind}({name}).xpos[0]", "add the field after a dot")
     index = tuple(int(part) for part in re.findall(r"-?\d+", match["index"]))
-    return Path(bool(match["model"]), kind, name.strip(), field, index)
+    return Path(bool(match["model"]), kind, name, field, index)
 
 
 def bind(path: Path, model: mujoco.MjModel, data: mujoco.MjData) -> Reader:
-    """A function of no arguments that reads the signal's present value from `data`.
+    """Gives a function of no arguments that reads the signal's present value from `data`.
 
     Raises:
         SignalError: If the model has no such element, field or index.
     """
+    owner = model if path.model else data
     match path.kind:
         case "printed":
             raise SignalError(f"printed({path.name})", "a path into MuJoCo: this case is a model", "read the model")
@@ -117,55 +121,55 @@ def bind(path: Path, model: mujoco.MjModel, data: mujoco.MjData) -> Reader:
         case "contact":
             return _bind_contact(path, model, data)
         case "":
-            return _bind_field(path, model if path.model else data, "model" if path.model else "data")
-    owner = model if path.model else data
+            return _bind_field(path, owner, "model" if path.model else "data")
+    shown = f"{path.kind}({path.name})"
     if not hasattr(owner, path.kind):
-        raise SignalError(f"{path.kind}({path.name})", "an element with data", f"write model.{path.kind}({path.name})")
-    known = element_names(model, path.kind)
-    if path.name not in known:
-        guess = closest(path.name, known)
-        raise SignalError(
-            f"{path.kind}({path.name}), which the model does not have",
-            f"{article(path.kind)}: {listed(known)}",
-            f"write {path.kind}({guess})" if guess else f"correct the name, or name the {path.kind} in the model",
-        )
-    return _bind_field(path, getattr(owner, path.kind)(path.name), f"{path.kind}({path.name})")
+        raise SignalError(shown, "an element with data", f"write model.{shown}")
+    if missing := missing_element(model, path.kind, path.name):
+        raise SignalError(*missing)
+    return _bind_field(path, getattr(owner, path.kind)(path.name), shown)
 
 
 def element_names(model: mujoco.MjModel, kind: str) -> list[str]:
     """The names of the model's elements of a kind; unnamed ones are left out."""
     obj = getattr(mujoco.mjtObj, f"mjOBJ_{kind.upper()}")
-    count = {"body": "nbody", "joint": "njnt", "camera": "ncam", "actuator": "nu", "equality": "neq"}
-    number = getattr(model, count.get(kind, f"n{kind}"))
-    names = (mujoco.mj_id2name(model, obj, i) for i in range(number))
-    return [name for name in names if name]
+    number = getattr(model, COUNTS.get(kind, f"n{kind}"))
+    return [name for i in range(number) if (name := mujoco.mj_id2name(model, obj, i))]
+
+
+def missing_element(model: mujoco.MjModel, kind: str, name: str) -> tuple[str, str, str] | None:
+    """What was found, what was expected, and the repair, if the model has no element of that kind and name."""
+    known = element_names(model, kind)
+    if name in known:
+        return None
+    guess = closest(name, known)
+    repair = f"write {guess}" if guess else f"correct the name, or name the {kind} in the model"
+    return f"the {kind} {name}, which the model does not have", f"{article(kind)}: {listed(known)}", repair
 
 
 def _bind_field(path: Path, owner: Any, shown: str) -> Reader:
     *parents, last = path.field.split(".")
     for parent in parents:
         owner = _attribute(owner, parent, shown)
-    value = _attribute(owner, last, shown)
+    value: Any = _attribute(owner, last, shown)
     if shown == "data" and last.startswith("efc_"):
-        return _constraint_reader(path, owner)
-    if isinstance(value, np.ndarray) and value.ndim:
-        where = _checked_index(path, value.shape, shown)
-        return partial(value.item, *where)
-    if isinstance(value, bool | int | float | np.number) or (isinstance(value, np.ndarray) and value.ndim == 0):
-        if path.index:
-            raise SignalError(f"an index on {shown}.{last}", "no index: it is one number", "remove the brackets")
-        return lambda: float(getattr(owner, last))
-    raise SignalError(f"{shown}.{path.field}", "a field that holds numbers", "name a numeric field")
+        return partial(_of_constraint, owner, last, path.index or (0,))
+    if not isinstance(value, bool | int | float | np.number | np.ndarray):
+        raise SignalError(f"{shown}.{path.field}", "a field that holds numbers", "name a numeric field")
+    shape: tuple[int, ...] = np.shape(value)
+    index = path.index or (0,) * len(shape)
+    if len(index) != len(shape) or not all(0 <= i < n for i, n in zip(index, shape, strict=True)):
+        found = f"{shown}.{path.field}" + "".join(f"[{i}]" for i in path.index)
+        size = " x ".join(map(str, shape))
+        expected = f"{len(shape)} index(es) from 0 into {size} numbers" if shape else "no index: it is one number"
+        raise SignalError(found, expected, "correct the index")
+    return partial(np.asarray(value).item, *index) if shape else lambda: float(getattr(owner, last))
 
 
-def _constraint_reader(path: Path, data: mujoco.MjData) -> Reader:
-    """Reads a field whose length follows the number of active constraints; not a number beyond it."""
-
-    def read() -> float:
-        value, where = getattr(data, path.field), path.index or (0,)
-        return float(value[where]) if where[0] < len(value) and value[where].ndim == 0 else float("nan")
-
-    return read
+def _of_constraint(data: mujoco.MjData, field: str, index: tuple[int, ...]) -> float:
+    """A number of an active constraint; not a number while there are fewer constraints."""
+    value = getattr(data, field)
+    return float(value[index]) if index[0] < len(value) and value[index].ndim == 0 else float("nan")
 
 
 def _attribute(owner: Any, name: str, shown: str) -> Any:
@@ -173,23 +177,9 @@ def _attribute(owner: Any, name: str, shown: str) -> Any:
     if value is None or callable(value):
         known = [field for field in dir(owner) if not field.startswith("_")]
         guess = closest(name, known)
-        raise SignalError(
-            f"{shown}.{name}, which does not exist",
-            f"a field of {shown}: {listed(known, 12)}",
-            f"write {guess}" if guess else "correct the field",
-        )
+        repair = f"write {guess}" if guess else "correct the field"
+        raise SignalError(f"{shown}.{name}, which does not exist", f"a field of {shown}: {listed(known, 12)}", repair)
     return value
-
-
-def _checked_index(path: Path, shape: tuple[int, ...], shown: str) -> tuple[int, ...]:
-    where = path.index or (0,) * len(shape)
-    if len(where) != len(shape) or not all(0 <= i < n for i, n in zip(where, shape, strict=True)):
-        found = "".join(f"[{i}]" for i in path.index)
-        size = " x ".join(str(n) for n in shape)
-        raise SignalError(
-            f"{shown}.{path.field}{found}", f"{len(shape)} index(es) from 0 into {size} numbers", "correct the index"
-        )
-    return where
 
 
 def _bind_warning(path: Path, data: mujoco.MjData) -> Reader:
@@ -200,45 +190,31 @@ def _bind_warning(path: Path, data: mujoco.MjData) -> Reader:
 
 
 def _bind_contact(path: Path, model: mujoco.MjModel, data: mujoco.MjData) -> Reader:
-    if path.field not in CONTACT:
-        raise SignalError(f"contact(...).{path.field}", f"one of {listed(CONTACT)}", "correct the field")
-    pair: list[list[int]] | None = None
+    field, index = path.field, path.index or (0,)
+    if field not in CONTACT:
+        raise SignalError(f"contact(...).{field}", f"one of {listed(CONTACT)}", "correct the field")
+    if len(index) != 1 or not 0 <= index[0] < CONTACT[field]:
+        raise SignalError(f"contact(...).{field}{list(index)}", f"an index below {CONTACT[field]}", "correct it")
+    pair: list[int] = []
     if path.name != "*":
-        known = element_names(model, "geom")
-        names = [name.strip() for name in path.name.split(",")]
-        if len(names) != 2 or any(name not in known for name in names):
-            raise SignalError(
-                f"contact({path.name})", f"`*`, or two geoms: {listed(known)}", "name the two geoms of the contact"
-            )
-        ids = [int(model.geom(name).id) for name in names]
-        pair = [ids, ids[::-1]]
-    sizes = {"friction": 5, "pos": 3, "frame": 9, "force": 6}
-    index = path.index or (0,)
-    if len(index) != 1 or not 0 <= index[0] < sizes.get(path.field, 1):
-        raise SignalError(
-            f"contact(...).{path.field}{list(index)}", f"an index below {sizes.get(path.field, 1)}", "correct it"
-        )
+        names, known = [name.strip() for name in path.name.split(",")], element_names(model, "geom")
+        if len(names) != 2 or not {*names} <= {*known}:
+            expected = f"`*`, or two geoms: {listed(known)}"
+            raise SignalError(f"contact({path.name})", expected, "name the two geoms of the contact")
+        pair = sorted(int(model.geom(name).id) for name in names)
     force = np.zeros(6)
 
-    def chosen() -> Sequence[int]:
-        if pair is None:
-            return range(data.ncon)
-        return [i for i, geoms in enumerate(data.contact.geom.tolist()) if geoms in pair]
-
-    def normal_force(i: int) -> float:
+    def contact_force(i: int) -> float:
         mujoco.mj_contactForce(model, data, i, force)
         return float(force[index[0]])
 
     def read() -> float:
-        found = chosen() if data.ncon else ()
-        match path.field:
-            case "count":
-                return float(len(found))
-            case "force":
-                values = [normal_force(i) for i in found]
-            case field:
-                whole = getattr(data.contact, field) if found else np.empty(0)
-                values = [float(whole[i][index[0]] if whole.ndim > 1 else whole[i]) for i in found]
-        return max(values, default=float("nan"))
+        found = [i for i, geoms in enumerate(data.contact.geom.tolist()) if not pair or sorted(geoms) == pair]
+        if field == "count":
+            return float(len(found))
+        if field == "force":
+            return max(map(contact_force, found), default=float("nan"))
+        numbers = getattr(data.contact, field)[found].reshape(len(found), CONTACT[field])
+        return float(numbers[:, index[0]].max()) if found else float("nan")
 
     return read

@@ -15,27 +15,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clinic.engine.checks import Trace
-from clinic.engine.mjcf import ModelError, check_alone, malformed
-from clinic.engine.signals import Path, bind, element_names
+from clinic.engine.mjcf import check_text
+from clinic.engine.signals import Path, bind, missing_element
 from clinic.record.fields import RunSpec
-from clinic.record.problem import article, closest, listed
+from clinic.record.yaml_lines import Where
 
 MAX_STEPS = 2_000_000
-MOST = 10_000
-MOST_SECONDS = 30.0  # of the processor
+MAX_SECONDS = 30.0  # of the processor
 Nudge = Callable[[mujoco.MjModel, mujoco.MjData], None]
 _log = threading.Lock()
 
 
+@dataclass(eq=False)
 class RunError(ValueError):
-    """A run that cannot start: the field of `run` at fault, what was found, expected, and the repair."""
+    """A run that the record asks for and the model cannot give: the field at fault, found, expected, and the repair."""
 
-    def __init__(self, where: tuple[str, ...], found: str, expected: str, repair: str) -> None:
-        self.where, self.found, self.expected, self.repair = where, found, expected, repair
-        super().__init__(where, found, expected, repair)
+    where: Where
+    found: str
+    expected: str
+    repair: str
 
     def __str__(self) -> str:
-        return f"{'.'.join(self.where)}: {self.found}; expected {self.expected}; {self.repair}"
+        return f"{'.'.join(map(str, self.where))}: {self.found}; expected {self.expected}; {self.repair}"
 
 
 @dataclass(frozen=True)
@@ -58,144 +59,88 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Drive:
+class Controls:
     """The controls of a run: `values`, shape (steps, n), for the n actuators with ids `actuators`, shape (n,)."""
 
     actuators: NDArray[np.int64]
     values: NDArray[np.float64]
 
-    def changes(self, steps: int) -> list[bool]:
-        """Whether a step has other controls than the one before, or is the first."""
-        if not len(self.actuators):
-            return [False] * steps
-        return [True, *(self.values[1:] != self.values[:-1]).any(axis=1).tolist()]
+    def apply(self, data: mujoco.MjData, i: int) -> None:
+        """Writes the controls of step `i`, counted from 0, into `data`."""
+        data.ctrl[self.actuators] = self.values[i]
 
 
 def compile_model(xml: str) -> mujoco.MjModel:
-    """The compiled model.
+    """Compiles a text that names no other file.
 
     Raises:
-        ValueError: With MuJoCo's message, if the XML does not compile; ModelError, if the text
-            names a file, or asks for more than MOST of what a step or an image is made of.
+        ModelError: If the text is not XML, or names a file.
+        ValueError: With MuJoCo's message, if the XML does not compile.
     """
-    check_alone(xml)
+    check_text(xml)
     with captured_messages():
-        model = mujoco.MjModel.from_xml_string(xml)
-    if error := malformed(xml) or excessive(model):
-        raise error
-    return model
+        return mujoco.MjModel.from_xml_string(xml)
 
 
-def excessive(model: mujoco.MjModel) -> ModelError | None:
-    """Why one step, or one image, of the model would not come to an end, or None."""
-    numbers = {
-        **{name: int(getattr(model.opt, name)) for name in dir(model.opt) if name.endswith("iterations")},
-        **{name: int(getattr(model.vis.quality, name)) for name in ("numslices", "numstacks", "numquads")},
-    }
-    for name, number in numbers.items():
-        if number > MOST:
-            return ModelError(1, f'{name}="{number}"', f"{MOST:,} at most", "write less")
-    return None
-
-
-def start(
-    model: mujoco.MjModel, spec: RunSpec, nudge: Nudge | None = None, data: mujoco.MjData | None = None
-) -> mujoco.MjData:
+def initial_data(model: mujoco.MjModel, spec: RunSpec, nudge: Nudge | None = None) -> mujoco.MjData:
     """The data at the run's start: keyframe, then named positions and velocities, then `nudge` applied to them.
-
-    Args:
-        data: Of the same model, to be reset and used: a new one takes as long as 300 steps of a small model.
 
     Raises:
         RunError: If the model lacks a keyframe or joint that the run names.
     """
-    if data is None:
-        data = mujoco.MjData(model)
-    else:
-        mujoco.mj_resetData(model, data)
+    data = mujoco.MjData(model)
     if spec.keyframe is not None:
-        _require(model, "key", spec.keyframe, ("keyframe",))
+        _require(model, "key", spec.keyframe, "keyframe")
         mujoco.mj_resetDataKeyframe(model, data, model.key(spec.keyframe).id)
     for field, values in (("qpos", spec.qpos), ("qvel", spec.qvel)):
         for name, value in values.items():
-            _require(model, "joint", name, (field, name))
+            _require(model, "joint", name, field, name)
             target = getattr(data.joint(name), field)
             if len(target) != 1:
-                raise RunError(
-                    (field, name), f"a joint with {len(target)} numbers", "a hinge or slide joint", "use a keyframe"
-                )
+                found, expected = f"a joint with {len(target)} numbers", "a hinge or slide joint"
+                raise RunError(("run", field, name), found, expected, "use a keyframe")
             target[0] = value
     if nudge is not None:
         nudge(model, data)
     return data
 
 
-def simulate(
-    model: mujoco.MjModel,
-    spec: RunSpec,
-    paths: Mapping[str, Path],
-    nudge: Nudge | None = None,
-    data: mujoco.MjData | None = None,
-    last: bool = False,
-) -> Run:
+def simulate(model: mujoco.MjModel, spec: RunSpec, paths: Mapping[str, Path], nudge: Nudge | None = None) -> Run:
     """Steps the model for `spec.duration` and reads every path after each step.
 
     The loop is bounded by steps, never by `data.time`, which an automatic reset turns back.
 
-    Args:
-        data: As `start` takes it.
-        last: Reads every path after the last step alone.
-
     Raises:
-        RunError: If the run cannot start, or takes more than MAX_STEPS steps or MOST_SECONDS.
+        RunError: If the run cannot start, or takes more than MAX_STEPS steps or MAX_SECONDS.
         SignalError: If a path cannot be bound to the model.
     """
-    timestep, steps = model.opt.timestep, step_count(model, spec)
-    data = start(model, spec, nudge, data)
-    readers = {name: bind(path, model, data) for name, path in paths.items()}
-    moving = [name for name in readers if not paths[name].model]
-    reading = [readers[name] for name in moving]
-    drive = controls(model, spec, steps)
-    steered = drive.changes(steps)
+    steps = step_count(model, spec)
+    data, driven = initial_data(model, spec, nudge), controls(model, spec, steps)
+    readers = [bind(path, model, data) for path in paths.values()]
     counts = np.zeros(len(data.warning), dtype=int)
-    rows, made = [], 0
+    samples: list[list[float]] = []
+    begun = process_time()
     with captured_messages() as messages:
-        if last and steps > 1 and not any(steered[1:]):
-            step(model, data, drive, 0)
-            mujoco.mj_step(model, data, nstep=steps - 2)
-            made = steps - 1
-            if messages:  # then every step matters
-                start(model, spec, nudge, data)
-                messages.clear()
-                made = 0
-        begun = process_time()
-        for i in range(made, steps):
-            if (not i & i - 1 or not i % 64) and process_time() - begun > MOST_SECONDS:
-                found, expected = f"{steps} steps, of which {i} take {MOST_SECONDS:g} s", "a run that comes to an end"
-                raise RunError(("duration",), found, expected, "make the model smaller, or the run shorter")
-            if steered[i] or messages:  # an automatic reset undoes controls too
-                step(model, data, drive, i)
-            else:
-                mujoco.mj_step(model, data)
-            if not last or i == steps - 1:
-                rows.append([read() for read in reading])
+        for i in range(steps):
+            if i % 64 == 0 and process_time() - begun > MAX_SECONDS:
+                found, expected = f"{steps} steps, of which {i} take {MAX_SECONDS:g} s", "a run that comes to an end"
+                raise RunError(("run", "duration"), found, expected, "make the model smaller, or the run shorter")
+            step(model, data, driven, i)
+            samples.append([read() for read in readers])
             if messages:  # a type's first warning is printed, also after a reset: until then nothing is counted
                 np.maximum(counts, data.warning.number, out=counts)
-    values = dict(zip(moving, np.array(rows, dtype=float).reshape(len(rows), len(moving)).T, strict=True))
-    moments = np.arange(steps + 1 - len(rows), steps + 1) * timestep
+    time = np.arange(1, steps + 1) * model.opt.timestep
+    values = np.array(samples, dtype=float).T
     return Run(
-        timestep=timestep,
+        timestep=model.opt.timestep,
         steps=steps,
-        traces={
-            name: Trace(moments, values[name] if name in values else np.full(len(rows), readers[name]()))
-            for name in paths
-        },
+        traces={name: Trace(time, value) for name, value in zip(paths, values, strict=True)},
         warnings={mujoco.mjtWarning(k).name.removeprefix("mjWARN_"): int(n) for k, n in enumerate(counts) if n},
         messages=tuple(dict.fromkeys(messages)),
     )
 
 
-def aside(text: str) -> None:
+def print_warning(text: str) -> None:
     """Prints what MuJoCo says while nobody listens; without this it adds to MUJOCO_LOG.TXT in the working directory."""
     print(f"WARNING: {text}", file=sys.stderr)
 
@@ -209,23 +154,22 @@ def captured_messages() -> Iterator[list[str]]:
         try:
             yield messages
         finally:
-            mujoco.set_mju_user_warning(aside)
+            mujoco.set_mju_user_warning(print_warning)
 
 
-def step(model: mujoco.MjModel, data: mujoco.MjData, drive: Drive, i: int) -> None:
+def step(model: mujoco.MjModel, data: mujoco.MjData, driven: Controls, i: int) -> None:
     """Makes step `i`, counted from 0, with the controls of time i * timestep."""
-    if len(drive.actuators):
-        data.ctrl[drive.actuators] = drive.values[i]
+    driven.apply(data, i)
     mujoco.mj_step(model, data)
 
 
-def state_at(model: mujoco.MjModel, spec: RunSpec, time: float) -> mujoco.MjData:
+def data_at(model: mujoco.MjModel, spec: RunSpec, time: float) -> mujoco.MjData:
     """The data after round(time / timestep) steps of the run, with everything derived from its state up to date."""
     steps = round(time / model.opt.timestep)
-    data, drive = start(model, spec), controls(model, spec, steps)
+    data, driven = initial_data(model, spec), controls(model, spec, steps)
     with captured_messages():
         for i in range(steps):
-            step(model, data, drive, i)
+            step(model, data, driven, i)
         mujoco.mj_forward(model, data)
     return data
 
@@ -240,41 +184,32 @@ def step_count(model: mujoco.MjModel, spec: RunSpec) -> int:
     steps = round(min(spec.duration / timestep, MAX_STEPS + 1)) if timestep > 0 else 0
     if not 1 <= steps <= MAX_STEPS:
         found = f"{spec.duration:g} s at a timestep of {timestep:g} s"
-        raise RunError(("duration",), found, f"1 to {MAX_STEPS} steps", "change the duration or the timestep")
+        raise RunError(("run", "duration"), found, f"1 to {MAX_STEPS} steps", "change the duration or the timestep")
     return steps
 
 
-def controls(model: mujoco.MjModel, spec: RunSpec, steps: int) -> Drive:
+def controls(model: mujoco.MjModel, spec: RunSpec, steps: int) -> Controls:
     """The controls of every driven actuator at the start of each step.
 
     Raises:
         RunError: If the model lacks an actuator, or the times of a schedule do not increase.
     """
     moments = np.arange(steps) * model.opt.timestep
-    actuators, columns = [], []
-    for name, value in spec.ctrl.items():
-        _require(model, "actuator", name, ("ctrl", name))
+    values = np.empty((steps, len(spec.ctrl)))
+    for k, (name, value) in enumerate(spec.ctrl.items()):
+        _require(model, "actuator", name, "ctrl", name)
         points = [(0.0, value)] if isinstance(value, float | int) else value
         times = [time for time, _ in points]
         if not points or any(later <= earlier for earlier, later in pairwise(times)):
-            raise RunError(
-                ("ctrl", name), f"times {times}", "one or more times, each after the one before", "sort them"
-            )
-        actuators.append(model.actuator(name).id)
-        columns.append(np.interp(moments, times, [target for _, target in points]))
-    return Drive(np.array(actuators, dtype=np.int64), np.array(columns).T)
+            expected = "one or more times, each after the one before"
+            raise RunError(("run", "ctrl", name), f"times {times}", expected, "sort them")
+        values[:, k] = np.interp(moments, times, [target for _, target in points])
+    return Controls(np.array([model.actuator(name).id for name in spec.ctrl], dtype=np.int64), values)
 
 
-def _require(model: mujoco.MjModel, kind: str, name: str, where: tuple[str, ...]) -> None:
-    known = element_names(model, kind)
-    if name not in known:
-        guess = closest(name, known)
-        raise RunError(
-            where,
-            f"the {kind} {name}, which the model does not have",
-            f"{article(kind)}: {listed(known)}",
-            f"write {guess}" if guess else "correct the name",
-        )
+def _require(model: mujoco.MjModel, kind: str, name: str, *field: str) -> None:
+    if missing := missing_element(model, kind, name):
+        raise RunError(("run", *field), *missing)
 
 
-mujoco.set_mju_user_warning(aside)
+mujoco.set_mju_user_warning(print_warning)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -17,17 +18,12 @@ Kind = Literal["broken", "fix", "refuted"]
 BROKEN = "broken"
 
 
+@dataclass(eq=False)
 class EditError(ValueError):
-    """An edit whose text does not occur exactly once.
+    """An edit whose text does not occur exactly once: which edit of the sequence, and how often its text occurs."""
 
-    Args:
-        index: Which edit of the sequence.
-        count: How often its text occurs.
-    """
-
-    def __init__(self, index: int, count: int) -> None:
-        self.index, self.count = index, count
-        super().__init__(index, count)
+    index: int
+    count: int
 
     def __str__(self) -> str:
         return f"edit {self.index} matches {self.count} times"
@@ -53,13 +49,13 @@ class Variant:
 
 
 def apply_edits(text: str, edits: Sequence[Edit]) -> str:
-    """The text after the edits, applied in order.
+    """Applies the edits in order and gives the text after them.
 
     Raises:
         EditError: If an edit's text does not occur exactly once.
     """
     for index, edit in enumerate(edits):
-        if (count := _occurrences(text, edit.find)) != 1:
+        if (count := len(re.findall(f"(?={re.escape(edit.find)})", text))) != 1:  # overlaps included
             raise EditError(index, count)
         text = text.replace(edit.find, edit.replace)
     return text
@@ -76,10 +72,9 @@ def variants(case: Case) -> list[Variant]:
     for where, kind, remedy in remedies(case):
         try:
             text = apply_edits(case.text, remedy.edits)
+            made.append(Variant(kind, remedy.id, remedy.title, tuple(remedy.edits), text))
         except EditError as error:
             problems.append(_edit_problem(case, where, remedy, error))
-            continue
-        made.append(Variant(kind, remedy.id, remedy.title, tuple(remedy.edits), text))
     if problems:
         raise CaseError(problems)
     return made
@@ -93,6 +88,11 @@ def remedies(case: Case) -> Iterator[tuple[Where, Kind, Remedy]]:
         yield ("refuted", index), "refuted", refuted
 
 
+def place_of(case: Case, variant: str) -> Where:
+    """Where the record has a variant's remedy; empty for the broken variant."""
+    return next((where for where, _, remedy in remedies(case) if remedy.id == variant), ())
+
+
 def diff(before: str, after: str, name: str, context: int = 1) -> str:
     """A unified diff without the file header's dates."""
     lines = difflib.unified_diff(before.splitlines(), after.splitlines(), name, name, lineterm="", n=context)
@@ -100,33 +100,17 @@ def diff(before: str, after: str, name: str, context: int = 1) -> str:
 
 
 def changed_lines(before: str, after: str) -> int:
-    """How many lines the diff removes or adds, whichever is more."""
+    """Counts the lines that the diff removes, or those that it adds, whichever are more."""
     lines = diff(before, after, "", 0).splitlines()
     return max(sum(line.startswith(sign) for line in lines) for sign in "-+")
 
 
-def _occurrences(text: str, part: str) -> int:
-    """How often `part` occurs, overlaps included."""
-    count, at = 0, text.find(part)
-    while at >= 0:
-        count, at = count + 1, text.find(part, at + 1)
-    return count
-
-
 def _edit_problem(case: Case, where: Where, remedy: Remedy, error: EditError) -> Problem:
-    place = (*where, "edits", error.index, "find")
     name = case.record.source
+    occurs = f"occurs {error.count} times" if error.count else "does not occur"
     before = " after the edits before it" if error.index else ""
-    if error.count == 0:
-        return case.problem(
-            place,
-            f"text that does not occur in {name}{before}: {remedy.edits[error.index].find!r}",
-            "text that occurs exactly once",
-            f"copy the text from {name}, character by character",
-        )
-    return case.problem(
-        place,
-        f"text that occurs {error.count} times in {name}{before}: {remedy.edits[error.index].find!r}",
-        "text that occurs exactly once",
-        "lengthen `find` until it names one place",
-    )
+    repair = f"copy the text from {name}, character by character"
+    if error.count:
+        repair = "lengthen `find` until it names one place"
+    found = f"text that {occurs} in {name}{before}: {remedy.edits[error.index].find!r}"
+    return case.problem((*where, "edits", error.index, "find"), found, "text that occurs exactly once", repair)

@@ -1,50 +1,34 @@
-"""Pages: a case's Markdown, and the home page, from records and evidence."""
+"""A case's page: the record and the evidence of its runs go in, Markdown comes out."""
 
 from __future__ import annotations
 
 import html
 import json
-import re
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import Any
 
-import jinja2
-
 from clinic.engine.checks import expected, satisfies
-from clinic.engine.variant import diff, remedies, variants
+from clinic.engine.variant import diff, variants
+from clinic.pages.card import opening
+from clinic.pages.error_page import plain_page
 from clinic.pages.text import manual
 from clinic.pages.text.claim import TAKES, taken
-from clinic.pages.text.prose import field_errors, fill, markdown
+from clinic.pages.text.markup import code, line
+from clinic.pages.text.prose import markdown, prose_problems
+from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence, VariantEvidence
 from clinic.proof.lookalike import Matrix
 from clinic.proof.prose_laws import PROSE
 from clinic.proof.robustness import NUDGE, STARTS
 from clinic.record.case import Case
 from clinic.record.fields import Check
-from clinic.record.markup import code, fence, line
 from clinic.record.parts import Interval
-from clinic.record.problem import CaseError, Problem
+from clinic.record.problem import CaseError
 from clinic.record.prose import plain, quantity
-from clinic.record.yaml_lines import Where
 from clinic.work.cache import Files
 
-TEMPLATES = jinja2.Environment(
-    loader=jinja2.PackageLoader("clinic.pages"), undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
-)
-TEMPLATES.filters |= {"code": code, "fence": fence, "line": line}
-
-
-@dataclass(frozen=True)
-class Card:
-    """What other pages say about a case."""
-
-    slug: str
-    number: int
-    title: str
-    symptom: str
-    picture: str
-    alt: str
+Column = tuple[str, str, Interval | None]
+"""A number taken from a signal: the signal, which number, and over which window."""
 
 
 def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str, Case], alike: Matrix | None) -> str:
@@ -53,18 +37,18 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
     Raises:
         CaseError: With every template field that resolves to nothing.
     """
-    if problems := list(_field_problems(case, evidence)):
+    if problems := list(prose_problems(case, evidence)):
         raise CaseError(problems)
     record = case.record
     made = {variant.id: variant for variant in variants(case)}
-    return TEMPLATES.get_template("case.md.j2").render(
+    return render(
+        "case",
         case=case,
         record=record,
         evidence=evidence,
         broken=evidence.variants["broken"],
-        fixed=evidence.variants[record.fixes[0].id],
-        description=json.dumps(html.escape(_opening(fill(record.symptom, evidence))), ensure_ascii=False),
-        title=json.dumps(record.title, ensure_ascii=False),
+        description=json.dumps(html.escape(opening(case, evidence)), ensure_ascii=False),
+        title=json.dumps(html.escape(record.title, quote=False), ensure_ascii=False),
         prose={name: markdown(getattr(record, name), evidence) for name in PROSE},
         whys={remedy.id: markdown(remedy.why, evidence) for remedy in record.refuted},
         diffs={key: diff(case.text, variant.text, record.source) for key, variant in made.items()},
@@ -83,26 +67,9 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
 
 def interim_page(case: Case, evidence: Evidence) -> str:
     """The Markdown of a case's page while what takes long is being measured."""
-    return TEMPLATES.get_template("interim.md.j2").render(
-        record=case.record,
-        broken=evidence.variants["broken"],
-        title=json.dumps(case.record.title, ensure_ascii=False),
-        table=_table(case, evidence),
-    )
-
-
-def card(case: Case, evidence: Evidence, files: Files) -> Card:
-    """The case's card on the home page."""
-    symptom = line(_opening(fill(case.record.symptom, evidence)))
-    picture = "broken.webp" if "broken.webp" in files else "plot-light.svg"
-    return Card(
-        case.slug, case.record.number, case.record.title, symptom, picture, f"Case {case.record.number}: {symptom}"
-    )
-
-
-def home_page(cards: Iterable[Card], engine: str) -> str:
-    """The Markdown of the home page."""
-    return TEMPLATES.get_template("home.md.j2").render(cards=list(cards), engine=engine)
+    text = '!!! info "Being measured"\n\n    Plots, pictures and what else takes longer appear here by themselves.\n\n'
+    table = render("table", table=_table(case, evidence))
+    return plain_page(f"{case.record.number}. {case.record.title}", f"{text}What was measured:\n\n{table}")
 
 
 def _summary(case: Case, evidence: Evidence) -> str:
@@ -118,23 +85,18 @@ def _summary(case: Case, evidence: Evidence) -> str:
 
 def _table(case: Case, evidence: Evidence) -> dict[str, Any]:
     """The checks as a table: a column for each number taken, a row for each variant."""
-    record = case.record
-    columns: dict[tuple[str, str, Interval | None], dict[str, list[Check]]] = {}
+    columns: dict[Column, dict[str, list[Check]]] = {}
+    for kind, checks in case.record.checks:
+        for check in checks:
+            column = columns.setdefault((check.signal, check.take, check.window), {"broken": [], "fixed": []})
+            column[kind].append(check)
+    made: dict[str, Any] = {"heads": [taken(case, *column) for column in columns], "rows": []}
     for kind in ("broken", "fixed"):
-        for check in getattr(record.checks, kind):
-            columns.setdefault((check.signal, check.take, check.window), {"broken": [], "fixed": []})[kind].append(
-                check
-            )
-    heads = [taken(case, *column) for column in columns]
-
-    def meaning(kind: str) -> list[str]:
-        return ["; ".join(_expected(check, case) for check in column[kind]) for column in columns.values()]
-
-    rows = []
+        made[kind] = ["; ".join(_expected(check, case) for check in column[kind]) for column in columns.values()]
     for key, variant in evidence.variants.items():
-        cells = [_cell(variant, column["broken"] + column["fixed"], column["fixed"]) for column in columns.values()]
-        rows.append({"id": key, "kind": variant.kind, "title": variant.title, "cells": cells, "well": variant.well})
-    return {"heads": heads, "broken": meaning("broken"), "fixed": meaning("fixed"), "rows": rows}
+        cells = [_cell(variant, column, checks["fixed"]) for column, checks in columns.items()]
+        made["rows"].append({"id": key, "kind": variant.kind, "cells": cells})
+    return made
 
 
 def _expected(check: Check, case: Case) -> str:
@@ -142,15 +104,16 @@ def _expected(check: Check, case: Case) -> str:
     return f"{expected(check, plain)} {unit}".strip()
 
 
-def _cell(variant: VariantEvidence, checks: list[Check], wanted: list[Check]) -> str:
-    results = variant.checks["broken"] + variant.checks["fixed"]
-    first = checks[0]
-    result = next(r for r in results if (r.signal, r.take, r.window) == (first.signal, first.take, first.window))
-    unit = "s" if first.take == "onset" else variant.traces[first.signal].unit
-    value = "not measured" if result.measured is None else quantity(result.measured, unit, 4)
+def _cell(variant: VariantEvidence, column: Column, wanted: list[Check]) -> str:
+    """What was measured, and whether it is as the checks `wanted` ask."""
+    signal, take, _ = column
+    results = (result for kind in variant.checks.values() for result in kind)
+    measured = next(result.measured for result in results if (result.signal, result.take, result.window) == column)
+    unit = "s" if take == "onset" else variant.traces[signal].unit
+    value = "not measured" if measured is None else quantity(measured, unit, 4)
     if not wanted:
         return value
-    holds = result.measured is not None and all(satisfies(check, result.measured) for check in wanted)
+    holds = measured is not None and all(satisfies(check, measured) for check in wanted)
     return f"{value} {'✓' if holds else '✗'}"
 
 
@@ -201,14 +164,8 @@ def _steady(case: Case, evidence: Evidence) -> str:
     )
     if all(robust.longer is not False for robust in evidence.robustness.values()):
         said += " Every fix still holds after ten times the duration."
-    shaken = [
-        f"`{key}` {robust.same} of {robust.runs}"
-        for key, robust in evidence.robustness.items()
-        if robust.same < robust.runs
-    ]
-    reasons = [
-        markdown(case.record.exempt[law], evidence) for law in ("steady", "lasting") if law in case.record.exempt
-    ]
+    shaken = [f"`{key}` {one.same} of {one.runs}" for key, one in evidence.robustness.items() if one.same < one.runs]
+    reasons = [markdown(reason, evidence) for law, reason in case.record.exempt.items() if law in ("steady", "lasting")]
     return " ".join([said, *([f"({', '.join(shaken)}.)"] if shaken else []), *reasons])
 
 
@@ -226,23 +183,3 @@ def _matrix(made: Matrix, cases: Mapping[str, Case]) -> dict[str, Any]:
         ]
         rows.append([f"{line(alike.says)}: {code(alike.path)} {TAKES[alike.take]} is {expected(alike, plain)}", *cells])
     return {"heads": heads, "rows": rows}
-
-
-def _field_problems(case: Case, evidence: Evidence) -> Iterable[Problem]:
-    texts: dict[Where, str] = {(name,): getattr(case.record, name) for name in PROSE}
-    texts |= {("sweep", name, "text"): sweep.text for name, sweep in case.record.sweep.items()}
-    texts |= {(*where, "why"): getattr(remedy, "why", "") for where, _, remedy in remedies(case)}
-    for where, text in texts.items():
-        for error in field_errors(text, evidence):
-            yield case.problem(where, error.found, error.expected, error.repair, quoted=error.found)
-
-
-def _opening(text: str, length: int = 150) -> str:
-    """The first sentences, until they are long enough to say something."""
-    sentences = re.split(r"(?<=[.?!]) ", " ".join(text.replace("`", "").split()))
-    kept = ""
-    for sentence in sentences:
-        kept = f"{kept} {sentence}".strip()
-        if len(kept) >= length:
-            break
-    return kept

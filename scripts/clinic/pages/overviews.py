@@ -8,10 +8,10 @@ from pathlib import Path
 
 import mujoco
 
-from clinic.pages.case_page import home_page
+from clinic.pages.card import home_page
 from clinic.pages.cases import Shown
 from clinic.pages.error_page import error_page
-from clinic.pages.messages import heard, load_messages, messages_page
+from clinic.pages.messages import load_messages, messages_page, provoke_messages
 from clinic.pages.reference import reference
 from clinic.pages.snippets import NAMED, run_fences
 from clinic.pages.storeys import storeys
@@ -68,7 +68,7 @@ def overviews(
 
 def _messages(known: Mapping[str, Case], cache: Cache) -> str:
     messages = load_messages()
-    return messages_page(messages, heard(messages, cache), known)
+    return messages_page(messages, provoke_messages(messages, cache), known)
 
 
 def _completed(

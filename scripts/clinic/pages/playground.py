@@ -1,6 +1,6 @@
 """What the playground in the browser needs to run and judge a model case: `playground.json`, one file a case.
 
-The browser and the tests of its modules read the same file; its types are in `docs/playground/record.js`.
+The browser and the tests of its modules read the same file; its types are in `docs/playground/record/types.js`.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from clinic.engine.simulate import compile_model
 from clinic.pages.text.claim import claim
 from clinic.record.case import Case
 from clinic.record.expression import names, parse
-from clinic.record.fields import Check, ExpressionSignal, PathSignal, Remedy, Signal
+from clinic.record.fields import ExpressionSignal, PathSignal, Remedy, Signal
 
 FILE = "playground.json"
 
@@ -42,10 +42,7 @@ def playground(case: Case, engine: str, cases: Iterable[Case]) -> bytes:
         "text": case.text,
         "run": record.run.model_dump(mode="json"),
         "signals": {name: _signal(case, name, signal) for name, signal in record.signals.items()},
-        "checks": {
-            "broken": [_check(check) for check in record.checks.broken],
-            "fixed": [_check(check) for check in record.checks.fixed],
-        },
+        "checks": record.checks.model_dump(mode="json", exclude_none=True),
         "fixes": [_remedy(fix) for fix in record.fixes],
         "refuted": [_remedy(refuted) for refuted in record.refuted],
         "camera": record.picture.camera,
@@ -74,10 +71,6 @@ def _columns(path: Path, xml: str) -> list[int]:
     for part in path.field.split("."):
         value = getattr(value, part)
     return [int(n) for n in np.shape(value)[1:]]
-
-
-def _check(check: Check) -> dict[str, Any]:
-    return check.model_dump(mode="json", exclude_none=True)
 
 
 def _remedy(remedy: Remedy) -> dict[str, Any]:

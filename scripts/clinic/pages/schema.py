@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-import os
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from pydantic.json_schema import GenerateJsonSchema
+from pydantic_core.core_schema import DictSchema
 
 from clinic.record.fields import Record
 
@@ -22,19 +22,21 @@ SOURCES: tuple[dict[str, Any], ...] = (
 """The two kinds of record, of which exactly one applies."""
 
 
-class Plain(GenerateJsonSchema):
-    """Without titles, which would repeat the fields' names."""
+class _Generator(GenerateJsonSchema):
+    """Leaves out titles, which would repeat the fields' names, and refuses keys of none of the forms given."""
 
     def field_title_should_be_set(self, schema: Any) -> bool:
-        """Never."""
         return False
+
+    def dict_schema(self, schema: DictSchema) -> dict[str, Any]:
+        made = super().dict_schema(schema)
+        return made | {"additionalProperties": False} if "patternProperties" in made else made
 
 
 def schema() -> dict[str, Any]:
     """The schema, in draft 2020-12."""
-    made = Record.model_json_schema(schema_generator=Plain)
-    _close(made)
-    return {"$schema": Plain.schema_dialect, **made, "title": "The record of a case", "oneOf": list(SOURCES)}
+    made = Record.model_json_schema(schema_generator=_Generator)
+    return {"$schema": _Generator.schema_dialect, **made, "title": "The record of a case", "oneOf": list(SOURCES)}
 
 
 @lru_cache
@@ -45,21 +47,4 @@ def schema_text() -> str:
 
 def write_schema(root: Path) -> None:
     """Writes the schema into the checkout, where the modelines of `cases/` find it; git ignores it."""
-    text, file = schema_text(), root / FILE
-    if file.is_file() and file.read_text(encoding="utf-8") == text:
-        return
-    part = root / f"{FILE}.{os.getpid()}"
-    part.write_text(text, encoding="utf-8")
-    os.replace(part, file)
-
-
-def _close(node: Any) -> None:
-    """Refuses, below `node`, keys of mappings that have none of the forms given."""
-    if isinstance(node, dict):
-        if "patternProperties" in node:
-            node["additionalProperties"] = False
-        for part in node.values():
-            _close(part)
-    elif isinstance(node, list):
-        for part in node:
-            _close(part)
+    (root / FILE).write_text(schema_text(), encoding="utf-8")

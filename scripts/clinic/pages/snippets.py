@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping
 from contextlib import redirect_stdout
 
-from clinic.engine.script import BY_HAND, ScriptError, run_python
+from clinic.engine.script import BY_HAND, ScriptError, run_script
 from clinic.record.case import Case
 from clinic.record.problem import CaseError, Problem
 from clinic.work.cache import Cache, key_of
@@ -46,7 +46,7 @@ def run_fences(file: str, text: str, cases: Mapping[str, Case], cache: Cache) ->
 
 def _run(code: str, files: dict[str, str], cache: Cache) -> str:
     key = key_of("fence", code, files, of="engine")
-    made = cache.remember(key, lambda: {"output": run_python(code, files, name="snippet.py").text.encode()})
+    made = cache.remember(key, lambda: {"output": run_script(code, files, name="snippet.py").text.encode()})
     return made["output"].decode()
 
 

@@ -3,39 +3,33 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, Literal
 
 import mujoco
 import numpy as np
-from pydantic import BaseModel, ConfigDict
+from pydantic import Field
 
 from clinic.engine import node
-from clinic.engine.checks import TAKES, Trace, Verdict, judge, take
-from clinic.engine.measure import SampleError, measure_model, measure_output
-from clinic.engine.render import blindness
+from clinic.engine.checks import TAKES, Trace, judge, take
+from clinic.engine.measure import measure_model, measure_output
+from clinic.engine.render import why_no_images
 from clinic.engine.script import Output, ScriptError, run_script
 from clinic.engine.simulate import RunError, compile_model
-from clinic.engine.variant import Variant, remedies, variants
+from clinic.engine.variant import Variant, place_of, variants
 from clinic.proof.examine import examine
 from clinic.proof.robustness import Robustness
-from clinic.proof.sweep import SweepEvidence, asked_of
-from clinic.proof.trials import trial_problems, try_text
+from clinic.proof.sweep import SweepEvidence, names_read
+from clinic.proof.trials import checks_in, run_trial, trial_problems
 from clinic.record.case import Case
 from clinic.record.fields import Check, PathSignal, RowSignal, Trial
+from clinic.record.parts import Strict
 from clinic.record.problem import CaseError, LackError, Problem, listed
-from clinic.record.yaml_lines import Where
 
 MAX_SAMPLES = 400
 
 
-class Plain(BaseModel):
-    """Frozen data without unknown fields."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-
-class CheckResult(Plain):
+class CheckResult(Strict):
     """A check with its measured number; None where nothing could be measured."""
 
     signal: str
@@ -46,7 +40,7 @@ class CheckResult(Plain):
     holds: bool
 
 
-class Samples(Plain):
+class Samples(Strict):
     """At most MAX_SAMPLES samples of a signal, evenly spread over the run, the first and last included."""
 
     unit: str
@@ -54,7 +48,7 @@ class Samples(Plain):
     value: list[float | None]
 
 
-class VariantEvidence(Plain):
+class VariantEvidence(Strict):
     """What one variant showed.
 
     Attributes:
@@ -67,15 +61,15 @@ class VariantEvidence(Plain):
     kind: Literal["broken", "fix", "refuted"]
     title: str
     edits: list[dict[str, str]]
-    timestep: float | None
-    steps: int | None
-    warnings: dict[str, int]
-    messages: list[str]
-    output: str | None
+    timestep: float | None = None
+    steps: int | None = None
+    warnings: dict[str, int] = Field(default={})
+    messages: list[str] = Field(default=[])
+    output: str | None = None
     checks: dict[Literal["broken", "fixed"], list[CheckResult]]
     values: dict[str, dict[str, float | None]]
     traces: dict[str, Samples]
-    trials: dict[str, dict[Literal["broken", "fixed"], list[CheckResult]]] = {}
+    trials: dict[str, dict[Literal["broken", "fixed"], list[CheckResult]]] = Field(default={})
 
     @property
     def well(self) -> bool:
@@ -88,7 +82,7 @@ class VariantEvidence(Plain):
         return all(check.holds for checks in (self.checks, *self.trials.values()) for check in checks["broken"])
 
 
-class Evidence(Plain):
+class Evidence(Strict):
     """Everything measured for one case.
 
     Attributes:
@@ -106,8 +100,8 @@ class Evidence(Plain):
     package: str = "mujoco"
     snippet: str | None
     variants: dict[str, VariantEvidence]
-    sweep: dict[str, SweepEvidence] = {}
-    robustness: dict[str, Robustness] = {}
+    sweep: dict[str, SweepEvidence] = Field(default={})
+    robustness: dict[str, Robustness] = Field(default={})
 
 
 def collect(case: Case) -> Evidence:
@@ -129,17 +123,20 @@ def collect(case: Case) -> Evidence:
         try:
             observed[variant.id] = observe(case, variant)
         except ScriptError as error:
-            problems.append(_script_problem(case, variant, error))
-        except SampleError as error:
-            where = ("signals", error.signal, "expr")
-            problems.append(case.problem(where, error.found, error.expected, error.repair))
+            edited = (*place_of(case, variant.id), "edits") if variant.edits else ()
+            found = f"{case.record.source}{' after these edits' if edited else ''}: {error.found}"
+            expected = "a script that ends by itself"
+            problems.append(case.problem(edited or ("script",), found, expected, error.repair))
         except RunError as error:
-            problems.append(case.problem(("run", *error.where), error.found, error.expected, error.repair))
+            problems.append(case.problem(error.where, error.found, error.expected, error.repair))
     problems += _unprinted(case, observed)
-    try:
-        snippet = None if case.record.snippet is None else run_snippet(case)
-    except ScriptError as error:
-        problems.append(case.problem(("snippet",), error.found, "code that runs as it stands", error.repair))
+    snippet = None
+    if case.record.snippet is not None:
+        name = "snippet.mjs" if case.record.language == "javascript" else "snippet.py"
+        try:
+            snippet = run_script(case.record.snippet, case.texts, name=name).text
+        except ScriptError as error:
+            problems.append(case.problem(("snippet",), error.found, "code that runs as it stands", error.repair))
     if problems:
         raise CaseError(problems)
     return Evidence(
@@ -155,7 +152,7 @@ def collect(case: Case) -> Evidence:
 def lack(case: Case) -> Problem | None:
     """What this machine lacks to measure the case."""
     where = "script" if case.record.script else "signals"
-    if draws(case) and (reason := blindness()):
+    if needs_images(case) and (reason := why_no_images()):
         needed = "OpenGL: this case is measured in images"
         return case.problem((where,), reason, needed, "judge it on a machine that draws")
     if case.record.language == "javascript" and (node.program() is None or node.version(node.MUJOCO) is None):
@@ -164,30 +161,17 @@ def lack(case: Case) -> Problem | None:
     return None
 
 
-def draws(case: Case) -> bool:
-    """Whether the runs draw images: for a signal, in the script or in the snippet."""
+def needs_images(case: Case) -> bool:
+    """Whether images are drawn while the case is measured: for a signal, in the script or in the snippet."""
     code = case.text + (case.record.snippet or "")
     return "Renderer(" in code or any(isinstance(signal, RowSignal) for signal in case.record.signals.values())
 
 
 def engine(case: Case) -> tuple[str, str]:
-    """The package that brings MuJoCo to the case's source, and its version; that one must be installed."""
-    if case.record.language != "javascript":
+    """The package that brings MuJoCo to the case's source, and its version."""
+    if case.record.language == "python":
         return "mujoco", mujoco.__version__
-    version = node.version(node.MUJOCO)
-    assert version is not None
-    return node.MUJOCO, version
-
-
-def run_snippet(case: Case) -> str:
-    """What the diagnosis snippet prints, run beside the case's files and in the language of its script.
-
-    Raises:
-        ScriptError: If it does not end well.
-    """
-    assert case.record.snippet is not None
-    name = "snippet.mjs" if case.record.language == "javascript" else "snippet.py"
-    return run_script(case.record.snippet, case.texts, name=name).text
+    return node.MUJOCO, node.version(node.MUJOCO) or "not installed"
 
 
 def observe(case: Case, variant: Variant) -> VariantEvidence:
@@ -196,24 +180,18 @@ def observe(case: Case, variant: Variant) -> VariantEvidence:
     details: dict[str, Any]
     if record.run is not None:
         run, traces = measure_model(record, compile_model(variant.text), record.run)
-        details = {
-            "timestep": run.timestep,
-            "steps": run.steps,
-            "warnings": run.warnings,
-            "messages": list(run.messages),
-            "output": None,
-        }
+        details = {"timestep": run.timestep, "steps": run.steps, "warnings": run.warnings, "messages": [*run.messages]}
     else:
         output = run_script(variant.text, case.texts, name=record.source)
         traces = measure_output(record, output)
-        details = {"timestep": None, "steps": None, "warnings": {}, "messages": [], "output": output.text}
+        details = {"output": output.text}
     return VariantEvidence(
         kind=variant.kind,
         title=variant.title,
         edits=[edit.model_dump() for edit in variant.edits],
         checks={
-            "broken": [_result(judge(check, traces)) for check in record.checks.broken],
-            "fixed": [_result(judge(check, traces)) for check in record.checks.fixed],
+            "broken": [_result(check, traces) for check in record.checks.broken],
+            "fixed": [_result(check, traces) for check in record.checks.fixed],
         },
         values={name: {which: _number(take(trace, which)) for which in TAKES} for name, trace in traces.items()},
         traces={name: samples(trace, record.signals[name].unit) for name, trace in traces.items()},
@@ -234,50 +212,37 @@ def samples(trace: Trace, unit: str) -> Samples:
     )
 
 
-def comparison(check: Check) -> dict[str, float | tuple[float, float]]:
-    """The check's comparison as data: `{"below": 0.1}`."""
-    return check.model_dump(include={"above", "below", "between", "equals", "within"}, exclude_none=True)
-
-
 def _unprinted(case: Case, observed: dict[str, VariantEvidence]) -> Iterator[Problem]:
     """Signals of a script that no variant prints, but for those that only a sweep's text prints."""
-    swept = {name for sweep in case.record.sweep.values() for name in asked_of(sweep)}
+    if case.record.script is None or not observed:
+        return
+    swept = {name for sweep in case.record.sweep.values() for name in names_read(sweep)}
+    printed = sorted({key for variant in observed.values() for key in Output(variant.output or "").traces()})
     for name, signal in case.record.signals.items():
         seen = any(variant.values[name]["final"] is not None for variant in observed.values())
-        if isinstance(signal, PathSignal) and case.record.script and observed and not seen and name not in swept:
-            printed = sorted({key for v in observed.values() for key in Output(v.output or "").traces()})
-            yield case.problem(
-                ("signals", name, "path"),
-                f"{signal.path}, which no variant prints",
-                f"printed(...) of: {listed(printed)}",
-                "correct the name, or print `name = value` on a line of its own",
-            )
+        if isinstance(signal, PathSignal) and not seen and name not in swept:
+            found, expected = f"{signal.path}, which no variant prints", f"printed(...) of: {listed(printed)}"
+            repair = "correct the name, or print `name = value` on a line of its own"
+            yield case.problem(("signals", name, "path"), found, expected, repair)
 
 
-def _script_problem(case: Case, variant: Variant, error: ScriptError) -> Problem:
-    places = {remedy.id: where for where, _, remedy in remedies(case)}
-    where: Where = (*places[variant.id], "edits") if variant.id in places else ("script",)
-    after = " after these edits" if variant.id in places else ""
-    return case.problem(
-        where, f"{case.record.source}{after}: {error.found}", "a script that ends by itself", error.repair
-    )
-
-
-def _result(verdict: Verdict) -> CheckResult:
-    check = verdict.check
+def _result(check: Check, traces: Mapping[str, Trace]) -> CheckResult:
+    verdict = judge(check, traces)
+    bounds = {"above", "below", "between", "equals", "within"}
     return CheckResult(
         signal=check.signal,
         take=check.take,
         window=check.window,
-        expected=comparison(check),
+        expected=check.model_dump(include=bounds, exclude_none=True),
         measured=_number(verdict.measured),
         holds=verdict.holds,
     )
 
 
 def _tried(case: Case, variant: Variant, trial: Trial) -> dict[Literal["broken", "fixed"], list[CheckResult]]:
-    made = try_text(case, variant.text, trial)
-    return {"broken": [_result(one) for one in made.broken], "fixed": [_result(one) for one in made.fixed]}
+    checks, (_, traces) = checks_in(case.record, trial), run_trial(case, variant.text, trial)
+    broken, fixed = ([_result(check, traces) for check in kind] for kind in (checks.broken, checks.fixed))
+    return {"broken": broken, "fixed": fixed}
 
 
 def _number(value: float) -> float | None:

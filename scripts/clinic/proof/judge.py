@@ -13,16 +13,16 @@ from dataclasses import asdict, dataclass
 from math import isnan
 from pathlib import Path
 
-from clinic.engine.checks import expected
+from clinic.engine.checks import expected, judge
 from clinic.engine.simulate import compile_model
 from clinic.engine.variant import EditError
 from clinic.proof.task import changes
-from clinic.proof.trials import Tried, try_text
+from clinic.proof.trials import checks_in, run_trial
 from clinic.record.case import Case, load_case
 from clinic.record.fields import Trial
 
-SECONDS = 120
-MEMORY = 4 * 2**30
+SECONDS = 120.0
+MEMORY = 4 * 2**30  # bytes
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def judge_text(case: Case, text: str) -> Judgement:
         failed = []
         for trial in (None, *case.record.trials):
             try:
-                failed += _failed(case, try_text(case, text, trial), trial)
+                failed += _failed(case, text, trial)
             except (ValueError, KeyError) as error:  # a KeyError names an element that the text lacks
                 if trial is None and not changed:
                     raise
@@ -86,12 +86,15 @@ def _stopped(trial: Trial, error: Exception) -> str:
     return f"In the trial {trial.title!r}: {' '.join(str(error).split())}"
 
 
-def _failed(case: Case, tried: Tried, trial: Trial | None) -> list[str]:
+def _failed(case: Case, text: str, trial: Trial | None) -> list[str]:
+    """What does not hold in a trial, or in the record's run."""
+    warnings, traces = run_trial(case, text, trial)
     where = f"In the trial {trial.title!r}: " if trial else ""
-    told = [f"{where}MuJoCo warns of {name}." for name in tried.warnings]
-    for verdict in tried.fixed:
+    told = [f"{where}MuJoCo warns of {name}." for name in warnings]
+    for check in checks_in(case.record, trial).fixed:
+        verdict = judge(check, traces)
         if not verdict.holds:
-            check, signal = verdict.check, case.record.signals[verdict.check.signal]
+            signal = case.record.signals[check.signal]
             unit = "s" if check.take == "onset" else signal.unit
             measured = "nothing" if isnan(verdict.measured) else f"{verdict.measured:.4g} {unit}".rstrip()
             taken = f"{signal.label or check.signal} ({check.take}"
@@ -102,7 +105,7 @@ def _failed(case: Case, tried: Tried, trial: Trial | None) -> list[str]:
 
 def main() -> None:
     """Prints the judgement of a file."""
-    for kind, limit in ((resource.RLIMIT_DATA, MEMORY), (resource.RLIMIT_CPU, SECONDS), (resource.RLIMIT_CORE, 0)):
+    for kind, limit in ((resource.RLIMIT_DATA, MEMORY), (resource.RLIMIT_CORE, 0)):
         resource.setrlimit(kind, (limit, limit))
     folder, file = Path(sys.argv[1]), Path(sys.argv[2])
     try:

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import combinations
-from math import isfinite
 from typing import Literal
 
 from clinic.engine.checks import expected
 from clinic.engine.simulate import compile_model
-from clinic.engine.variant import EditError, apply_edits, changed_lines, remedies, variants
+from clinic.engine.variant import Variant, apply_edits, changed_lines, place_of, variants
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.proof.prose_laws import quoted, typed
-from clinic.proof.sweep import SweepEvidence, agreement, misses
+from clinic.proof.sweep import SweepEvidence, agreement, errors_at, with_names
 from clinic.proof.task import changes
-from clinic.proof.trials import passes
+from clinic.proof.trials import checks_in
 from clinic.record.case import Case
-from clinic.record.fields import Check, Fix
+from clinic.record.fields import Check
 from clinic.record.parts import Edit
 from clinic.record.problem import Problem, listed
 from clinic.record.prose import quantity
@@ -35,9 +34,9 @@ def verdicts(case: Case, evidence: Evidence) -> Iterator[Problem]:
         if variant.kind != "refuted":
             yield from _failing(case, name, variant, "broken" if variant.kind == "broken" else "fixed")
         if variant.kind == "broken" and variant.well:
-            yield _lax(case, name, "fixed", "a check that the broken variant fails")
+            yield _too_loose(case, name, "fixed", "a check that the broken variant fails")
         if variant.kind == "fix" and variant.broken:
-            yield _lax(case, name, "broken", "a check that the repair fails")
+            yield _too_loose(case, name, "broken", "a check that the repair fails")
         if variant.kind == "refuted" and variant.well:
             found, wanted = "passes every check of `fixed`", "a refuted remedy that fails one"
             yield case.problem(_place(case, name), found, wanted, "move it to `fixes`, or tighten a check")
@@ -47,7 +46,8 @@ def ablation(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 2. Of a fix with several edits, no proper subset passes `fixed`, or `redundant` says why."""
     for index, fix in enumerate(case.record.fixes):
         where: Where = ("fixes", index)
-        enough = [subset for subset in _subsets(fix) if _enough(case, subset)]
+        subsets = (subset for size in range(1, len(fix.edits)) for subset in combinations(fix.edits, size))
+        enough = [subset for subset in subsets if passes(case, subset)]
         if enough and fix.redundant is None:
             part = " and ".join(f"{edit.find!r}" for edit in enough[0])
             found, repair = f"the edit of {part} alone repairs it", "drop the other edits, or say why in `redundant`"
@@ -126,7 +126,7 @@ def swept(case: Case, evidence: Evidence) -> Iterator[Problem]:
             yield case.problem((*where, "prediction"), said, "a prediction that misses none", "correct its `expr`")
         telling = "choose points that can tell"
         for factor in (0.95, 1.05):
-            if not agreement(sweep, sweep.prediction, "prediction", found.points, factor).wrong:
+            if not agreement(sweep, "prediction", found.points, factor).wrong:
                 said, wanted = f"agrees when multiplied by {factor} too", "a prediction that then misses"
                 yield case.problem((*where, "prediction"), said, wanted, telling)
         for index, rival in enumerate(sweep.rivals):
@@ -175,7 +175,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
 
 
 def breaches(case: Case, evidence: Evidence, *laws: str) -> list[Problem]:
-    """Where the case breaks the laws, after exemptions (law 8): one that is no longer needed is a breach itself."""
+    """Where the case breaks the laws, after exemptions (law 11): one that is no longer needed is a breach itself."""
     made = []
     for law in laws:
         found = list(LAWS[law](case, evidence))
@@ -187,54 +187,42 @@ def breaches(case: Case, evidence: Evidence, *laws: str) -> list[Problem]:
     return made
 
 
-def _enough(case: Case, edits: tuple[Edit, ...]) -> bool:
-    """Whether the broken text after these edits is repaired."""
+def passes(case: Case, edits: tuple[Edit, ...]) -> bool:
+    """Whether the broken text after these edits runs, and passes every check of `fixed`."""
     try:
-        return passes(case, apply_edits(case.text, edits))
-    except EditError:
+        return observe(case, Variant("fix", "", "", edits, apply_edits(case.text, edits))).well
+    except ValueError:
         return False
 
 
-def _subsets(fix: Fix) -> Iterator[tuple[Edit, ...]]:
-    for size in range(1, len(fix.edits)):
-        yield from combinations(fix.edits, size)
-
-
 def _failing(case: Case, name: str, variant: VariantEvidence, kind: Literal["broken", "fixed"]) -> Iterator[Problem]:
-    results: list[tuple[Where, str, CheckResult]] = []
-    results += [(("checks", kind, index), "", result) for index, result in enumerate(variant.checks[kind])]
+    asked: list[tuple[Where, str, Check, CheckResult]] = []
+    for index, (check, result) in enumerate(zip(getattr(case.record.checks, kind), variant.checks[kind], strict=True)):
+        asked.append((("checks", kind, index), "", check, result))
     for index, trial in enumerate(case.record.trials):
-        results += [(("trials", index), f" in {trial.id}", result) for result in variant.trials[trial.id][kind]]
-    for where, inside, result in results:
+        checks = getattr(checks_in(case.record, trial), kind)
+        for check, result in zip(checks, variant.trials[trial.id][kind], strict=True):
+            asked.append((("trials", index), f" in {trial.id}", check, result))
+    for where, inside, check, result in asked:
         if not result.holds:
             unit = "s" if result.take == "onset" else variant.traces[result.signal].unit
             value = "nothing" if result.measured is None else quantity(result.measured, unit, 6)
-            check = Check.model_validate(
-                {"signal": result.signal, "take": result.take, **result.expected}, strict=False
-            )
             found = f"{name}{inside}: {result.signal} ({result.take}) = {value}"
             wanted = f"{expected(check)} {unit}".rstrip()
             yield case.problem(where, found, wanted, "correct the bound, the edits, or the model")
 
 
-def _lax(case: Case, name: str, kind: str, wanted: str) -> Problem:
+def _too_loose(case: Case, name: str, kind: str, wanted: str) -> Problem:
     return case.problem(("checks", kind), f"{name}: passes every check", wanted, "tighten one")
 
 
 def _worst(sweep: Sweep, found: SweepEvidence) -> str:
     """Where the prediction misses most."""
-    missed = misses(sweep, sweep.prediction, "prediction", found.points)
-    if not missed:
-        return ""
-    point, error = max(missed, key=lambda each: each[1])
-    at = ", ".join(f"{key} = {value:g}" for key, value in point.at.items())
-    if not isfinite(error) or point.outcome is None:
-        return f"; most at {at}"
-    unit, said = found.agreement["prediction"].unit, point.predicted["prediction"]
-    by = f"{error:.3g} of it" if sweep.prediction.relative else quantity(error, unit)
-    return f"; most at {at}, by {by}: it says {said:.4g}, and {point.outcome:.4g} is measured"
+    point, _ = max(errors_at(sweep, "prediction", found.points), key=lambda each: each[1])
+    said, seen = ("nothing" if n is None else f"{n:.4g}" for n in (point.predicted["prediction"], point.outcome))
+    return f"; most at {with_names(point.at)}: it says {said}, and {seen} is measured"
 
 
 def _place(case: Case, variant: str) -> Where:
     """Where the record speaks of a variant: its remedy, or the checks."""
-    return next((where for where, _, remedy in remedies(case) if remedy.id == variant), ("checks",))
+    return place_of(case, variant) or ("checks",)

@@ -5,16 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from pydantic import BaseModel, ConfigDict
-
 from clinic.engine.checks import satisfies, take
 from clinic.engine.signals import SignalError, parse_path
 from clinic.engine.simulate import compile_model, simulate
 from clinic.record.case import Case
+from clinic.record.parts import Strict
 from clinic.record.problem import Problem
 
 
-class Matrix(BaseModel):
+class Matrix(Strict):
     """Measurements by cases: `measured[i][j]` is what case i's measurement gives for case j.
 
     Attributes:
@@ -22,8 +21,6 @@ class Matrix(BaseModel):
         measured: The numbers; None where nothing could be measured.
         holds: Whether each satisfies the measurement's bound; wanted on the diagonal alone.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     cases: list[str]
     measured: list[list[float | None]]
@@ -45,14 +42,12 @@ def alike_problems(cases: Mapping[str, Case]) -> Iterator[Problem]:
         if case.record.run is None:
             yield case.problem(("alike",), "a script", "a model case", "remove `alike`")
         for index, slug in enumerate(case.record.alike.cases):
-            other = cases.get(slug)
-            where = ("alike", "cases", index)
+            other, where = cases.get(slug), ("alike", "cases", index)
             if other is None or other.record.run is None or slug == case.slug:
                 yield case.problem(where, slug, "the folder of another model case", "correct the name")
             elif other.record.alike is None or case.slug not in other.record.alike.cases:
-                yield case.problem(
-                    where, f"{slug}, which does not name {case.slug}", "cases that name each other", f"add it in {slug}"
-                )
+                found = f"{slug}, which does not name {case.slug}"
+                yield case.problem(where, found, "cases that name each other", f"add it in {slug}")
         try:
             parse_path(case.record.alike.path)
         except SignalError as error:
@@ -66,15 +61,12 @@ def matrix(members: list[Case]) -> Matrix:
         SignalError: If a model lacks what a path names.
     """
     measured = [[_measure(of, on) for on in members] for of in members]
-    bounds = [member.record.alike for member in members]
-    return Matrix(
-        cases=[member.slug for member in members],
-        measured=measured,
-        holds=[
-            [bound is not None and value is not None and satisfies(bound, value) for value in row]
-            for bound, row in zip(bounds, measured, strict=True)
-        ],
-    )
+    holds = [
+        [member.record.alike is not None and satisfies(member.record.alike, value) for value in row]
+        for member, row in zip(members, measured, strict=True)
+    ]
+    numbers = [[value if math.isfinite(value) else None for value in row] for row in measured]
+    return Matrix(cases=[member.slug for member in members], measured=numbers, holds=holds)
 
 
 def unclear(case: Case, made: Matrix) -> Iterator[Problem]:
@@ -90,9 +82,8 @@ def unclear(case: Case, made: Matrix) -> Iterator[Problem]:
                 yield case.problem(("alike",), found, wanted, "correct its `path`, `take` or bound")
 
 
-def _measure(of: Case, on: Case) -> float | None:
+def _measure(of: Case, on: Case) -> float:
     assert of.record.alike is not None
     assert on.record.run is not None
     run = simulate(compile_model(on.text), on.record.run, {"x": parse_path(of.record.alike.path)})
-    value = take(run.traces["x"], of.record.alike.take)
-    return None if math.isnan(value) else value
+    return take(run.traces["x"], of.record.alike.take)

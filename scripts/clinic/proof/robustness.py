@@ -6,7 +6,6 @@ from typing import Literal
 
 import mujoco
 import numpy as np
-from pydantic import BaseModel, ConfigDict
 
 from clinic.engine.checks import judge
 from clinic.engine.measure import measure_model
@@ -14,6 +13,7 @@ from clinic.engine.simulate import Nudge, compile_model
 from clinic.engine.variant import variants
 from clinic.record.case import Case
 from clinic.record.fields import Check, ExpressionSignal, PathSignal, Record
+from clinic.record.parts import Strict
 
 STARTS = 8
 NUDGE = 1e-3
@@ -21,10 +21,10 @@ SHRINK = (0.5, 0.05)
 LONGER = 10.0
 SEED = 20
 
-State = Literal["broken", "well", "neither"]
+Outcome = Literal["broken", "well", "neither"]
 
 
-class Robustness(BaseModel):
+class Robustness(Strict):
     """How firmly a variant's verdict stands.
 
     Attributes:
@@ -32,15 +32,13 @@ class Robustness(BaseModel):
             remedy, whose point its timestep may be, STARTS with half of it.
         same: How many of them gave the verdict of the unchanged run.
         longer: For a fix: whether it still holds after LONGER times its duration.
-        shrunk: For the broken variant: the state at each share SHRINK of the timestep, from the unchanged start.
+        shrunk: For the broken variant: the outcome at each share SHRINK of the timestep, from the unchanged start.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     runs: int
     same: int
     longer: bool | None
-    shrunk: dict[str, State]
+    shrunk: dict[str, Outcome]
 
 
 def robustness(case: Case) -> dict[str, Robustness]:
@@ -51,42 +49,36 @@ def robustness(case: Case) -> dict[str, Robustness]:
     record = case.record
     made: dict[str, Robustness] = {}
     for variant in variants(case):
-        model = compile_model(variant.text)
-        data = mujoco.MjData(model)
-        nominal = state(record, model, data)
+        model, refuted = compile_model(variant.text), variant.kind == "refuted"
+        unchanged = outcome(record, model)
         rng = np.random.default_rng(SEED)
-        nudges = [
-            nudged(rng.uniform(-NUDGE, NUDGE, model.nv), rng.uniform(-NUDGE, NUDGE, model.nv)) for _ in range(STARTS)
-        ]
-        seen = [state(record, model, data, nudge=nudge) for nudge in nudges]
-        if variant.kind != "refuted":
-            seen += [state(record, model, data, shrink=0.5, nudge=nudge) for nudge in nudges]
+        nudges = [nudge_by(*rng.uniform(-NUDGE, NUDGE, (2, model.nv))) for _ in range(STARTS)]
+        seen = [outcome(record, model, shrink, nudge=n) for shrink in ((1,) if refuted else (1, 0.5)) for n in nudges]
         made[variant.id] = Robustness(
             runs=len(seen),
-            same=sum((s == "well") == (nominal == "well") if variant.kind == "refuted" else s == nominal for s in seen),
-            longer=state(record, model, data, longer=LONGER) == "well" if variant.kind == "fix" else None,
-            shrunk={f"{s:g}": state(record, model, data, shrink=s) for s in SHRINK if variant.kind == "broken"},
+            same=sum((s == "well") == (unchanged == "well") if refuted else s == unchanged for s in seen),
+            longer=outcome(record, model, longer=LONGER) == "well" if variant.kind == "fix" else None,
+            shrunk={f"{s:g}": outcome(record, model, s) for s in SHRINK if variant.kind == "broken"},
         )
     return made
 
 
-def state(
-    record: Record,
-    model: mujoco.MjModel,
-    data: mujoco.MjData,
-    shrink: float = 1.0,
-    longer: float = 1.0,
-    nudge: Nudge | None = None,
-) -> State:
-    """The verdict of one run, made in `data`: `well` if every fixed check holds, `broken` if every broken one does."""
+def outcome(
+    record: Record, model: mujoco.MjModel, shrink: float = 1, longer: float = 1, nudge: Nudge | None = None
+) -> Outcome:
+    """What one run shows: `well` if every fixed check holds, `broken` if every broken one does.
+
+    Args:
+        shrink: What the model's timestep is multiplied by, for this run.
+        longer: What the run's duration is multiplied by.
+        nudge: Changes the start.
+    """
     assert record.run is not None
-    wanted = single_run(record)
-    asked = [check for check in record.checks.broken + record.checks.fixed if check.signal in wanted]
+    spec = record.run.model_copy(update={"duration": record.run.duration * longer})
     timestep = model.opt.timestep
     model.opt.timestep = timestep * shrink
     try:
-        spec = record.run.model_copy(update={"duration": record.run.duration * longer})
-        _, traces = measure_model(record, model, spec, wanted, nudge, data, last=all(check.last for check in asked))
+        _, traces = measure_model(record, model, spec, single_run_signals(record), nudge)
     finally:
         model.opt.timestep = timestep
 
@@ -98,13 +90,13 @@ def state(
     return "broken" if all_hold(record.checks.broken) else "neither"
 
 
-def single_run(record: Record) -> list[str]:
+def single_run_signals(record: Record) -> list[str]:
     """The signals of checks that one run gives."""
-    asked = {check.signal for check in record.checks.broken + record.checks.fixed}
-    return [n for n, s in record.signals.items() if n in asked and isinstance(s, PathSignal | ExpressionSignal)]
+    checked = {check.signal for check in record.checks.broken + record.checks.fixed}
+    return [n for n, s in record.signals.items() if n in checked and isinstance(s, PathSignal | ExpressionSignal)]
 
 
-def nudged(position: np.ndarray, velocity: np.ndarray) -> Nudge:
+def nudge_by(position: np.ndarray, velocity: np.ndarray) -> Nudge:
     """A change of the start by `position` and `velocity`, each shape (nv,), in m or rad, m/s or rad/s."""
 
     def nudge(model: mujoco.MjModel, data: mujoco.MjData) -> None:

@@ -8,30 +8,23 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict
 
-from clinic.engine.checks import take
+from clinic.engine.checks import Trace, satisfies, take
 from clinic.engine.measure import measure_model, measure_output
-from clinic.engine.script import ScriptError, run_script
+from clinic.engine.script import run_script
 from clinic.engine.simulate import compile_model
-from clinic.engine.variant import Variant, apply_edits, variants
+from clinic.engine.variant import EditError, Variant, apply_edits, variants
 from clinic.record.case import Case
 from clinic.record.expression import ExpressionError, evaluate, names, parse
-from clinic.record.fields import ExpressionSignal, PathSignal, Record
-from clinic.record.parts import Edit
+from clinic.record.fields import Comparison
+from clinic.record.parts import Edit, Strict
 from clinic.record.predictions import MODEL_NUMBERS
 from clinic.record.problem import CaseError
-from clinic.record.sweep import Parameter, Prediction, Rival, Side, Sweep
+from clinic.record.sweep import Parameter, Prediction, Sweep
 from clinic.record.yaml_lines import Where
 
 
-class Plain(BaseModel):
-    """Frozen data without unknown fields."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-
-class Point(Plain):
+class Point(Strict):
     """One point: the parameters, the outcome, and what each prediction said, by `prediction` or the rival's id."""
 
     at: dict[str, float]
@@ -40,7 +33,7 @@ class Point(Plain):
     predicted: dict[str, float | None]
 
 
-class Agreement(Plain):
+class Agreement(Strict):
     """How a prediction fared.
 
     Attributes:
@@ -58,7 +51,7 @@ class Agreement(Plain):
     unit: str = ""
 
 
-class SweepEvidence(Plain):
+class SweepEvidence(Strict):
     """All points of a sweep and how its predictions fared.
 
     Attributes:
@@ -100,83 +93,57 @@ def substituted(text: str, sweep: Sweep, at: Mapping[str, float]) -> str:
     return apply_edits(text, edits)
 
 
+def predictions(sweep: Sweep) -> dict[str, Prediction]:
+    """The prediction, by `prediction`, then its rivals, by id."""
+    return {"prediction": sweep.prediction, **{rival.id: rival for rival in sweep.rivals}}
+
+
+def names_read(sweep: Sweep) -> set[str]:
+    """The names that a sweep's outcome and predictions read."""
+    return {sweep.outcome.signal}.union(*(names(parse(form.expr)) for form in predictions(sweep).values()))
+
+
 def measure_points(case: Case, sweep: Sweep, points: Sequence[Mapping[str, float]]) -> list[Point]:
-    """The outcome and the predictions at each of the points.
+    """Measures the outcome and computes the predictions at each of the points.
 
     Raises:
-        CaseError: If a point's script does not end well, or a prediction cannot be computed there.
-        EditError, ValueError: If a point's text cannot be made or compiled.
+        CaseError: If a point's text cannot be made or run, or a prediction cannot be computed there.
     """
-    base = next(variant for variant in variants(case) if variant.id == sweep.base)
-    return [_attempt(case, sweep, base, dict(at)) for at in points]
+    base = next(variant.text for variant in variants(case) if variant.id == sweep.base)
+    return [_measure(case, sweep, base, dict(at)) for at in points]
 
 
 def summarise(case: Case, sweep: Sweep, points: Sequence[Point]) -> SweepEvidence:
     """The points with every prediction's agreement and the variants' marks."""
-    predictions: dict[str, Prediction] = {"prediction": sweep.prediction, **{r.id: r for r in sweep.rivals}}
     unit = "s" if sweep.outcome.take == "onset" else case.record.signals[sweep.outcome.signal].unit
     return SweepEvidence(
         points=list(points),
-        agreement={key: agreement(sweep, form, key, points, unit=unit) for key, form in predictions.items()},
+        agreement={key: agreement(sweep, key, points, unit=unit) for key in predictions(sweep)},
         marks=marks(case, sweep),
     )
 
 
-def agreement(
-    sweep: Sweep, prediction: Prediction, key: str, points: Sequence[Point], factor: float = 1.0, unit: str = ""
-) -> Agreement:
-    """How the prediction, multiplied by `factor`, fares against the points; `unit` is the outcome's."""
-    first = sweep.vary[0].name
-    errors = [(point.at[first], error) for point, error in _errors(sweep, prediction, key, points, factor)]
+def agreement(sweep: Sweep, key: str, points: Sequence[Point], factor: float = 1.0, unit: str = "") -> Agreement:
+    """How a prediction, multiplied by `factor`, fares against the points; `unit` is the outcome's."""
+    prediction, first = predictions(sweep)[key], sweep.vary[0].name
+    errors = [(point.at[first], error) for point, error in errors_at(sweep, key, points, factor)]
     bad = [at for at, error in errors if error > prediction.within]
-    good = sorted({at for at, _ in errors if not bad or at > max(bad)})
     finite = [error for _, error in errors if math.isfinite(error)]
     return Agreement(
         judged=len(errors),
         wrong=len(bad),
         worst=max(finite, default=None) if sweep.holds is None else None,
-        good_from=good[0] if good else None,
+        good_from=min((at for at, _ in errors if at > max(bad, default=-math.inf)), default=None),
         unit="" if prediction.relative else unit,
     )
 
 
-def misses(sweep: Sweep, prediction: Prediction, key: str, points: Sequence[Point]) -> list[tuple[Point, float]]:
-    """The points that the prediction misses, each with its error; infinite where a yes or no is wrong."""
-    errors = _errors(sweep, prediction, key, points)
-    return [(point, error) for point, error in errors if error > prediction.within]
+def errors_at(sweep: Sweep, key: str, points: Sequence[Point], factor: float = 1.0) -> Iterator[tuple[Point, float]]:
+    """The error of a prediction, multiplied by `factor`, at every point that is judged.
 
-
-def marks(case: Case, sweep: Sweep) -> dict[str, dict[str, float]]:
-    """Where the broken variant and the fixes stand: where the record says so, or the sweep has the variant's text."""
-    made = {}
-    texts = {variant.id: variant.text for variant in variants(case)}
-    for variant in variants(case):
-        at = {p.name: value for p in sweep.vary if (value := _mark(p, variant)) is not None}
-        if variant.kind == "refuted" or len(at) < len(sweep.vary):
-            continue
-        told = any(variant.id in parameter.marks for parameter in sweep.vary)
-        if told or _shape(substituted(texts[sweep.base], sweep, at), sweep) == _shape(variant.text, sweep):
-            made[variant.id] = at
-    return made
-
-
-def names_read(record: Record, prediction: Prediction) -> tuple[set[str], set[str], set[str]]:
-    """The names a prediction reads: signals, model numbers, and those left over."""
-    read = names(parse(prediction.expr))
-    signals = {n for n in read if isinstance(record.signals.get(n), PathSignal | ExpressionSignal)}
-    return signals, read & MODEL_NUMBERS.keys() - signals, read - signals - MODEL_NUMBERS.keys()
-
-
-def asked_of(sweep: Sweep) -> set[str]:
-    """The names that a sweep's outcome and predictions read."""
-    return {sweep.outcome.signal}.union(*(names(parse(form.expr)) for form in (sweep.prediction, *sweep.rivals)))
-
-
-def _errors(
-    sweep: Sweep, prediction: Prediction, key: str, points: Sequence[Point], factor: float = 1.0
-) -> Iterator[tuple[Point, float]]:
-    """The error at every point that is judged."""
-    first = sweep.vary[0].name
+    For a yes or no it is 0 where the answer is right, and infinite where it is wrong.
+    """
+    prediction, first = predictions(sweep)[key], sweep.vary[0].name
     low, high = prediction.over or (-math.inf, math.inf)
     for point in points:
         predicted = point.predicted[key]
@@ -191,82 +158,83 @@ def _errors(
             yield point, 0.0 if yes == point.holds else math.inf
 
 
-def _attempt(case: Case, sweep: Sweep, base: Variant, at: dict[str, float]) -> Point:
+def marks(case: Case, sweep: Sweep) -> dict[str, dict[str, float]]:
+    """Where the broken variant and the fixes stand: where the record says so, or the sweep has the variant's text."""
+    made, texts = {}, {variant.id: variant.text for variant in variants(case)}
+    for variant in variants(case):
+        at = {p.name: value for p in sweep.vary if (value := _mark(p, variant)) is not None}
+        if variant.kind != "refuted" and len(at) == len(sweep.vary):
+            told = any(variant.id in parameter.marks for parameter in sweep.vary)
+            if told or substituted(texts[sweep.base], sweep, at) == variant.text:
+                made[variant.id] = at
+    return made
+
+
+def _measure(case: Case, sweep: Sweep, base: str, at: dict[str, float]) -> Point:
     try:
-        return _measure(case, sweep, base, at)
-    except ScriptError as error:
-        point = ", ".join(f"{key} = {value:g}" for key, value in at.items())
-        found = f"at {point}: {error.found}"
-        raise CaseError(
-            [case.problem(_place(case, sweep), found, "a script that ends by itself", error.repair)]
-        ) from None
-
-
-def _measure(case: Case, sweep: Sweep, base: Variant, at: dict[str, float]) -> Point:
-    record, text = case.record, substituted(base.text, sweep, at)
-    predictions: dict[str, Prediction | Rival] = {"prediction": sweep.prediction, **{r.id: r for r in sweep.rivals}}
-    needed = {key: names_read(record, prediction) for key, prediction in predictions.items()}
-    signals = {sweep.outcome.signal}.union(*(names for names, _, _ in needed.values()))
-    values: dict[str, float] = {}
-    if record.run is not None:
-        model = compile_model(text)
-        spec = record.run.model_copy(update={"duration": sweep.duration} if sweep.duration else {})
-        _, traces = measure_model(record, model, spec, signals, last=sweep.outcome.last)
-        values = {n: MODEL_NUMBERS[n](model) for n in set().union(*(numbers for _, numbers, _ in needed.values()))}
-    else:
-        traces = measure_output(record, run_script(text, case.texts, name=record.source))
-    values |= {name: take(traces[name], "final") for name in signals} | at
+        traces, values = _run(case, sweep, substituted(base, sweep, at))
+    except EditError as error:
+        k = error.index - len(sweep.edits)
+        place: Where = ("edits", error.index, "find") if k < 0 else ("vary", k, "find")
+        found, expected = f"text that occurs {error.count} times in the text of {sweep.base}", "text that occurs once"
+        raise _error(case, sweep, place, found, expected, "correct `find`") from None
+    except ValueError as error:
+        found = f"at {with_names(at)}: {' '.join(str(error).split())}"
+        raise _error(case, sweep, ("vary",), found, "a text that runs to its end", "correct `replace`") from None
+    values |= at
     outcome = take(traces[sweep.outcome.signal], sweep.outcome.take, sweep.outcome.window)
-    predicted = {key: _predicted(case, sweep, key, form, values) for key, form in predictions.items()}
+    predicted = {key: _predicted(case, sweep, key, values) for key in predictions(sweep)}
     return Point(
         at=at,
         outcome=outcome if math.isfinite(outcome) else None,
-        holds=None if sweep.holds is None else _holds(sweep.holds, outcome),
+        holds=None if sweep.holds is None else satisfies(Comparison(**sweep.holds.model_dump()), outcome),
         predicted={key: value if math.isfinite(value) else None for key, value in predicted.items()},
     )
 
 
-def _predicted(case: Case, sweep: Sweep, key: str, form: Prediction, values: Mapping[str, float]) -> float:
+def _run(case: Case, sweep: Sweep, text: str) -> tuple[dict[str, Trace], dict[str, float]]:
+    """The signals of a text, and the numbers that predictions may read: their last values, and the model's numbers."""
+    record, read = case.record, names_read(sweep)
+    numbers = {}
+    if record.run is not None:
+        model = compile_model(text)
+        spec = record.run.model_copy(update={"duration": sweep.duration} if sweep.duration else {})
+        _, traces = measure_model(record, model, spec, read & record.signals.keys())
+        numbers = {name: MODEL_NUMBERS[name](model) for name in read & MODEL_NUMBERS.keys()}
+    else:
+        traces = measure_output(record, run_script(text, case.texts, name=record.source))
+    return traces, numbers | {name: take(traces[name], "final") for name in read & traces.keys()}
+
+
+def _predicted(case: Case, sweep: Sweep, key: str, values: Mapping[str, float]) -> float:
+    prediction = predictions(sweep)[key]
+    tree = parse(prediction.expr)
     try:
         with np.errstate(all="ignore"):
-            return float(evaluate(parse(form.expr), values))
+            return float(evaluate(tree, values))
     except ExpressionError as error:
-        part: Where = ("prediction",)
-        if key != "prediction":
-            part = ("rivals", [rival.id for rival in sweep.rivals].index(key))
-        given = ", ".join(f"{read} = {values[read]:g}" for read in sorted(names(parse(form.expr))))
-        found = form.expr + (f" with {given}" if given else "")
-        repair = "correct the expression"
-        raise CaseError([case.problem((*_place(case, sweep), *part, "expr"), found, str(error), repair)]) from None
+        given = with_names({name: values[name] for name in sorted(names(tree))})
+        found = prediction.expr + (f" with {given}" if given else "")
+        index = list(predictions(sweep)).index(key)
+        place: Where = ("rivals", index - 1, "expr") if index else ("prediction", "expr")
+        raise _error(case, sweep, place, found, str(error), "correct the expression") from None
 
 
-def _place(case: Case, sweep: Sweep) -> Where:
-    """Where the sweep stands in the record."""
-    return "sweep", next(name for name, other in case.record.sweep.items() if other is sweep)
+def _error(case: Case, sweep: Sweep, place: Where, found: str, expected: str, repair: str) -> CaseError:
+    """A problem at a place of the sweep."""
+    name = next(name for name, other in case.record.sweep.items() if other is sweep)
+    return CaseError([case.problem(("sweep", name, *place), found, expected, repair)])
 
 
-def _holds(side: Side, outcome: float) -> bool:
-    if side.above is not None:
-        return outcome > side.above
-    assert side.below is not None
-    return outcome < side.below
+def with_names(values: Mapping[str, float]) -> str:
+    """Numbers in words: `g = 9.81, h = 0.002`."""
+    return ", ".join(f"{name} = {value:g}" for name, value in values.items())
 
 
 def _mark(parameter: Parameter, variant: Variant) -> float | None:
+    """The parameter's number in a variant: the record's mark, or what stands in the text, once or always the same."""
     if variant.id in parameter.marks:
         return parameter.marks[variant.id]
-    found = set(_written(parameter).findall(variant.text))
-    return float(found.pop()) if len(found) == 1 else None
-
-
-def _written(parameter: Parameter) -> re.Pattern[str]:
-    """The text that a parameter's number is written in, the same number wherever it occurs in it."""
     first, *rest = (re.escape(part) for part in parameter.replace.split("{}"))
-    return re.compile(first + r"([-+0-9.eE]+)" + r"\1".join(rest))
-
-
-def _shape(text: str, sweep: Sweep) -> str:
-    """The text without the parameters' numbers."""
-    for parameter in sweep.vary:
-        text = _written(parameter).sub(parameter.name, text)
-    return text
+    found = set(re.findall(first + r"([-+0-9.eE]+)" + r"\1".join(rest), variant.text))
+    return float(found.pop()) if len(found) == 1 else None

@@ -5,15 +5,14 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 import mujoco
 
-from clinic.engine.checks import Trace, Verdict, judge
+from clinic.engine.checks import Trace
 from clinic.engine.measure import measure_model, measure_output
 from clinic.engine.script import run_script
 from clinic.engine.signals import bind, parse_path
-from clinic.engine.simulate import compile_model, controls, start
+from clinic.engine.simulate import compile_model, controls, initial_data
 from clinic.engine.variant import apply_edits, variants
 from clinic.record.case import Case
 from clinic.record.fields import Checks, Record, RunSpec, Trial
@@ -23,36 +22,6 @@ from clinic.record.yaml_lines import Where
 
 FACTOR = 2.0
 NUMBER = re.compile(r"-?\d+\.?\d*(?:[eE][-+]?\d+)?")
-
-
-@dataclass(frozen=True)
-class Tried:
-    """What one situation showed: the verdicts of both kinds of checks, and how often MuJoCo warned, by type."""
-
-    broken: list[Verdict]
-    fixed: list[Verdict]
-    warnings: Mapping[str, int]
-
-
-def try_text(case: Case, text: str, trial: Trial | None = None) -> Tried:
-    """Runs a model or script in a trial, or as the record's `run` says, and judges it by the checks that apply there.
-
-    Raises:
-        ValueError: If the text does not compile or run, or lacks what the trial changes or the checks measure.
-    """
-    checks = checks_in(case.record, trial)
-    warnings, traces = _measured(case, text, trial, checks)
-    broken, fixed = ([judge(check, traces) for check in kind] for kind in (checks.broken, checks.fixed))
-    return Tried(broken, fixed, warnings)
-
-
-def passes(case: Case, text: str) -> bool:
-    """Whether a text satisfies `fixed` in the record's run and in every trial."""
-    try:
-        situations = (try_text(case, text, trial) for trial in (None, *case.record.trials))
-        return all(verdict.holds for tried in situations for verdict in tried.fixed)
-    except ValueError:
-        return False
 
 
 def checks_in(record: Record, trial: Trial | None) -> Checks:
@@ -97,9 +66,12 @@ def far(here: float, there: float) -> bool:
     return here * there < 0 or high >= max(FACTOR * low, 1e-300)
 
 
-def _measured(
-    case: Case, text: str, trial: Trial | None, checks: Checks
-) -> tuple[Mapping[str, int], Mapping[str, Trace]]:
+def run_trial(case: Case, text: str, trial: Trial | None) -> tuple[Mapping[str, int], Mapping[str, Trace]]:
+    """Runs a model or script in a trial, or as the record says: how often MuJoCo warned, by type, and what checks read.
+
+    Raises:
+        ValueError: If the text does not compile or run, or lacks what the trial changes or the checks measure.
+    """
     record = case.record
     if record.run is None:
         files = dict(case.texts)
@@ -109,6 +81,7 @@ def _measured(
             text = apply_edits(text, trial.edits)
         return {}, measure_output(record, run_script(text, files, name=record.source))
     model, spec = compile_model(text), record.run
+    checks = checks_in(record, trial)
     wanted = {check.signal for check in checks.broken + checks.fixed}
     if trial is not None:
         spec = run_in(record.run, trial)
@@ -160,7 +133,7 @@ def _changed(case: Case, text: str, trial: Trial) -> Iterator[tuple[float, float
             yield from zip(found, made, strict=False)
         return
     model = compile_model(text)
-    data = start(model, case.record.run)
+    data = initial_data(model, case.record.run)
     controls(model, run_in(case.record.run, trial), 1)
     for path, value in {**trial.set, **trial.start}.items():
         yield bind(parse_path(path), model, data)(), value

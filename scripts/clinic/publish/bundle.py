@@ -3,89 +3,45 @@
 from __future__ import annotations
 
 import gzip
-import logging
-import os
-import shutil
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
-from clinic.work.cache import Cache, Files, digest
+from clinic.engine import node
+from clinic.work.cache import Cache, Files, key_of
+from clinic.work.task import say_lack
 
 FOLDER = "javascripts/playground"
+START = f"{FOLDER}/start.js"  # which a site without Node's packages does not have
 LOADER = "docs/playground/loader.js"
 STYLE = "docs/stylesheets/playground.css"
 BUNDLER = "scripts/bundle.mjs"
 ENGINE = "node_modules/@mujoco/mujoco/mujoco.wasm"
+ESBUILD = "node_modules/esbuild"
 CUSTOM_SECTION = 0
-WASM_HEADER = b"\0asm\x01\0\0\0"
-log = logging.getLogger("mkdocs.clinic")
+HEADER = 8  # bytes: WebAssembly's mark and version
 
 
-class UnavailableError(RuntimeError):
-    """Node or a package is not installed; the message says which."""
-
-
-def parts(root: Path) -> Files:
-    """The playground's files by their path in the site; without Node or its packages the loader alone."""
-    loader = f"{FOLDER}/loader.js"
-    try:
-        made = bundled(root)
-    except UnavailableError as error:
-        log.log(logging.WARNING if os.environ.get("CI") else logging.INFO, "no playground: %s", error)
-        return {loader: (root / LOADER).read_bytes()} if (root / LOADER).is_file() else {}
-    return {f"{FOLDER}/{name}": content for name, content in made.items()}
-
-
-def has_playground(made: Files) -> bool:
-    """Whether the files of `parts` hold more than the loader."""
-    return f"{FOLDER}/start.js" in made
-
-
-def bundled(root: Path) -> Files:
-    """The bundled modules and the engine by name, kept in `.cache/playground` by content.
+def parts(root: Path, cache: Cache) -> Files:
+    """The playground's files by their path in the site; without Node or its packages the loader alone.
 
     Raises:
-        UnavailableError: If Node or a package is missing.
         RuntimeError: If the modules do not bundle, with what the bundler says.
     """
-    for needed in (ENGINE, "node_modules/esbuild"):
-        if not (root / needed).exists():
-            raise UnavailableError(f"{needed} is not there; run `make setup`")
-    sources = [
-        *sorted((root / "docs/playground").glob("*.js")),
-        root / STYLE,
-        root / BUNDLER,
-        root / "package-lock.json",
-    ]
-    cache = Cache(root / ".cache" / "playground")
-    key = digest((path.name, path.read_bytes()) for path in [*sources, Path(__file__)])[:32]
-    return cache.remember(key, lambda: _bundle(root))
-
-
-def node() -> str:
-    """The path of Node: the environment's own, or the system's.
-
-    Raises:
-        UnavailableError: If there is none.
-    """
-    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
-    found = shutil.which("node", path=path)
-    if found is None:
-        raise UnavailableError("node is not installed; run `make setup`")
-    return found
+    if node.found() and (root / ENGINE).is_file() and (root / ESBUILD).is_dir():
+        modules = sorted((root / "docs/playground").rglob("*.js"))
+        sources = [*modules, root / STYLE, root / BUNDLER, root / "package-lock.json", Path(__file__)]
+        key = key_of("playground", [[path.name, path.read_text(encoding="utf-8")] for path in sources], of="record")
+        made = cache.remember(key, lambda: _bundle(root))
+        return {f"{FOLDER}/{name}": content for name, content in made.items()}
+    cache.incomplete = True
+    say_lack("no playground: Node or its packages are not installed; run `make setup`")
+    return {f"{FOLDER}/loader.js": (root / LOADER).read_bytes()} if (root / LOADER).is_file() else {}
 
 
 def strip_custom_sections(wasm: bytes) -> bytes:
-    """The module without its custom sections: names and debugging data, which nothing at run time reads.
-
-    Raises:
-        ValueError: If the bytes are no WebAssembly module.
-    """
-    if not wasm.startswith(WASM_HEADER):
-        raise ValueError("not a WebAssembly module of version 1")
-    kept, at = [WASM_HEADER], len(WASM_HEADER)
+    """The WebAssembly module without names and debugging data, which are half of it and which nothing reads."""
+    kept, at = [wasm[:HEADER]], HEADER
     while at < len(wasm):
         size, body = _leb128(wasm, at + 1)
         if wasm[at] != CUSTOM_SECTION:
@@ -95,9 +51,9 @@ def strip_custom_sections(wasm: bytes) -> bytes:
 
 
 def _bundle(root: Path) -> Files:
-    program = node()
     with tempfile.TemporaryDirectory(prefix="clinic-") as folder:
-        done = subprocess.run([program, BUNDLER, folder], cwd=root, check=False, capture_output=True, text=True)
+        command = [node.found()[0], BUNDLER, folder]
+        done = subprocess.run(command, cwd=root, check=False, capture_output=True, text=True)
         if done.returncode:
             raise RuntimeError(f"{BUNDLER} failed:\n{done.stderr.strip()}")
         made = {path.name: path.read_bytes() for path in sorted(Path(folder).iterdir())}
@@ -106,12 +62,8 @@ def _bundle(root: Path) -> Files:
 
 
 def _leb128(data: bytes, at: int) -> tuple[int, int]:
-    """An unsigned number and where it ends."""
-    value = shift = 0
-    while True:
-        byte = data[at]
-        at += 1
-        value |= (byte & 0x7F) << shift
-        shift += 7
-        if not byte & 0x80:
-            return value, at
+    """An unsigned number, seven bits a byte, the lowest first, and where it ends."""
+    end = at
+    while data[end] & 0x80:
+        end += 1
+    return sum((byte & 0x7F) << 7 * k for k, byte in enumerate(data[at : end + 1])), end + 1

@@ -8,10 +8,11 @@ import os
 import mkdocs_gen_files
 from mkdocs.exceptions import PluginError
 
-from clinic.publish.later import LATER
-from clinic.record.checkout import cache_folder, project_root
+from clinic.publish.kept_site import SECTION
+from clinic.publish.live_reload import LIVE
+from clinic.record.checkout import cache_folder, project_root, slugs
 from clinic.record.problem import CaseError
-from clinic.work import cache
+from clinic.work.cache import Cache
 
 log = logging.getLogger("mkdocs.clinic")
 
@@ -24,20 +25,23 @@ def write() -> None:
             MkDocs prints it without a traceback.
     """
     os.environ.setdefault("SOURCE_DATE_EPOCH", "0")  # MkDocs dates pages by the day of the build
-    root = project_root()
+    root, config = project_root(), mkdocs_gen_files.config
     try:
-        made = LATER.site(root, cache.Cache(cache_folder(root)))
+        made = LIVE.site(root, Cache(cache_folder(root)))
     except ConnectionError as error:  # to a cluster
         raise PluginError(str(error)) from None
     if made.problems:
         said = str(CaseError(made.problems))
-        if mkdocs_gen_files.config.strict:
+        if config.strict:
             raise PluginError(said)
         log.error("%s", said)
-    mkdocs_gen_files.config["nav"] = made.navigation
-    if made.sectioned:  # else each of a thousand pages would hold a thousand links
-        theme = mkdocs_gen_files.config["theme"]
-        theme["features"] = [*theme["features"], "navigation.prune"]
+    config["nav"] = made.navigation
+    if len(slugs(root)) > SECTION:  # else each of a thousand pages would hold a thousand links
+        config["theme"]["features"] = [*config["theme"]["features"], "navigation.prune"]
+    before = LIVE.shown.files if LIVE.shown.navigation == made.navigation else {}
     for name, content in made.files.items():
         with mkdocs_gen_files.open(name, "wb") as file:
             file.write(content)
+        if before.get(name) == content:
+            os.utime(file.name, (0, 0))  # `mkdocs serve --dirty` builds only what is newer than its page
+    LIVE.shown = made

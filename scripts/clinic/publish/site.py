@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Mapping
 from html import escape
 from pathlib import Path
 
 from clinic.pages.cases import FOLDER, PAGE, shown_cases
-from clinic.pages.error_page import Name, by_case, error_page, lacking_page, marked, name_of, ordered, read_name
+from clinic.pages.error_page import by_case, error_page, unmeasured_page, with_problems
 from clinic.pages.overviews import overviews
 from clinic.pages.schema import FILE as SCHEMA
 from clinic.pages.schema import schema_text
 from clinic.proof.evidence import lack
 from clinic.publish import bundle
-from clinic.publish.kept_site import Navigation, Site
+from clinic.publish.kept_site import SECTION, Navigation, Site
 from clinic.record.case import read_cases
 from clinic.record.checkout import cache_folder, slugs
 from clinic.record.problem import CaseError
 from clinic.work.cache import Cache, Files
 
 BROWSER_PARTS = {"javascripts/iframe-worker.js": "node_modules/iframe-worker/shim/index.js"}
-SECTION = 50
 
 
 def build(root: Path, cache: Cache | None = None) -> Files:
@@ -29,23 +28,19 @@ def build(root: Path, cache: Cache | None = None) -> Files:
     Raises:
         CaseError: With all problems of all cases, and every claim that the runs do not bear out.
     """
-    made = survey(root, cache)
+    made = make_site(root, cache or Cache(cache_folder(root)))
     if made.problems:
         raise CaseError(made.problems)
     return made.files
 
 
-def survey(root: Path, cache: Cache | None = None) -> Site:
+def make_site(root: Path, cache: Cache) -> Site:
     """The site as far as it can be made: every case comes as far as it can, and holds up no other."""
-    cache = cache or Cache(cache_folder(root))
-    cache.tidy()
-    there = slugs(root)  # as it is now: a folder may be renamed while the site is made
     read, problems = read_cases(root / "cases")
     known = {case.slug: case for case in read}
-    made: Files = bundle.parts(root)
-    if not bundle.has_playground(made):
-        cache.missed.add("playground")
-    shown, wrong = shown_cases(root, read, set(there) - known.keys(), cache, bundle.has_playground(made))
+    unread = sorted(set(slugs(root)) - known.keys())
+    made: Files = bundle.parts(root, cache)
+    shown, wrong = shown_cases(root, read, set(unread), cache, bundle.START in made)
     files, others = overviews(root, shown, known, cache)
     problems += [*wrong, *others]
     made |= files
@@ -53,27 +48,26 @@ def survey(root: Path, cache: Cache | None = None) -> Site:
     made |= {path: (root / part).read_bytes() for path, part in BROWSER_PARTS.items() if (root / part).is_file()}
     for one in shown:
         made |= {f"{FOLDER.format(slug=one.case.slug)}/{name}": content for name, content in one.files.items()}
-    pages, ill = {one.case.slug: one.page for one in shown}, by_case(problems)
-    names = [
-        name_of(known[slug]) if slug in known else read_name(root / "cases" / slug) for slug in sorted({*there, *known})
-    ]
-    for name in names:
-        if name.slug in pages:
-            page = marked(pages[name.slug], ill[name.slug]) if name.slug in ill else pages[name.slug]
-        elif name.slug in ill:
-            page = error_page(name.heading, ill[name.slug])
+    pages, told = {one.case.slug: one.page for one in shown}, by_case(problems)
+    headings = {case.slug: f"{case.record.number}. {case.record.title}" for case in read}
+    headings |= {slug: slug for slug in unread}
+    for slug, heading in headings.items():
+        if slug in pages:
+            page = with_problems(pages[slug], told[slug]) if slug in told else pages[slug]
+        elif slug in told:
+            page = error_page(heading, told[slug])
         else:
-            page = lacking_page(name.heading, lack(known[name.slug]))
-        made[PAGE.format(slug=name.slug)] = page.encode()
-    return Site(made, navigation(names), CaseError(problems).problems)
+            page = unmeasured_page(heading, lack(known[slug]))
+        made[PAGE.format(slug=slug)] = page.encode()
+    return Site(made, navigation(headings), CaseError(problems).problems)
 
 
-def navigation(names: Iterable[Name]) -> Navigation:
-    """The site's navigation: the cases by number, then the pages written by hand. The theme takes titles as HTML.
+def navigation(headings: Mapping[str, str]) -> Navigation:
+    """The site's navigation: the cases by slug, then the pages written by hand. The theme takes titles as HTML.
 
     More than SECTION cases are in sections, for every page holds the part of the navigation around it.
     """
-    cases = [{escape(name.heading, quote=False): PAGE.format(slug=name.slug)} for name in ordered(names)]
+    cases = [{escape(heading, quote=False): PAGE.format(slug=slug)} for slug, heading in headings.items()]
     sections = [cases[k : k + SECTION] for k in range(0, len(cases), SECTION)]
     divided = [{f"{k * SECTION + 1} to {k * SECTION + len(part)}": part} for k, part in enumerate(sections)]
     return [

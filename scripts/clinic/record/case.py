@@ -2,14 +2,13 @@
 
 The stages, in order; each needs the one before:
 
-1. the folder: its name, its `case.yaml`, plain files only (`folder.py`);
-2. the YAML: parses, no aliases, no key twice;
-3. the record: the fields' types and rules (`record.py`);
-4. the files: the model or script and `files` exist, nothing else lies in the folder;
-5. the references: names used in checks, expressions and the run exist, ids are unique;
-6. the words: what the page would not show as it stands (`wording.py`).
+1. the folder: its name, its `case.yaml`, plain text files only (`folder.py`);
+2. the YAML: parses, no aliases, no key twice (`yaml_lines.py`);
+3. the record: the fields' types and rules (`fields.py`, in words: `field_errors.py`);
+4. the files: those the record names exist, nothing else lies in the folder; and the references: names used in checks,
+   expressions and the run exist, ids are unique.
 
-What needs the compiled model (edits, signal paths) is checked in `variant.py` and `signals.py`.
+What needs the compiled model (edits, signal paths) or the evidence (fields of prose) is checked where these are made.
 """
 
 from __future__ import annotations
@@ -32,12 +31,10 @@ from clinic.record.folder import RECORD, folder_problems
 from clinic.record.parts import WARNINGS
 from clinic.record.predictions import MODEL_NUMBERS
 from clinic.record.problem import CaseError, Problem, article, closest, listed
-from clinic.record.wording import word_problems
+from clinic.record.sweep import Prediction
 from clinic.record.yaml_lines import Lines, Where, YamlError, dotted, read_yaml
 
 SCALED = re.compile(r"(?:[mck]m|[mµ]s|[mk]N|g|deg|°)(?![A-Za-z])")
-MOST_POINTS = 1000
-MOST_POINTS_OF_A_SCRIPT = 200
 LIKE = 0.8
 PUBLISHED = (RECORD, "evidence.json", "playground.json")
 
@@ -92,15 +89,13 @@ def _validated(slug: str, text: str, texts: tuple[tuple[str, str], ...]) -> Case
     file = f"cases/{slug}/{RECORD}"
     try:
         data, lines = read_yaml(text)
+        record = Record.model_validate_json(json.dumps(data, default=str))
     except YamlError as error:
         raise CaseError([Problem(file, error.line, "", error.found, error.expected, error.repair)]) from None
-    try:
-        record = Record.model_validate_json(json.dumps(data, default=str))
     except ValidationError as error:
         raise CaseError(field_problems(file, lines, error.errors(), data)) from None
     case = Case(slug, record, dict(texts), lines)
-    words = (case.problem(*told, quoted=told[1]) for told in word_problems(record))
-    if problems := [*_file_problems(case), *_reference_problems(case), *words]:
+    if problems := [*_file_problems(case), *_reference_problems(case)]:
         raise CaseError(problems)
     return case
 
@@ -122,112 +117,12 @@ def read_cases(root: Path) -> tuple[list[Case], list[Problem]]:
     cases: list[Case] = []
     problems: list[Problem] = []
     for path in sorted(root.iterdir()):
-        if not path.is_dir():
-            problems.append(
-                Problem(
-                    f"cases/{path.name}", 1, "", "a file", "only folders, one a case", "move it into a case's folder"
-                )
-            )
-            continue
         try:
             cases.append(load_case(path))
         except CaseError as error:
             problems += error.problems
     problems += _relation_problems(cases, {path.name for path in root.iterdir()})
     return sorted(cases, key=lambda case: case.record.number), problems
-
-
-def _file_problems(case: Case) -> Iterator[Problem]:
-    record = case.record
-    named: dict[str, Where] = {record.source: ("model" if record.model else "script",)}
-    named |= {name: ("files", index) for index, name in enumerate(record.files)}
-    for name, where in named.items():
-        if name not in case.texts:
-            there = f"a file of the folder: {listed(case.texts)}"
-            yield case.problem(where, f"{name}, which does not exist", there, "correct the name, or add the file")
-    for index, name in enumerate(record.files):
-        if name in PUBLISHED:
-            expected = "a name that the site does not use itself"
-            yield case.problem(("files", index), f"{name}, which stands beside the page", expected, "rename the file")
-    for name in case.texts.keys() - named.keys():
-        yield Problem(
-            f"cases/{case.slug}/{name}",
-            1,
-            "",
-            "a file that the record does not name",
-            f"{RECORD} and the files it names: {listed(named)}",
-            "name it under `files`, or delete it",
-        )
-
-
-def _reference_problems(case: Case) -> Iterator[Problem]:
-    record = case.record
-    for where, check in checks_of(record):
-        if check.signal not in record.signals:
-            yield case.problem((*where, "signal"), *_unknown(check.signal, record.signals, "signal"))
-    paths = [name for name, signal in record.signals.items() if isinstance(signal, PathSignal)]
-    for name, signal in record.signals.items():
-        scaled = isinstance(signal, PathSignal) and not signal.path.startswith(("printed(", "model."))
-        if scaled and SCALED.match(signal.unit):
-            told = "the unit that MuJoCo computes in, such as m, rad, s, kg, N"
-            repair = "write it; convert in prose, `{{ broken.x.final | mm }}`, or by `expr`"
-            yield case.problem(("signals", name, "unit"), signal.unit, told, repair)
-        if isinstance(signal, StartsSignal) and signal.holds.signal in record.signals.keys() - set(paths):
-            yield case.problem(
-                ("signals", name, "holds", "signal"), *_unknown(signal.holds.signal, paths, "path signal")
-            )
-        if isinstance(signal, ExpressionSignal):
-            try:
-                unknown = sorted(names(parse(signal.expr)) - set(paths))
-            except ExpressionError as error:
-                yield case.problem(("signals", name, "expr"), signal.expr, str(error), "write plain arithmetic")
-                continue
-            for word in unknown:
-                yield case.problem(("signals", name, "expr"), *_unknown(word, paths, "path signal"))
-    yield from _sweep_problems(case)
-    seen = {"broken"}
-    for kind, remedies in (("fixes", record.fixes), ("refuted", record.refuted)):
-        for index, remedy in enumerate(remedies):
-            if remedy.id in seen:
-                yield case.problem(
-                    (kind, index, "id"), f"{remedy.id}, which is taken", "an id used once; not broken", "rename it"
-                )
-            seen.add(remedy.id)
-    for index, name in enumerate(record.warnings):
-        if name not in WARNINGS:
-            yield case.problem(("warnings", index), *_unknown(name, WARNINGS, "MuJoCo warning"))
-    if record.picture.scene is not None and record.picture.scene not in case.texts:
-        yield case.problem(("picture", "scene"), *_unknown(record.picture.scene, case.texts, "file"))
-
-
-def _sweep_problems(case: Case) -> Iterator[Problem]:
-    record = case.record
-    variants = ["broken", *(remedy.id for remedy in [*record.fixes, *record.refuted])]
-    points, most = 0, MOST_POINTS if record.model else MOST_POINTS_OF_A_SCRIPT
-    for name, sweep in record.sweep.items():
-        where: Where = ("sweep", name)
-        before, points = points, points + sweep.size
-        if before <= most < points:
-            kind = "of a model" if record.model else "of a script, which runs as a process at each"
-            found = f"{points} points" + (f", with {before} of the sweeps before" if before else "")
-            expected, repair = f"{most} points at most in all sweeps {kind}", "take fewer numbers, further apart"
-            yield case.problem((*where, "vary"), found, expected, repair)
-        if sweep.outcome.signal not in record.signals:
-            yield case.problem((*where, "outcome", "signal"), *_unknown(sweep.outcome.signal, record.signals, "signal"))
-        if sweep.base not in variants:
-            yield case.problem((*where, "base"), *_unknown(sweep.base, variants, "variant"))
-        single = [key for key, s in record.signals.items() if isinstance(s, PathSignal | ExpressionSignal)]
-        known = [*(parameter.name for parameter in sweep.vary), *single, *MODEL_NUMBERS]
-        places: list[tuple[Where, str]] = [(("prediction", "expr"), sweep.prediction.expr)]
-        places += [(("rivals", index, "expr"), rival.expr) for index, rival in enumerate(sweep.rivals)]
-        for place, expr in places:
-            try:
-                unknown = sorted(names(parse(expr)) - set(known))
-            except ExpressionError as error:
-                yield case.problem((*where, *place), expr, str(error), "write plain arithmetic")
-                continue
-            for word in unknown:
-                yield case.problem((*where, *place), *_unknown(word, known, "name that a prediction can read"))
 
 
 def checks_of(record: Record) -> Iterator[tuple[Where, Check]]:
@@ -244,43 +139,98 @@ def checks_of(record: Record) -> Iterator[tuple[Where, Check]]:
             yield ("signals", name, "holds"), signal.holds
 
 
-def _unknown(word: str, known: Iterable[str], kind: str) -> tuple[str, str, str]:
+def _file_problems(case: Case) -> Iterator[Problem]:
+    record = case.record
+    named: dict[str, Where] = {record.source: ("model" if record.model else "script",)}
+    named |= {name: ("files", index) for index, name in enumerate(record.files)}
+    for name, where in named.items():
+        if name not in case.texts:
+            there = f"a file of the folder: {listed(case.texts)}"
+            yield case.problem(where, f"{name}, which does not exist", there, "correct the name, or add the file")
+        if name in PUBLISHED:
+            expected = "a name that the site does not use itself"
+            yield case.problem(where, f"{name}, which stands beside the page", expected, "rename the file")
+    expected = f"{RECORD} and the files it names: {listed(named)}"
+    for name in case.texts.keys() - named.keys():
+        found, repair = "a file that the record does not name", "name it under `files`, or delete it"
+        yield Problem(f"cases/{case.slug}/{name}", 1, "", found, expected, repair)
+
+
+def _reference_problems(case: Case) -> Iterator[Problem]:
+    """Names that nothing bears, ids taken twice, units that the numbers do not have."""
+    record = case.record
+    paths = [name for name, signal in record.signals.items() if isinstance(signal, PathSignal)]
+    remedies: dict[Where, str] = {("fixes", k): fix.id for k, fix in enumerate(record.fixes)}
+    remedies |= {("refuted", k): remedy.id for k, remedy in enumerate(record.refuted)}
+    taken = ["broken"]
+    for where, remedy_id in remedies.items():
+        if remedy_id in taken:
+            found, expected = f"{remedy_id}, which is taken", "an id used once; not broken"
+            yield case.problem((*where, "id"), found, expected, "rename it")
+        taken.append(remedy_id)
+    for where, check in checks_of(record):
+        known, kind = (paths, "path signal") if where[0] == "signals" else ([*record.signals], "signal")
+        yield from _unknown(case, (*where, "signal"), [check.signal], known, kind)
+    for index, name in enumerate(record.warnings):
+        yield from _unknown(case, ("warnings", index), [name], WARNINGS, "MuJoCo warning")
+    if record.picture.scene is not None:
+        yield from _unknown(case, ("picture", "scene"), [record.picture.scene], list(case.texts), "file")
+    for name, signal in record.signals.items():
+        if isinstance(signal, ExpressionSignal):
+            yield from _misread(case, ("signals", name, "expr"), signal.expr, paths, "path signal")
+        computed = isinstance(signal, PathSignal) and not signal.path.startswith(("printed(", "model."))
+        if computed and SCALED.match(signal.unit):
+            expected = "the unit that MuJoCo computes in, such as m, rad, s, kg, N"
+            repair = "write it; convert in prose, `{{ broken.x.final | mm }}`, or by `expr`"
+            yield case.problem(("signals", name, "unit"), signal.unit, expected, repair)
+    numbers = [key for key, s in record.signals.items() if isinstance(s, PathSignal | ExpressionSignal)]
+    for name, sweep in record.sweep.items():
+        yield from _unknown(
+            case, ("sweep", name, "outcome", "signal"), [sweep.outcome.signal], record.signals, "signal"
+        )
+        yield from _unknown(case, ("sweep", name, "base"), [sweep.base], taken, "variant")
+        known = [*(parameter.name for parameter in sweep.vary), *numbers, *MODEL_NUMBERS]
+        forms: dict[Where, Prediction] = {("prediction",): sweep.prediction}
+        forms |= {("rivals", index): rival for index, rival in enumerate(sweep.rivals)}
+        for where, form in forms.items():
+            place: Where = ("sweep", name, *where, "expr")
+            yield from _misread(case, place, form.expr, known, "name that a prediction can read")
+
+
+def _misread(case: Case, where: Where, expr: str, known: Iterable[str], kind: str) -> Iterator[Problem]:
+    """What is wrong with arithmetic over known names."""
+    try:
+        yield from _unknown(case, where, sorted(names(parse(expr))), known, kind)
+    except ExpressionError as error:
+        yield case.problem(where, expr, str(error), "write plain arithmetic")
+
+
+def _unknown(case: Case, where: Where, words: Iterable[str], known: Iterable[str], kind: str) -> Iterator[Problem]:
+    """A problem for every word that is none of those known."""
     known = list(known)
-    guess = closest(word, known)
-    return (
-        f"{word}, which is no {kind}",
-        f"{article(kind)}: {listed(known, 30)}",
-        f"write {guess}" if guess else "correct the name",
-    )
+    for word in words:
+        if word not in known:
+            guess = closest(word, known)
+            repair = f"write {guess}" if guess else "correct the name"
+            yield case.problem(where, f"{word}, which is no {kind}", f"{article(kind)}: {listed(known, 30)}", repair)
 
 
 def _relation_problems(cases: list[Case], slugs: set[str]) -> Iterator[Problem]:
-    yield from _tag_problems(cases)
+    """Numbers taken twice, relatives that do not exist, and tags that misspell another."""
     users: dict[int, list[str]] = defaultdict(list)
     for case in cases:
         users[case.record.number].append(case.slug)
     free = next(n for n in itertools.count(1) if n not in users)
+    tags = Counter(tag for case in cases for tag in case.record.tags)
+    shared = sorted(tag for tag, count in tags.items() if count > 1)
     for case in cases:
-        number = case.record.number
-        if others := [slug for slug in users[number] if slug != case.slug]:
-            found, repair = f"{number}, the number of {listed(others)}", f"let the newer take {free}"
+        number, others = case.record.number, sorted(slugs - {case.slug})
+        if same := [slug for slug in users[number] if slug != case.slug]:
+            found, repair = f"{number}, the number of {listed(same)}", f"let the newer take {free}"
             yield case.problem(("number",), found, "a number of its own", repair)
         for index, slug in enumerate(case.record.see):
-            if slug == case.slug or slug not in slugs:
-                others = sorted(slugs - {case.slug})
-                this = (f"{slug}, this very case", f"a case: {listed(others, 30)}", "remove it")
-                yield case.problem(("see", index), *(this if slug == case.slug else _unknown(slug, others, "case")))
-
-
-def _tag_problems(cases: list[Case]) -> Iterator[Problem]:
-    """Any word is a tag, but one that a single case has is no misspelling of one that several have."""
-    users = Counter(tag for case in cases for tag in case.record.tags)
-    shared = [tag for tag, count in users.items() if count > 1]
-    for case in cases:
+            yield from _unknown(case, ("see", index), [slug], others, "case besides this one")
         for index, tag in enumerate(case.record.tags):
-            if users[tag] == 1 and (guess := closest(tag, shared, LIKE)):
-                found, wanted = (
-                    f"{tag}, which no other case has",
-                    f"a topic: {listed(sorted(shared), 30)}, or a new one",
-                )
-                yield case.problem(("tags", index), found, wanted, f"write {guess}")
+            if tags[tag] == 1 and (guess := closest(tag, shared, LIKE)):
+                found, expected = f"{tag}, which no other case has", f"a topic: {listed(shared, 30)}, or a new one"
+                yield case.problem(("tags", index), found, expected, f"write {guess}")

@@ -1,4 +1,4 @@
-"""The checkout: where it is, and which cases its folders hold. Nothing here runs or reads a case."""
+"""Where the cases are: in the checkout, or in the installed package. Nothing here runs or reads a case."""
 
 from __future__ import annotations
 
@@ -9,9 +9,11 @@ from pathlib import Path
 
 from clinic.record.problem import CaseError, Problem, listed
 
+PACKAGE = Path(__file__).parent.parent
+
 
 def project_root() -> Path:
-    """The folder that holds `cases/`: the working directory or the nearest one above it.
+    """The checkout: the working directory or the nearest one above it that holds `cases/` and `pyproject.toml`.
 
     Raises:
         FileNotFoundError: If there is none.
@@ -20,12 +22,27 @@ def project_root() -> Path:
     for folder in (here, *here.parents):
         if (folder / "cases").is_dir() and (folder / "pyproject.toml").is_file():
             return folder
-    raise FileNotFoundError(f"no folder with cases/ and pyproject.toml at or above {here}")
+    raise FileNotFoundError(f"this needs a checkout: no folder with cases/ and pyproject.toml at or above {here}")
+
+
+def cases_root() -> Path:
+    """The folder whose `cases/` can be read: the checkout, or elsewhere the installed package, which has a copy.
+
+    Raises:
+        FileNotFoundError: If there is neither.
+    """
+    try:
+        return project_root()
+    except FileNotFoundError:
+        if (PACKAGE / "cases").is_dir():
+            return PACKAGE
+        raise
 
 
 def cache_folder(root: Path) -> Path:
-    """Where finished work is kept: CLINIC_CACHE, or `.cache/clinic` in the checkout."""
-    return Path(os.environ.get("CLINIC_CACHE") or root / ".cache" / "clinic")
+    """Where finished work is kept: CLINIC_CACHE, or `.cache/clinic` in the checkout, or in the user's home."""
+    home = Path.home() if root == PACKAGE else root
+    return Path(os.environ.get("CLINIC_CACHE") or home / ".cache" / "clinic")
 
 
 def slugs(root: Path) -> list[str]:

@@ -3,43 +3,16 @@
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, get_args
 
 from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
-from clinic.record import fields as schema
-from clinic.record import parts as record_parts
-from clinic.record import sweep as record_sweep
+from clinic.record.fields import Record
 from clinic.record.problem import Problem, closest, listed
 from clinic.record.yaml_lines import Lines, Where, dotted
 
-SIGNALS: dict[str, type[BaseModel]] = {
-    "path": schema.PathSignal,
-    "expr": schema.ExpressionSignal,
-    "fraction_of_starts": schema.StartsSignal,
-    "image_row": schema.RowSignal,
-}
-MODELS: dict[str | int, type[BaseModel]] = {
-    "run": schema.RunSpec,
-    "checks": schema.Checks,
-    "broken": schema.Check,
-    "fixed": schema.Check,
-    "holds": schema.Check,
-    "fixes": schema.Fix,
-    "refuted": schema.Refuted,
-    "edits": record_parts.Edit,
-    "picture": schema.Picture,
-    "vary": record_sweep.Parameter,
-    "outcome": record_parts.Taken,
-    "prediction": record_sweep.Prediction,
-    "rivals": record_sweep.Rival,
-    "sweep": record_sweep.Sweep,
-    "film": schema.Film,
-    "alike": schema.Alike,
-}
 EXPECTED = {
     "int_type": "a whole number",
     "int_from_float": "a whole number",
@@ -48,16 +21,8 @@ EXPECTED = {
     "list_type": "a list",
     "dict_type": "a mapping",
     "model_type": "a mapping",
-    "model_attributes_type": "a mapping",
-    "too_short": "{min_length} or more items",
-    "too_long": "{max_length} items at most",
     "string_too_short": "text that is not empty",
-    "greater_than": "a number greater than {gt:g}",
-    "greater_than_equal": "a number of {ge:g} or more",
-    "less_than_equal": "a number of {le:g} at most",
-    "literal_error": "{expected}",
 }
-NUMBER = re.compile(r"(?P<whole>[-+]?\d+(?:\.\d*)?)(?:[eE](?P<power>[-+]?\d+))?")
 PATTERNS = {
     "^[a-z][a-z0-9]*(?:-[a-z0-9]+)*$": "lower-case words joined by hyphens",
     "^[a-z][a-z0-9_]*$": "a lower-case word; underscores allowed",
@@ -70,84 +35,71 @@ def field_problems(file: str, lines: Lines, errors: Sequence[ErrorDetails], data
     """What pydantic found wrong with a record, one problem a place."""
     seen: set[Where] = set()
     for error in errors:
-        where, tag = _where(error["loc"], data)
+        where, kind = _where(error["loc"], data)
         if error["type"] == "missing" and isinstance(error["loc"][-1], str):
             where = (*where, error["loc"][-1])
-        if where in seen:
-            continue
-        seen.add(where)
-        found, expected, repair = _explained(error, where, tag)
-        yield Problem(file, lines.at(where), dotted(where), found, expected, repair)
+        if where not in seen:
+            seen.add(where)
+            yield Problem(file, lines.at(where), dotted(where), *_explained(error, where, kind))
 
 
 def _where(loc: Where, data: Any) -> tuple[Where, str]:
-    """The part of pydantic's location that stands in the file, and the last part that does not."""
+    """The part of pydantic's location that stands in the file, and the last that does not: the class of a signal."""
     where: Where = ()
-    tag = ""
-    for position, part in enumerate(loc):
-        union = loc[0] == "signals" and position == 2  # pydantic's tag for the kind of signal; no file holds it
-        known = isinstance(data, dict) and part in data
-        if not union and (known or (isinstance(data, list) and isinstance(part, int) and part < len(data))):
-            data, where = data[part], (*where, part)
+    kind = ""
+    for part in loc:
+        known = data if isinstance(data, dict) else dict(enumerate(data)) if isinstance(data, list) else {}
+        if part in known:
+            data, where = known[part], (*where, part)
         else:
-            tag = str(part)
-    return where, tag
+            kind = str(part)
+    return where, kind
 
 
-def _explained(error: ErrorDetails, where: Where, tag: str) -> tuple[str, str, str]:
-    message = str(error.get("ctx", {}).get("error", error["msg"]))
-    match error["type"]:
-        case "value_error" if message.count("||") == 2:
-            found, expected, repair = message.split("||")
-            return found, expected, repair
-        case "extra_forbidden":
-            known = list(_model_at(where[:-1], tag).model_fields)
-            guess = closest(str(where[-1]), known)
-            repair = f"write `{guess}`" if guess else "remove the key"
-            return f"the unknown key `{where[-1]}`", f"one of {listed(known, 30)}", repair
-        case "missing" if isinstance(error["loc"][-1], int):
-            return _shown(error["input"]), "two numbers", "correct the value"
-        case "missing":
-            return "nothing", f"the field `{where[-1]}`", f"add `{where[-1]}:`"
-        case "union_tag_not_found" | "union_tag_invalid":
-            return (
-                _shown(error["input"]),
-                "one of `path`, `expr`, `measure: fraction_of_starts`, `measure: image_row`",
-                "say where the number comes from",
-            )
-        case "string_pattern_mismatch":
-            wanted = PATTERNS.get(error["ctx"]["pattern"])
-            return (
-                _shown(error["input"]),
-                wanted or EXPECTED["string_too_short"],
-                "rename it" if wanted else "correct the value",
-            )
+def _explained(error: ErrorDetails, where: Where, kind: str) -> tuple[str, str, str]:
+    """What was found, what was expected, and the repair."""
+    said, details = error["type"], error.get("ctx", {})
+    found = _shown(error["input"])
+    if said == "value_error":
+        found, expected, repair = str(details["error"]).split("||")
+        return found, expected, repair
+    if said == "extra_forbidden":
+        known = list(_model_at(where[:-1], kind).model_fields)
+        guess = closest(str(where[-1]), known)
+        repair = f"write `{guess}`" if guess else "remove the key"
+        return f"the unknown key `{where[-1]}`", f"one of {listed(known, 30)}", repair
+    if said == "missing" and isinstance(error["loc"][-1], str):
+        return "nothing", f"the field `{where[-1]}`", f"add `{where[-1]}:`"
+    if said.startswith("union_tag"):
+        sources = "one of `path`, `expr`, `measure: fraction_of_starts`, `measure: image_row`"
+        return found, sources, "say where the number comes from"
     if error["input"] is None:
         return "nothing", "a value", "write one, or remove the key"
+    if said == "string_pattern_mismatch":
+        return found, PATTERNS.get(details["pattern"], EXPECTED["string_too_short"]), "rename it"
     if where[:2] == ("run", "ctrl"):
-        expected = "a number, or a list of [time, value] pairs"
-    else:
-        words = EXPECTED.get(error["type"])
-        expected = words.format(**error.get("ctx", {})) if words else message[0].lower() + message[1:]
-    repair = "correct the value"
-    if error["type"] in ("int_type", "float_type") and (number := NUMBER.fullmatch(str(error["input"]))):
-        whole, power = number["whole"], number["power"]
-        repair = (
-            f"write {whole if '.' in whole else whole + '.0'}e{int(power):+d}" if power else "write it without quotes"
-        )
-    return _shown(error["input"]), expected, repair
+        return found, "a number, or a list of [time, value] pairs", "correct the value"
+    if said in ("missing", "too_long") and error["loc"][-1] != where[-1]:
+        return found, "two numbers", "correct the value"
+    quoted = EXPECTED.get(said, "").endswith("number") and isinstance(error["input"], str)
+    expected = EXPECTED.get(said) or error["msg"].replace("Input should be ", "").partition(" after")[0]
+    return found, expected, "write its digits, without quotes" if quoted else "correct the value"
 
 
-def _model_at(where: Where, tag: str) -> type[BaseModel]:
-    """The class of the mapping at `where`."""
-    if len(where) == 2 and where[0] == "signals":
-        return SIGNALS[tag]
-    if where[:1] == ("sweep",) and where[-1] == "holds":
-        return record_sweep.Side
-    for part in reversed(where):
-        if part in MODELS:
-            return MODELS[part]
-    return schema.Record
+def _model_at(where: Where, kind: str) -> type[BaseModel]:
+    """The class of the mapping at `where`; of several the one that `kind` names."""
+    models: list[type[BaseModel]] = [Record]
+    for part in where:
+        fields = [model.model_fields[part] for model in models if part in model.model_fields]
+        models = [inner for field in fields for inner in _models(field.annotation)] or models
+    return next((model for model in models if model.__name__ == kind), models[0])
+
+
+def _models(annotation: Any) -> Iterator[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in get_args(annotation):
+        yield from _models(part)
 
 
 def _shown(value: Any) -> str:

@@ -24,6 +24,7 @@ Look = Literal[
     "numbers-wrong",
     "worked-yesterday",
 ]
+Law = Literal["lasting", "steady", "typed"]
 ManualPage = Annotated[str, Field(pattern=r"^[A-Za-z0-9_/]+\.html(?:#[a-z0-9-]+)?$")]
 
 
@@ -40,8 +41,8 @@ class Comparison(Strict):
     def _one_comparison(self) -> Comparison:
         given = [name for name in ("above", "below", "between", "equals") if getattr(self, name) is not None]
         if len(given) != 1:
-            found = " and ".join(given) or "no comparison"
-            raise ValueError(f"{found}||exactly one of above, below, between, equals||keep one comparison a check")
+            found, expected = " and ".join(given) or "no comparison", "exactly one of above, below, between, equals"
+            raise ValueError(f"{found}||{expected}||keep one comparison a check")
         if self.within is not None and self.equals is None:
             raise ValueError("within without equals||`within` beside `equals`||add `equals`, or remove `within`")
         for name in ("between", "window"):
@@ -102,21 +103,27 @@ class RowSignal(Described):
     geom: Text = Field(description="The geom whose visible pixels are averaged.")
 
 
-def _kind(value: Any) -> str | None:
+SOURCES = {
+    "path": "PathSignal",
+    "expr": "ExpressionSignal",
+    "fraction_of_starts": "StartsSignal",
+    "image_row": "RowSignal",
+}
+
+
+def _source(value: Any) -> str | None:
+    """The class of a signal, told by the field that says where its number comes from."""
     if not isinstance(value, dict):
-        return getattr(value, "measure", None) or ("expr" if hasattr(value, "expr") else "path")
-    for key in ("path", "expr"):
-        if key in value:
-            return key
-    return value["measure"] if isinstance(value.get("measure"), str) else None
+        return type(value).__name__
+    return SOURCES.get(next((key for key in ("path", "expr") if key in value), str(value.get("measure"))))
 
 
 Signal = Annotated[
-    Annotated[PathSignal, Tag("path")]
-    | Annotated[ExpressionSignal, Tag("expr")]
-    | Annotated[StartsSignal, Tag("fraction_of_starts")]
-    | Annotated[RowSignal, Tag("image_row")],
-    Discriminator(_kind),
+    Annotated[PathSignal, Tag("PathSignal")]
+    | Annotated[ExpressionSignal, Tag("ExpressionSignal")]
+    | Annotated[StartsSignal, Tag("StartsSignal")]
+    | Annotated[RowSignal, Tag("RowSignal")],
+    Discriminator(_source),
 ]
 
 
@@ -129,8 +136,7 @@ class RunSpec(Strict):
     qvel: dict[str, float] = Field(default={}, description="Start velocities by joint, for joints with one dof.")
     ctrl: dict[str, float | list[Interval]] = Field(
         default={},
-        description="Control by actuator: a constant, or [time in s, value] pairs, linear in between and "
-        "constant outside.",
+        description="Control by actuator: a constant, or [time in s, value] pairs, linear in between.",
     )
 
 
@@ -138,7 +144,7 @@ class Picture(Strict):
     """The still image of a case."""
 
     camera: Text = Field(description="The camera to render from.")
-    time: float = Field(default=0.0, ge=0, description="When, in s of simulated time.")
+    time: float = Field(default=0.0, ge=0, le=120, description="When, in s of simulated time.")
     scene: FileName | None = Field(default=None, description="Code cases: the scene to render, from its keyframe 0.")
 
 
@@ -152,9 +158,7 @@ class Film(Strict):
 
     camera: str | None = Field(default=None, description="The camera to film from; the picture's when absent.")
     duration: float | None = Field(default=None, gt=0, description="Simulated time filmed, in s; the run's by default.")
-    speed: float = Field(
-        default=1.0, gt=0, le=10, description="Simulated seconds a second of film; below 1 is slow motion."
-    )
+    speed: float = Field(default=1.0, gt=0, le=10, description="Simulated seconds a second; below 1 is slow motion.")
     overlays: list[Overlay] = Field(default=[], description="What MuJoCo draws over the scene to show the cause.")
 
 
@@ -207,9 +211,7 @@ class Remedy(Strict):
 class Fix(Remedy):
     """A repair: makes `checks.fixed` true and `checks.broken` false."""
 
-    redundant: str | None = Field(
-        default=None, description="Why a proper subset of the edits also repairs; otherwise that is an error."
-    )
+    redundant: str | None = Field(default=None, description="Why some of the edits alone also repair, if they do.")
 
 
 class Refuted(Remedy):
@@ -224,39 +226,27 @@ class Record(Strict):
     number: int = Field(ge=1, le=99_999, description="Unique; readers say *case 7*.")
     title: Text = Field(max_length=90, description="The symptom as a sentence, without a full stop.")
     model: FileName | None = Field(default=None, description="The broken model. Exactly one of `model`, `script`.")
-    script: FileName | None = Field(
-        default=None, description="The broken script, for bugs that live in code: Python, or for Node `.mjs`."
-    )
+    script: FileName | None = Field(default=None, description="The broken script: Python, or for Node `.mjs`.")
     files: list[FileName] = Field(default=[], description="Further files of the folder that the script reads.")
     symptom: Text = Field(description="What is seen, before anything is known. The only field shown unfolded.")
     diagnosis: Text = Field(description="What to measure, and what it says.")
-    snippet: str | None = Field(
-        default=None,
-        description="Code run in the case's folder, in the language of the script; printed under Diagnosis.",
-    )
+    snippet: str | None = Field(default=None, description="Code run in the case's folder, shown under Diagnosis.")
     cause: Text = Field(description="Why it happens.")
     fix: Text = Field(description="How to repair it.")
     lesson: Text = Field(description="What to remember.")
     tags: list[Identifier] = Field(min_length=1, description="Topics: contact, joint, actuator, camera, units, ...")
     phrases: list[Text] = Field(min_length=1, description="What people type into a search engine; feeds the search.")
-    looks: list[Look] = Field(
-        default=[], description="Where *Find your symptom* puts the case; found by the words of `phrases` when absent."
-    )
+    looks: list[Look] = Field(default=[], description="Where *Find your symptom* puts the case.")
     manual: list[ManualPage] = Field(
-        default=[],
-        description="Sections of MuJoCo's manual, as `XMLreference.html#body-geom-contype`; linked in the page's foot.",
+        default=[], description="Pages of MuJoCo's manual, each as `modeling.html#anchor`."
     )
     see: list[Identifier] = Field(default=[], description="Related cases, by folder name.")
     alike: Alike | None = Field(default=None, description="What tells this case from those that look like it.")
-    exempt: dict[Literal["lasting", "steady", "typed"], Text] = Field(
-        default={}, description="Laws that this case need not obey, each with the reason."
-    )
+    exempt: dict[Law, Text] = Field(default={}, description="Laws that this case need not obey, each with the reason.")
     run: RunSpec | None = Field(default=None, description="How to start and drive a model; none for a script.")
     signals: dict[Name, Signal] = Field(min_length=1, description="Named measurements; the first one is plotted.")
     checks: Checks = Field(description="The pair of predicates for every variant.")
-    warnings: list[str] = Field(
-        default=[], description="MuJoCo warnings that the broken model raises: BADQACC, CONTACTFULL, ..."
-    )
+    warnings: list[str] = Field(default=[], description="What the broken model makes MuJoCo warn of: BADQACC, ...")
     fixes: list[Fix] = Field(min_length=1, description="At least one repair; the first is the one plotted.")
     refuted: list[Refuted] = Field(default=[], description="Remedies people try that do not work.")
     trials: list[Trial] = Field(default=[], description="Other situations in which the checks are asked as well.")

@@ -45,8 +45,3 @@ class Taken(Strict):
         "`span` (max - min), or its `onset`: the time in s at which it first differs from zero.",
     )
     window: Interval | None = Field(default=None, description="Only samples with t0 <= time <= t1, in s.")
-
-    @property
-    def last(self) -> bool:
-        """Whether a run's last sample is enough to take it from."""
-        return self.take == "final" and self.window is None

@@ -33,14 +33,12 @@ def mass_matrix(model: mujoco.MjModel) -> NDArray[np.float64]:
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     mass = np.zeros((model.nv, model.nv))
-    mujoco.mj_fullM(model, data, mass)
+    for row, unit in zip(mass, np.eye(model.nv), strict=True):  # mj_fullM takes other arguments on older releases
+        mujoco.mj_mulM(model, data, row, unit)
     return mass
 
 
-MODEL_NUMBERS: dict[str, Callable[[mujoco.MjModel], float]] = {
-    "omega_max": omega_max,
-    "omega_one_link": omega_one_link,
-}
+MODEL_NUMBERS: dict[str, Callable[[mujoco.MjModel], float]] = {"omega_max": omega_max, "omega_one_link": omega_one_link}
 
 
 def servo_sag(kp: float, load: float) -> float:
@@ -81,10 +79,8 @@ def held_share(drop: float, speed: float, room: float, tau: float, h: float, spr
         count: How many starts, evenly spaced over the range, both ends included.
 
     Raises:
-        ValueError: For less than 2 starts or more than MOST_STARTS, or a fall that does not end.
+        ValueError: For a fall that does not end.
     """
-    if not 2 <= count <= MOST_STARTS:
-        raise ValueError(f"a count from 2 to {MOST_STARTS}")
     held = [thrown_back(drop + spread * k / (count - 1), speed, room, max(tau, 2 * h), h) for k in range(int(count))]
     return sum(held) / count
 
@@ -137,10 +133,10 @@ def upright_time(
         longest: What is returned if it has not fallen by then, in s.
 
     Raises:
-        ValueError: For a load or an inertia of 0, or more than MOST_STEPS calls.
+        ValueError: For a period of 0, or more than MOST_STEPS calls.
     """
-    if not (load > 0 and inertia > 0 and 0 <= longest <= period * MOST_STEPS):
-        raise ValueError(f"a load, an inertia and a period above 0, and at most {MOST_STEPS} calls")
+    if not longest <= period * MOST_STEPS:
+        raise ValueError(f"a period above 0, and at most {MOST_STEPS} calls")
     a = math.sqrt(load / inertia)
     q, v, time = start, 0.0, 0.0
     while time < longest:
@@ -162,7 +158,7 @@ def _tilt(a: float, x: float, v: float, offset: float, t: float) -> float:
 
 
 SEARCH = 16
-MOST_STEPS, MOST_STARTS = 20_000, 1000
+MOST_STEPS = 20_000
 D_MAX = 0.95
 GRAVITY = 9.81
 FUNCTIONS: dict[str, Callable[..., float]] = {

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from clinic.record.yaml_lines import CONTROL
 
-LONGEST = 2000  # characters of what was found, as it is printed
+LF = "\n"
 
 
 @dataclass(frozen=True, order=True)
@@ -32,14 +32,10 @@ class Problem:
     repair: str
 
     def __str__(self) -> str:
-        place = f"{self.file}:{self.line}:" + (f" {self.where}" if self.where else "")
-        return CONTROL.sub(
-            "?",
-            f"{place}\n"
-            f"  found:    {_indent(self.found)}\n"
-            f"  expected: {_indent(self.expected)}\n"
-            f"  repair:   {_indent(self.repair)}",
-        )
+        said = {"found: ": self.found, "expected:": self.expected, "repair: ": self.repair}
+        rows = [f"{self.file}:{self.line}: {self.where}".rstrip()]
+        rows += [f"  {name:9} {text.strip(LF).replace(LF, LF + ' ' * 12)}" for name, text in said.items()]
+        return CONTROL.sub("?", LF.join(rows))
 
 
 class LackError(RuntimeError):
@@ -73,8 +69,3 @@ def listed(names: Iterable[str], limit: int = 8) -> str:
     names = list(names)
     shown = ", ".join(names[:limit]) or "none"
     return shown + (f", and {len(names) - limit} more" if len(names) > limit else "")
-
-
-def _indent(text: str) -> str:
-    shown = text if len(text) <= LONGEST else text[:LONGEST] + " ..."
-    return shown.strip("\n").replace("\n", "\n            ")

@@ -6,8 +6,8 @@ import math
 import re
 
 CODE = re.compile(
-    r"(?P<fenced>^(?P<indent> *)(?P<fence>```+|~~~+)(?P<head>[^\n`]*)\n(?P<body>.*?)^ *(?P=fence) *$|"
-    r"(?P<tick>`+)(?!`)(?P<span>(?:(?!\n *\n).)+?)(?<!`)(?P=tick)(?!`))",
+    r"(?P<code>^ *(?P<fence>```+|~~~+)[^\n`]*\n.*?^ *(?P=fence) *$|"
+    r"(?P<tick>`+)(?!`)(?:(?!\n *\n).)+?(?<!`)(?P=tick)(?!`))",
     re.DOTALL | re.MULTILINE,
 )
 FORMULA = re.compile(r"\$\$(?P<block>.+?)\$\$|(?<![\\$\w])\$(?P<inline>[^\s$](?:[^$]*[^\s$\\])?)\$(?![\d$])", re.DOTALL)

@@ -9,6 +9,8 @@ from pydantic import Field, model_validator
 
 from clinic.record.parts import Edit, Identifier, Interval, Name, Strict, Taken, Text
 
+MOST_POINTS = 1000
+
 
 class Parameter(Strict):
     """A number of the model that a sweep varies."""
@@ -24,7 +26,7 @@ class Parameter(Strict):
     unit: str = Field(default="", description="Unit as it is printed.")
     label: str = Field(default="", description="What the axis calls it; the name when absent.")
     marks: dict[Identifier, float] = Field(
-        default={}, description="Where a variant stands, if its text does not show it in the form of `replace`."
+        default={}, description="Where a variant stands, if its text does not show it."
     )
 
     @model_validator(mode="after")
@@ -88,23 +90,21 @@ class Sweep(Strict):
     text: Text = Field(description="Prose under Cause; may hold `{{ sweep.ID.points }}`, `.worst`, `.agreed`, ...")
     base: Identifier = Field(default="broken", description="The variant whose text is varied.")
     edits: list[Edit] = Field(default=[], description="Applied to the base variant before the parameters are.")
-    vary: list[Parameter] = Field(
-        min_length=1,
-        max_length=2,
-        description="One or two parameters. All sweeps of a model have 1000 points at most, of a script 200.",
-    )
+    vary: list[Parameter] = Field(min_length=1, max_length=2, description="One or two parameters; 1000 points at most.")
     duration: float | None = Field(default=None, gt=0, le=60, description="In s, in place of the run's.")
     outcome: Taken = Field(description="The number measured at every point.")
-    holds: Side | None = Field(
-        default=None, description="Makes the outcome a yes or no: whether the number is `above` or `below` this."
-    )
+    holds: Side | None = Field(default=None, description="Makes of the outcome a yes or no: is it `above`, or `below`?")
     yes: str = Field(default="", description="What a yes means, for the legend.")
     no: str = Field(default="", description="What a no means.")
-    side: Literal["below", "above"] = Field(
-        default="below", description="With `holds`: on which side of the predicted line the answer is yes."
-    )
+    side: Literal["below", "above"] = Field(default="below", description="With `holds`: where, of the line, it is yes.")
     prediction: Prediction = Field(description="The closed form that a law holds to its word.")
     rivals: list[Rival] = Field(default=[], description="Closed forms that are popular and wrong.")
+
+    @model_validator(mode="after")
+    def _bounded(self) -> Sweep:
+        if self.size > MOST_POINTS:
+            raise ValueError(f"{self.size} points||{MOST_POINTS} points at most||take fewer numbers, further apart")
+        return self
 
     @property
     def size(self) -> int:

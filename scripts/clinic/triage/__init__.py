@@ -2,9 +2,8 @@
 
 It may import `record`, `engine`, `work` and `proof`.
 
-run      the model with its start and controls, recorded under a budget of time
-watch    the one run that most steps look at
+run, watched_run   the model with its start and controls, recorded; the one run that most steps look at
 model, scene, motion, reduce   what the steps look for
-steps    the six steps, on a case or on any model file
-table    the steps against all cases, for the page
+steps, child   the six steps, on a case or on any model file; the same in a process of its own
+table   the steps against all cases, for the page
 """

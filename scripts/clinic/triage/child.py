@@ -1,6 +1,6 @@
-"""Triage in a process of its own: whatever a model does to the engine, the report ends with a message.
+"""Triage in a process of its own, bounded in time and memory: whatever a model does to it, the report ends.
 
-Run as a module with a path, it prints each observation as a line of JSON behind MARK.
+Run as a module with a path, it prints each message as a line of JSON behind MARK.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ from clinic.record.problem import CaseError, Problem
 from clinic.triage.run import Budget
 from clinic.triage.steps import SECONDS, STEPS, report, subject_of, triage
 
-LIMIT = 30.0
+LIMIT = 30.0  # s
+MEMORY = 4 * 2**30  # bytes
 MARK = "\x1e"
 CHILD = (sys.executable, "-m", "clinic.triage.child")
 
@@ -28,57 +29,56 @@ def reports(path: Path, limit: float = LIMIT, child: tuple[str, ...] = CHILD) ->
         CaseError: If the model cannot be read, or its process ends early or not within `limit` seconds.
     """
     process = subprocess.Popen(
-        [*child, str(path)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+        [*child, str(path)],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        encoding="utf-8",
+        errors="replace",
     )
-    late = threading.Event()
-
-    def stop() -> None:
-        late.set()
-        process.kill()
-
-    timer = threading.Timer(limit, stop)
+    assert process.stdout is not None
+    timer = threading.Timer(limit, process.kill)
     timer.start()
-    at = -1  # which step is being taken
+    doing = ["reading the model", *(title for title, _ in STEPS.values())]
     try:
-        assert process.stdout is not None
         for line in process.stdout:
             if line.startswith(MARK):
                 message = json.loads(line[len(MARK) :])
-                if "read" in message:
-                    at = 0
-                    continue
                 if "problems" in message:
                     raise CaseError(Problem(**problem) for problem in message["problems"])
-                at += 1
-                yield message["report"]
+                doing.pop(0)
+                if "report" in message:
+                    yield message["report"]
+        late = timer.finished.is_set()
         code = process.wait()
     finally:
         timer.cancel()
         process.kill()
-        process.wait()
-        if process.stdout is not None:
-            process.stdout.close()
-    if at < len(STEPS):
-        title = "reading the model" if at < 0 else list(STEPS.values())[at][0]
-        how = f"no answer within {limit:g} s" if late.is_set() else f"MuJoCo ended the process (exit code {code})"
-        raise CaseError(
-            [
-                Problem(
-                    str(path), 1, "", f"{how}, at: {title}", "a model that MuJoCo can run", "remove half of the model"
-                )
-            ]
-        )
+        process.communicate()
+    if doing:
+        how = f"no answer within {limit:g} s" if late else f"MuJoCo ended the process (exit code {code})"
+        raise CaseError([_problem(path, f"{how}, at: {doing[0]}")])
 
 
 def main(path: Path) -> None:
     """Prints the report of each step, or the problems of reading the model."""
+    if sys.platform == "linux":
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
     try:
         subject = subject_of(path)
-        _tell({"read": subject.name})
+        _tell({"read": str(path)})
         for observation in triage(subject, Budget(SECONDS)):
             _tell({"report": report(observation)})
     except CaseError as error:
         _tell({"problems": [vars(problem) for problem in error.problems]})
+    except Exception as error:
+        _tell({"problems": [vars(_problem(path, f"{type(error).__name__}: {error}"))]})
+
+
+def _problem(path: Path, found: str) -> Problem:
+    return Problem(str(path), 1, "", found, "a model that MuJoCo can run", "remove half of the model")
 
 
 def _tell(message: object) -> None:

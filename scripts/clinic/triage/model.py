@@ -11,15 +11,16 @@ from collections.abc import Callable, Iterator
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
-from clinic.triage.run import Subject
-from clinic.triage.stiffness import HINGE, SLIDE, inertia, kp, omega_max, servos
-from clinic.triage.text import counted, shown
-from clinic.triage.watch import Trial
+from clinic.engine.releases import control_of
+from clinic.triage.run import Array, Subject
+from clinic.triage.stiffness import HINGE, SLIDE, highest_frequency, inertias, joint_servos
+from clinic.triage.text import Finding, Look, counted, shown
+from clinic.triage.watched_run import Examination
 
 Seen = Iterator[tuple[str, str]]
 Rule = Callable[[Subject], Seen]
-BALL = int(mujoco.mjtJoint.mjJNT_BALL)
 LIMITS = {"mjINT_EULER": 2.0, "mjINT_IMPLICIT": 2.0, "mjINT_IMPLICITFAST": 2.0, "mjINT_RK4": 2.83}
 """The longest stable step times omega, by integrator."""
 
@@ -37,7 +38,7 @@ def unused_ranges(s: Subject) -> Seen:
     """A joint or actuator has a range that is not in force, reversed ranges included."""
     m = s.model
     for i in range(m.njnt):
-        if m.jnt_range[i].any() and not m.jnt_limited[i] and m.jnt_type[i] in (HINGE, SLIDE, BALL):
+        if m.jnt_range[i].any() and not m.jnt_limited[i]:
             yield s.called("joint", i), f"range {_pair(m.jnt_range[i])} is given and not in force"
     for i in range(m.nu):
         if m.actuator_ctrlrange[i].any() and not m.actuator_ctrllimited[i]:
@@ -48,36 +49,28 @@ def start_outside(s: Subject) -> Seen:
     """The start lies outside a joint's range, or a control outside its ctrlrange, by more than 1 % of it."""
     m, d = s.model, s.data
     for i in range(m.njnt):
-        if m.jnt_limited[i] and m.jnt_type[i] in (HINGE, SLIDE):
-            low, high = m.jnt_range[i]
-            value, slack = d.qpos[m.jnt_qposadr[i]], 0.01 * (high - low)
-            if not low - slack <= value <= high + slack:
-                yield s.called("joint", i), f"starts at {shown(value, '')}, outside its range {_pair((low, high))}"
+        value = d.qpos[m.jnt_qposadr[i]]
+        if m.jnt_limited[i] and m.jnt_type[i] in (HINGE, SLIDE) and _outside(value, m.jnt_range[i]):
+            yield s.called("joint", i), f"starts at {shown(value, '')}, outside its range {_pair(m.jnt_range[i])}"
     for i in range(m.nu):
-        if m.actuator_ctrllimited[i] and m.actuator_ctrlnum[i] == 1:
-            low, high = m.actuator_ctrlrange[i]
-            value, slack = d.ctrl[m.actuator_ctrladr[i]], 0.01 * (high - low)
-            if not low - slack <= value <= high + slack:
-                yield s.called("actuator", i), f"control {shown(value, '')} is clamped to {_pair((low, high))}"
+        control, limits = control_of(m, i), m.actuator_ctrlrange[i]
+        if m.actuator_ctrllimited[i] and control is not None and _outside(d.ctrl[control], limits):
+            yield s.called("actuator", i), f"control {shown(d.ctrl[control], '')} is clamped to {_pair(limits)}"
 
 
 def gains(s: Subject) -> Seen:
-    """An actuator's gain or gear is 0, or a position actuator's kp is 1, which is the default."""
+    """An actuator's gain or gear is 0."""
     m = s.model
-    for i in range(m.nu):
-        if m.actuator_gaintype[i] != mujoco.mjtGain.mjGAIN_FIXED:
-            continue
+    for i in np.flatnonzero(m.actuator_gaintype == mujoco.mjtGain.mjGAIN_FIXED).tolist():
         if m.actuator_gainprm[i, 0] == 0:
             yield s.called("actuator", i), "gain 0: no control moves anything"
         elif not m.actuator_gear[i].any():
             yield s.called("actuator", i), "gear 0: no control moves anything"
-        elif kp(m, i) == 1:
-            yield s.called("actuator", i), "kp is 1, the default"
 
 
 def weak_servos(s: Subject) -> Seen:
     """Gravity at the start pulls a position servo more than 0.2 rad or 0.05 m off its target (load/kp)."""
-    for i, dof, stiffness in servos(s):
+    for i, dof, stiffness in joint_servos(s):
         hinge = s.model.jnt_type[s.model.dof_jntid[dof]] == HINGE
         sag = abs(s.data.qfrc_bias[dof] - s.data.qfrc_gravcomp[dof]) / stiffness
         if sag > (0.2 if hinge else 0.05):
@@ -87,20 +80,18 @@ def weak_servos(s: Subject) -> Seen:
 
 def undamped(s: Subject) -> Seen:
     """A position servo or a spring acts on a joint with a damping ratio below 0.02."""
-    m, inertias = s.model, inertia(s)
-    stiffness, damping = np.array(m.jnt_stiffness[m.dof_jntid]).astype(float), np.array(m.dof_damping).astype(float)
-    springs = {int(dof) for dof in np.flatnonzero(stiffness)}
-    held = {}
-    for i, dof, k in servos(s):
+    m = s.model
+    stiffness, damping = m.jnt_stiffness[m.dof_jntid].astype(float), np.array(m.dof_damping, dtype=float)
+    elements = {int(dof): ("joint", int(m.dof_jntid[dof])) for dof in np.flatnonzero(stiffness)}
+    for i, dof, k in joint_servos(s):
         stiffness[dof] += k
         damping[dof] -= m.actuator_biasprm[i, 2] * m.actuator_gear[i, 0] ** 2
-        held[dof] = i
-    for dof in sorted(springs | held.keys()):
-        if inertias[dof] > 0 and stiffness[dof] > 0:
-            ratio = damping[dof] / (2 * math.sqrt(stiffness[dof] * inertias[dof]))
-            if ratio < 0.02:
-                kind, element = ("actuator", held[dof]) if dof in held else ("joint", int(m.dof_jntid[dof]))
-                yield s.called(kind, element), f"damping ratio {shown(ratio, '')}: nothing ends its oscillation"
+        elements[dof] = ("actuator", i)
+    critical = 2 * np.sqrt(stiffness * inertias(s))
+    for dof, element in sorted(elements.items()):
+        if damping[dof] < 0.02 * critical[dof]:
+            ratio = shown(damping[dof] / critical[dof], "")
+            yield s.called(*element), f"damping ratio {ratio}: nothing ends its oscillation"
 
 
 def masses(s: Subject) -> Seen:
@@ -118,14 +109,10 @@ def masses(s: Subject) -> Seen:
 
 
 def lengths(s: Subject) -> Seen:
-    """All geoms together fit into 10 mm or reach over 1 km, as those of scenes in a wrong unit do; planes left out."""
-    bounded = s.model.geom_rbound > 0
-    if bounded.any():
-        radii = s.model.geom_rbound[bounded, None]
-        centres = s.data.geom_xpos[bounded]
-        size = float(((centres + radii).max(axis=0) - (centres - radii).min(axis=0)).max())
-        if size < 0.01 or size > 1000:
-            yield "scene", f"is {shown(size, 'm')} long"
+    """The scene fits into 10 mm or reaches over 1 km, as scenes in a wrong unit do; planes left out."""
+    size = s.model.stat.extent
+    if s.model.ngeom and not 0.01 <= size <= 1000:
+        yield "scene", f"is {shown(size, 'm')} long"
 
 
 def gravity(s: Subject) -> Seen:
@@ -137,76 +124,51 @@ def gravity(s: Subject) -> Seen:
 
 def switches(s: Subject) -> Seen:
     """A part of the physics is switched off by a flag."""
-    names = ("CONSTRAINT", "EQUALITY", "LIMIT", "CONTACT", "SPRING", "DAMPER", "GRAVITY", "ACTUATION", "AUTORESET")
-    for name in names:
-        if s.model.opt.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{name}"):
-            yield "option", f"{name.lower()} is disabled by a flag"
+    for name in ("constraint", "equality", "limit", "contact", "spring", "damper", "gravity", "actuation", "autoreset"):
+        if s.model.opt.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{name.upper()}"):
+            yield "option", f"{name} is disabled by a flag"
 
 
 def time_steps(s: Subject) -> Seen:
     """The timestep is not positive, or above 80 % of the longest that springs and servos allow, 2/omega_max."""
-    h = s.model.opt.timestep
+    h, name = s.model.opt.timestep, mujoco.mjtIntegrator(s.model.opt.integrator).name
     if h <= 0:
         yield "option", f"timestep {shown(h, 's')}: time does not go on"
-        return
-    name = mujoco.mjtIntegrator(s.model.opt.integrator).name
-    omega = omega_max(s)
-    if name in LIMITS and omega * h > 0.8 * LIMITS[name]:
-        longest = LIMITS[name] / omega
-        yield (
-            "option",
-            f"timestep {shown(1e3 * h, 'ms')}; springs and servos are stable to {shown(1e3 * longest, 'ms')}",
-        )
+    elif name in LIMITS and highest_frequency(s) * h > 0.8 * LIMITS[name]:
+        longest = shown(1e3 * LIMITS[name] / highest_frequency(s), "ms")
+        yield "option", f"timestep {shown(1e3 * h, 'ms')}; springs and servos are stable to {longest}"
 
 
 def time_constants(s: Subject) -> Seen:
     """A geom's contact time constant, solref[0], is shorter than two timesteps."""
-    h = s.model.opt.timestep
-    for i in range(0 if _switched_off(s.model) else s.model.ngeom):
-        if 0 < s.model.geom_solref[i, 0] < 2 * h * (1 - 1e-9) and (
-            s.model.geom_contype[i] or s.model.geom_conaffinity[i]
-        ):
-            yield (
-                s.called("geom", i),
-                f"solref {shown(1e3 * s.model.geom_solref[i, 0], 'ms')}, two steps are {shown(2e3 * h, 'ms')}",
-            )
+    m, shortest = s.model, 2 * s.model.opt.timestep
+    for i in filter(lambda i: collides(m, i), range(m.ngeom)):
+        if 0 < m.geom_solref[i, 0] < shortest * (1 - 1e-9):
+            solref, two = shown(1e3 * m.geom_solref[i, 0], "ms"), shown(1e3 * shortest, "ms")
+            yield s.called("geom", i), f"solref {solref}, two steps are {two}"
 
 
 def lonely(s: Subject) -> Seen:
     """A geom has contact masks, and there are moving geoms, but its masks match none that could meet it."""
     m = s.model
-    able = [i for i in range(m.ngeom) if (m.geom_contype[i] or m.geom_conaffinity[i]) and not _switched_off(m)]
-    named = set(map(int, [*m.pair_geom1, *m.pair_geom2]))
-    for i in able:
-        others = [j for j in able if m.geom_bodyid[i] != m.geom_bodyid[j] and _moves(m, i, j)]
-        if others and i not in named and not any(_masks_match(m, i, j) for j in others):
+    named = {int(i) for i in (*m.pair_geom1, *m.pair_geom2)}
+    for i in range(m.ngeom):
+        others, matching = _partners(m, i)
+        if collides(m, i) and i not in named and len(others) and not matching.any():
             masks = f"contype {m.geom_contype[i]} conaffinity {m.geom_conaffinity[i]}"
             yield s.called("geom", i), f"{masks}: collides with no other of {counted(len(others), 'geom')}"
 
 
 def priorities(s: Subject) -> Seen:
     """Geoms of unequal priority can meet, and the one that decides has less than half the other's friction."""
-    m = s.model
-    for i in range(m.ngeom):
-        others = [
-            j
-            for j in np.flatnonzero(m.geom_priority < m.geom_priority[i]).tolist()
-            if m.geom_bodyid[i] != m.geom_bodyid[j] and _moves(m, i, j) and _masks_match(m, i, j)
-        ]
-        roughest = max(others, key=lambda j: float(m.geom_friction[j, 0]), default=i)
-        mine, yours = float(m.geom_friction[i, 0]), float(m.geom_friction[roughest, 0])
-        if mine < 0.5 * yours:
-            sets = f"priority {m.geom_priority[i]} sets friction {shown(mine, '')}"
-            yield s.called("geom", i), f"{sets} against {shown(yours, '')} of {s.called('geom', roughest)}"
-
-
-def frictions(s: Subject) -> Seen:
-    """A colliding geom's sliding friction is below 0.05 or above 5."""
-    m = s.model
-    for i in range(m.ngeom):
-        mu = m.geom_friction[i, 0]
-        if (m.geom_contype[i] or m.geom_conaffinity[i]) and not 0.05 <= mu <= 5:
-            yield s.called("geom", i), f"friction {shown(mu, '')}"
+    m, friction = s.model, s.model.geom_friction[:, 0]
+    for i in np.flatnonzero(m.geom_priority > m.geom_priority.min(initial=0)).tolist():
+        others, matching = _partners(m, i)
+        lower = others[matching & (m.geom_priority[others] < m.geom_priority[i])]
+        roughest = int(lower[friction[lower].argmax()]) if len(lower) else i
+        if friction[i] < 0.5 * friction[roughest]:
+            sets = f"priority {m.geom_priority[i]} sets friction {shown(friction[i], '')}"
+            yield s.called("geom", i), f"{sets} against {shown(friction[roughest], '')} of {s.called('geom', roughest)}"
 
 
 def quaternions(s: Subject) -> Seen:
@@ -232,35 +194,39 @@ def visual_mass(s: Subject) -> Seen:
     """A geom that collides with nothing has mass, on a moving body that takes its inertia from its geoms."""
     low, high = s.spec.compiler.inertiagrouprange
     for body in s.spec.bodies[1:]:
-        if body.explicitinertial or s.model.body_treeid[body.id] < 0:
+        geoms = list(body.geoms)
+        if body.explicitinertial or s.model.body_treeid[body.id] < 0 or not any(collides(s.model, g.id) for g in geoms):
             continue
-        looks = {g.id: g for g in body.geoms if not (s.model.geom_contype[g.id] or s.model.geom_conaffinity[g.id])}
-        if len(looks) < len(body.geoms):
-            for i, g in looks.items():
-                given = g.mass if math.isfinite(g.mass) else g.density
-                if given > 0 and low <= s.model.geom_group[i] <= high:
-                    yield s.called("geom", i), "collides with nothing and has mass"
+        for geom in geoms:
+            given = geom.mass if math.isfinite(geom.mass) else geom.density
+            if not collides(s.model, geom.id) and given > 0 and low <= s.model.geom_group[geom.id] <= high:
+                yield s.called("geom", geom.id), "collides with nothing and has mass"
 
 
 def keyframes(s: Subject) -> Seen:
     """A keyframe in the file gives some of the model's positions; the rest is filled from the defaults."""
-    for name, given in s.given.items():
-        if 0 < given < s.model.nq:
-            yield f"key {name}", f"qpos gives {given} of {s.model.nq} numbers"
+    given = {name: count for name, count in s.given.items() if 0 < count < s.model.nq}
+    return ((f"key {name}", f"qpos gives {count} of {s.model.nq} numbers") for name, count in given.items())
 
 
 RULES: tuple[Rule, ...] = (
     ranges, unused_ranges, start_outside, gains, weak_servos, undamped, masses, lengths, gravity, switches, time_steps,
-    time_constants, lonely, priorities, frictions, quaternions, visual_mass, keyframes,
+    time_constants, lonely, priorities, quaternions, visual_mass, keyframes,
 )  # fmt: skip
 
 
-def look(trial: Trial) -> tuple[str, list[tuple[str, str, str]]]:
+def look(examination: Examination) -> Look:
     """Applies every rule to the compiled model."""
-    s, m = trial.subject, trial.subject.model
-    found = [(rule.__name__, element, text) for rule in RULES for element, text in rule(s)]
+    s, m = examination.subject, examination.subject.model
+    found = [Finding(rule.__name__, *seen) for rule in RULES for seen in rule(s)]
     sizes = [counted(m.nbody - 1, "body", "bodies"), counted(m.njnt, "joint"), counted(m.nu, "actuator")]
     return f"{', '.join(sizes)}, timestep {shown(1e3 * m.opt.timestep, 'ms')}", found
+
+
+def collides(m: mujoco.MjModel, geom: int) -> bool:
+    """Whether a geom has contact masks, and contacts are not switched off."""
+    off = mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
+    return bool(m.geom_contype[geom] or m.geom_conaffinity[geom]) and not m.opt.disableflags & off
 
 
 def line_of(message: str) -> int:
@@ -269,21 +235,19 @@ def line_of(message: str) -> int:
     return max(1, int(match[1] or match[2])) if match else 1
 
 
-def _moves(m: mujoco.MjModel, i: int, j: int) -> bool:
-    """Whether two geoms can move against each other."""
-    return bool(m.body_treeid[m.geom_bodyid[i]] >= 0 or m.body_treeid[m.geom_bodyid[j]] >= 0)
+def _partners(m: mujoco.MjModel, i: int) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    """The colliding geoms that can move against geom i, by id, and for each whether the contact masks match."""
+    moving = m.body_treeid[m.geom_bodyid] >= 0
+    able = ((m.geom_contype != 0) | (m.geom_conaffinity != 0)) & (moving | moving[i])
+    others = np.flatnonzero(able & (m.geom_bodyid != m.geom_bodyid[i]))
+    match = (m.geom_contype[i] & m.geom_conaffinity[others]) | (m.geom_contype[others] & m.geom_conaffinity[i])
+    return others, match != 0
 
 
-def _switched_off(m: mujoco.MjModel) -> bool:
-    """Whether contacts are switched off by a flag."""
-    flags = mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
-    return bool(m.opt.disableflags & flags)
+def _outside(value: float, limits: Array) -> bool:
+    slack = 0.01 * (limits[1] - limits[0])
+    return not limits[0] - slack <= value <= limits[1] + slack
 
 
-def _masks_match(m: mujoco.MjModel, i: int, j: int) -> bool:
-    return bool((m.geom_contype[i] & m.geom_conaffinity[j]) | (m.geom_contype[j] & m.geom_conaffinity[i]))
-
-
-def _pair(values: object) -> str:
-    low, high = np.asarray(values, dtype=float)
-    return f"{shown(low, '')} to {shown(high, '')}"
+def _pair(limits: Array) -> str:
+    return f"{shown(limits[0], '')} to {shown(limits[1], '')}"

@@ -11,37 +11,30 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from clinic.engine.simulate import Drive, captured_messages, controls, start, step, step_count
+from clinic.engine.simulate import captured_messages, controls, initial_data, step, step_count
 from clinic.record.fields import RunSpec
 
 Array = NDArray[np.float64]
-SAMPLES = 100
-KINDS = {
-    "body": (mujoco.mjtObj.mjOBJ_BODY, "nbody"),
-    "joint": (mujoco.mjtObj.mjOBJ_JOINT, "njnt"),
-    "geom": (mujoco.mjtObj.mjOBJ_GEOM, "ngeom"),
-    "camera": (mujoco.mjtObj.mjOBJ_CAMERA, "ncam"),
-    "actuator": (mujoco.mjtObj.mjOBJ_ACTUATOR, "nu"),
-    "tendon": (mujoco.mjtObj.mjOBJ_TENDON, "ntendon"),
-    "key": (mujoco.mjtObj.mjOBJ_KEY, "nkey"),
-}
+AfterStep = Callable[[mujoco.MjModel, mujoco.MjData], None]
+SAMPLES = 100  # of a recording
+BODY_OF = {"geom": "geom_bodyid", "joint": "jnt_bodyid", "camera": "cam_bodyid"}
 
 
 class Budget:
     """Seconds of wall time that work may take; without a number, as long as it takes."""
 
-    def __init__(self, seconds: float | None = None, clock: Callable[[], float] = time.perf_counter) -> None:
+    def __init__(self, seconds: float = np.inf, clock: Callable[[], float] = time.perf_counter) -> None:
         self._clock = clock
-        self._end = None if seconds is None else clock() + seconds
+        self._end = clock() + seconds
 
     @property
     def left(self) -> float:
         """Seconds left, 0 when they are used up."""
-        return np.inf if self._end is None else max(0.0, self._end - self._clock())
+        return max(0.0, self._end - self._clock())
 
     def part(self, share: float) -> Budget:
         """A budget of a share of what is left."""
-        return Budget(None if self._end is None else share * self.left, self._clock)
+        return Budget(share * self.left, self._clock)
 
 
 @dataclass(frozen=True)
@@ -49,7 +42,6 @@ class Subject:
     """What is examined.
 
     Args:
-        name: How the report calls it.
         spec: The model before compilation, as it was read.
         model: The model, compiled.
         run: How it is started and driven, and for how long.
@@ -57,7 +49,6 @@ class Subject:
         given: How many positions each keyframe gives in the file; the compiled model has them all.
     """
 
-    name: str
     spec: mujoco.MjSpec
     model: mujoco.MjModel
     run: RunSpec
@@ -68,10 +59,8 @@ class Subject:
     def data(self) -> mujoco.MjData:
         """The start of the run, with everything derived from it."""
         with captured_messages():
-            data = start(self.model, self.run)
-            drive = controls(self.model, self.run, 1)
-            if len(drive.actuators):
-                data.ctrl[drive.actuators] = drive.values[0]
+            data = initial_data(self.model, self.run)
+            controls(self.model, self.run, 1).apply(data, 0)
             mujoco.mj_forward(self.model, data)
         return data
 
@@ -86,13 +75,11 @@ class Subject:
 
     def called(self, kind: str, index: int) -> str:
         """An element as a report names it: `joint elbow`, or `geom 3 of body torso` without a name."""
-        name = mujoco.mj_id2name(self.model, KINDS[kind][0], index)
-        if name:
+        if name := mujoco.mj_id2name(self.model, getattr(mujoco.mjtObj, f"mjOBJ_{kind.upper()}"), index):
             return f"{kind} {name}"
-        owner = {"geom": "geom_bodyid", "joint": "jnt_bodyid", "camera": "cam_bodyid"}.get(kind)
-        if owner is None:
+        if kind not in BODY_OF:
             return f"{kind} {index}"
-        return f"{kind} {index} of {self.called('body', getattr(self.model, owner)[index])}"
+        return f"{kind} {index} of {self.called('body', getattr(self.model, BODY_OF[kind])[index])}"
 
 
 @dataclass
@@ -106,12 +93,12 @@ class Recording:
         points: Positions of every body frame, then of every geom's centre, in m, shape (samples, n, 3).
         warnings: The largest count of each MuJoCo warning.
         messages: The distinct texts that MuJoCo printed.
-        resets: On how many steps time went back; counted in a thorough recording alone.
+        resets: On how many steps time went back.
+        finite: Whether all positions and velocities stayed finite.
     """
 
     timestep: float
     planned: int
-    stride: int
     steps: int = 0
     points: Array = field(default_factory=lambda: np.empty((0, 0, 3)))
     warnings: dict[str, int] = field(default_factory=dict)
@@ -124,53 +111,44 @@ class Recording:
         """Simulated time covered, in s."""
         return self.steps * self.timestep
 
-    @property
-    def whole(self) -> bool:
-        """Whether every planned step was made."""
-        return self.steps == self.planned
-
-
-Watch = Callable[[mujoco.MjModel, mujoco.MjData], None]
-
 
 def record(
     subject: Subject,
     model: mujoco.MjModel,
     budget: Budget,
     finer: int = 1,
-    watch: Watch | None = None,
-    nudge: Watch | None = None,
+    after_step: AfterStep | None = None,
+    nudge: AfterStep | None = None,
 ) -> Recording:
     """Runs `model`, a changed copy of the subject's, from the subject's start with its controls.
 
     Args:
+        subject: Gives the start, the controls and the duration.
+        model: What is run.
+        budget: The run ends when it is used up.
         finer: The model's timestep is this many times smaller than the subject's; samples stay at the same times.
-        watch: Called after every step.
+        after_step: Called after every step.
         nudge: Changes the start.
     """
-    stride = max(1, subject.steps // SAMPLES)
-    made = Recording(model.opt.timestep, subject.steps * finer, stride)
+    stride = max(1, subject.steps // SAMPLES) * finer
+    made = Recording(model.opt.timestep, subject.steps * finer)
     points = []
     counts = np.zeros(mujoco.mjtWarning.mjNWARNING, dtype=int)
     with captured_messages() as messages:
-        data = start(model, subject.run, nudge)
-        drive = controls(model, subject.run, made.planned)
-        together = 1
+        data = initial_data(model, subject.run, nudge)
+        driven = controls(model, subject.run, made.planned)
         while made.steps < made.planned and made.finite and budget.left > 0:
-            ahead = stride * finer - made.steps % (stride * finer)
-            end = made.steps + min(together, ahead, made.planned - made.steps)
             before = data.time
-            if watch is None:
-                _advance(model, data, drive, made.steps, end)
-                together *= 2
-            else:
-                step(model, data, drive, made.steps)
-                watch(model, data)
-            made.steps = end
+            step(model, data, driven, made.steps)
+            made.steps += 1
             made.resets += data.time <= before
-            np.maximum(counts, data.warning.number, out=counts)
-            made.finite = bool(np.isfinite(data.qpos).all() and np.isfinite(data.qvel).all())
-            if made.finite and made.steps % (stride * finer) == 0:
+            if after_step is not None:
+                after_step(model, data)
+            if messages:
+                np.maximum(counts, data.warning.number, out=counts)
+            if made.steps % stride == 0 or made.steps == made.planned:
+                made.finite = bool(np.isfinite(data.qpos).all() and np.isfinite(data.qvel).all())
+            if made.finite and made.steps % stride == 0:
                 mujoco.mj_kinematics(model, data)
                 points.append(np.concatenate([data.xpos, data.geom_xpos]))
     made.warnings = {mujoco.mjtWarning(k).name.removeprefix("mjWARN_"): int(n) for k, n in enumerate(counts) if n}
@@ -179,33 +157,14 @@ def record(
     return made
 
 
-def apart(one: Recording, other: Recording) -> Array:
-    """How far the points of two recordings are apart, in m, shape (samples that both have, n)."""
+def distance(one: Recording, other: Recording) -> float:
+    """The largest distance between the same points of two recordings, in m; infinite where one is not finite."""
     n = min(len(one.points), len(other.points))
-    with np.errstate(over="ignore", invalid="ignore"):
-        return np.asarray(np.linalg.norm(one.points[:n] - other.points[:n], axis=2))
-
-
-def gap(one: Recording, other: Recording) -> float:
-    """The largest distance between two recordings, in m; infinite where a number is no longer finite."""
-    return float(np.nan_to_num(apart(one, other), nan=np.inf).max(initial=0.0))
+    apart = np.linalg.norm(one.points[:n] - other.points[:n], axis=2)
+    return float(np.nan_to_num(apart, nan=np.inf).max(initial=0.0))
 
 
 def scale(subject: Subject, recording: Recording) -> float:
     """What a change is compared with, in m: the scene's extent, or the longest way a point went if that is more."""
-    with np.errstate(over="ignore", invalid="ignore"):
-        way = np.linalg.norm(recording.points - recording.points[:1], axis=2) if recording.points.size else np.zeros(1)
-    way = way[np.isfinite(way)]
-    return max(float(subject.model.stat.extent), float(way.max(initial=0.0)))
-
-
-def _advance(model: mujoco.MjModel, data: mujoco.MjData, drive: Drive, begin: int, end: int) -> None:
-    """Makes the steps from `begin` to `end`, together where the controls do not change."""
-    values = drive.values[begin:end]
-    if not len(drive.actuators) or bool(np.all(values == values[0])):
-        if len(drive.actuators):
-            data.ctrl[drive.actuators] = values[0]
-        mujoco.mj_step(model, data, end - begin)
-        return
-    for i in range(begin, end):
-        step(model, data, drive, i)
+    way = np.linalg.norm(recording.points - recording.points[:1], axis=2)
+    return max(float(subject.model.stat.extent), float(way[np.isfinite(way)].max(initial=0.0)))

@@ -12,8 +12,9 @@ from pathlib import Path
 
 import mujoco
 import numpy as np
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel
 
+from clinic.engine.releases import read_spec
 from clinic.engine.simulate import RunError, captured_messages
 from clinic.record.case import Case, load_case
 from clinic.record.fields import RunSpec
@@ -22,43 +23,16 @@ from clinic.record.problem import CaseError, Problem
 from clinic.triage import model as compiled
 from clinic.triage import motion, reduce, scene
 from clinic.triage.run import Budget, Subject
-from clinic.triage.watch import Trial
+from clinic.triage.text import Finding, Look
+from clinic.triage.watched_run import Examination
 
 SECONDS = 7.0
 DURATION = 2.0
 MAX_STEPS = 4000
-SHOWN = 4
+SHOWN = 3
 FIRST = "the first keyframe"
-
-
-class Finding(BaseModel):
-    """Something unusual: the rule that saw it, the element it saw it at, and what it saw, in words."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    rule: str
-    element: str
-    text: str
-
-
-class Observation(BaseModel):
-    """What one step saw; `said` is what it looked at and measured, whatever it found."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    step: str
-    said: str
-    taken: bool = True
-    findings: list[Finding] = []
-
-    @property
-    def saw(self) -> bool:
-        """Whether the step found anything."""
-        return bool(self.findings)
-
-
-Look = Callable[[Trial], tuple[str, list[tuple[str, str, str]]]]
-STEPS: dict[str, tuple[str, Look]] = {
+ENGINE_ERRORS = (ValueError, mujoco.FatalError, mujoco.UnexpectedError)
+STEPS: dict[str, tuple[str, Callable[[Examination], Look]]] = {
     "warnings": ("MuJoCo's warnings", motion.warnings),
     "model": ("the model as compiled", compiled.look),
     "overlays": ("the scene with overlays", scene.look),
@@ -68,30 +42,37 @@ STEPS: dict[str, tuple[str, Look]] = {
 }
 
 
+class Observation(BaseModel, frozen=True):
+    """What one step saw; `said` is what it looked at and measured, whatever it found."""
+
+    step: str
+    said: str
+    taken: bool = True
+    findings: list[Finding] = []
+
+
 def triage(subject: Subject, budget: Budget | None = None) -> Iterator[Observation]:
     """The six observations, each as soon as it is made. A step that cannot be taken says why."""
-    trial = Trial(subject, budget or Budget())
+    examination = Examination(subject, budget or Budget())
     for step, (_, look) in STEPS.items():
-        if trial.budget.left <= 0:
+        if examination.budget.left <= 0:
             yield Observation(step=step, taken=False, said="the time allowed was used up")
             continue
         try:
             with np.errstate(all="ignore"):
-                said, found = look(trial)
+                said, findings = look(examination)
         except RunError as error:
             yield Observation(step=step, taken=False, said=error.found)
-        except (ValueError, ArithmeticError, mujoco.FatalError, mujoco.UnexpectedError) as error:
-            yield Observation(step=step, taken=False, said=_first_line(error))
+        except (*ENGINE_ERRORS, ArithmeticError) as error:
+            yield Observation(step=step, taken=False, said=" ".join(str(error).split()) or type(error).__name__)
         else:
-            findings = [Finding(rule=rule, element=element, text=text) for rule, element, text in found]
             yield Observation(step=step, said=said, findings=findings)
 
 
 def subject_of_case(case: Case, text: str | None = None) -> Subject:
     """A model case's broken model, or another text of it, run as the record says."""
     assert case.record.run is not None
-    name = f"{case.record.number}. {case.record.title}"
-    return _compiled(name, lambda: mujoco.MjSpec.from_string(case.text if text is None else text), case.record.run)
+    return _compiled(lambda: mujoco.MjSpec.from_string(case.text if text is None else text), case.record.run)
 
 
 def subject_of(path: Path) -> Subject:
@@ -111,32 +92,34 @@ def subject_of(path: Path) -> Subject:
         return subject_of_case(case)
     if not path.is_file():
         found = f"a folder without {RECORD}" if path.is_dir() else "no such file"
-        raise _problem(path, 1, found, "an MJCF or URDF file, or a case's folder", "correct the path")
+        expected = "an MJCF or URDF file, or a case's folder"
+        raise CaseError([Problem(str(path), 1, "", found, expected, "correct the path")])
     try:
-        return _compiled(path.name, lambda: mujoco.MjSpec.from_file(str(path)))
-    except (ValueError, mujoco.FatalError, mujoco.UnexpectedError, UnicodeError) as error:
+        return _compiled(lambda: read_spec(path))
+    except ENGINE_ERRORS as error:
         said = " ".join(str(error).split())
-        line = compiled.line_of(said)
-        raise _problem(path, line, said, "XML that MuJoCo compiles", "see *What MuJoCo says*") from None
+        line, expected = compiled.line_of(said), "XML that MuJoCo compiles"
+        raise CaseError([Problem(str(path), line, "", said, expected, "see *What MuJoCo says*")]) from None
 
 
 def report(observation: Observation) -> str:
-    """An observation as text: a line that says what was looked at, then what was found."""
-    number = list(STEPS).index(observation.step) + 1
-    title = STEPS[observation.step][0]
-    result = "saw something" if observation.saw else "nothing unusual" if observation.taken else "not taken"
+    """An observation as text: a line that says what was looked at, then what was found, alike findings summed up."""
+    result = "saw something" if observation.findings else "nothing unusual" if observation.taken else "not taken"
+    number, title = list(STEPS).index(observation.step) + 1, STEPS[observation.step][0]
     lines = [f"{number}. {title}: {result} ({observation.said})"]
-    by_rule: dict[str, list[Finding]] = {}
+    by_rule: dict[str, dict[str, list[str]]] = {}
     for finding in observation.findings:
-        by_rule.setdefault(finding.rule, []).append(finding)
-    for findings in by_rule.values():
-        lines += [f"   - {finding.element}: {finding.text}" for finding in findings[:SHOWN]]
-        if len(findings) > SHOWN:
-            lines.append(f"   - ... and {len(findings) - SHOWN} more of the same kind")
+        by_rule.setdefault(finding.rule, {}).setdefault(finding.text, []).append(finding.element)
+    for texts in by_rule.values():
+        for text, elements in list(texts.items())[:SHOWN]:
+            more = f" and {len(elements) - SHOWN} more" if len(elements) > SHOWN else ""
+            lines.append(f"   - {', '.join(elements[:SHOWN])}{more}: {text}")
+        if rest := sum(map(len, list(texts.values())[SHOWN:])):
+            lines.append(f"   - ... and {rest} more of the same kind")
     return "\n".join(lines)
 
 
-def _compiled(name: str, read: Callable[[], mujoco.MjSpec], run: RunSpec | None = None) -> Subject:
+def _compiled(read: Callable[[], mujoco.MjSpec], run: RunSpec | None = None) -> Subject:
     """The model read and compiled. Without a run: DURATION from the first keyframe, with that keyframe's controls."""
     with captured_messages() as messages, warnings.catch_warnings(record=True) as raised:
         warnings.simplefilter("always")
@@ -149,12 +132,4 @@ def _compiled(name: str, read: Callable[[], mujoco.MjSpec], run: RunSpec | None 
         duration = min(DURATION, MAX_STEPS * model.opt.timestep) if model.opt.timestep > 0 else DURATION
         run = RunSpec(duration=duration, keyframe=next(iter(given), None))
     notes = tuple(dict.fromkeys([*(str(warning.message) for warning in raised), *messages]))
-    return Subject(name, spec, model, run, notes, given)
-
-
-def _problem(path: Path, line: int, found: str, expected: str, repair: str) -> CaseError:
-    return CaseError([Problem(str(path), line, "", found, expected, repair)])
-
-
-def _first_line(error: BaseException) -> str:
-    return (str(error).strip().splitlines() or [type(error).__name__])[0]
+    return Subject(spec, model, run, notes, given)

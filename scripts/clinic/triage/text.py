@@ -1,10 +1,23 @@
-"""How triage prints numbers: a few digits, and never a failure."""
+"""How triage words what it finds: findings, and numbers of a few digits that are never a failure."""
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from clinic.record.prose import quantity
+
+
+class Finding(NamedTuple):
+    """Something unusual: the rule that saw it, the element it saw it at, and what it saw, in words."""
+
+    rule: str
+    element: str
+    text: str
+
+
+Look = tuple[str, list[Finding]]
+"""What a step looked at and measured, and what it found."""
 
 
 def shown(value: float, unit: str, digits: int = 3) -> str:

@@ -1,4 +1,4 @@
-"""Work for one case whose result is kept; what is not kept is done in parallel."""
+"""Tasks: work for one case whose result is kept; what is not kept is done in parallel."""
 
 from __future__ import annotations
 
@@ -15,8 +15,7 @@ from clinic.record.problem import CaseError, LackError, Problem
 from clinic.work.cache import Cache, Files
 from clinic.work.parallel import parallel
 
-MANY = 10
-STAGES = 4  # of many tasks, at whose ends it is said how many are done
+MANY = 10  # tasks: so many take minutes, and it is said how many are done
 log = logging.getLogger("mkdocs.clinic")
 
 
@@ -37,25 +36,26 @@ def run_tasks(tasks: list[Task], cache: Cache) -> tuple[dict[str, Files], list[P
     """
     done = {task.key: files for task in tasks if (files := cache.get(task.key)) is not None}
     missing = [task for task in tasks if task.key not in done]
-    many = len(missing) >= MANY
-    if many:
+    if len(missing) >= MANY:
         log.info("%d cases are run and drawn: of a whole site that takes minutes, once", len({t.slug for t in missing}))
     problems: list[Problem] = []
-    unseen: set[str] = set()
+    lacks: set[str] = set()
     failed: set[str] = set()
-    for count, (k, (files, wrong, blind)) in enumerate(parallel(_attempt, list(enumerate(missing))), start=1):
-        if many and count * STAGES // len(missing) > (count - 1) * STAGES // len(missing):
+    for count, (k, files, wrong, lack) in enumerate(parallel(_attempt, list(enumerate(missing))), start=1):
+        task = missing[k]
+        done[task.key] = files
+        if count % MANY == 0:
             log.info("%d of %d parts are made", count, len(missing))
-        done[missing[k].key] = files
         if wrong:
             problems += wrong
-            failed.add(missing[k].slug)
-        elif blind:
-            unseen.add(blind)
+            failed.add(task.slug)
+        elif lack:
+            lacks.add(lack)
         else:
-            cache.put(missing[k].key, files)
-    for reason in sorted(unseen):
-        say_lack(reason)
+            cache.put(task.key, files)
+    for lack in sorted(lacks):
+        cache.incomplete = True
+        say_lack(lack)
     merged: dict[str, Files] = {}
     for task in tasks:
         if task.slug not in failed:
@@ -69,17 +69,18 @@ def say_lack(reason: str) -> None:
     log.log(logging.WARNING if os.environ.get("CI") else logging.INFO, reason)
 
 
-def _attempt(k: int, task: Task) -> tuple[int, tuple[Files, tuple[Problem, ...], str]]:
+def _attempt(k: int, task: Task) -> tuple[int, Files, tuple[Problem, ...], str]:
+    """The task's index and files, or the problems it has, or what this machine lacks for it."""
     try:
-        return k, (task.make(), (), "")
+        return k, task.make(), (), ""
     except CaseError as error:
-        return k, ({}, error.problems, "")
+        return k, {}, error.problems, ""
     except RenderError as error:
-        return k, ({}, (), f"no pictures and no films: {error}")
+        return k, {}, (), f"no pictures and no films: {error}"
     except LackError as error:
-        return k, ({}, (), str(error))
+        return k, {}, (), str(error)
     except Exception as error:  # one case, whatever it does to the engine, leaves the others alone
         found = f"{type(error).__name__}: {error}".strip(": ")
         place = f"{traceback.extract_tb(error.__traceback__)[-1].name} of the {task.kind}"
         expected, repair = f"{place} to come to an end", "correct what the message names"
-        return k, ({}, (Problem(f"cases/{task.slug}/{RECORD}", 1, "", found, expected, repair),), "")
+        return k, {}, (Problem(f"cases/{task.slug}/{RECORD}", 1, "", found, expected, repair),), ""

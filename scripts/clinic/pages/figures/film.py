@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 import tempfile
 from collections.abc import Iterator
@@ -16,8 +15,9 @@ from PIL import Image as Pictures
 from PIL import ImageDraw, ImageFont
 
 from clinic.engine.render import Image, renderer
-from clinic.engine.simulate import captured_messages, compile_model, controls, start, step
+from clinic.engine.simulate import captured_messages, compile_model, controls, initial_data, step
 from clinic.engine.variant import variants
+from clinic.pages.figures.pictures import webp
 from clinic.record.case import Case
 from clinic.record.fields import Film, RunSpec
 from clinic.record.prose import number
@@ -47,12 +47,11 @@ def film(case: Case) -> Files:
     record = case.record
     assert record.film is not None
     assert record.run is not None
-    broken, fixed, *_ = variants(case)
-    sides = [
-        list(frames(compile_model(variant.text), record.run, record.film, record.film.camera or record.picture.camera))
-        for variant in (broken, fixed)
-    ]
-    pictures = [beside(left, right, ("broken", "repaired")) for left, right in zip(*sides, strict=True)]
+    camera = record.film.camera or record.picture.camera
+    broken, fixed = (
+        list(frames(compile_model(variant.text), record.run, record.film, camera)) for variant in variants(case)[:2]
+    )
+    pictures = [beside(left, right) for left, right in zip(broken, fixed, strict=True)]
     moments = np.linspace(0, len(pictures) - 1, STRIP).round().astype(int)
     at = round(min(record.picture.time / filmed(record.film, record.run), 1.0) * (len(pictures) - 1))
     return {
@@ -70,19 +69,17 @@ def filmed(spec: Film, run: RunSpec) -> float:
 def frames(model: mujoco.MjModel, run: RunSpec, spec: Film, camera: str) -> Iterator[tuple[Image, str]]:
     """The images of a run, shape (HEIGHT, WIDTH, 3), each with the text of its clock.
 
-    A state that has moved by less than STILL, in m or rad, is not drawn anew.
-
-    From the first warning of a diverging run on, the last image before it stays: a state that is reset every few
-    steps would flash.
+    A state that has moved by less than STILL, in m or rad, is not drawn anew. From the first warning of a
+    diverging run on, the last image before it stays: a state that is reset every few steps would flash.
     """
     count = max(2, math.floor(filmed(spec, run) / spec.speed * FPS) + 1)
     last = round((count - 1) / FPS * spec.speed / model.opt.timestep)
-    data, drive, option = start(model, run), controls(model, run, last), mujoco.MjvOption()
+    data, drive, option = initial_data(model, run), controls(model, run, last), mujoco.MjvOption()
     for name in spec.overlays:
-        if name in FLAGS:
+        if name == "body_frames":
+            option.frame = mujoco.mjtFrame.mjFRAME_BODY
+        else:
             option.flags[FLAGS[name]] = True
-    if "body_frames" in spec.overlays:
-        option.frame = mujoco.mjtFrame.mjFRAME_BODY
     made, image, halted, drawn = 0, None, "", data.qpos.copy()
     model.vis.quality.offsamples, model.vis.quality.shadowsize = 0, SHADOW_SIZE
     with captured_messages(), renderer(model, *DRAWN) as draw:
@@ -96,24 +93,21 @@ def frames(model: mujoco.MjModel, run: RunSpec, spec: Film, camera: str) -> Iter
                     halted = f"reset at {number(made * model.opt.timestep, 2)} s"
             if image is None or (not halted and np.max(np.abs(data.qpos - drawn), initial=0) > STILL):
                 mujoco.mj_kinematics(model, data)  # a step leaves the positions of its start
-                image, drawn = averaged(draw.render(data, camera, option)), data.qpos.copy()
+                draw.update_scene(data, camera, option)
+                large = Pictures.fromarray(draw.render())
+                image, drawn = np.asarray(large.resize((WIDTH, HEIGHT), Pictures.Resampling.BOX)), data.qpos.copy()
             yield image, halted or f"{time:.2f} s"
 
 
-def averaged(image: Image) -> Image:
-    """The image at the film's size, each pixel the mean of the area it takes the place of."""
-    return np.asarray(Pictures.fromarray(image).resize((WIDTH, HEIGHT), Pictures.Resampling.BOX))
-
-
-def beside(left: tuple[Image, str], right: tuple[Image, str], titles: tuple[str, str]) -> Image:
-    """Two images side by side, each with its title and clock."""
-    whole = Pictures.fromarray(np.hstack([left[0], right[0]]))
+def beside(broken: tuple[Image, str], repaired: tuple[Image, str]) -> Image:
+    """Two images side by side, each with its title and clock, shape (HEIGHT, 2 * WIDTH, 3)."""
+    whole = Pictures.fromarray(np.hstack([broken[0], repaired[0]]))
     ink = ImageDraw.Draw(whole)
     font: Any = ImageFont.load_default(size=14)
-    for x, title, clock in ((0, titles[0], left[1]), (WIDTH, titles[1], right[1])):
+    for x, title, clock in ((0, "broken", broken[1]), (WIDTH, "repaired", repaired[1])):
         for place, text, anchor in (((x + 8, 6), title, "la"), ((x + WIDTH - 8, 6), clock, "ra")):
-            box = ink.textbbox(place, text, font=font, anchor=anchor)
-            ink.rectangle((box[0] - 4, box[1] - 3, box[2] + 4, box[3] + 3), fill=(20, 24, 28))
+            left, top, right, bottom = ink.textbbox(place, text, font=font, anchor=anchor)
+            ink.rectangle((left - 4, top - 3, right + 4, bottom + 3), fill=(20, 24, 28))
             ink.text(place, text, font=font, anchor=anchor, fill=(255, 255, 255))
     ink.line((WIDTH, 0, WIDTH, HEIGHT), fill=(20, 24, 28), width=2)
     return np.asarray(whole)
@@ -131,10 +125,3 @@ def encode(pictures: list[Image]) -> bytes:
                 container.mux(stream.encode(av.VideoFrame.from_ndarray(np.ascontiguousarray(picture), format="rgb24")))
             container.mux(stream.encode())
         return path.read_bytes()
-
-
-def webp(pixels: Image) -> bytes:
-    """The image, compressed."""
-    out = io.BytesIO()
-    Pictures.fromarray(pixels).save(out, format="webp", quality=82, method=6)
-    return out.getvalue()

@@ -1,8 +1,8 @@
-"""The figures' colours, and the dashes that tell lines apart without them."""
+"""The plots' colours on a light and on a dark page, and the dashes that tell lines apart without colours."""
 
 from __future__ import annotations
 
-import re
+from typing import Any
 
 INK = "#333a42"
 GRID = "#d9dde2"
@@ -17,9 +17,22 @@ DARK = {
     **dict(zip(FIXED, ("#6db3ff", "#55d6a3", "#c79bff"), strict=True)),
     RIVAL: "#e5c454",
 }
-COLOUR = re.compile("|".join(DARK))
 
 
-def darkened(svg: str) -> str:
-    """A figure in the colours for a dark page."""
-    return COLOUR.sub(lambda colour: DARK[colour[0]], svg)
+def fix_style(k: int) -> dict[str, Any]:
+    """Colour and dash of fix `k`, counted from 0."""
+    return {"color": FIXED[k % 3], "linestyle": DASHES[k % 3]}
+
+
+def with_dark_scheme(svg: str) -> str:
+    """The figure, which changes its colours where it is shown as an image of CSS `color-scheme: dark`.
+
+    A viewer that does not know the rules shows it in the colours for a light page.
+    """
+    rules = [
+        f'[style*="{part}: {light}"] {{{part}: {dark} !important}}'
+        for light, dark in DARK.items()
+        for part in ("fill", "stroke")
+    ]
+    style = "<style>\n@media (prefers-color-scheme: dark) {\n" + "\n".join(rules) + "\n}\n</style>\n"
+    return svg.replace("<defs>", style + "<defs>", 1)

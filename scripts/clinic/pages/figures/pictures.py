@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import io
+
 import mujoco
+from PIL import Image as Pictures
 
 from clinic.engine.render import Image, image
-from clinic.engine.simulate import compile_model, state_at
-from clinic.engine.variant import Variant, variants
-from clinic.pages.figures.film import webp
+from clinic.engine.simulate import compile_model, data_at
+from clinic.engine.variant import variants
 from clinic.record.case import Case
 from clinic.work.cache import Files
 
@@ -18,27 +20,30 @@ def pictures(case: Case) -> Files:
     Raises:
         RenderError: If images cannot be drawn on this machine.
     """
-    if case.record.model is not None:
-        broken, fixed, *_ = variants(case)
-        return {"broken.webp": webp(still(case, broken)), "fixed.webp": webp(still(case, fixed))}
-    return {"broken.webp": webp(scene_image(case))} if case.record.picture.scene is not None else {}
+    record, made = case.record, {}
+    if record.run is not None:
+        for name, variant in zip(("broken", "fixed"), variants(case), strict=False):
+            model = compile_model(variant.text)
+            made[f"{name}.webp"] = webp(
+                image(model, data_at(model, record.run, record.picture.time), record.picture.camera)
+            )
+    elif record.picture.scene is not None:
+        made["broken.webp"] = webp(scene_image(case.texts[record.picture.scene], record.picture.camera))
+    return made
 
 
-def still(case: Case, variant: Variant) -> Image:
-    """A variant at the picture's time, from the picture's camera."""
-    record = case.record
-    assert record.run is not None
-    model = compile_model(variant.text)
-    return image(model, state_at(model, record.run, record.picture.time), record.picture.camera)
-
-
-def scene_image(case: Case) -> Image:
-    """A code case's scene, in its first keyframe where it has one."""
-    picture = case.record.picture
-    assert picture.scene is not None
-    model = compile_model(case.texts[picture.scene])
+def scene_image(text: str, camera: str) -> Image:
+    """A model as it starts, in its first keyframe where it has one; shape (height, width, 3)."""
+    model = compile_model(text)
     data = mujoco.MjData(model)
     if model.nkey:
         mujoco.mj_resetDataKeyframe(model, data, 0)
     mujoco.mj_forward(model, data)
-    return image(model, data, picture.camera)
+    return image(model, data, camera)
+
+
+def webp(pixels: Image) -> bytes:
+    """The image, compressed."""
+    out = io.BytesIO()
+    Pictures.fromarray(pixels).save(out, format="webp", quality=82, method=6)
+    return out.getvalue()

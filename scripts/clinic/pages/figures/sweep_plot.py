@@ -1,38 +1,37 @@
-"""The figure of a sweep: measured points, the prediction over them, rivals dashed, the variants marked."""
+"""The plot of a sweep: measured points, the prediction over them, rivals dashed, the variants marked."""
 
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from numpy.typing import NDArray
 
 from clinic.pages.figures.palette import BROKEN, DASHES, FIXED, INK, RIVAL
-from clinic.proof.sweep import Point, SweepEvidence
+from clinic.proof.sweep import SweepEvidence
 from clinic.record.prose import plain
-from clinic.record.sweep import Parameter, Prediction, Sweep
+from clinic.record.sweep import Parameter, Sweep
 
 MANY = 1e4  # of the last number to the first, from which on an axis names powers of ten alone
 
 
-def sweep_plot(axes: Axes, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
-    """Draws the sweep: outcome over its one parameter, or a map of its two.
+def axis_label(name: str, unit: str) -> str:
+    """The name, with the unit in brackets."""
+    return f"{name} [{unit}]" if unit else name
 
-    Args:
-        axes: Where to draw.
-        sweep: The record's sweep.
-        outcome: The label of the measured number with its unit.
-        swept: The points and predictions.
-    """
-    if len(sweep.vary) == 1:
-        _curve(axes, sweep, outcome, swept)
-    else:
-        _map(axes, sweep, outcome, swept)
-    axes.grid(visible=True, linewidth=0.6)
-    axes.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, handlelength=2.4, fontsize=8.5)
+
+def numbers(values: list[float | None]) -> NDArray[np.float64]:
+    """The values, NaN for those that are not there."""
+    return np.array(values, dtype=float)
+
+
+def largest(values: NDArray[np.float64]) -> float:
+    """The largest magnitude among the values that are finite; 0 when there is none."""
+    return float(np.abs(values[np.isfinite(values)]).max(initial=0))
 
 
 def write_numbers(axis: Axis) -> None:
@@ -40,107 +39,82 @@ def write_numbers(axis: Axis) -> None:
     axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
 
 
+def sweep_plot(axes: Axes, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
+    """Draws a sweep's outcome, whose label is given, over its one parameter, or as a map of its two."""
+    draw = _curve if len(sweep.vary) == 1 else _map
+    draw(axes, sweep, outcome, swept)
+    axes.grid(visible=True, linewidth=0.6)
+    axes.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, handlelength=2.4, fontsize=8.5)
+
+
 def _curve(axes: Axes, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
-    parameter = sweep.vary[0]
+    (parameter,) = sweep.vary
     x = [point.at[parameter.name] for point in swept.points]
-    y = [_value(point.outcome) for point in swept.points]
-    for key, prediction, style in _predictions(sweep):
-        axes.plot(x, [_value(point.predicted[key]) for point in swept.points], label=prediction.label, **style)
+    y = numbers([point.outcome for point in swept.points])
+    predicted = {key: numbers([point.predicted[key] for point in swept.points]) for key in _styles(sweep)}
+    for key, style in _styles(sweep).items():
+        axes.plot(x, predicted[key], **style)
     axes.plot(x, y, "o", color=INK, markersize=4, fillstyle="none", label="measured")
-    for name, at, style in _marks(swept):
-        value = at[parameter.name]
-        axes.plot([value], [np.interp(value, x, y)], label=name, **style)
-    _scale(axes, parameter, "x")
-    measured = [abs(v) for v in y if math.isfinite(v)]
-    drawn = [abs(v) for point in swept.points for v in point.predicted.values() if v is not None]
-    if parameter.scale == "log" and min(measured, default=0) > 0 and max(measured) > 30 * min(measured):
+    _mark(axes, {name: (at[parameter.name], np.interp(at[parameter.name], x, y)) for name, at in swept.marks.items()})
+    _scale(axes, "x", parameter)
+    least, most = np.nanmin(np.abs(y), initial=math.inf), largest(y)
+    if parameter.scale == "log" and 0 < least < most / 30:
         axes.set_yscale("log")
         write_numbers(axes.yaxis)
-    elif max(drawn, default=0) > 3 * max(measured, default=1):
-        axes.set_ylim(top=1.6 * max(measured), bottom=min(0.0, *y))
+    elif max(map(largest, predicted.values())) > 3 * most > 0:
+        axes.set_ylim(top=1.6 * most, bottom=min(0.0, np.nanmin(y)))
     axes.set_ylabel(outcome)
 
 
 def _map(axes: Axes, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
     down, across = sweep.vary
+    x, y = (np.array([point.at[parameter.name] for point in swept.points]) for parameter in (across, down))
     if sweep.holds is None:
-        dots = axes.scatter(
-            [p.at[across.name] for p in swept.points],
-            [p.at[down.name] for p in swept.points],
-            c=[_value(p.outcome) for p in swept.points],
-            cmap="cividis",
-            s=26,
-            marker="s",
-        )
-        bar = axes.figure.colorbar(dots, ax=axes)
-        bar.set_label(outcome, fontsize=8.5)
+        dots = axes.scatter(x, y, c=numbers([p.outcome for p in swept.points]), cmap="cividis", s=26, marker="s")
+        axes.figure.colorbar(dots, ax=axes).set_label(outcome, fontsize=8.5)
     else:
-        for answer, label, fill in ((True, sweep.yes, "full"), (False, sweep.no, "none")):
-            chosen = [p for p in swept.points if p.holds is answer]
-            axes.plot(
-                [p.at[across.name] for p in chosen],
-                [p.at[down.name] for p in chosen],
-                linestyle="",
-                marker="o" if answer else "x",
-                markersize=3.2,
-                fillstyle=fill,
-                color=FIXED[0] if answer else BROKEN,
-                label=label,
-            )
-        for key, prediction, style in _predictions(sweep):
-            line = _boundary(swept.points, across, key)
-            axes.plot([x for x, _ in line], [y for _, y in line], label=prediction.label, **style)
-    for name, at, style in _marks(swept):
-        axes.plot([at[across.name]], [at[down.name]], label=name, **style)
-    _scale(axes, across, "x")
-    _scale(axes, down, "y")
-    values = sorted({p.at[down.name] for p in swept.points})
-    edge = max(1.07, (values[-1] / values[0]) ** 0.03) if down.scale == "log" else 1.07
-    axes.set_ylim(values[0] / edge, values[-1] * edge)
+        holds = np.array([point.holds is True for point in swept.points])
+        fails = np.array([point.holds is False for point in swept.points])
+        size: dict[str, Any] = {"linestyle": "", "markersize": 3.2}
+        axes.plot(x[holds], y[holds], marker="o", color=FIXED[0], label=sweep.yes, **size)
+        axes.plot(x[fails], y[fails], marker="x", color=BROKEN, label=sweep.no, **size)
+        for key, style in _styles(sweep).items():
+            predicted = numbers([point.predicted[key] for point in swept.points])
+            known = [value for value in np.unique(x) if np.isfinite(predicted[x == value]).any()]
+            axes.plot(known, [np.nanmedian(predicted[x == value]) for value in known], **style)
+    _mark(axes, {name: (at[across.name], at[down.name]) for name, at in swept.marks.items()})
+    _scale(axes, "x", across)
+    _scale(axes, "y", down)
+    edge = max(1.07, (y.max() / y.min()) ** 0.03) if down.scale == "log" else 1.07
+    axes.set_ylim(y.min() / edge, y.max() * edge)
 
 
-def _boundary(points: list[Point], across: Parameter, key: str) -> list[tuple[float, float]]:
-    """The predicted line: the median prediction at each value of the parameter across."""
-    values: dict[float, list[float]] = {}
-    for point in points:
-        if (predicted := point.predicted[key]) is not None:
-            values.setdefault(point.at[across.name], []).append(predicted)
-    return [(x, float(np.median(ys))) for x, ys in sorted(values.items())]
-
-
-def _predictions(sweep: Sweep) -> list[tuple[str, Prediction, dict[str, Any]]]:
-    made: list[tuple[str, Prediction, dict[str, Any]]] = [
-        ("prediction", sweep.prediction, {"color": FIXED[1], "linewidth": 1.8})
-    ]
+def _styles(sweep: Sweep) -> dict[str, dict[str, Any]]:
+    """How the line of each prediction is drawn."""
+    made = {"prediction": {"label": sweep.prediction.label, "color": FIXED[1], "linewidth": 1.8}}
     for k, rival in enumerate(sweep.rivals):
-        made.append((rival.id, rival, {"color": RIVAL, "linewidth": 1.6, "linestyle": DASHES[k % 3]}))
+        made[rival.id] = {"label": rival.label, "color": RIVAL, "linewidth": 1.6, "linestyle": DASHES[k % 3]}
     return made
 
 
-def _marks(swept: SweepEvidence) -> list[tuple[str, dict[str, float], dict[str, Any]]]:
-    made, fixes = [], 0
-    for name, at in swept.marks.items():
-        style: dict[str, Any] = {"linestyle": "", "markersize": 10, "markeredgewidth": 2.2, "zorder": 5}
+def _mark(axes: Axes, places: dict[str, tuple[float, float]]) -> None:
+    """Marks where the variants stand."""
+    fixes = [name for name in places if name != "broken"]
+    for name, (x, y) in places.items():
         if name == "broken":
-            style |= {"marker": "X", "color": BROKEN, "markeredgecolor": INK, "markeredgewidth": 0.8}
+            style: dict[str, Any] = {"marker": "X", "color": BROKEN, "markeredgewidth": 0.8}
         else:
-            style |= {"marker": "Ds^"[fixes % 3], "color": "none", "markeredgecolor": INK}
-            fixes += 1
-        made.append((name, at, style))
-    return made
+            style = {"marker": "Ds^"[fixes.index(name) % 3], "color": "none", "markeredgewidth": 2.2}
+        axes.plot([x], [y], label=name, linestyle="", markersize=10, markeredgecolor=INK, zorder=5, **style)
 
 
-def _scale(axes: Axes, parameter: Parameter, side: str) -> None:
-    label = (parameter.label or parameter.name) + (f" [{parameter.unit}]" if parameter.unit else "")
-    (axes.set_xlabel if side == "x" else axes.set_ylabel)(label)
+def _scale(axes: Axes, side: Literal["x", "y"], parameter: Parameter) -> None:
+    """Labels an axis with the parameter, on its scale."""
+    axes.set(**{f"{side}label": axis_label(parameter.label or parameter.name, parameter.unit)})
     if parameter.scale == "log":
-        (axes.set_xscale if side == "x" else axes.set_yscale)("log")
-        axis = axes.xaxis if side == "x" else axes.yaxis
-        low, high = axes.get_xlim() if side == "x" else axes.get_ylim()
+        axes.set(**{f"{side}scale": "log"})
+        axis: Axis = getattr(axes, f"{side}axis")
+        low, high = axis.get_view_interval()
         axis.set_major_locator(LogLocator(subs=(1.0,) if high > MANY * low else (1.0, 2.0, 5.0)))
         write_numbers(axis)
         axis.set_minor_formatter(NullFormatter())
-
-
-def _value(number: float | None) -> float:
-    return math.nan if number is None else number

@@ -43,11 +43,12 @@ def anchors(page: str) -> dict[str, str]:
         if match := LABEL.match(line):
             labels.append(match[1])
         elif line.strip() and not RULE.match(line):
-            heading = _plain(line) if RULE.match(following) else _attribute(line)
+            heading = re.sub(r":[\w-]+:`([^`<]*?)\s*(?:<[^>]*>)?`|\s*\|[^|]*\|\s*|\*\*|``", r"\1", line).strip()
             if RULE.match(following):
-                found[_slug(heading)] = heading
-            for label in labels:
-                found[_slug(label)] = heading or label
+                labels.append(heading)
+            else:  # an attribute, or several, with their types
+                heading = re.split("[:,]", heading)[0]
+            found |= {_slug(label): heading for label in labels}
             labels = []
     return found
 
@@ -61,24 +62,12 @@ def manual_problems(case: Case) -> Iterator[Problem]:
             expected = "a page of the manual: XMLreference.html, modeling.html, computation/index.html, ..."
             yield case.problem(("manual", index), f"{file}, which is not there", expected, "correct the page")
         elif anchor and anchor not in known:
-            guess = closest(anchor, known)
+            found, guess = f"#{anchor}, which {file} does not have", closest(anchor, known)
             near = [name for name in known if name.startswith(anchor[:4])] or list(known)
             repair = f"write {file}#{guess}" if guess else "correct the anchor"
-            yield case.problem(
-                ("manual", index), f"#{anchor}, which {file} does not have", f"an anchor: {listed(near)}", repair
-            )
+            yield case.problem(("manual", index), found, f"an anchor: {listed(near)}", repair)
 
 
 def _slug(text: str) -> str:
     """An anchor as Sphinx writes it."""
     return re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-")
-
-
-def _plain(line: str) -> str:
-    text = re.sub(r":[\w-]+:`([^`<]*?)\s*(?:<[^>]*>)?`", r"\1", line)
-    return re.sub(r"\s*\|[^|]*\|\s*|\*\*|``", "", text).strip()
-
-
-def _attribute(line: str) -> str:
-    match = re.match(r":at:`([^`]+)`", line)
-    return match[1] if match else ""

@@ -1,15 +1,20 @@
-"""Prose of a record made into Markdown: fields filled from the evidence, formulas set as MathML, HTML made inert."""
+"""Prose of a record made into Markdown: fields filled from the evidence, formulas set as MathML."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import TypeVar
 
-from clinic.proof.evidence import Evidence, VariantEvidence
-from clinic.record.formula import formulas
-from clinic.record.markup import harmless, outside_code
-from clinic.record.problem import closest, listed
-from clinic.record.prose import CONVERSIONS, FIELD, quantity
+from clinic.pages.text.formula import FormulaError, mathml
+from clinic.proof.evidence import Evidence
+from clinic.proof.prose_laws import prose_of
+from clinic.record.case import Case
+from clinic.record.problem import Problem, closest, listed
+from clinic.record.prose import CODE, CONVERSIONS, FIELD, FORMULA, quantity
+
+T = TypeVar("T")
+PARTS = re.compile(f"{CODE.pattern}|{FORMULA.pattern}|(?P<tag><)", re.DOTALL | re.MULTILINE)
 
 
 class FieldError(ValueError):
@@ -24,13 +29,21 @@ class FieldError(ValueError):
 
 
 def markdown(text: str, evidence: Evidence) -> str:
-    """The prose with its fields filled, formulas as MathML, and no HTML of its own.
+    """The prose with its fields filled and its formulas as MathML; a `<` outside code is shown.
 
     Raises:
         FieldError: For the first field that resolves to nothing.
         FormulaError: For the first formula that cannot be set.
     """
-    return outside_code(fill(text, evidence), lambda part: formulas(part, harmless))
+    return PARTS.sub(_part, fill(text, evidence))
+
+
+def _part(match: re.Match[str]) -> str:
+    if match["block"]:
+        return f'\n\n<div class="formula">{mathml(match["block"], "block")}</div>\n\n'
+    if match["inline"]:
+        return mathml(match["inline"], "inline")
+    return match["code"] or "&lt;"
 
 
 def fill(text: str, evidence: Evidence) -> str:
@@ -42,12 +55,30 @@ def fill(text: str, evidence: Evidence) -> str:
     return FIELD.sub(lambda match: resolve(match[1], evidence), text)
 
 
-def field_errors(text: str, evidence: Evidence) -> Iterator[FieldError]:
-    """Every field of the text that resolves to nothing."""
+def prose_problems(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Every field and formula of the prose that cannot be shown."""
+    reasons = [(("exempt", law), reason) for law, reason in case.record.exempt.items()]
+    for where, text in [*prose_of(case), *reasons]:
+        for error in mistakes(text, evidence):
+            quoted = error.found.partition(": ")[0]
+            yield case.problem(where, error.found, error.expected, error.repair, quoted)
+
+
+def mistakes(text: str, evidence: Evidence) -> Iterator[FieldError | FormulaError]:
+    """Every field of the text that is not closed or resolves to nothing, and every formula that cannot be set."""
     for match in FIELD.finditer(text):
         try:
             resolve(match[1], evidence)
         except FieldError as error:
+            yield error
+    filled = FIELD.sub("1", text)
+    if (begun := filled.find("{{")) >= 0:
+        opened = filled[begun:].partition("\n")[0]
+        yield FieldError(opened[:40], "a field that is closed: {{ ... }}", "close it with }}")
+    for match in PARTS.finditer(filled):
+        try:
+            _part(match)
+        except FormulaError as error:
             yield error
 
 
@@ -58,38 +89,36 @@ def resolve(field: str, evidence: Evidence) -> str:
         FieldError: If it resolves to nothing.
     """
     name, *filters = (part.strip() for part in field.split("|"))
-    if name == "engine" and not filters:
-        return evidence.engine
-    if name.startswith("sweep."):
-        return _sweep_field(name, filters, evidence)
-    variant_id, _, rest = name.partition(".")
-    if variant_id not in evidence.variants:
-        raise _unknown(name, variant_id, evidence.variants, "variant")
-    variant = evidence.variants[variant_id]
-    if rest == "warning" and not filters:
-        if not variant.messages:
-            raise FieldError(f"{{{{ {name} }}}}", "a variant that MuJoCo warned about", "remove the field")
-        return variant.messages[0]
-    value, unit = _value(name, rest, variant)
-    return _shown(name, value, unit, filters)
+    value, unit = _measured(name, evidence)
+    if value is None:
+        raise FieldError(f"{{{{ {name} }}}}", "what the run measured", "name something else, or remove the field")
+    return value if isinstance(value, str) else _shown(name, value, unit, filters)
 
 
-def _sweep_field(name: str, filters: list[str], evidence: Evidence) -> str:
-    """`sweep.ID.points`, or one of the fields of Agreement for the prediction or, with its id, for a rival."""
-    _, sweep, *rest = name.split(".")
-    if sweep not in evidence.sweep:
-        raise _unknown(name, sweep, evidence.sweep, "sweep")
-    swept = evidence.sweep[sweep]
-    if rest == ["points"]:
-        return _shown(name, len(swept.points), "", filters)
-    which, field = ("prediction", *rest) if len(rest) == 1 else (*rest, "")[:2]
-    if which not in swept.agreement:
-        raise _unknown(name, which, swept.agreement, "prediction of the sweep")
-    numbers = swept.agreement[which].model_dump(exclude={"unit"})
-    if numbers.get(field) is None:
-        fields = [key for key, known in numbers.items() if known is not None]
-        raise _unknown(name, field, ["points", *fields], "field of the sweep")
-    return _shown(name, numbers[field], swept.agreement[which].unit if field == "worst" else "", filters)
+def _measured(name: str, evidence: Evidence) -> tuple[float | str | None, str]:
+    """A number with its unit, or a text: `engine`, `VARIANT.SIGNAL.TAKE`, `sweep.ID.points`, `sweep.ID.RIVAL.worst`."""
+    first, _, rest = name.partition(".")
+    if name == "engine":
+        return evidence.engine, ""
+    if first == "sweep":
+        sweep, *which, field = rest.split(".") if "." in rest else (rest, "")
+        swept = _known(name, sweep, evidence.sweep, "sweep")
+        if field == "points":
+            return len(swept.points), ""
+        agreement = _known(name, ".".join(which) or "prediction", swept.agreement, "prediction of the sweep")
+        numbers = {key: number for key, number in agreement.model_dump(exclude={"unit"}).items() if number is not None}
+        number: float = _known(name, field, {"points": 0, **numbers}, "field of the sweep")
+        return number, agreement.unit if field == "worst" else ""
+    variant = _known(name, first, evidence.variants, "variant")
+    own: dict[str, tuple[float | str | None, str]] = {}
+    if variant.timestep is not None and variant.steps is not None:
+        own = {"timestep": (variant.timestep, "s"), "duration": (variant.timestep * variant.steps, "s")}
+        own["warning"] = (next(iter(variant.messages), None), "")
+    if rest in own:
+        return own[rest]
+    signal, _, take = rest.partition(".")
+    takes = _known(name, signal, {**variant.values, **{key: {} for key in own}}, "signal")
+    return _known(name, take, takes, "take"), "s" if take == "onset" else variant.traces[signal].unit
 
 
 def _shown(name: str, value: float, unit: str, filters: list[str]) -> str:
@@ -107,26 +136,9 @@ def _shown(name: str, value: float, unit: str, filters: list[str]) -> str:
     return quantity(value, unit, digits)
 
 
-def _value(name: str, rest: str, variant: VariantEvidence) -> tuple[float, str]:
-    if rest in ("timestep", "duration") and variant.timestep is not None and variant.steps is not None:
-        return (variant.timestep if rest == "timestep" else variant.timestep * variant.steps), "s"
-    signal, _, which = rest.partition(".")
-    if signal not in variant.values:
-        more = ["timestep", "duration", "warning"] if variant.timestep is not None else []
-        raise _unknown(name, signal, [*variant.values, *more], "signal")
-    if which not in variant.values[signal]:
-        raise _unknown(name, which, variant.values[signal], "take")
-    value = variant.values[signal][which]
-    if value is None:
-        raise FieldError(f"{{{{ {name} }}}}", "a number that the run measured", "take another number of the signal")
-    return value, "s" if which == "onset" else variant.traces[signal].unit
-
-
-def _unknown(name: str, word: str, known: object, kind: str) -> FieldError:
-    options = list(known)  # type: ignore[call-overload]
-    guess = closest(word, options)
-    return FieldError(
-        f"{{{{ {name} }}}}: {word or 'nothing'} is no {kind}",
-        f"a {kind}: {listed(options, 20)}",
-        f"write {guess}" if guess else "correct the field",
-    )
+def _known(name: str, word: str, known: Mapping[str, T], kind: str) -> T:
+    if word in known:
+        return known[word]
+    guess = closest(word, known)
+    repair = f"write {guess}" if guess else "correct the field"
+    raise FieldError(f"{{{{ {name} }}}}: {word or 'nothing'} is no {kind}", f"a {kind}: {listed(known, 20)}", repair)

@@ -1,0 +1,52 @@
+// The editor's place on the page, its buttons, and the places of what is said about the text.
+
+import { button, choice, el, group } from "../page/elements.js";
+
+/** @import {CaseRecord} from "../record/types.js" */
+/** @import {Draft} from "./draft.js" */
+
+const LIVE = "https://live.mujoco.org/?model=";
+
+/**
+ * @param {CaseRecord} record
+ * @param {Draft} draft
+ * @param {{check: () => void, stop: () => void}} act
+ */
+export function editorControls(record, draft, { check: startCheck, stop: stopCheck }) {
+  const help = `pg-help-${record.case}`;
+  const editor = el("div", { class: "pg-editor" });
+  const error = el("p", { class: "pg-complaint", role: "alert" });
+  const check = button("Check my fix", startCheck, { class: "pg-check" });
+  const stop = button("Stop checking", stopCheck, { hidden: true });
+  const result = el("div", { class: "pg-result", role: "status" });
+  const linked = el("p", { role: "status" });
+  const address = el("input", { class: "pg-address", readonly: true, hidden: true, "aria-label": "Link to this text" });
+  const remedies = /** @type {[string, string][]} */ ([
+    ["", "choose one"],
+    ...record.fixes.map(({ id, title }) => [id, title]),
+    ...record.refuted.map(({ id, title }) => [id, `does not help: ${title}`]),
+  ]);
+  const fix = choice("Show the fix", remedies, "", (id) => id && draft.showRemedy(id));
+  const parts = [
+    el("p", { class: "pg-file" }, el("strong", {}, record.name), el("span", { id: help }, " Edit it; Tab leaves the editor, as does Escape and then Tab.")),
+    editor,
+    error,
+    group("Repair", check, stop, fix.whole),
+    result,
+    group("Text", button("Restore", () => draft.restore()), button("Download XML", () => draft.download()), button("Copy link", () => void draft.copyLink()), ...openElsewhere(record)),
+    address,
+    linked,
+  ];
+  return { parts, editor, error, check, stop, result, address, linked, fix, help };
+}
+
+/**
+ * MuJoCo Live fetches the published model itself, which it can from a public host only.
+ * @param {CaseRecord} record
+ */
+function openElsewhere(record) {
+  if (location.protocol !== "https:") return [];
+  const model = new URL(record.name, location.href).href;
+  const note = "The model as published; your edits stay here";
+  return [el("a", { href: LIVE + encodeURIComponent(model), target: "_blank", rel: "noopener", title: note }, "Open in MuJoCo Live")];
+}

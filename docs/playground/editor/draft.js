@@ -1,0 +1,164 @@
+// The reader's text: edited, compiled while the last good model goes on, compared, shared.
+
+import { applyEdits } from "../engine/variant.js";
+import { el } from "../page/elements.js";
+import { toFragment } from "../page/link.js";
+import { editorControls } from "./controls.js";
+import { Editor } from "./editor.js";
+
+/** @import {Engine} from "../engine/client.js" */
+/** @import {CaseRecord} from "../record/types.js" */
+
+const TYPING = 350; // ms without a key before a text is compiled
+
+/** The text in the editor and what the engine makes of it. */
+export class Draft {
+  /**
+   * @param {CaseRecord} record
+   * @param {Engine} engine
+   * @param {string} text
+   * @param {{changed: () => void, check: () => void, stop: () => void}} act what an edit does, and the buttons of the check
+   */
+  constructor(record, engine, text, act) {
+    this.controls = editorControls(record, this, act);
+    this.record = record;
+    this.engine = engine;
+    this.changed = act.changed;
+    /** The text that last compiled. */
+    this.good = record.text;
+    /** @type {string | null} the text that is being compiled */
+    this.compiling = null;
+    /** @type {string | null} the text to compile next */
+    this.next = null;
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    this.typing = undefined;
+    const options = { label: `${record.name}, the model's XML`, describedBy: this.controls.help, changed: () => this.edited() };
+    this.editor = new Editor(this.controls.editor, text, options);
+  }
+
+  get text() {
+    return this.editor.text;
+  }
+
+  /** Whether the text is one of the record's fixes, or with `all` one of its remedies. */
+  isOurs(text = this.text, all = false) {
+    const { fixes, refuted } = this.record;
+    return (all ? [...fixes, ...refuted] : fixes).some(({ edits }) => applyEdits(this.record.text, edits) === text);
+  }
+
+  edited() {
+    clearTimeout(this.typing);
+    this.changed();
+    this.controls.fix.select.value = "";
+    this.typing = setTimeout(() => this.engine.worker && this.compile(this.text), TYPING);
+  }
+
+  /**
+   * Has a text compiled, after the one that is being compiled.
+   * @param {string} text
+   */
+  compile(text) {
+    if (this.compiling !== null) {
+      this.next = text;
+      return;
+    }
+    this.compiling = text;
+    this.engine.post({ type: "open", text });
+  }
+
+  /** @param {string[]} missing what of the record's run and signals the model lacks */
+  accepted(missing) {
+    this.good = this.compiled();
+    if (this.good !== this.text) return; // what is said of the text in the editor still holds
+    this.editor.showError(null);
+    this.showError(missing.length > 0 ? `It compiles, but the case's run and signals need more: ${missing.join("; ")}.` : "");
+  }
+
+  /**
+   * @param {{message: string, line: number | null}} error
+   * @param {boolean} running whether a model that compiled goes on
+   */
+  refused(error, running) {
+    const text = this.compiled();
+    this.editor.showError(error.message, error.line);
+    const newer = this.isOurs(text, true)
+      ? ` MuJoCo ${this.record.engine}, which made the evidence, knows this; the engine of this page does not.`
+      : "";
+    this.showError(compileError(error) + (running ? " (The last model that compiled goes on.)" : "") + newer);
+  }
+
+  /** Ends the compilation, starts that of what was typed since, and gives the text that was compiled. @returns {string} */
+  compiled() {
+    const [done, next] = [this.compiling ?? this.good, this.next];
+    this.compiling = this.next = null;
+    if (next !== null) this.compile(next);
+    return done;
+  }
+
+  /**
+   * Goes back to a text that can be trusted, since the engine is gone.
+   * @param {boolean} suspected whether a text that was being compiled or judged is to blame
+   */
+  engineLost(suspected) {
+    this.compiling = this.next = null;
+    if (!suspected) this.good = this.record.text;
+  }
+
+  /**
+   * Puts a remedy into the editor, with what it changes marked.
+   * @param {string} id of a fix or a refuted remedy
+   */
+  showRemedy(id) {
+    const { text, fixes, refuted } = this.record;
+    const remedy = [...fixes, ...refuted].find((one) => one.id === id);
+    if (!remedy) return;
+    this.editor.compare(null);
+    this.editor.text = applyEdits(text, remedy.edits);
+    this.editor.compare(text);
+    this.controls.fix.select.value = id;
+  }
+
+  /** Puts the case's own text back. */
+  restore() {
+    this.editor.compare(null);
+    this.editor.text = this.record.text;
+  }
+
+  /** @param {string} text about what is wrong with the text in the editor; empty when nothing is */
+  showError(text) {
+    this.controls.error.textContent = text;
+  }
+
+  download() {
+    const url = URL.createObjectURL(new Blob([this.text], { type: "application/xml" }));
+    el("a", { href: url, download: `${this.record.case}.xml` }).click();
+    setTimeout(() => URL.revokeObjectURL(url));
+  }
+
+  /** Puts a link to the text into the field below and, where the browser lets it, into the clipboard. */
+  async copyLink() {
+    const { address, linked } = this.controls;
+    address.value = new URL(await toFragment(this.text), location.href).href;
+    address.hidden = false;
+    address.select();
+    const copied = await navigator.clipboard?.writeText(address.value).then(
+      () => true,
+      () => false,
+    );
+    linked.textContent = copied ? "The link to this text is copied." : "Copy the link to this text from the field above.";
+  }
+
+  leave() {
+    clearTimeout(this.typing);
+    this.editor.destroy();
+  }
+}
+
+/**
+ * An error of the compiler in a line.
+ * @param {{message: string, line: number | null}} error
+ */
+export function compileError({ message, line }) {
+  const said = message.replaceAll("\n", " ").trim();
+  return line ? `Line ${line}: ${said}` : said;
+}

@@ -1,0 +1,54 @@
+// The types of `playground.json`, as scripts/clinic/pages/playground.py writes it. See the record's reference for their meaning.
+
+/**
+ * @typedef {{find: string, replace: string}} Edit
+ * @typedef {{id: string, title: string, edits: Edit[]}} Remedy
+ * @typedef {"final" | "first" | "min" | "max" | "mean" | "span" | "onset"} Take
+ *
+ * @typedef {object} Comparison
+ * @property {number} [above]
+ * @property {number} [below]
+ * @property {[number, number]} [between]
+ * @property {number} [equals]
+ * @property {number} [within]
+ *
+ * @typedef {Comparison & {signal: string, take: Take, window?: [number, number]}} Check
+ *
+ * @typedef {object} Described
+ * @property {string} unit
+ * @property {string} label
+ *
+ * @typedef {Described & {path: string, columns: number[]}} PathSignal columns: the lengths of all dimensions but the first
+ * @typedef {Described & {expr: string}} ExpressionSignal
+ * @typedef {Described & {measure: "fraction_of_starts", joint: string, index: number, offset: [number, number],
+ *   count: number, holds: Check}} StartsSignal
+ * @typedef {Described & {measure: "image_row", camera: string, geom: string}} RowSignal
+ * @typedef {PathSignal | ExpressionSignal | StartsSignal | RowSignal} Signal
+ *
+ * @typedef {object} RunSpec
+ * @property {number} duration in s
+ * @property {string | null} keyframe
+ * @property {Record<string, number>} qpos
+ * @property {Record<string, number>} qvel
+ * @property {Record<string, number | [number, number][]>} ctrl
+ *
+ * @typedef {object} CaseRecord
+ * @property {string} case
+ * @property {number} number
+ * @property {string} title
+ * @property {string} engine the version of MuJoCo that made the evidence
+ * @property {string} name the model's file name
+ * @property {string} text the broken model
+ * @property {RunSpec} run
+ * @property {Record<string, Signal>} signals
+ * @property {{broken: Check[], fixed: Check[]}} checks
+ * @property {Remedy[]} fixes
+ * @property {Remedy[]} refuted
+ * @property {string} camera
+ * @property {number} speed simulated seconds a second
+ * @property {string[]} telling the overlays that show the cause
+ * @property {{title: string, text: string}[]} hints
+ * @property {Record<string, {href: string, title: string}[]>} explained pages that explain a warning
+ */
+
+export {};

@@ -1,0 +1,91 @@
+"""The checking of cases: all that is wrong with a record and every law that it breaks, whatever state others are in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from clinic.pages.case_files import files_of_case
+from clinic.pages.case_page import case_page
+from clinic.pages.error_page import by_case
+from clinic.pages.symptoms import symptom_problems
+from clinic.pages.text.manual import manual_problems
+from clinic.proof.evidence import Evidence
+from clinic.proof.experiments import compare_alike, evidence_of
+from clinic.proof.laws import LAWS, breaches
+from clinic.proof.lookalike import alike_problems
+from clinic.record.case import Case, read_cases
+from clinic.record.problem import CaseError, Problem
+from clinic.work.cache import Cache
+
+
+@dataclass(frozen=True)
+class Report:
+    """What was found about one case.
+
+    Args:
+        slug: The case's folder.
+        case: The case; None if its record could not be read.
+        evidence: What its runs showed; None if it could not be run.
+        problems: Mistakes in its files, and those of other cases that concern it.
+        breaches: Of laws.
+    """
+
+    slug: str
+    case: Case | None
+    evidence: Evidence | None
+    problems: tuple[Problem, ...]
+    breaches: tuple[Problem, ...] = ()
+
+    @property
+    def sound(self) -> bool:
+        """Whether nothing was found."""
+        return not (self.problems or self.breaches)
+
+
+def check_cases(root: Path, slugs: Iterable[str], cache: Cache) -> Iterator[Report]:
+    """Reads, runs and judges the cases of a checkout, one after the other."""
+    read, problems = read_cases(root / "cases")
+    known = {case.slug: case for case in read}
+    found = by_case([*problems, *alike_problems(known)])
+    for slug in slugs:
+        yield _check(slug, known, found.get(slug, []), cache)
+
+
+def report_data(report: Report) -> dict[str, Any]:
+    """The report as data: the public form of `clinic check --json`."""
+    variants = report.evidence.variants if report.evidence else {}
+    return {
+        "case": report.slug,
+        "number": report.case.record.number if report.case else None,
+        "title": report.case.record.title if report.case else None,
+        "sound": report.sound,
+        "problems": [asdict(problem) for problem in report.problems],
+        "breaches": [asdict(problem) for problem in report.breaches],
+        "variants": {
+            key: variant.model_dump(mode="json", include={"kind", "title", "warnings", "checks"})
+            for key, variant in variants.items()
+        },
+    }
+
+
+def _check(slug: str, known: Mapping[str, Case], problems: list[Problem], cache: Cache) -> Report:
+    case = known.get(slug)
+    if case is None:
+        return Report(slug, None, None, tuple(problems))
+    problems = [*problems, *manual_problems(case), *symptom_problems(case)]
+    try:
+        files = files_of_case(case, cache)
+    except CaseError as error:
+        return Report(slug, case, None, tuple(sorted({*problems, *error.problems})))
+    evidence = evidence_of(files)
+    alike, unclear = (None, []) if problems else compare_alike(case, known, cache)
+    broken = [*breaches(case, evidence, *LAWS), *unclear]
+    if set(case.record.see) <= known.keys():
+        try:
+            case_page(case, evidence, files, known, alike)
+        except CaseError as error:
+            problems += error.problems
+    return Report(slug, case, evidence, tuple(sorted(set(problems))), tuple(sorted(set(broken))))

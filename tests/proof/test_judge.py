@@ -60,7 +60,7 @@ def test_what_fails_is_told_with_the_trial_and_the_number(sags: Case) -> None:
     assert judgement.failed[-1].startswith(
         "In the trial 'Sent half a radian up': angle below the horizontal (final) is "
     )
-    assert "rad; expected between -0.55 and -0.45 rad." in judgement.failed[-1]
+    assert "rad; expected between -0.55 rad and -0.45 rad." in judgement.failed[-1]
 
 
 def test_a_file_is_judged_by_another_process(root: Path, sags: Case, tmp_path: Path) -> None:
@@ -89,6 +89,12 @@ def test_what_cannot_be_run_is_told_in_one_sentence(root: Path, tmp_path: Path, 
     assert not judgement.repaired
     assert said in judgement.error
     assert json.dumps(judgement.error).count("\\n") == 0
+
+
+def test_a_file_that_takes_too_long_is_told_so(root: Path) -> None:
+    judgement = judge_file(root / "cases" / "servo-sags", Path("any.xml"), seconds=0)
+
+    assert (judgement.repaired, judgement.error) == (False, "it takes more than 0 s")
 
 
 def test_a_script_that_undoes_a_trial_is_told_so(root: Path) -> None:

@@ -198,7 +198,11 @@ def judge(
 
     from clinic.proof.judge import judge_file
 
-    (folder,) = folders(cases_root(), [slug])
+    try:
+        (folder,) = folders(cases_root(), [slug])
+    except CaseError as error:
+        print(error, file=sys.stderr)
+        raise typer.Exit(2) from None
     made = judge_file(folder, file)
     if as_json:
         _print_json({**asdict(made), "repaired": made.repaired})

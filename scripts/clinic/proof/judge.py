@@ -21,7 +21,7 @@ from clinic.proof.trials import checks_in, run_trial
 from clinic.record.case import Case, load_case
 from clinic.record.fields import Trial
 
-SECONDS = 120.0
+SECONDS = 60.0
 MEMORY = 4 * 2**30  # bytes
 
 
@@ -53,7 +53,7 @@ def judge_file(folder: Path, file: Path, seconds: float = SECONDS) -> Judgement:
     try:
         done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=seconds, check=False)
     except subprocess.TimeoutExpired:
-        return Judgement(folder.name, f"no judgement within {seconds:g} s")
+        return Judgement(folder.name, f"it takes more than {seconds:g} s")
     try:
         return Judgement(**json.loads(done.stdout.splitlines()[-1]))
     except (ValueError, TypeError, IndexError):
@@ -99,7 +99,8 @@ def _failed(case: Case, text: str, trial: Trial | None) -> list[str]:
             measured = "nothing" if isnan(verdict.measured) else f"{verdict.measured:.4g} {unit}".rstrip()
             taken = f"{signal.label or check.signal} ({check.take}"
             taken += f", {check.window[0]:g} to {check.window[1]:g} s)" if check.window else ")"
-            told.append(f"{where}{taken} is {measured}; expected {expected(check)} {unit}".rstrip() + ".")
+            bound = expected(check, (f"{{:g}} {unit}".rstrip()).format)
+            told.append(f"{where}{taken} is {measured}; expected {bound}.")
     return told
 
 
@@ -111,7 +112,7 @@ def main() -> None:
     try:
         made = judge_text(load_case(folder), file.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, MemoryError) as error:
-        made = Judgement(folder.name, f"{file.name}: {error or 'too large'}")
+        made = Judgement(folder.name, f"{file.name}: {getattr(error, 'strerror', None) or error or 'too large'}")
     print(json.dumps(asdict(made)), flush=True)
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from clinic.proof.laws import LAWS, breaches
-from clinic.record.case import read_cases
+from clinic.record.case import load_case, read_cases
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -16,6 +16,10 @@ def test_law(slug: str, law: str, proven) -> None:
     found = breaches(case, evidence, law)
 
     assert not found, f"case {case.record.number} {slug}:\n" + "\n".join(map(str, found))
+
+
+def test_every_case_of_ours_is_judged_in_more_than_one_situation(slug: str, root: Path) -> None:
+    assert load_case(root / "cases" / slug).record.trials
 
 
 def test_every_file_belongs_to_a_case_and_every_relation_resolves(root: Path) -> None:

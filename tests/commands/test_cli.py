@@ -253,3 +253,25 @@ def test_the_module_is_the_command(project: Path) -> None:
     assert done.returncode == 1
     assert "cases/odd-script/case.yaml:1: number\n" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.usefixtures("project")
+def test_judge_of_a_repair_of_none_and_of_what_cannot_be_run(tmp_path: Path) -> None:
+    path = tmp_path / "mine.py"
+    path.write_text('print("error = 0")\n', encoding="utf-8")
+    repaired = run("judge", "odd-script", str(path))
+    assert (repaired.exit_code, repaired.stdout) == (0, "Repaired.\n")
+
+    path.write_text('print("error = 2")\n', encoding="utf-8")
+    said = "error (final) is 2 m; expected 0 m exactly."
+    plain, data = run("judge", "odd-script", str(path)), run("judge", "odd-script", str(path), "--json")
+    assert (plain.exit_code, data.exit_code) == (1, 1)
+    assert plain.stdout == f"{said}\nNot repaired.\n"
+    assert json.loads(data.stdout) == {
+        "case": "odd-script", "error": "", "failed": [said], "changes": [], "repaired": False,
+    }  # fmt: skip
+
+    assert [run("judge", slug, str(file)).exit_code for slug, file in (("odd-script", "no.py"), ("odd", path))] == [
+        2,
+        2,
+    ]

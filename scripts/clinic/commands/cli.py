@@ -169,6 +169,33 @@ def triage(path: Annotated[Path, typer.Argument(help="A case's folder, or any MJ
         print(said, flush=True)
 
 
+@app.command()
+def judge(
+    slug: Slug,
+    file: Annotated[Path, typer.Argument(help="Your model or script, which should be a repair of the case.")],
+    as_json: AsJson = False,
+) -> None:
+    """Judge your own repair of a case; exit code 0 if it is one, 1 if it is none, 2 if it cannot be run."""
+    from dataclasses import asdict
+
+    from clinic.proof.judge import judge_file
+
+    try:
+        (folder,) = folders(cases_root(), [slug])
+    except CaseError as error:
+        print(error, file=sys.stderr)
+        raise typer.Exit(2) from None
+    made = judge_file(folder, file)
+    if as_json:
+        _print_json({**asdict(made), "repaired": made.repaired})
+    elif made.error:
+        print(f"It cannot be judged: {made.error}")
+    else:
+        print("\n".join([*made.changes, *made.failed, "Repaired." if made.repaired else "Not repaired."]))
+    if not made.repaired:
+        raise typer.Exit(2 if made.error else 1)
+
+
 @app.command(name="reference")
 def print_reference() -> None:
     """Print the record's reference as Markdown."""

@@ -20,8 +20,9 @@ from clinic.engine.variant import Variant, variants
 from clinic.proof.examine import examine
 from clinic.proof.robustness import Robustness
 from clinic.proof.sweep import SweepEvidence, names_read
+from clinic.proof.trials import checks_in, run_trial, trial_problems
 from clinic.record.case import Case
-from clinic.record.fields import Check, PathSignal, RowSignal
+from clinic.record.fields import Check, PathSignal, RowSignal, Trial
 from clinic.record.parts import Strict
 from clinic.record.problem import CaseError, LackError, Problem, listed
 from clinic.record.yaml_lines import Where
@@ -53,6 +54,7 @@ class VariantEvidence(Strict):
 
     Attributes:
         timestep: In s; None for a script.
+        trials: The checks of every trial, by its id.
         values: Every number that can be taken from a signal, by signal and take.
         output: What a script printed; None for a model.
     """
@@ -68,16 +70,17 @@ class VariantEvidence(Strict):
     checks: dict[Literal["broken", "fixed"], list[CheckResult]]
     values: dict[str, dict[str, float | None]]
     traces: dict[str, Samples]
+    trials: dict[str, dict[Literal["broken", "fixed"], list[CheckResult]]] = Field(default={})
 
     @property
     def well(self) -> bool:
-        """Whether every `fixed` check holds."""
-        return all(check.holds for check in self.checks["fixed"])
+        """Whether every `fixed` check holds, in every trial too."""
+        return all(check.holds for checks in (self.checks, *self.trials.values()) for check in checks["fixed"])
 
     @property
     def broken(self) -> bool:
-        """Whether every `broken` check holds."""
-        return all(check.holds for check in self.checks["broken"])
+        """Whether every `broken` check holds, in every trial too."""
+        return all(check.holds for checks in (self.checks, *self.trials.values()) for check in checks["broken"])
 
 
 class Evidence(Strict):
@@ -110,6 +113,8 @@ def collect(case: Case) -> Evidence:
         LackError: If this machine lacks what the runs need.
     """
     examine(case)
+    if untried := list(trial_problems(case)):
+        raise CaseError(untried)
     if missing := lack(case):
         raise LackError(f"case {case.record.number} is not measured: {missing.found}")
     observed: dict[str, VariantEvidence] = {}
@@ -183,6 +188,7 @@ def observe(case: Case, variant: Variant) -> VariantEvidence:
         },
         values={name: {which: _number(take(trace, which)) for which in TAKES} for name, trace in traces.items()},
         traces={name: samples(trace, record.signals[name].unit) for name, trace in traces.items()},
+        trials={trial.id: _tried(case, variant, trial) for trial in record.trials},
         **details,
     )
 
@@ -222,6 +228,12 @@ def _result(check: Check, traces: Mapping[str, Trace]) -> CheckResult:
         measured=_number(verdict.measured),
         holds=verdict.holds,
     )
+
+
+def _tried(case: Case, variant: Variant, trial: Trial) -> dict[Literal["broken", "fixed"], list[CheckResult]]:
+    checks, (_, traces) = checks_in(case.record, trial), run_trial(case, variant.text, trial)
+    broken, fixed = ([_result(check, traces) for check in kind] for kind in (checks.broken, checks.fixed))
+    return {"broken": broken, "fixed": fixed}
 
 
 def _number(value: float) -> float | None:

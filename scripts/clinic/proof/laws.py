@@ -7,11 +7,15 @@ from itertools import combinations
 from typing import Literal
 
 from clinic.engine.checks import expected
+from clinic.engine.simulate import compile_model
 from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
-from clinic.proof.evidence import Evidence, VariantEvidence, observe
+from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.proof.prose_laws import quoted, typed
 from clinic.proof.sweep import errors_at, with_names
+from clinic.proof.task import changes
+from clinic.proof.trials import checks_in
 from clinic.record.case import Case
+from clinic.record.fields import Check
 from clinic.record.parts import Edit
 from clinic.record.problem import Problem, listed
 from clinic.record.prose import quantity
@@ -136,9 +140,34 @@ def filmed(case: Case, evidence: Evidence) -> Iterator[Problem]:
         yield case.problem(("film",), "a film of a script", "none: there is nothing to see", "remove `film`")
 
 
+def same_task(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 7. A fix of a model leaves the task alone, but for what `task.may` names."""
+    if case.record.run is None:
+        return
+    broken, *others = variants(case)
+    for variant in others:
+        told = changes(compile_model(broken.text), compile_model(variant.text), case.record.task)
+        if variant.kind == "fix" and told:
+            wanted, repair = "a repair that leaves the task alone", "name what it may change in `task: {may: [...]}`"
+            yield case.problem(_place(case, variant.id), f"{variant.id}: {' '.join(told)}", wanted, repair)
+
+
 LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
     law.__name__: law
-    for law in (verdicts, ablation, small_edits, repeatable, warned, quoted, typed, lasting, steady, swept, filmed)
+    for law in (
+        verdicts,
+        ablation,
+        small_edits,
+        repeatable,
+        warned,
+        quoted,
+        typed,
+        lasting,
+        steady,
+        swept,
+        filmed,
+        same_task,
+    )
 }
 
 
@@ -164,13 +193,20 @@ def passes(case: Case, edits: tuple[Edit, ...]) -> bool:
 
 
 def _failing(case: Case, name: str, variant: VariantEvidence, kind: Literal["broken", "fixed"]) -> Iterator[Problem]:
+    asked: list[tuple[Where, str, Check, CheckResult]] = []
     for index, (check, result) in enumerate(zip(getattr(case.record.checks, kind), variant.checks[kind], strict=True)):
+        asked.append((("checks", kind, index), "", check, result))
+    for index, trial in enumerate(case.record.trials):
+        checks = getattr(checks_in(case.record, trial), kind)
+        for check, result in zip(checks, variant.trials[trial.id][kind], strict=True):
+            asked.append((("trials", index), f" in {trial.id}", check, result))
+    for where, inside, check, result in asked:
         if not result.holds:
             unit = "s" if result.take == "onset" else variant.traces[result.signal].unit
             value = "nothing" if result.measured is None else quantity(result.measured, unit, 6)
-            found = f"{name}: {result.signal} ({result.take}) = {value}"
+            found = f"{name}{inside}: {result.signal} ({result.take}) = {value}"
             wanted = f"{expected(check)} {unit}".rstrip()
-            yield case.problem(("checks", kind, index), found, wanted, "correct the bound, the edits, or the model")
+            yield case.problem(where, found, wanted, "correct the bound, the edits, or the model")
 
 
 def _place(case: Case, name: str) -> Where:

@@ -137,13 +137,17 @@ def _reference_problems(case: Case) -> Iterator[Problem]:
     for kind in ("broken", "fixed"):
         for index, check in enumerate(getattr(record.checks, kind)):
             yield from _unknown(case, ("checks", kind, index, "signal"), [check.signal], record.signals, "signal")
+        for k, trial in enumerate(record.trials):
+            for index, check in enumerate(getattr(trial.checks, kind, None) or []):
+                place: Where = ("trials", k, "checks", kind, index, "signal")
+                yield from _unknown(case, place, [check.signal], record.signals, "signal")
     for index, name in enumerate(record.warnings):
         yield from _unknown(case, ("warnings", index), [name], WARNINGS, "MuJoCo warning")
     if record.picture.scene is not None:
         yield from _unknown(case, ("picture", "scene"), [record.picture.scene], list(case.texts), "file")
     for name, signal in record.signals.items():
         if isinstance(signal, StartsSignal):
-            place: Where = ("signals", name, "holds", "signal")
+            place = ("signals", name, "holds", "signal")
             yield from _unknown(case, place, [signal.holds.signal], paths, "path signal")
         if isinstance(signal, ExpressionSignal):
             yield from _misread(case, ("signals", name, "expr"), signal.expr, paths, "path signal")

@@ -144,6 +144,37 @@ class Checks(Strict):
     fixed: list[Check] = Field(min_length=1, description="All hold for every fix; one fails for the others.")
 
 
+class TrialChecks(Strict):
+    """Checks whose bounds differ in a trial; the record's own where absent."""
+
+    broken: list[Check] | None = Field(default=None, min_length=1, description="In place of the record's `broken`.")
+    fixed: list[Check] | None = Field(default=None, min_length=1, description="In place of the record's `fixed`.")
+
+
+class Trial(Strict):
+    """Another situation in which every fix must hold and the broken variant be broken: a load, a start, a command."""
+
+    id: Identifier = Field(description="Lower-case words joined by hyphens; unique among the trials.")
+    title: Text = Field(max_length=90, description="What is different, as a short phrase: *Twice the load*.")
+    start: dict[str, float] = Field(default={}, description="Numbers of the run's start by path: `joint(a).qpos[0]`.")
+    set: dict[str, float] = Field(default={}, description="Numbers of the compiled model: `model.opt.gravity[2]`.")
+    ctrl: dict[str, float | list[Interval]] = Field(default={}, description="Controls in place of the run's.")
+    duration: float | None = Field(default=None, gt=0, le=120, description="Simulated time in s; the run's if absent.")
+    file: FileName | None = Field(default=None, description="Code cases: the file that `edits` change; the script.")
+    edits: list[Edit] = Field(default=[], description="Code cases: changes of the script, or of a file it reads.")
+    checks: TrialChecks | None = Field(default=None, description="Checks whose bounds differ here.")
+
+
+class Task(Strict):
+    """What belongs to the task; a repair leaves bodies, masses, gravity and what is measured alone."""
+
+    may: list[Text] = Field(
+        default=[],
+        description="What a repair of this case may change besides contacts, solver, gains and damping, as "
+        "`joint(elbow).range`; a kind alone, `actuator`, allows more of that kind.",
+    )
+
+
 class Remedy(Strict):
     """A named set of edits."""
 
@@ -193,6 +224,11 @@ class Record(Strict):
     warnings: list[str] = Field(default=[], description="What the broken model makes MuJoCo warn of: BADQACC, ...")
     fixes: list[Fix] = Field(min_length=1, description="At least one repair; the first is the one plotted.")
     refuted: list[Refuted] = Field(default=[], description="Remedies people try that do not work.")
+    trials: list[Trial] = Field(default=[], description="Other situations in which the checks are asked as well.")
+    task: Task = Field(default=Task(), description="What a repair may change besides what every repair may.")
+    older: dict[str, Text] = Field(
+        default={}, description='What older releases of MuJoCo do otherwise, and why: `{"<3.13": reason}`.'
+    )
     sweep: dict[Identifier, Sweep] = Field(default={}, description="Sweeps by name.")
     no_sweep: str | None = Field(default=None, description="Why no sweep would tell anything; without one, required.")
     film: Film | None = Field(default=None, description="Required for a model.")

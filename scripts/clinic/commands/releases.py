@@ -1,0 +1,95 @@
+"""Other releases of MuJoCo: each in an environment of its own, below `.cache/releases`, asked what cases do there."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tomllib
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from clinic.engine import node
+from clinic.proof.releases import LOCK, Behaviour, Lock, Locked, files_digest, lock_text, read_lock
+from clinic.record.case import Case
+from clinic.work.parallel import jobs
+
+PYTHON: tuple[str, ...] = ("3.3.7", "3.4.0", "3.5.0", "3.6.0", "3.7.0", "3.8.1", "3.9.0", "3.10.0", "3.11.0", "3.12.0")
+PYTHON += ("3.13.0", "3.14.0", "3.15.0", "3.16.0", "3.17.0", "4.0.0")  # the last patch of each minor release since 3.3
+NPM = ("3.9.0", "3.10.0", "3.12.0", "3.13.0", "3.14.0")
+WHOLE = "whole"
+
+
+def measure(root: Path, cases: Sequence[Case], releases: Iterable[str] = PYTHON) -> Lock:
+    """What the cases do on every release: those of the Python binding, or of the JavaScript one for its cases.
+
+    Raises:
+        RuntimeError: If an environment cannot be made or the cases do not run in it.
+    """
+    wanted = list(releases)
+    python = [case.slug for case in cases if case.record.language == "python"]
+    javascript = [case.slug for case in cases if case.record.language == "javascript"]
+    asked = [(python_environment, release, python) for release in wanted if python]
+    asked += [(npm_environment, release, javascript) for release in wanted if javascript and release in NPM]
+    with ThreadPoolExecutor(jobs()) as pool:
+        answers = list(pool.map(lambda each: _ask(root, each[0](root, each[1]), each[2]), asked))
+    seen: dict[str, dict[str, dict[str, Behaviour]]] = {case.slug: {} for case in cases}
+    for answer in answers:
+        for slug, (release, variants) in answer.items():
+            seen[slug][release] = {name: Behaviour.model_validate(one) for name, one in variants.items()}
+    return {case.slug: Locked(files=files_digest(case), releases=seen[case.slug]) for case in cases}
+
+
+def write_lock(root: Path, measured: Lock, slugs: Iterable[str]) -> None:
+    """Writes the lock file: what was measured now, and the rest of the cases as they stand there."""
+    kept = {slug: locked for slug, locked in read_lock(root).items() if slug in set(slugs)}
+    (root / LOCK).write_text(lock_text(kept | measured), encoding="utf-8")
+
+
+def python_environment(root: Path, release: str) -> tuple[list[str], Path]:
+    """The Python that has a release of MuJoCo and this package, and where it is to run."""
+    folder = root / ".cache" / "releases" / release
+    python = folder / "bin" / "python"
+    if not (folder / WHOLE).exists():
+        shutil.rmtree(folder, ignore_errors=True)
+        project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+        others = [need for need in project["dependencies"] if not need.startswith("mujoco")]
+        _run([_uv(), "venv", "--quiet", "--python", sys.executable, str(folder)], root)
+        _run([_uv(), "pip", "install", "--quiet", "--python", str(python), f"mujoco=={release}", *others], root)
+        _run([_uv(), "pip", "install", "--quiet", "--python", str(python), "--no-deps", "--editable", str(root)], root)
+        (folder / WHOLE).touch()
+    return [str(python)], root
+
+
+def npm_environment(root: Path, release: str) -> tuple[list[str], Path]:
+    """The same for a release of the JavaScript binding."""
+    folder = root / ".cache" / "releases" / f"npm-{release}"
+    if not (folder / WHOLE).exists():
+        folder.mkdir(parents=True, exist_ok=True)
+        npm = shutil.which("npm", path=os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]]))
+        if npm is None:
+            raise RuntimeError("npm is not installed; run `make setup`")
+        _run([npm, "install", "--silent", "--no-save", "--prefix", str(folder), f"{node.MUJOCO}@{release}"], folder)
+        (folder / WHOLE).touch()
+    return [sys.executable], folder
+
+
+def _ask(root: Path, environment: tuple[list[str], Path], slugs: list[str]) -> dict[str, tuple[str, dict[str, object]]]:
+    command, folder = environment
+    said = _run([*command, "-m", "clinic.proof.releases", str(root / "cases"), *slugs], folder)
+    answer: dict[str, tuple[str, dict[str, object]]] = json.loads(said)
+    return answer
+
+
+def _uv() -> str:
+    return shutil.which("uv", path=os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])) or "uv"
+
+
+def _run(command: list[str], folder: Path) -> str:
+    done = subprocess.run(command, cwd=folder, check=False, capture_output=True, text=True)
+    if done.returncode:
+        raise RuntimeError(f"{Path(command[0]).name} {command[1]} failed: {done.stderr.strip()[-500:]}")
+    return done.stdout

@@ -1,0 +1,179 @@
+"""Releases of MuJoCo: what each one does with every variant, kept in a lock file and held against the records.
+
+`python -m clinic.proof.releases FOLDER SLUG...`, run by the Python that has a release installed, prints its part.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import sys
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+
+import mujoco
+from packaging.specifiers import SpecifierSet
+from packaging.version import Version
+from pydantic import BaseModel, ConfigDict, TypeAdapter
+
+from clinic.engine import node
+from clinic.engine.variant import variants
+from clinic.proof.evidence import Evidence, VariantEvidence, observe
+from clinic.record.case import Case, load_case
+from clinic.record.problem import Problem, listed
+
+LOCK = "releases.lock.json"
+DIGITS = 6
+TOLERANCE = 1e-3  # of a number: what three digits show
+NOISE = 1e-6  # below it a number reads as nothing
+LONGEST = 200  # characters of an error
+
+
+class Behaviour(BaseModel):
+    """What one variant does on one release.
+
+    Attributes:
+        broken, fixed: Whether every check of the kind holds.
+        checks: The measured numbers by kind, in the record's order.
+        error: Why it does not run there; empty if it does.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    broken: bool = False
+    fixed: bool = False
+    warnings: dict[str, int] = {}
+    checks: dict[str, list[float | None]] = {}
+    error: str = ""
+
+
+class Locked(BaseModel):
+    """The behaviour of a case on every release, and a digest of the files that it was measured on."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    files: str
+    releases: dict[str, dict[str, Behaviour]]
+
+
+Lock = dict[str, Locked]
+LOCKS = TypeAdapter(Lock)
+
+
+def read_lock(root: Path) -> Lock:
+    """The lock file of a checkout, by slug; empty where there is none."""
+    path = root / LOCK
+    return LOCKS.validate_json(path.read_bytes()) if path.is_file() else {}
+
+
+def lock_text(lock: Lock) -> str:
+    """The lock as a file, one line a case and release, so that a change of one is seen as one."""
+    lines = []
+    for slug, locked in sorted(lock.items()):
+        rows = [
+            f"  {json.dumps(release)}: {json.dumps({k: b.model_dump(exclude_defaults=True) for k, b in seen.items()})}"
+            for release, seen in sorted(locked.releases.items(), key=lambda entry: Version(entry[0]))
+        ]
+        lines.append(f'{json.dumps(slug)}: {{"files": "{locked.files}", "releases": {{\n' + ",\n".join(rows) + "}}")
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def files_digest(case: Case) -> str:
+    """A digest of what the runs of a case's variants hang on."""
+    experiment = case.record.model_dump(mode="json", include={"run", "signals", "checks", "fixes", "refuted", "trials"})
+    return hashlib.sha256(json.dumps([experiment, case.texts], sort_keys=True).encode()).hexdigest()[:16]
+
+
+def behaviour(case: Case) -> dict[str, Behaviour]:
+    """What every variant does on the release that runs, by id."""
+    seen = {}
+    for variant in variants(case):
+        try:
+            seen[variant.id] = seen_in(observe(case, variant))
+        except Exception as error:  # whatever an older release has against it
+            said = " ".join(f"{type(error).__name__}: {error}".split())
+            seen[variant.id] = Behaviour(error=said[:LONGEST])
+    return seen
+
+
+def seen_in(evidence: VariantEvidence) -> Behaviour:
+    """The part of a variant's evidence that releases are compared by, rounded to DIGITS."""
+    return Behaviour(
+        broken=evidence.broken,
+        fixed=evidence.well,
+        warnings=evidence.warnings,
+        checks={
+            kind: [None if check.measured is None else float(f"{check.measured:.{DIGITS}g}") for check in checks]
+            for kind, checks in evidence.checks.items()
+        },
+    )
+
+
+def differences(here: Mapping[str, Behaviour], there: Mapping[str, Behaviour]) -> Iterator[str]:
+    """Each variant that another release treats otherwise, and how: `discrete does not run`."""
+    for name, one in here.items():
+        other = there.get(name, Behaviour(error="not measured"))
+        if other.error != one.error:
+            yield f"{name} does not run ({other.error})" if other.error else f"{name} runs"
+        elif other.warnings != one.warnings:
+            yield f"{name} warns {listed(other.warnings)} instead of {listed(one.warnings)}"
+        elif (other.broken, other.fixed) != (one.broken, one.fixed):
+            yield f"{name} is judged otherwise"
+        elif any(
+            _apart(*pair) for kind in one.checks for pair in zip(one.checks[kind], other.checks[kind], strict=True)
+        ):
+            yield f"{name} measures other numbers"
+
+
+def differing(case: Case, evidence: Evidence, lock: Lock) -> dict[str, list[str]] | None:
+    """What differs on every release that was measured; None if the case has changed since, or is new."""
+    locked = lock.get(case.slug)
+    if locked is None or locked.files != files_digest(case):
+        return None
+    here = {name: seen_in(variant) for name, variant in evidence.variants.items()}
+    return {release: list(differences(here, seen)) for release, seen in locked.releases.items()}
+
+
+def release_problems(case: Case, found: Mapping[str, Iterable[str]]) -> Iterator[Problem]:
+    """Differences that the record does not explain under `older`, and explanations of nothing."""
+    explained = {text: SpecifierSet(text) for text in case.record.older}
+    for release, told in found.items():
+        if told and not any(Version(release) in spec for spec in explained.values()):
+            expected = "a release that agrees, or a reason for it in `older`"
+            yield case.problem(("older",), f"on {release}, {listed(told)}", expected, "say why, from the changelog")
+    for text, spec in explained.items():
+        if calm := [release for release, told in found.items() if not told and Version(release) in spec]:
+            expected = f"a difference on every release that {text} names"
+            yield case.problem(("older", text), f"none on {listed(calm)}", expected, "narrow it, or remove it")
+
+
+def measured_here(cases: Iterable[Case]) -> dict[str, tuple[str, dict[str, Behaviour]]]:
+    """The release that runs each case, and what it does."""
+    found = {}
+    for case in cases:
+        release = node.version(node.MUJOCO) if case.record.language == "javascript" else mujoco.__version__
+        if release is not None:
+            found[case.slug] = release, behaviour(case)
+    return found
+
+
+def _apart(one: float | None, other: float | None) -> bool:
+    if one is None or other is None:
+        return one is not other
+    return abs(one - other) > max(NOISE, TOLERANCE * max(abs(one), abs(other)))
+
+
+def main() -> None:
+    """Prints what the installed release does, as data."""
+    folder, *slugs = sys.argv[1:]
+    cases = [load_case(Path(folder) / slug) for slug in slugs]
+    found = measured_here(cases)
+    data = {
+        slug: [release, {name: one.model_dump(exclude_defaults=True) for name, one in seen.items()}]
+        for slug, (release, seen) in found.items()
+    }
+    print(json.dumps(data))
+
+
+if __name__ == "__main__":
+    main()

@@ -3,6 +3,7 @@
 # make site    builds site/ strictly
 # make bench   how long a build takes, cold and warm, and its parts; the table goes into *Work on the code*
 # make growth  how the site grows to 1,000 cases; the table goes into *Work on the code*
+# make releases   what every release of MuJoCo does with every case; releases.lock.json is written anew
 # make lint    style and types
 # make lock    renews requirements.txt and requirements-parity.txt
 # make audit   asks the registries for known holes in what is locked
@@ -20,7 +21,7 @@ unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup serve site test bench growth lint lock audit clean
+.PHONY: help setup serve site test bench growth releases lint lock audit clean
 
 help:
 	@sed -n 's/^# make/make/p' Makefile
@@ -50,6 +51,9 @@ bench: setup
 
 growth: setup
 	$(BIN)/python scripts/growth.py --write
+
+releases: setup
+	$(BIN)/python -m clinic.commands.releases
 
 lint: setup
 	$(BIN)/ruff format --check .

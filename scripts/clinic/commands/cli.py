@@ -48,7 +48,11 @@ def new(
 
 
 @app.command()
-def check(slugs: Slugs = None, as_json: AsJson = False) -> None:
+def check(
+    slugs: Slugs = None,
+    as_json: AsJson = False,
+    engine: Annotated[list[str], typer.Option(help="Say instead what another release of MuJoCo does: 3.10.0.")] = [],  # noqa: B006
+) -> None:
     """Run cases and judge them by every law; exit code 1 if anything is wrong."""
     from rich.progress import track
 
@@ -56,6 +60,12 @@ def check(slugs: Slugs = None, as_json: AsJson = False) -> None:
     from clinic.commands.check import check_cases, report_data
     from clinic.work.cache import Cache
 
+    if engine:
+        from clinic.commands.releases import compare
+
+        told = list(compare(project_root(), slugs or [], engine))
+        print("\n".join(map(str, told)) or "the same, but for what the records say under `older`")
+        raise typer.Exit(bool(told))
     root, out, err = project_root(), terminal.console(), terminal.console(stderr=True)
     wanted = [folder.name for folder in folders(root, slugs or [])]
     checking = check_cases(root, wanted, Cache(cache_folder(root)))
@@ -73,6 +83,14 @@ def check(slugs: Slugs = None, as_json: AsJson = False) -> None:
                 print(said, file=sys.stderr)
     if not all(report.sound for report in reports):
         raise typer.Exit(1)
+
+
+@app.callback()
+def _require_engine() -> None:
+    from clinic.engine.releases import too_old
+
+    if told := too_old():
+        sys.exit(f"clinic: {told}")
 
 
 @app.command(name="list")

@@ -8,13 +8,27 @@ import shutil
 import subprocess
 import sys
 import tomllib
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from clinic.engine import node
-from clinic.proof.releases import LOCK, Behaviour, Lock, Locked, files_digest, lock_text, read_lock
-from clinic.record.case import Case
+from clinic.proof.experiments import measure_case
+from clinic.proof.releases import (
+    LOCK,
+    Behaviour,
+    Lock,
+    Locked,
+    differing,
+    files_digest,
+    lock_text,
+    read_lock,
+    release_problems,
+)
+from clinic.record.case import Case, load_case, read_cases
+from clinic.record.checkout import cache_folder, folders, project_root
+from clinic.record.problem import Problem
+from clinic.work.cache import Cache
 from clinic.work.parallel import jobs
 
 PYTHON: tuple[str, ...] = ("3.3.7", "3.4.0", "3.5.0", "3.6.0", "3.7.0", "3.8.1", "3.9.0", "3.10.0", "3.11.0", "3.12.0")
@@ -41,6 +55,19 @@ def measure(root: Path, cases: Sequence[Case], releases: Iterable[str] = PYTHON)
         for slug, (release, variants) in answer.items():
             seen[slug][release] = {name: Behaviour.model_validate(one) for name, one in variants.items()}
     return {case.slug: Locked(files=files_digest(case), releases=seen[case.slug]) for case in cases}
+
+
+def compare(root: Path, slugs: Sequence[str], releases: Sequence[str]) -> Iterator[Problem]:
+    """What cases do otherwise on releases than here, where `older` does not say so.
+
+    Raises:
+        RuntimeError: If an environment cannot be made or the cases do not run in it.
+    """
+    cases = [load_case(folder) for folder in folders(root, slugs)]
+    for slug, locked in measure(root, cases, releases).items():
+        case = next(case for case in cases if case.slug == slug)
+        evidence = measure_case(case, Cache(cache_folder(root)), ())
+        yield from release_problems(case, differing(evidence, locked.releases))
 
 
 def write_lock(root: Path, measured: Lock, slugs: Iterable[str]) -> None:
@@ -93,3 +120,9 @@ def _run(command: list[str], folder: Path) -> str:
     if done.returncode:
         raise RuntimeError(f"{Path(command[0]).name} {command[1]} failed: {done.stderr.strip()[-500:]}")
     return done.stdout
+
+
+if __name__ == "__main__":
+    ROOT = project_root()
+    CASES, _ = read_cases(ROOT / "cases")
+    write_lock(ROOT, measure(ROOT, CASES), [case.slug for case in CASES])

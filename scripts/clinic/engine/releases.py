@@ -20,6 +20,13 @@ def installed() -> tuple[int, int]:
     return int(major), int(minor)
 
 
+def too_old() -> str:
+    """Why a reader's model cannot be examined on the release that is installed; empty if it can."""
+    needed = ".".join(map(str, OLDEST))
+    told = f"MuJoCo {mujoco.__version__} is too old; this needs {needed} or newer: pip install -U mujoco"
+    return told if installed() < OLDEST else ""
+
+
 def read_spec(path: Path) -> mujoco.MjSpec:
     """The model in an MJCF or URDF file, not compiled; older releases know no file that ends on .urdf.
 

@@ -93,6 +93,7 @@ class Evidence(Strict):
         snippet: What the diagnosis snippet printed; None without a snippet.
         sweep: The points of every sweep and how its predictions fared.
         robustness: How firmly each variant's verdict stands; empty for a code case.
+        releases: What each variant does on other releases of MuJoCo; empty if the case has changed since.
     """
 
     case: str
@@ -103,6 +104,7 @@ class Evidence(Strict):
     variants: dict[str, VariantEvidence]
     sweep: dict[str, SweepEvidence] = Field(default={})
     robustness: dict[str, Robustness] = Field(default={})
+    releases: dict[str, Any] = Field(default={})
 
 
 def collect(case: Case) -> Evidence:

@@ -16,6 +16,7 @@ from clinic.engine import node
 from clinic.engine.signals import SignalError
 from clinic.proof.evidence import Evidence, collect, lack
 from clinic.proof.lookalike import Matrix, matrix, unclear
+from clinic.proof.releases import on_releases
 from clinic.proof.robustness import Robustness, robustness
 from clinic.proof.sweep import SweepEvidence, measure_sweep
 from clinic.record.case import Case
@@ -89,7 +90,7 @@ def assembled(case: Case, first: Files, rest: Files) -> Files:
     files = {name: f"sweep-{name}.json" for name in case.record.sweep}
     sweeps = {key: SweepEvidence.model_validate_json(rest[name]) for key, name in files.items() if name in rest}
     robust = ROBUST.validate_json(rest.get("robustness.json", "{}"))
-    whole = evidence_of(first).model_copy(update={"sweep": sweeps, "robustness": robust})
+    whole = evidence_of(first).model_copy(update={"sweep": sweeps, "robustness": robust, "releases": on_releases(case)})
     return {EVIDENCE: f"{whole.model_dump_json()}\n".encode()}
 
 

@@ -11,6 +11,7 @@ from clinic.engine.simulate import compile_model
 from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.proof.prose_laws import quoted, typed
+from clinic.proof.releases import differing, on_releases, release_problems
 from clinic.proof.sweep import errors_at, with_names
 from clinic.proof.task import changes
 from clinic.proof.trials import checks_in
@@ -152,6 +153,11 @@ def same_task(case: Case, evidence: Evidence) -> Iterator[Problem]:
             yield case.problem(_place(case, variant.id), f"{variant.id}: {' '.join(told)}", wanted, repair)
 
 
+def released(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 9. Every release of MuJoCo that was measured does the same, or `older` says why not."""
+    yield from release_problems(case, differing(evidence, on_releases(case)))
+
+
 LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
     law.__name__: law
     for law in (
@@ -167,6 +173,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         swept,
         filmed,
         same_task,
+        released,
     )
 }
 

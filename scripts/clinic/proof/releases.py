@@ -8,18 +8,21 @@ from __future__ import annotations
 import hashlib
 import json
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
 from pathlib import Path
 
 import mujoco
 from packaging.specifiers import SpecifierSet
 from packaging.version import Version
-from pydantic import BaseModel, ConfigDict, TypeAdapter
+from pydantic import Field, TypeAdapter
 
 from clinic.engine import node
 from clinic.engine.variant import variants
 from clinic.proof.evidence import Evidence, VariantEvidence, observe
 from clinic.record.case import Case, load_case
+from clinic.record.checkout import cases_root
+from clinic.record.parts import Strict
 from clinic.record.problem import Problem, listed
 
 LOCK = "releases.lock.json"
@@ -29,37 +32,39 @@ NOISE = 1e-6  # below it a number reads as nothing
 LONGEST = 200  # characters of an error
 
 
-class Behaviour(BaseModel):
+class Behaviour(Strict):
     """What one variant does on one release.
 
     Attributes:
-        broken, fixed: Whether every check of the kind holds.
+        broken: Whether every check of `broken` holds.
+        fixed: Whether every check of `fixed` holds.
+        warnings: How often MuJoCo warned, by type.
         checks: The measured numbers by kind, in the record's order.
         error: Why it does not run there; empty if it does.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
     broken: bool = False
     fixed: bool = False
-    warnings: dict[str, int] = {}
-    checks: dict[str, list[float | None]] = {}
+    warnings: dict[str, int] = Field(default={})
+    checks: dict[str, list[float | None]] = Field(default={})
     error: str = ""
 
 
-class Locked(BaseModel):
+Behaviours = dict[str, Behaviour]
+
+
+class Locked(Strict):
     """The behaviour of a case on every release, and a digest of the files that it was measured on."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
     files: str
-    releases: dict[str, dict[str, Behaviour]]
+    releases: dict[str, Behaviours]
 
 
 Lock = dict[str, Locked]
 LOCKS = TypeAdapter(Lock)
 
 
+@lru_cache
 def read_lock(root: Path) -> Lock:
     """The lock file of a checkout, by slug; empty where there is none."""
     path = root / LOCK
@@ -125,26 +130,28 @@ def differences(here: Mapping[str, Behaviour], there: Mapping[str, Behaviour]) -
             yield f"{name} measures other numbers"
 
 
-def differing(case: Case, evidence: Evidence, lock: Lock) -> dict[str, list[str]] | None:
-    """What differs on every release that was measured; None if the case has changed since, or is new."""
-    locked = lock.get(case.slug)
-    if locked is None or locked.files != files_digest(case):
-        return None
+def on_releases(case: Case) -> dict[str, Behaviours]:
+    """What the case's variants do on every release; empty if the case is new, or has changed since."""
+    locked = read_lock(cases_root()).get(case.slug)
+    return locked.releases if locked is not None and locked.files == files_digest(case) else {}
+
+
+def differing(evidence: Evidence, releases: Mapping[str, Behaviours]) -> dict[str, list[str]]:
+    """What differs on each release from what was measured now."""
     here = {name: seen_in(variant) for name, variant in evidence.variants.items()}
-    return {release: list(differences(here, seen)) for release, seen in locked.releases.items()}
+    return {release: list(differences(here, seen)) for release, seen in releases.items()}
 
 
-def release_problems(case: Case, found: Mapping[str, Iterable[str]]) -> Iterator[Problem]:
+def release_problems(case: Case, found: Mapping[str, Sequence[str]]) -> Iterator[Problem]:
     """Differences that the record does not explain under `older`, and explanations of nothing."""
-    explained = {text: SpecifierSet(text) for text in case.record.older}
     for release, told in found.items():
-        if told and not any(Version(release) in spec for spec in explained.values()):
-            expected = "a release that agrees, or a reason for it in `older`"
+        if told and not any(Version(release) in SpecifierSet(text) for text in case.record.older):
+            expected = "a release that agrees, or a reason in `older`"
             yield case.problem(("older",), f"on {release}, {listed(told)}", expected, "say why, from the changelog")
-    for text, spec in explained.items():
-        if calm := [release for release, told in found.items() if not told and Version(release) in spec]:
+    for text in case.record.older:
+        if same := [release for release, told in found.items() if not told and Version(release) in SpecifierSet(text)]:
             expected = f"a difference on every release that {text} names"
-            yield case.problem(("older", text), f"none on {listed(calm)}", expected, "narrow it, or remove it")
+            yield case.problem(("older", text), f"none on {listed(same)}", expected, "narrow it, or remove it")
 
 
 def measured_here(cases: Iterable[Case]) -> dict[str, tuple[str, dict[str, Behaviour]]]:

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parent.parent
-BASE = {"joblib", "latex2mathml", "mujoco>=3.4", "numpy", "pydantic", "pyyaml", "rich", "typer"}
+BASE = {"joblib", "latex2mathml", "mujoco>=3.4", "numpy", "packaging", "pydantic", "pyyaml", "rich", "typer"}
 SITE = ("av", "jinja2", "matplotlib", "mkdocs", "mkdocs_gen_files", "material", "PIL")
 MODEL = "<mujoco><worldbody><body><freejoint/><geom size='.1'/></body></worldbody></mujoco>"
 

@@ -18,6 +18,7 @@ from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence, VariantEvidence
 from clinic.proof.lookalike import Matrix
 from clinic.proof.prose_laws import PROSE
+from clinic.proof.releases import differing, on_releases
 from clinic.proof.robustness import NUDGE, STARTS
 from clinic.record.case import Case
 from clinic.record.fields import Check
@@ -26,6 +27,7 @@ from clinic.record.problem import CaseError
 from clinic.record.prose import plain, quantity
 from clinic.work.cache import Files
 
+STILL = 1e-3  # of a signal; less is no motion
 Column = tuple[str, str, Interval | None]
 """A number taken from a signal: the signal, which number, and over which window."""
 
@@ -54,7 +56,8 @@ def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str,
         summary=_summary(case, evidence),
         film_alt=f"Film, broken beside {record.fixes[0].id}. {_summary(case, evidence)}",
         sweeps=[_sweep(case, evidence, name) for name in record.sweep],
-        numerical=_numerical(evidence),
+        smaller_steps=_smaller_steps(case, evidence),
+        releases=_releases(case, evidence),
         steady=_steady(case, evidence),
         matrix=None if alike is None else _matrix(alike, others),
         table=_table(case, evidence),
@@ -134,19 +137,29 @@ def _sweep(case: Case, evidence: Evidence, name: str) -> dict[str, str]:
     }
 
 
-def _numerical(evidence: Evidence) -> str:
-    """The answer to *shrink the timestep*, from the runs."""
-    if "broken" not in evidence.robustness:
+def _smaller_steps(case: Case, evidence: Evidence) -> str:
+    """Whether a smaller timestep helps, from the runs; empty where nothing moves that the symptom is about."""
+    spans = [evidence.variants["broken"].values[check.signal]["span"] or 0.0 for check in case.record.checks.broken]
+    if "broken" not in evidence.robustness or max(spans) < STILL:
         return ""
-    words = {"broken": "as broken as before", "well": "well", "neither": "neither broken in the same way nor well"}
+    words = {"broken": "the symptom is the same", "well": "it is gone", "neither": "it is neither the same nor gone"}
     half, twentieth = evidence.robustness["broken"].shrunk.values()
+    answer = "No" if half == twentieth == "broken" else "Yes" if "well" in (half, twentieth) else "In part"
     if half == twentieth:
-        said = f"at half the timestep and at a twentieth of it the broken model is {words[half]}"
-    else:
-        said = f"at half the timestep the broken model is {words[half]}, at a twentieth {words[twentieth]}"
-    if half == twentieth == "broken":
-        return f"No: {said}. The cause is in the model."
-    return f"{'Yes' if 'well' in (half, twentieth) else 'In part'}: {said}."
+        return f"{answer}: at half of it and at a twentieth {words[half]}."
+    return f"{answer}: at half of it {words[half]}, at a twentieth {words[twentieth]}."
+
+
+def _releases(case: Case, evidence: Evidence) -> str:
+    """On which releases of MuJoCo the case is the same, and why not on the others; empty if that was not measured."""
+    told = differing(evidence, on_releases(case))
+    if not told:
+        return ""
+    releases = sorted(told, key=lambda release: [int(part) for part in release.split(".")])
+    last = max((k for k, release in enumerate(releases) if told[release]), default=-1)
+    said = "the same on every release measured" if last < 0 else "the same"
+    reasons = [f"On {spec}: {markdown(reason, evidence).strip()}" for spec, reason in case.record.older.items()]
+    return " ".join([f"{said} from {releases[last + 1]} on.", *reasons] if last + 1 < len(releases) else reasons)
 
 
 def _steady(case: Case, evidence: Evidence) -> str:

@@ -19,6 +19,7 @@ from clinic.proof.releases import (
     Behaviour,
     Lock,
     Locked,
+    differences,
     differing,
     files_digest,
     lock_text,
@@ -122,7 +123,24 @@ def _run(command: list[str], folder: Path) -> str:
     return done.stdout
 
 
+def stale(lock: Lock, measured: Lock) -> Iterator[str]:
+    """What the lock file says otherwise than was measured now."""
+    for slug, locked in measured.items():
+        for release, seen in locked.releases.items():
+            known = lock[slug].releases.get(release, {}) if slug in lock else {}
+            yield from (f"{slug} on {release}: {told}" for told in differences(seen, known))
+
+
+def main() -> None:
+    """Writes the lock file; with `--check` says instead where it is stale, and ends with 1 if it is."""
+    root = project_root()
+    cases, _ = read_cases(root / "cases")
+    measured = measure(root, cases)
+    if "--check" not in sys.argv:
+        write_lock(root, measured, [case.slug for case in cases])
+    elif told := list(stale(read_lock(root), measured)):
+        sys.exit("\n".join([*told, f"{LOCK} is stale: run `make releases` and commit it"]))
+
+
 if __name__ == "__main__":
-    ROOT = project_root()
-    CASES, _ = read_cases(ROOT / "cases")
-    write_lock(ROOT, measure(ROOT, CASES), [case.slug for case in CASES])
+    main()

@@ -26,7 +26,7 @@ from clinic.record.parts import Strict
 from clinic.record.problem import Problem, listed
 
 LOCK = "releases.lock.json"
-DIGITS = 6
+DIGITS = 4
 TOLERANCE = 1e-3  # of a number: what three digits show
 NOISE = 1e-6  # below it a number reads as nothing
 LONGEST = 200  # characters of an error

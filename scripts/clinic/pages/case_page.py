@@ -158,7 +158,10 @@ def _releases(case: Case, evidence: Evidence) -> str:
     releases = sorted(told, key=lambda release: [int(part) for part in release.split(".")])
     last = max((k for k, release in enumerate(releases) if told[release]), default=-1)
     said = "the same on every release measured" if last < 0 else "the same"
-    reasons = [f"{spec.replace('<', 'Before ')}: {markdown(reason, evidence).strip()}" for spec, reason in case.record.older.items()]
+    reasons = [
+        f"{spec.replace('<', 'Before ')}: {markdown(reason, evidence).strip()}"
+        for spec, reason in case.record.older.items()
+    ]
     return " ".join([f"{said} from {releases[last + 1]} on.", *reasons] if last + 1 < len(releases) else reasons)
 
 

@@ -1,4 +1,8 @@
-"""The laws that every case obeys. Each law gives where the record breaks it, and what to do."""
+"""The laws that every case obeys. Each law gives where the record breaks it, and what to do.
+
+A new law is named in LAWS and in docs/contribute/the-record.md and tested in tests/proof/test_laws.py; one that is
+quick stands in `pages/cases.py` as well, one that a case may be exempt from in `record/fields.py`, as a `Law`.
+"""
 
 from __future__ import annotations
 
@@ -54,7 +58,7 @@ def ablation(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 
 def small_edits(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 3. Every remedy changes at most a handful of lines (that edits match once is checked on loading)."""
+    """Law 3. Every remedy changes at most a handful of lines; when variants are made it is checked that edits match."""
     for variant in variants(case)[1:]:
         count = changed_lines(case.text, variant.text)
         if not 1 <= count <= MAX_CHANGED_LINES:
@@ -141,7 +145,7 @@ def filmed(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 
 def same_task(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 7. A fix of a model leaves the task alone, but for what `task.may` names."""
+    """A fix of a model leaves the task alone, but for what `task.may` names."""
     if case.record.run is None:
         return
     broken, *others = variants(case)
@@ -172,7 +176,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
 
 
 def breaches(case: Case, evidence: Evidence, *laws: str) -> list[Problem]:
-    """Where the case breaks the laws, after exemptions (law 11): one that is no longer needed is a breach itself."""
+    """Where the case breaks the laws, after exemptions (law 8): one that is no longer needed is a breach itself."""
     made = []
     for law in laws:
         found = list(LAWS[law](case, evidence))

@@ -15,7 +15,7 @@ from pathlib import Path
 from clinic.record.problem import Problem
 from clinic.work.cache import Cache, Files, key_of
 
-INPUTS = ("cases", "docs", "scripts/bundle.mjs", "CONTRIBUTING.md", "node_modules/.package-lock.json")
+INPUTS = ("cases", "docs", "scripts/bundle.mjs", "node_modules/.package-lock.json")
 ABOUT = "site.json"
 SECTION = 50  # cases; more than these are shown in sections
 Navigation = list[dict[str, object]]

@@ -8,7 +8,8 @@ The stages, in order; each needs the one before:
 4. the files: those the record names exist, nothing else lies in the folder; and the references: names used in checks,
    expressions and the run exist, ids are unique.
 
-What needs the compiled model (edits, signal paths) or the evidence (fields of prose) is checked where these are made.
+Edits are checked when variants are made; what needs the compiled model (signal paths) or the evidence (fields of
+prose), where these are made.
 """
 
 from __future__ import annotations

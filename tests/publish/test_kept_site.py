@@ -6,7 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from clinic.publish.kept_site import INPUTS, Site, kept_or_made
+from clinic.publish.kept_site import INPUTS, kept_or_made
+from clinic.publish.site_files import Site
 from clinic.record.checkout import cache_folder
 from clinic.record.problem import Problem
 from clinic.work.cache import Cache

@@ -10,9 +10,9 @@ import measured
 import pytest
 from bench import MEASURING
 from clinic.publish import live_reload
-from clinic.publish.kept_site import Site
 from clinic.publish.live_reload import LiveSite
 from clinic.publish.site import make_site, unmeasured
+from clinic.publish.site_files import Site
 from clinic.work.cache import Cache
 from helpers import changed
 from mkdocs.config import load_config

@@ -8,32 +8,14 @@ from __future__ import annotations
 import json
 import shutil
 import sys
-from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 
-from clinic.record.problem import Problem
-from clinic.work.cache import Cache, Files, key_of
+from clinic.publish.site_files import Site
+from clinic.work.cache import Cache, key_of
 
 INPUTS = ("cases", "docs", "scripts/bundle.mjs", "node_modules/.package-lock.json")
 ABOUT = "site.json"
-SECTION = 50  # cases; more than these are shown in sections
-Navigation = list[dict[str, object]]
-
-
-@dataclass(frozen=True)
-class Site:
-    """What there is to publish; a case in error has a page that says so.
-
-    Attributes:
-        files: Every generated file, by its path below the documentation folder.
-        navigation: As MkDocs takes it.
-        problems: All problems of all cases, and every claim that the runs do not bear out.
-    """
-
-    files: Files
-    navigation: Navigation
-    problems: tuple[Problem, ...] = ()
 
 
 def kept_or_made(root: Path, cache: Cache) -> Site:

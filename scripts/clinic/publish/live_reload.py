@@ -12,7 +12,8 @@ from pathlib import Path
 
 from mkdocs.livereload import LiveReloadServer
 
-from clinic.publish.kept_site import Site, kept_or_made
+from clinic.publish.kept_site import kept_or_made
+from clinic.publish.site_files import Site
 from clinic.record.checkout import cache_folder, project_root
 from clinic.work.cache import Cache
 

@@ -8,8 +8,8 @@ import os
 import mkdocs_gen_files
 from mkdocs.exceptions import PluginError
 
-from clinic.publish.kept_site import SECTION
 from clinic.publish.live_reload import LIVE
+from clinic.publish.site_files import SECTION
 from clinic.record.checkout import cache_folder, project_root, slugs
 from clinic.record.problem import CaseError
 from clinic.work.cache import Cache

@@ -16,7 +16,7 @@ from clinic.pages.schema import schema_text
 from clinic.proof.evidence import lack
 from clinic.proof.experiments import EVIDENCE, evidence_of, evidence_task, measuring_tasks
 from clinic.publish import bundle
-from clinic.publish.kept_site import SECTION, Navigation, Site
+from clinic.publish.site_files import SECTION, Navigation, Site
 from clinic.record.case import read_cases
 from clinic.record.checkout import slugs
 from clinic.record.problem import CaseError

@@ -50,8 +50,14 @@ def output_of(model: mujoco.MjModel, actuator: int) -> int | None:
     return int(model.actuator_outadr[actuator]) if model.actuator_outnum[actuator] == 1 else None
 
 
-def mass_matrix(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
-    """The joint-space inertia, shape (nv, nv), in kg m^2 or kg; mj_fullM takes other arguments on older releases."""
+def mass_matrix(model: mujoco.MjModel, data: mujoco.MjData | None = None) -> NDArray[np.float64]:
+    """The joint-space inertia, at qpos0 unless data are given, shape (nv, nv), in kg m^2 or kg.
+
+    It is asked for row by row, for mj_fullM takes other arguments on older releases.
+    """
+    if data is None:
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
     matrix = np.zeros((model.nv, model.nv))
     for row, unit in zip(matrix, np.eye(model.nv), strict=True):
         mujoco.mj_mulM(model, data, row, unit)

@@ -11,13 +11,13 @@ import numpy as np
 
 from clinic.engine.checks import Trace, satisfies, take
 from clinic.engine.measure import measure_model, measure_output
+from clinic.engine.model_numbers import MODEL_NUMBERS
 from clinic.engine.script import run_script
 from clinic.engine.simulate import compile_model
 from clinic.engine.variant import EditError, Variant, apply_edits, variants
 from clinic.record.case import Case
 from clinic.record.expression import ExpressionError, evaluate, names, parse
 from clinic.record.parts import Edit, Strict
-from clinic.record.predictions import MODEL_NUMBERS
 from clinic.record.problem import CaseError
 from clinic.record.sweep import Parameter, Prediction, Sweep
 

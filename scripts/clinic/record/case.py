@@ -25,12 +25,12 @@ from pathlib import Path
 import yaml
 from pydantic import ValidationError
 
+from clinic.record.closed_forms import MODEL_NUMBERS
 from clinic.record.expression import ExpressionError, names, parse
 from clinic.record.field_errors import field_problems
 from clinic.record.fields import ExpressionSignal, PathSignal, Record, StartsSignal
 from clinic.record.folder import RECORD, folder_problems
 from clinic.record.parts import WARNINGS
-from clinic.record.predictions import MODEL_NUMBERS
 from clinic.record.problem import CaseError, Problem, article, closest, listed
 from clinic.record.sweep import Prediction
 from clinic.record.yaml_lines import Lines, Where, dotted, read_yaml, yaml_problem

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from clinic.triage.findings import Finding
 from clinic.triage.motion import chaos, conservation, halved, warnings
-from clinic.triage.text import Finding
 from helpers import BALL, PENDULUM, RESTING
 from subjects import subject
 

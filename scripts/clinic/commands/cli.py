@@ -163,7 +163,7 @@ def build(out: Annotated[Path, typer.Option(help="The folder to write; made anew
 @app.command()
 def triage(path: Annotated[Path, typer.Argument(help="A case's folder, or any MJCF or URDF file.")]) -> None:
     """Run the six steps of triage on a model and print what each saw."""
-    from clinic.triage.child import reports
+    from clinic.triage.process import reports
 
     for said in reports(path):
         print(said, flush=True)

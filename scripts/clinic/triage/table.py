@@ -10,9 +10,9 @@ from pydantic import BaseModel
 
 from clinic.engine.variant import variants
 from clinic.record.case import Case
-from clinic.triage import model, scene
+from clinic.triage import model_rules, scene_rules
+from clinic.triage.findings import Finding
 from clinic.triage.steps import STEPS, Observation, subject_of_case, triage
-from clinic.triage.text import Finding
 from clinic.work.cache import Files, key_of
 from clinic.work.task import Task
 
@@ -97,7 +97,7 @@ def _sum(cases: list[Case], screenings: Collection[Screening]) -> str:
 
 def _rules() -> Iterator[str]:
     yield from ('??? info "What steps 2 and 3 look for"', "")
-    for module in (model, scene):
+    for module in (model_rules, scene_rules):
         for rule in module.RULES:
             yield f"    - {' '.join((inspect.getdoc(rule) or '').split())}"
         yield ""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from clinic.triage.reduce import look
-from clinic.triage.text import Finding
+from clinic.triage.findings import Finding
+from clinic.triage.switch_off import look
 from helpers import RESTING
 from subjects import subject
 

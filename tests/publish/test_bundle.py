@@ -8,7 +8,7 @@ import pytest
 from clinic.publish import bundle
 from clinic.publish.bundle import START, parts, strip_custom_sections
 from clinic.work.cache import Cache
-from clinic.work.task import say_lack
+from clinic.work.task import log_missing_once
 
 HEADER = b"\0asm\x01\0\0\0"
 TYPE = b"\x01\x04\x01\x60\0\0"
@@ -62,7 +62,7 @@ def test_without_its_packages_the_site_has_the_loader_alone(
     root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     monkeypatch.setenv("CI", "true")
-    say_lack.cache_clear()
+    log_missing_once.cache_clear()
     sources, cache = copied(root, tmp_path), Cache(tmp_path / "cache")
     (sources / "node_modules").unlink()
 

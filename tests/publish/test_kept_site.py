@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from clinic.publish.kept_site import INPUTS, kept_or_made
+from clinic.publish.kept_site import INPUTS, cached_or_new_site
 from clinic.publish.site_files import Site
 from clinic.record.checkout import cache_folder
 from clinic.record.problem import Problem
@@ -63,7 +63,7 @@ def build(checkout: Path, cache: Cache, monkeypatch: pytest.MonkeyPatch) -> Call
     def run_build(make: Callable[[Path, Cache], Site] = lambda root, cache: SITE) -> bool:
         made = []
         monkeypatch.setattr("clinic.publish.site.make_site", lambda *given: made.append(make(*given)) or made[0])
-        assert kept_or_made(checkout, Cache(cache.folder)) == (made[0] if made else SITE)
+        assert cached_or_new_site(checkout, Cache(cache.folder)) == (made[0] if made else SITE)
         return bool(made)
 
     return run_build

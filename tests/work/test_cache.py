@@ -7,7 +7,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from clinic.work.cache import ENGINES, PACKAGE, SETTINGS, Cache, engines, key_of, say_unkept, source_digest
+from clinic.work.cache import ENGINES, PACKAGE, SETTINGS, Cache, engines, key_of, log_cache_unwritable, source_digest
 
 FILES = {"evidence.json": b"{}\n", "plot.svg": bytes(range(256)), "sub/empty": b""}
 KEY = "0123456789abcdef" * 2
@@ -49,7 +49,7 @@ def test_an_archive_that_was_cut_is_made_again(cache: Cache, length: int) -> Non
 
 @pytest.fixture
 def said(caplog: pytest.LogCaptureFixture) -> pytest.LogCaptureFixture:
-    say_unkept.cache_clear()
+    log_cache_unwritable.cache_clear()
     return caplog
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 OLDEST = (3, 4)
 """The first release on which a reader's model can be examined."""
-CASES = (4, 0)
+NEEDED_BY_CASES = (4, 0)
 """The release for which the cases are written."""
 
 

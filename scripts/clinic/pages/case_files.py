@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import partial
 
-from clinic.proof.experiments import EVIDENCE, case_task, evidence_of, measure_cases, of_one
+from clinic.proof.experiments import EVIDENCE, case_task, evidence_of, measure_cases, only_case
 from clinic.record.case import Case
 from clinic.record.problem import Problem
 from clinic.work.cache import Cache, Files
@@ -32,7 +32,7 @@ def files_of_case(case: Case, cache: Cache) -> Files:
     Raises:
         CaseError: If the case cannot be run, on this machine or on any.
     """
-    return of_one(case, *files_of_cases([case], cache))
+    return only_case(case, *files_of_cases([case], cache))
 
 
 def drawing_tasks(case: Case, measured: Files) -> Iterator[Task]:

@@ -15,7 +15,7 @@ from clinic.engine.simulate import compile_model
 from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.proof.prose_laws import quoted, typed
-from clinic.proof.sweep import errors_at, with_names
+from clinic.proof.sweep import errors_at, format_values
 from clinic.proof.task import changes
 from clinic.proof.trials import checks_in
 from clinic.record.case import Case
@@ -122,7 +122,7 @@ def swept(case: Case, evidence: Evidence) -> Iterator[Problem]:
         if own.wrong:
             point, _ = max(errors_at(sweep, "prediction", found.points), key=lambda each: each[1])
             seen = "nothing" if point.outcome is None else f"{point.outcome:.4g}"
-            worst = f"{with_names(point.at)}: it says {point.predicted['prediction']:.4g}, and {seen} is measured"
+            worst = f"{format_values(point.at)}: it says {point.predicted['prediction']:.4g}, and {seen} is measured"
             said = f"misses {own.wrong} of {own.judged} points; most at {worst}"
             yield case.problem(where, said, "a prediction that misses none", "correct its `expr`")
         for factor in (0.95, 1.05):

@@ -18,7 +18,7 @@ INPUTS = ("cases", "docs", "scripts/bundle.mjs", "node_modules/.package-lock.jso
 ABOUT = "site.json"
 
 
-def kept_or_made(root: Path, cache: Cache) -> Site:
+def cached_or_new_site(root: Path, cache: Cache) -> Site:
     """The site of the last build if it was made from the same inputs, or else a new one.
 
     A new one is kept unless something is wrong with it or is missing, or an input was changed meanwhile.

@@ -36,7 +36,7 @@ from clinic.record.sweep import Prediction
 from clinic.record.yaml_lines import Lines, Where, dotted, read_yaml, yaml_problem
 
 SCALED = re.compile(r"(?:[mck]m|[mµ]s|[mk]N|g|deg|°)(?![A-Za-z])")
-PUBLISHED = ("evidence.json", "playground.json")
+GENERATED_FILES = ("evidence.json", "playground.json")
 
 
 @dataclass(frozen=True)
@@ -115,7 +115,7 @@ def _file_problems(case: Case) -> Iterator[Problem]:
         if name not in case.texts:
             there = f"a file of the folder: {listed(case.texts)}"
             yield case.problem(where, f"{name}, which does not exist", there, "correct the name, or add the file")
-        if name in PUBLISHED:
+        if name in GENERATED_FILES:
             expected = "a name that the site does not use itself"
             yield case.problem(where, f"{name}, which stands beside the page", expected, "rename the file")
     expected = f"{RECORD} and the files it names: {listed(named)}"

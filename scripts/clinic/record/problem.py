@@ -6,6 +6,7 @@ import difflib
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import PurePosixPath
 
 LF = "\n"
 CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]")
@@ -39,7 +40,7 @@ class Problem:
         return CONTROL.sub("?", LF.join(rows))
 
 
-class LackError(RuntimeError):
+class MissingRequirementError(RuntimeError):
     """What this machine lacks, not the author's mistake."""
 
 
@@ -52,6 +53,16 @@ class CaseError(Exception):
 
     def __str__(self) -> str:
         return "\n".join(str(problem) for problem in self.problems)
+
+
+def problems_by_case(problems: Iterable[Problem]) -> dict[str, list[Problem]]:
+    """The problems of each case, by slug; those of other files are under ``""``."""
+    made: dict[str, list[Problem]] = {}
+    for problem in problems:
+        parts = PurePosixPath(problem.file).parts
+        slug = parts[1] if len(parts) > 1 and parts[0] == "cases" else ""
+        made.setdefault(slug, []).append(problem)
+    return made
 
 
 def closest(word: str, known: Iterable[str], likeness: float = 0.6) -> str | None:

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from clinic.engine import node
-from clinic.work.cache import origin
+from clinic.work.cache import dependencies
 
 PATIENCE = 5.0  # s
 T = TypeVar("T")
@@ -48,7 +48,7 @@ def jobs() -> int:
 
 def versions() -> dict[str, str | None]:
     """What the results of this process hang on."""
-    return {**origin(), "node": node.release(), node.MUJOCO: node.version(node.MUJOCO)}
+    return {**dependencies(), "node": node.release(), node.MUJOCO: node.version(node.MUJOCO)}
 
 
 @contextmanager

@@ -114,7 +114,7 @@ def test_a_site_that_is_not_whole_is_not_kept(build: Callable[..., bool], spoil:
 
 
 @pytest.mark.xdist_group("site")
-def test_a_build_reads_nothing_that_it_does_not_hang_on(root: Path) -> None:
+def test_a_build_reads_nothing_that_it_does_not_depend_on(root: Path) -> None:
     done = run(root, "-c", WATCH, str(root), str(cache_folder(root)))
     assert done.returncode == 0, done.stderr
     assert done.stdout.split() == [], "a build reads it: add it to INPUTS in scripts/clinic/publish/kept_site.py"

@@ -1,4 +1,4 @@
-"""Step 6: what the motion hangs on, and what touches nothing."""
+"""Step 6: what the motion depends on, and what touches nothing."""
 
 from __future__ import annotations
 

@@ -87,7 +87,7 @@ def test_keys_differ(one: tuple[object, ...], other: tuple[object, ...]) -> None
     assert key_of(*one, of="proof") != key_of(*other, of="proof")
 
 
-def test_key_does_not_hang_on_the_order_of_a_mapping() -> None:
+def test_key_does_not_depend_on_the_order_of_a_mapping() -> None:
     assert key_of({"a": 1, "b": 2}, of="proof") == key_of({"b": 2, "a": 1}, of="proof")
 
 

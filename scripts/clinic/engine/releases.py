@@ -8,10 +8,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-OLDEST = (3, 4)
-"""The first release on which a reader's model can be examined."""
-NEEDED_BY_CASES = (4, 0)
-"""The release for which the cases are written."""
+OLDEST = (3, 4)  # the first release on which a reader's model can be examined
+NEEDED_BY_CASES = (4, 0)  # the release for which the cases are written
 
 
 def installed() -> tuple[int, int]:
@@ -51,14 +49,11 @@ def output_of(model: mujoco.MjModel, actuator: int) -> int | None:
 
 
 def mass_matrix(model: mujoco.MjModel, data: mujoco.MjData | None = None) -> NDArray[np.float64]:
-    """The joint-space inertia, at qpos0 unless data are given, shape (nv, nv), in kg m^2 or kg.
-
-    It is asked for row by row, for mj_fullM takes other arguments on older releases.
-    """
+    """The joint-space inertia, at qpos0 unless data are given, shape (nv, nv), in kg m^2 or kg."""
     if data is None:
         data = mujoco.MjData(model)
         mujoco.mj_forward(model, data)
     matrix = np.zeros((model.nv, model.nv))
-    for row, unit in zip(matrix, np.eye(model.nv), strict=True):
+    for row, unit in zip(matrix, np.eye(model.nv), strict=True):  # mj_fullM takes other arguments on older releases
         mujoco.mj_mulM(model, data, row, unit)
     return matrix

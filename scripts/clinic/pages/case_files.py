@@ -36,14 +36,14 @@ def files_of_case(case: Case, cache: Cache) -> Files:
 
 
 def drawing_tasks(case: Case, measured: Files) -> Iterator[Task]:
-    """Draw the film, the pictures and the plots, by what was measured."""
+    """Tasks that draw the film, the pictures and the plots, by what was measured."""
     yield from picture_tasks(case)
     evidence = measured[EVIDENCE].decode()
     yield case_task(case, "plots", partial(_plots, case, measured), evidence, of=DRAWING)
 
 
 def picture_tasks(case: Case) -> Iterator[Task]:
-    """Draw the film and the pictures, which hang on the case alone."""
+    """Tasks that draw the film and the pictures, which depend on the case alone."""
     if case.record.film is not None:
         yield case_task(case, "film", partial(_film, case), of=DRAWING)
     yield case_task(case, "pictures", partial(_pictures, case), of=DRAWING)

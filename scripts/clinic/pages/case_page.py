@@ -26,8 +26,7 @@ from clinic.record.problem import CaseError
 from clinic.record.prose import plain, quantity
 from clinic.work.cache import Files
 
-Column = tuple[str, str, Interval | None]
-"""A number taken from a signal: the signal, which number, and over which window."""
+Column = tuple[str, str, Interval | None]  # a number taken from a signal: the signal, which number, over which window
 
 
 def case_page(

@@ -72,12 +72,12 @@ def evidence_of(files: Files) -> Evidence:
 
 
 def evidence_task(case: Case) -> Task:
-    """Runs every variant and the snippet."""
+    """The task that runs every variant and the snippet."""
     return case_task(case, "evidence", partial(_json_file, EVIDENCE, collect, case))
 
 
 def measuring_tasks(case: Case) -> Iterator[Task]:
-    """Run what needs the variants to be sound: the sweeps, and the variants from other starts."""
+    """Tasks that run what needs the variants to be sound: the sweeps, and the variants from other starts."""
     for name in case.record.sweep:
         yield case_task(case, "sweeps", partial(_json_file, f"sweep-{name}.json", measure_sweep, case, name), name)
     if case.record.run is not None:

@@ -1,7 +1,7 @@
 """The laws that every case obeys. Each law gives where the record breaks it, and what to do.
 
-A new law is named in LAWS and in docs/contribute/the-record.md and tested in tests/proof/test_laws.py; one that is
-quick stands in `pages/cases.py` as well, one that a case may be exempt from in `record/fields.py`, as a `Law`.
+A new law goes into LAWS, docs/contribute/the-record.md and tests/proof/test_laws.py; one that every page obeys also
+into BUILD_LAWS (`pages/cases.py`), one that a case may be exempt from into `Law` (`record/fields.py`).
 """
 
 from __future__ import annotations

@@ -39,8 +39,7 @@ def cached_or_new_site(root: Path, cache: Cache) -> Site:
 
 def inputs_digest(root: Path) -> str:
     """A digest of all that a site is made from: the files of the checkout, the package, what is installed, and Node."""
-    given = [root / name for name in INPUTS]
-    paths = sorted(path for place in given for path in (place, *place.rglob("*")))
+    paths = sorted(path for name in INPUTS for path in (root / name, *(root / name).rglob("*")))
     content = {str(path): sha256(path.read_bytes()).hexdigest() for path in paths if path.is_file()}
     packages = sorted({path.name for place in sys.path for path in Path(place).glob("*.dist-info")})
     program = shutil.which("node")

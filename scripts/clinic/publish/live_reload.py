@@ -1,4 +1,4 @@
-"""A served site: after an edit of a model its numbers are shown first, and its film and sweeps when they are made.
+"""Live reload: after an edit of a model the page first shows its numbers, later its film and sweeps.
 
 They are made by a process of their own, which then touches a file that the server watches.
 """

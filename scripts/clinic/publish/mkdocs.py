@@ -1,4 +1,4 @@
-"""The adapter for mkdocs-gen-files."""
+"""Writes the site's pages into a MkDocs build, through mkdocs-gen-files."""
 
 from __future__ import annotations
 

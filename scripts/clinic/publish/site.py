@@ -55,7 +55,7 @@ def make_site(root: Path, cache: Cache) -> Site:
 
 
 def slow_tasks_to_do(root: Path, cache: Cache) -> list[Task]:
-    """What takes long and is not kept: all but the variants' runs and the plots."""
+    """Tasks that take long and are not kept: all but the variants' runs and the plots."""
     tasks = [task for case in read_cases(root / "cases")[0] for task in (*measuring_tasks(case), *picture_tasks(case))]
     return [task for task in tasks if not cache.path(task.key).exists()]
 

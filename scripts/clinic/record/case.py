@@ -8,8 +8,7 @@ The stages, in order; each needs the one before:
 4. the files: those the record names exist, nothing else lies in the folder; and the references: names used in checks,
    expressions and the run exist, ids are unique.
 
-Edits are checked when variants are made; what needs the compiled model (signal paths) or the evidence (fields of
-prose), where these are made.
+Edits are checked when variants are made, signal paths once a model is compiled, fields of prose when these are filled.
 """
 
 from __future__ import annotations

@@ -6,7 +6,6 @@ import difflib
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
-from pathlib import PurePosixPath
 
 LF = "\n"
 CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]")
@@ -59,8 +58,7 @@ def problems_by_case(problems: Iterable[Problem]) -> dict[str, list[Problem]]:
     """The problems of each case, by slug; those of other files are under ``""``."""
     made: dict[str, list[Problem]] = {}
     for problem in problems:
-        parts = PurePosixPath(problem.file).parts
-        slug = parts[1] if len(parts) > 1 and parts[0] == "cases" else ""
+        slug = problem.file.split("/")[1] if problem.file.startswith("cases/") else ""
         made.setdefault(slug, []).append(problem)
     return made
 

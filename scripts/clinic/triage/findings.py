@@ -16,8 +16,7 @@ class Finding(NamedTuple):
     text: str
 
 
-StepResult = tuple[str, list[Finding]]
-"""What a step looked at and measured, and what it found."""
+StepResult = tuple[str, list[Finding]]  # what a step looked at and measured, and what it found
 
 
 def format_number(value: float, unit: str = "", digits: int = 3) -> str:

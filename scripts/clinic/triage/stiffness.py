@@ -12,8 +12,7 @@ from clinic.engine.releases import mass_matrix, output_of
 from clinic.triage.recording import Array, Subject
 
 HINGE, SLIDE = int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE)
-DENSE = 300
-"""Degrees of freedom up to which inertias and eigenvalues are computed."""
+DENSE = 300  # degrees of freedom up to which inertias and eigenvalues are computed
 
 
 def highest_frequency(s: Subject) -> float:

@@ -38,7 +38,7 @@ class Screening(BaseModel, frozen=True):
 
 
 def screening_tasks(cases: Iterable[Case]) -> Iterator[Task]:
-    """The work for every case that has a model."""
+    """Tasks that take the steps on every case that has a model."""
     for case in cases:
         if case.record.run is not None:
             run, texts = case.record.run.model_dump(mode="json"), [variant.text for variant in variants(case)[:2]]

@@ -76,12 +76,12 @@ def log_cache_unwritable(folder: Path, reason: str) -> None:
 
 
 def key_of(*parts: object, of: str) -> str:
-    """A key for work of the package's folder `of` that depends on `parts`, as JSON takes them, and on its `dependencies`."""
+    """A key for work of the package's folder `of` that depends on `parts`, as JSON takes them, and `dependencies`."""
     return hashlib.sha256(json.dumps([*parts, dependencies(of)], sort_keys=True).encode()).hexdigest()[:32]
 
 
 def dependencies(folder: str = STOREYS[-1]) -> dict[str, str | None]:
-    """What every result of a folder hangs on: the source of the package up to there, the engines, and how they draw."""
+    """What every result of a folder depends on: the source of the package up to there, the engines, how they draw."""
     return {"clinic": source_digest(folder), **engines(), **{name: os.environ.get(name) for name in SETTINGS}}
 
 

@@ -1,7 +1,7 @@
 """Work in parallel: in processes of this machine, or on the Dask cluster that CLINIC_DASK names.
 
 A worker of a cluster gets functions by their names and runs its own copy of this package. So each must have what the
-results hang on as this process has it, and one thread, for MuJoCo's warnings are heard process by process.
+results depend on as this process has it, and one thread, for MuJoCo's warnings are heard process by process.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def jobs() -> int:
 
 
 def versions() -> dict[str, str | None]:
-    """What the results of this process hang on."""
+    """What the results of this process depend on."""
     return {**dependencies(), "node": node.release(), node.MUJOCO: node.version(node.MUJOCO)}
 
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from clinic.record.problem import Problem
 from clinic.work.cache import Files
 
-SECTION = 50  # cases; more than these are shown in sections
 Navigation = list[dict[str, object]]
+SECTION = 50  # cases; more than these are shown in sections
 
 
 @dataclass(frozen=True)

@@ -10,12 +10,9 @@ import numpy as np
 from clinic.triage.findings import Finding, StepResult, format_number
 from clinic.triage.recording import Subject, distance, record_run, scale
 
-FAST = 1000.0
-"""A degree of freedom faster than this, in rad/s or m/s, is unusual."""
-SHARE = 0.05
-"""A drift or a change of motion of more than this share is unusual."""
-NUDGE = 1e-9
-"""How far every velocity is changed to see whether a motion is chaotic, in rad/s or m/s."""
+FAST = 1000.0  # rad/s or m/s; a degree of freedom faster than this is unusual
+SHARE = 0.05  # a drift or a change of motion of more than this share is unusual
+NUDGE = 1e-9  # rad/s or m/s; how far every velocity is changed to see whether a motion is chaotic
 
 
 def warnings(s: Subject) -> StepResult:

@@ -19,8 +19,7 @@ from clinic.work.task import Task
 FILE = "triage.json"
 MARK = "The table is made by the build."
 LENGTH = 90
-MEANS_SOMETHING = str.maketrans({"|": "\\|", "[": "\\[", "]": "\\]", "<": "&lt;", "*": "\\*"})
-"""What would mean something to Markdown's tables and links, and how to write it."""
+MARKDOWN_ESCAPES = str.maketrans({"|": "\\|", "[": "\\[", "]": "\\]", "<": "&lt;", "*": "\\*"})
 
 
 class Screening(BaseModel, frozen=True):
@@ -60,7 +59,7 @@ def table(cases: Iterable[Case], files: Mapping[str, Files]) -> str:
     lines = [f"| case | {' | '.join(titles)} |", "|---" * (1 + len(STEPS)) + "|"]
     for case in cases:
         link = f"cases/{case.slug}/index.md"
-        name = f"{case.record.number}. {case.record.title.translate(MEANS_SOMETHING)}"
+        name = f"{case.record.number}. {case.record.title.translate(MARKDOWN_ESCAPES)}"
         cells = [f"[{text}]({link})" for text in (name, *(cell(found.get(case.slug), step) for step in STEPS))]
         lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(
@@ -83,7 +82,7 @@ def _said(findings: list[Finding]) -> str:
     if len(first) > LENGTH:
         first = first[: first.rindex(" ", 0, LENGTH)] + " …"
     more = f" (and {len(findings) - 1} more)" if len(findings) > 1 else ""
-    return first.translate(MEANS_SOMETHING) + more
+    return first.translate(MARKDOWN_ESCAPES) + more
 
 
 def _sum(cases: list[Case], screenings: Collection[Screening]) -> str:

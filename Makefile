@@ -1,10 +1,11 @@
+# make setup   what the others need, and each of them does by itself: packages, browser parts, case.schema.json
 # make serve   the site with live reload at http://localhost:8000, or another PORT=8010
 # make test    every test; sets everything up by itself
 # make site    builds site/ strictly
 # make bench   how long a build takes, cold and warm, and its parts; the table goes into *Work on the code*
 # make growth  how the site grows to 1,000 cases; the table goes into *Work on the code*
 # make releases   what every release of MuJoCo does with every case; releases.lock.json is written anew
-# make lint    style and types
+# make lint    style, types, order of the storeys
 # make lock    renews requirements.txt and requirements-parity.txt
 # make audit   asks the registries for known holes in what is locked
 # make clean   forgets everything built

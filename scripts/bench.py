@@ -21,7 +21,7 @@ import clinic.engine.measure
 import mujoco
 from clinic.engine.simulate import captured_messages, controls, initial_data, step_count
 from clinic.pages.case_files import drawing_tasks
-from clinic.proof.experiments import assembled, evidence_task, measuring_tasks
+from clinic.proof.experiments import evidence_task, measuring_tasks, whole_evidence
 from clinic.record.case import Case, read_cases
 from clinic.record.checkout import project_root
 from clinic.work.task import Task
@@ -79,7 +79,7 @@ def parts(cases: list[Case]) -> tuple[dict[str, float], Physics]:
             first, rest = run(evidence_task(case)), {}
             for task in measuring_tasks(case):
                 rest |= run(task)
-            for task in drawing_tasks(case, assembled(case, first, rest)):
+            for task in drawing_tasks(case, whole_evidence(case, first, rest)):
                 run(task)
     finally:
         clinic.engine.measure.simulate = clinic.engine.simulate.simulate

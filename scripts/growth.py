@@ -27,7 +27,7 @@ from pathlib import Path
 import yaml
 from clinic.pages.case_files import drawing_tasks
 from clinic.pages.overviews import screening_tasks
-from clinic.proof.experiments import EVIDENCE, assembled, evidence_of, evidence_task, measuring_tasks
+from clinic.proof.experiments import EVIDENCE, evidence_of, evidence_task, measuring_tasks, whole_evidence
 from clinic.record.case import Case, read_cases
 from clinic.record.checkout import project_root
 from clinic.work.cache import Cache, Files
@@ -104,7 +104,7 @@ def keep(original: Case, case: Case, cache: Cache) -> None:
         files = kept(cache, old)
         cache.put(new.key, files)
         rest |= files
-    before, after = assembled(original, first, rest), assembled(case, renamed, rest)
+    before, after = whole_evidence(original, first, rest), whole_evidence(case, renamed, rest)
     for old, new in zip(drawing_tasks(original, before), drawing_tasks(case, after), strict=True):
         cache.put(new.key, kept(cache, old))
     for old, new in zip(screening_tasks([original]), screening_tasks([case]), strict=True):

@@ -33,7 +33,7 @@ def timed(work: Callable[[], object]) -> float:
 
 
 def copied(root: Path, folder: Path) -> Path:
-    """A copy of the checkout, so that nothing hangs on what happens to it meanwhile."""
+    """A copy of the checkout, so that nothing depends on what happens to it meanwhile."""
     made = Path(shutil.copytree(root, folder, ignore=NOT_COPIED))
     if (root / "node_modules").is_dir():
         (made / "node_modules").symlink_to(root / "node_modules")

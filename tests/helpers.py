@@ -12,7 +12,7 @@ import pytest
 from clinic.engine.checks import TAKES, Trace, take
 from clinic.pages.case_page import case_page
 from clinic.proof.evidence import Evidence, Samples, VariantEvidence
-from clinic.proof.examine import examine
+from clinic.proof.model_problems import check_against_model
 from clinic.record.case import Case, load_case
 from clinic.record.problem import CaseError, Problem
 
@@ -247,6 +247,6 @@ def page_of(case: Case, evidence: Evidence, files: dict[str, bytes] | None = Non
 def only_problem(folder: Path) -> Problem:
     """The only problem of a case that is read, compiled and bound."""
     with pytest.raises(CaseError) as caught:
-        examine(load_case(folder))
+        check_against_model(load_case(folder))
     (found,) = caught.value.problems
     return found

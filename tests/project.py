@@ -36,7 +36,7 @@ def write_project(folder: Path, *changes: tuple[str, str], kept: Path | None = N
         target.parent.mkdir(parents=True, exist_ok=True)
         copy = shutil.copytree if (ROOT / name).is_dir() else shutil.copy
         copy(ROOT / name, target)
-    package = Path(clinic.__file__).parent  # a copy, so that nothing hangs on what happens to the checkout meanwhile
+    package = Path(clinic.__file__).parent  # a copy, so that nothing depends on what happens to the checkout meanwhile
     shutil.copytree(package, folder / "scripts" / "clinic")
     (folder / "docs" / "triage.md").write_text(TRIAGE, encoding="utf-8")
     (folder / "docs" / "contribute").mkdir()

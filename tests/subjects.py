@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import mujoco
 from clinic.record.fields import RunSpec
-from clinic.triage.run import Subject
+from clinic.triage.recording import Subject
 
 
 def subject(xml: str, **run: object) -> Subject:

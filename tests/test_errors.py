@@ -17,7 +17,7 @@ from clinic.engine.simulate import RunError
 from clinic.engine.variant import EditError
 from clinic.pages.text.prose import ProseError
 from clinic.record.expression import ExpressionError
-from clinic.record.problem import CaseError, LackError, Problem
+from clinic.record.problem import CaseError, MissingRequirementError, Problem
 from clinic.work.parallel import ClusterError
 
 EXAMPLES = [
@@ -27,7 +27,7 @@ EXAMPLES = [
     ClusterError("no scheduler"),
     EditError(2, 0),
     ExpressionError("a number"),
-    LackError("no Node"),
+    MissingRequirementError("no Node"),
     ModelError(3, "a file", "none", "write it out"),
     ProseError("{{ x }}", "a field", "correct it"),
     RenderError("no OpenGL"),

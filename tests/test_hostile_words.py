@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 import yaml
-from clinic.pages.cases import Shown
+from clinic.pages.cases import CasePage
 from clinic.pages.figures.plots import plots
 from clinic.pages.text.prose import ProseError, markdown, opening
 from clinic.pages.text.sanitize import sanitized
@@ -84,7 +84,7 @@ def test_lines_are_shown_on_every_page(proof: Evidence, tmp_path: Path) -> None:
     files = dict.fromkeys(("film.mp4", "broken.webp", "strip.webp", "fixed.webp"), b"")
     said = {key: variant.model_copy(update={"messages": [SCRIPTED, "```"]}) for key, variant in proof.variants.items()}
     evidence = proof.model_copy(update={"variants": said})
-    home = render("home", shown=[Shown(case, "", opening(case, evidence), files)], engine="4.0.0")
+    home = render("home", shown=[CasePage(case, "", opening(case, evidence), files)], engine="4.0.0")
     for page in (page_of(case, evidence, files, case), home):
         assert acting(rendered(page)) == []
     assert unescape(rendered(page_of(case, evidence, files, case))).count(LINE[:30]) >= 5

@@ -11,14 +11,14 @@ import pytest
 from clinic.engine import node
 from clinic.pages.case_files import files_of_case, files_of_cases
 from clinic.pages.error_page import unmeasured_page
-from clinic.proof.evidence import lack, needs_images
+from clinic.proof.evidence import missing_requirement, needs_images
 from clinic.proof.experiments import evidence_task
 from clinic.publish.site import make_site
 from clinic.record.case import Case, load_case
 from clinic.record.checkout import project_root
 from clinic.record.problem import CaseError
 from clinic.work.cache import Cache
-from clinic.work.task import say_lack
+from clinic.work.task import log_missing_once
 from helpers import SCRIPT, script_case, tiny_case
 from project import write_project
 
@@ -48,7 +48,7 @@ def blind(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(mujoco, "Renderer", fail)
     monkeypatch.setenv("CLINIC_JOBS", "1")
-    say_lack.cache_clear()
+    log_missing_once.cache_clear()
 
 
 @pytest.mark.parametrize("make", MEASURED_IN_IMAGES)
@@ -119,7 +119,7 @@ def test_its_page_says_so_and_the_others_are_as_ever(tmp_path: Path, cache: Cach
     assert "## Files" in site.files["cases/falling-box/index.md"].decode()
 
 
-@pytest.mark.parametrize("gone", ["program", "version"])
+@pytest.mark.parametrize("gone", ["executable", "version"])
 def test_a_case_in_javascript_waits_for_node_and_its_package(
     tmp_path: Path, cache: Cache, gone: str, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
@@ -132,9 +132,9 @@ def test_a_case_in_javascript_waits_for_node_and_its_package(
 
     assert files_of_cases([case], cache) == ({}, [])
 
-    found = {"program": "no Node on this machine", "version": "@mujoco/mujoco is not installed"}[gone]
+    found = {"executable": "no Node on this machine", "version": "@mujoco/mujoco is not installed"}[gone]
     assert f"case {case.record.number} is not measured: {found}" in caplog.messages
-    missing = lack(case)
+    missing = missing_requirement(case)
     assert missing is not None
     assert found in unmeasured_page("15. A view", missing)
     with pytest.raises(CaseError, match=rf"found: +{found}\n.*this case is run by them"):

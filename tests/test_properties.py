@@ -17,7 +17,7 @@ import yaml
 from clinic.engine.simulate import compile_model
 from clinic.pages.text.markup import line
 from clinic.pages.text.prose import ProseError, markdown
-from clinic.proof.examine import examine
+from clinic.proof.model_problems import check_against_model
 from clinic.record.case import load_case
 from clinic.record.fields import Record
 from clinic.record.problem import CaseError, Problem
@@ -54,7 +54,7 @@ values = st.recursive(
 def outcome(folder: Path) -> tuple[Problem, ...]:
     """The problems of the case in a folder; none when it is read, compiled and bound."""
     try:
-        examine(load_case(folder))
+        check_against_model(load_case(folder))
     except CaseError as error:
         return error.problems
     return ()

@@ -38,7 +38,7 @@ def test_image_shows_what_the_camera_sees() -> None:
     assert (red, green) == (True, False)
 
 
-def test_image_does_not_hang_on_the_models_own_buffer_size() -> None:
+def test_image_does_not_depend_on_the_models_own_buffer_size() -> None:
     xml = SCENE.format(xyaxes=UPRIGHT).replace("<visual>", '<visual><global offwidth="64" offheight="48"/>')
     assert image(*compiled(xml), "front").shape == (HEIGHT, WIDTH, 3)
 

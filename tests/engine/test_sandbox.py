@@ -16,7 +16,7 @@ import pytest
 from clinic.engine import node, sandbox
 
 linux = pytest.mark.skipif(sys.platform != "linux", reason="only Linux keeps this limit")
-with_node = pytest.mark.skipif(node.program() is None, reason="no Node on this machine")
+with_node = pytest.mark.skipif(node.executable() is None, reason="no Node on this machine")
 
 TELLING = """\
 import atexit, os, sys, tempfile
@@ -45,7 +45,7 @@ def ended(code: str) -> tuple[int, str, str]:
 
 
 def javascript(code: str, seconds: float = 60.0) -> CompletedProcess[str]:
-    return sandbox.run([node.program() or "", "script.mjs"], {"script.mjs": code}, seconds)
+    return sandbox.run([node.executable() or "", "script.mjs"], {"script.mjs": code}, seconds)
 
 
 @pytest.mark.parametrize(

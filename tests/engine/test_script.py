@@ -87,7 +87,7 @@ def test_script_that_does_not_end_well(code: str, found: str) -> None:
     assert (caught.value.found, caught.value.repair) == (found, "run it by hand and mend it")
 
 
-@pytest.mark.skipif(node.program() is None, reason="no Node on this machine")
+@pytest.mark.skipif(node.executable() is None, reason="no Node on this machine")
 @pytest.mark.parametrize(
     ("code", "found"),
     [
@@ -123,6 +123,6 @@ def test_script_that_goes_beyond_a_limit(code: str, found: str, repair: str) -> 
 
 
 def test_without_node_a_script_in_javascript_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(node, "program", lambda: None)
+    monkeypatch.setattr(node, "executable", lambda: None)
     with pytest.raises(ScriptError, match="no Node on this machine"):
         run_script("", {}, name="script.mjs")

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import yaml
 from clinic.pages.case_page import interim_page
-from clinic.pages.cases import Shown
+from clinic.pages.cases import CasePage
 from clinic.pages.text.prose import opening
 from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence, collect
@@ -122,7 +122,8 @@ def test_front_matter_is_yaml_whatever_the_title(tmp_path: Path) -> None:
 
 
 def home(case: Case, evidence: Evidence, *files: str) -> str:
-    return render("home", shown=[Shown(case, "", opening(case, evidence), dict.fromkeys(files, b""))], engine="4.0.0")
+    page = CasePage(case, "", opening(case, evidence), dict.fromkeys(files, b""))
+    return render("home", shown=[page], engine="4.0.0")
 
 
 def test_home_page_has_a_card_of_every_case(made: tuple[Case, Evidence]) -> None:

@@ -9,18 +9,13 @@ import lxml.html
 import pytest
 import yaml
 from clinic.pages.cases import keep_relations
-from clinic.pages.error_page import by_case, error_page, with_problems
+from clinic.pages.error_page import error_page, with_problems
 from clinic.publish.site import navigation
 from clinic.record.problem import Problem
 from helpers import tiny_case
 from markup import acting, rendered
 
 PROBLEM = Problem("cases/falling-box/case.yaml", 7, "run", "nothing", "```a fence```", "mend it")
-
-
-def test_problems_are_by_case() -> None:
-    other = Problem("messages.yaml", 1, "", "x", "y", "z")
-    assert by_case([PROBLEM, other]) == {"falling-box": [PROBLEM], "": [other]}
 
 
 def test_an_error_page_holds_the_message_to_the_letter() -> None:

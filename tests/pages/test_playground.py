@@ -6,7 +6,7 @@ import json
 import subprocess
 from pathlib import Path
 
-from clinic.engine.node import program as node
+from clinic.engine.node import executable as node
 from clinic.pages.playground import playground
 from helpers import tiny_case
 

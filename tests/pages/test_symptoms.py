@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from clinic.pages.cases import Shown
+from clinic.pages.cases import CasePage
 from clinic.pages.symptoms import HEADINGS, symptom_problems, symptoms_page
 from clinic.record.case import Case, load_case
 from clinic.record.problem import CaseError
@@ -17,7 +17,7 @@ def looking(root: Path, looks: str) -> Case:
 
 
 def page_with(case: Case) -> str:
-    return symptoms_page([Shown(case, "", "It falls.", {})])
+    return symptoms_page([CasePage(case, "", "It falls.", {})])
 
 
 def test_a_case_that_nobody_would_find_is_a_problem_and_stands_at_the_end(tmp_path: Path) -> None:

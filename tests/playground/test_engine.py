@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from clinic.engine.node import program as node
+from clinic.engine.node import executable as node
 from clinic.pages.playground import playground
 from clinic.record.case import Case, read_cases
 from clinic.record.expression import evaluate, parse

@@ -1,4 +1,4 @@
-"""Experiments: what is run for a case, kept, and run again when what it hangs on changes."""
+"""Experiments: what is run for a case, kept, and run again when what it depends on changes."""
 
 from __future__ import annotations
 

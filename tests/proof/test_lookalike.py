@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from clinic.proof.lookalike import alike_problems, matrix, unclear
+from clinic.proof.lookalike import alike_problems, matrix, matrix_problems
 from clinic.record.case import Case, load_case
 from helpers import MODEL, RECORD, write_case
 
@@ -30,7 +30,7 @@ def test_a_clear_matrix_holds_on_its_diagonal_alone(tmp_path: Path) -> None:
 
     assert made.measured == [[0.0, 4.0], [0.0, 4.0]]
     assert made.holds == [[True, False], [False, True]]
-    assert list(unclear(cases["falling-box"], made)) == []
+    assert list(matrix_problems(cases["falling-box"], made)) == []
     assert list(alike_problems(cases)) == []
 
 
@@ -38,7 +38,7 @@ def test_a_measurement_that_holds_for_both_is_unclear(tmp_path: Path) -> None:
     both = "alike: {cases: [falling-box], path: time, above: 0, says: time passes}\n"
     cases = pair(tmp_path, NONE.format("resting-box"), both)
 
-    (problem,) = unclear(cases["resting-box"], matrix(list(cases.values())))
+    (problem,) = matrix_problems(cases["resting-box"], matrix(list(cases.values())))
     assert (problem.where, problem.found) == ("alike", "the measurement of resting-box holds for falling-box (0.4)")
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from clinic.proof.sweep import grid, measure_sweep, numbers, substituted, summarise
+from clinic.proof.sweep import grid, measure_sweep, parameter_values, substituted, summarise
 from clinic.record.case import Case
 from clinic.record.problem import CaseError, Problem
 from clinic.record.sweep import Parameter
@@ -20,9 +20,9 @@ def falling(tmp_path: Path, *changes: tuple[str, str]) -> Case:
 
 def test_numbers_are_spaced_as_asked() -> None:
     common = {"name": "x", "find": "a", "replace": "{}"}
-    assert numbers(Parameter(**common, start=0, stop=1, count=3)) == [0, 0.5, 1]
-    assert numbers(Parameter(**common, start=1, stop=100, count=3, scale="log")) == [1, 10, 100]
-    assert numbers(Parameter(**common, values=[3.0, 1.0])) == [1, 3]
+    assert parameter_values(Parameter(**common, start=0, stop=1, count=3)) == [0, 0.5, 1]
+    assert parameter_values(Parameter(**common, start=1, stop=100, count=3, scale="log")) == [1, 10, 100]
+    assert parameter_values(Parameter(**common, values=[3.0, 1.0])) == [1, 3]
 
 
 def test_an_exact_prediction_agrees_and_the_textbook_misses_where_it_matters(tmp_path: Path) -> None:

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 from clinic.publish import bundle
-from clinic.publish.bundle import START, parts, strip_custom_sections
+from clinic.publish.bundle import START, playground_files, strip_custom_sections
 from clinic.work.cache import Cache
-from clinic.work.task import say_lack
+from clinic.work.task import log_missing_once
 
 HEADER = b"\0asm\x01\0\0\0"
 TYPE = b"\x01\x04\x01\x60\0\0"
@@ -37,7 +37,9 @@ def test_custom_sections_are_stripped_and_all_else_stays() -> None:
 
 
 def test_the_same_sources_give_the_same_bytes(root: Path, tmp_path: Path) -> None:
-    made = [parts(copied(root, tmp_path / name), Cache(tmp_path / name / "cache")) for name in ("one", "two")]
+    made = [
+        playground_files(copied(root, tmp_path / name), Cache(tmp_path / name / "cache")) for name in ("one", "two")
+    ]
 
     assert made[0] == made[1]
     assert START in made[0]
@@ -49,24 +51,24 @@ def test_the_same_sources_give_the_same_bytes(root: Path, tmp_path: Path) -> Non
 
 def test_a_second_bundle_is_taken_from_the_cache(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     sources, cache = copied(root, tmp_path), Cache(tmp_path / "cache")
-    made = parts(sources, cache)
+    made = playground_files(sources, cache)
     monkeypatch.setattr(bundle, "_bundle", lambda root: pytest.fail("bundled again"))
 
-    assert parts(sources, cache) == made
+    assert playground_files(sources, cache) == made
     (sources / bundle.STYLE).write_text("", encoding="utf-8")
     with pytest.raises(pytest.fail.Exception, match="bundled again"):
-        parts(sources, cache)
+        playground_files(sources, cache)
 
 
 def test_without_its_packages_the_site_has_the_loader_alone(
     root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     monkeypatch.setenv("CI", "true")
-    say_lack.cache_clear()
+    log_missing_once.cache_clear()
     sources, cache = copied(root, tmp_path), Cache(tmp_path / "cache")
     (sources / "node_modules").unlink()
 
-    made = parts(sources, cache)
+    made = playground_files(sources, cache)
 
     assert list(made) == [f"{bundle.FOLDER}/loader.js"]
     assert cache.incomplete
@@ -79,4 +81,4 @@ def test_a_mistake_in_a_module_stops_the_build(root: Path, tmp_path: Path) -> No
     start.write_text(f"export const = 1;\n{start.read_text(encoding='utf-8')}", encoding="utf-8")
 
     with pytest.raises(RuntimeError, match=r"start\.js:1:13: ERROR"):
-        parts(sources, Cache(tmp_path / "cache"))
+        playground_files(sources, Cache(tmp_path / "cache"))

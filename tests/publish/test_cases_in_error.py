@@ -9,7 +9,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from clinic.publish.site import Site, make_site
+from clinic.publish.site import make_site
+from clinic.publish.site_files import Site
 from clinic.work.cache import Cache
 from helpers import changed
 from project import SILENT, run, write_project

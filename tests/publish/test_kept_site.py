@@ -6,7 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from clinic.publish.kept_site import INPUTS, Site, kept_or_made
+from clinic.publish.kept_site import INPUTS, cached_or_new_site
+from clinic.publish.site_files import Site
 from clinic.record.checkout import cache_folder
 from clinic.record.problem import Problem
 from clinic.work.cache import Cache
@@ -62,7 +63,7 @@ def build(checkout: Path, cache: Cache, monkeypatch: pytest.MonkeyPatch) -> Call
     def run_build(make: Callable[[Path, Cache], Site] = lambda root, cache: SITE) -> bool:
         made = []
         monkeypatch.setattr("clinic.publish.site.make_site", lambda *given: made.append(make(*given)) or made[0])
-        assert kept_or_made(checkout, Cache(cache.folder)) == (made[0] if made else SITE)
+        assert cached_or_new_site(checkout, Cache(cache.folder)) == (made[0] if made else SITE)
         return bool(made)
 
     return run_build
@@ -113,7 +114,7 @@ def test_a_site_that_is_not_whole_is_not_kept(build: Callable[..., bool], spoil:
 
 
 @pytest.mark.xdist_group("site")
-def test_a_build_reads_nothing_that_it_does_not_hang_on(root: Path) -> None:
+def test_a_build_reads_nothing_that_it_does_not_depend_on(root: Path) -> None:
     done = run(root, "-c", WATCH, str(root), str(cache_folder(root)))
     assert done.returncode == 0, done.stderr
     assert done.stdout.split() == [], "a build reads it: add it to INPUTS in scripts/clinic/publish/kept_site.py"

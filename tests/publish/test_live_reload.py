@@ -10,9 +10,9 @@ import measured
 import pytest
 from bench import MEASURING
 from clinic.publish import live_reload
-from clinic.publish.kept_site import Site
 from clinic.publish.live_reload import LiveSite
-from clinic.publish.site import make_site, unmeasured
+from clinic.publish.site import make_site, slow_tasks_to_do
+from clinic.publish.site_files import Site
 from clinic.work.cache import Cache
 from helpers import changed
 from mkdocs.config import load_config
@@ -83,7 +83,7 @@ def test_an_edited_model_shows_its_numbers_and_then_the_rest(project: Path, live
     assert MEASURING in early.files[PAGE].decode()
     assert "0.1252" in early.files[PAGE].decode()
     ended(live)
-    assert not unmeasured(project, Cache(project / "cache"))
+    assert not slow_tasks_to_do(project, Cache(project / "cache"))
     made = site(live, project)
     assert made == make_site(project, Cache(project / "cache"))
     assert MEASURING not in made.files[PAGE].decode()
@@ -118,7 +118,7 @@ def test_what_is_saved_meanwhile_is_made_next(project: Path, live: LiveSite) -> 
     site(live, project)
     assert live.process is first
     ended(live)
-    if unmeasured(project, Cache(project / "cache")):  # unless the process read the second edit
+    if slow_tasks_to_do(project, Cache(project / "cache")):  # unless the process read the second edit
         site(live, project)
         assert live.process is not first
         ended(live)

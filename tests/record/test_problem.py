@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from clinic.record.problem import CaseError, Problem, closest, listed
+from clinic.record.problem import CaseError, Problem, closest, listed, problems_by_case
 
 
 def problem(file: str = "cases/a/case.yaml", line: int = 3, where: str = "run", found: str = "x") -> Problem:
@@ -27,6 +27,11 @@ def test_a_name_does_not_speak_to_the_terminal() -> None:
         "cases/?[31mred?:3: run",
         "  found:    a?",
     ]
+
+
+def test_problems_are_by_case() -> None:
+    one, other = problem(), problem(file="messages.yaml")
+    assert problems_by_case([one, other]) == {"a": [one], "": [other]}
 
 
 def test_error_holds_each_problem_once_sorted_by_file_then_line() -> None:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from clinic.triage.findings import Finding
 from clinic.triage.motion import chaos, conservation, halved, warnings
-from clinic.triage.text import Finding
 from helpers import BALL, PENDULUM, RESTING
 from subjects import subject
 
@@ -41,7 +41,7 @@ def test_energy_from_a_start_inside_the_floor_is_seen() -> None:
     assert rules(found) == {"gain"}
 
 
-def test_sound_motions_conserve_and_do_not_hang_on_the_timestep() -> None:
+def test_sound_motions_conserve_and_do_not_depend_on_the_timestep() -> None:
     for xml in (BALL, RESTING, PENDULUM):
         examined = subject(xml)
         assert conservation(examined)[1] == []

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 from clinic.record.problem import CaseError
+from clinic.triage.findings import Finding
 from clinic.triage.steps import FIRST, STEPS, Observation, report, subject_of, subject_of_case, triage
-from clinic.triage.text import Finding
 from helpers import BALL, MODEL, PENDULUM, tiny_case, write_case, write_script_case
 from subjects import subject
 

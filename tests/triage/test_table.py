@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from clinic.triage.findings import Finding
 from clinic.triage.steps import STEPS, Observation
 from clinic.triage.table import FILE, Screening, cell, screen, screening_tasks, table
-from clinic.triage.text import Finding
 from clinic.work.cache import Cache
 from clinic.work.task import run_tasks
 from helpers import script_case, tiny_case

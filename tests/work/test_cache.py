@@ -7,7 +7,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from clinic.work.cache import ENGINES, PACKAGE, SETTINGS, Cache, engines, key_of, say_unkept, source_digest
+from clinic.work.cache import ENGINES, PACKAGE, SETTINGS, Cache, engines, key_of, log_cache_unwritable, source_digest
 
 FILES = {"evidence.json": b"{}\n", "plot.svg": bytes(range(256)), "sub/empty": b""}
 KEY = "0123456789abcdef" * 2
@@ -49,7 +49,7 @@ def test_an_archive_that_was_cut_is_made_again(cache: Cache, length: int) -> Non
 
 @pytest.fixture
 def said(caplog: pytest.LogCaptureFixture) -> pytest.LogCaptureFixture:
-    say_unkept.cache_clear()
+    log_cache_unwritable.cache_clear()
     return caplog
 
 
@@ -87,7 +87,7 @@ def test_keys_differ(one: tuple[object, ...], other: tuple[object, ...]) -> None
     assert key_of(*one, of="proof") != key_of(*other, of="proof")
 
 
-def test_key_does_not_hang_on_the_order_of_a_mapping() -> None:
+def test_key_does_not_depend_on_the_order_of_a_mapping() -> None:
     assert key_of({"a": 1, "b": 2}, of="proof") == key_of({"b": 2, "a": 1}, of="proof")
 
 

@@ -9,7 +9,6 @@ from typing import Any
 
 from clinic.pages.case_files import files_of_case
 from clinic.pages.case_page import case_page
-from clinic.pages.error_page import by_case
 from clinic.pages.symptoms import symptom_problems
 from clinic.pages.text.manual import manual_problems
 from clinic.proof.evidence import Evidence
@@ -17,7 +16,7 @@ from clinic.proof.experiments import compare_alike, evidence_of
 from clinic.proof.laws import LAWS, breaches
 from clinic.proof.lookalike import alike_problems
 from clinic.record.case import Case, read_cases
-from clinic.record.problem import CaseError, Problem
+from clinic.record.problem import CaseError, Problem, problems_by_case
 from clinic.work.cache import Cache
 
 
@@ -48,7 +47,7 @@ def check_cases(root: Path, slugs: Iterable[str], cache: Cache) -> Iterator[Repo
     """Reads, runs and judges the cases of a checkout, one after the other."""
     read, problems = read_cases(root / "cases")
     known = {case.slug: case for case in read}
-    found = by_case([*problems, *alike_problems(known)])
+    found = problems_by_case([*problems, *alike_problems(known)])
     for slug in slugs:
         yield _check(slug, known, found.get(slug, []), cache)
 

@@ -11,7 +11,7 @@ from typing import Annotated, Literal
 import typer
 
 from clinic.record.checkout import cache_folder, cases_root, folders, project_root, slugs
-from clinic.record.problem import CaseError, LackError
+from clinic.record.problem import CaseError, MissingRequirementError
 
 app = typer.Typer(no_args_is_help=True, help="Broken MuJoCo simulations that prove themselves.")
 
@@ -118,9 +118,9 @@ def show(
     import mujoco
 
     from clinic.commands import terminal
-    from clinic.engine.releases import CASES, installed
+    from clinic.engine.releases import NEEDED_BY_CASES, installed
     from clinic.pages.text.prose import prose_problems
-    from clinic.proof.evidence import lack
+    from clinic.proof.evidence import missing_requirement
     from clinic.proof.experiments import measure_case
     from clinic.record.case import load_case
     from clinic.work.cache import Cache
@@ -132,7 +132,7 @@ def show(
         with terminal.console(stderr=True).status(f"running {case.slug}"):
             evidence = measure_case(case, Cache(cache_folder(root)), ("sweeps",))
     except CaseError:
-        if installed() >= CASES or lack(case):
+        if installed() >= NEEDED_BY_CASES or missing_requirement(case):
             raise
         sys.exit(f"clinic: {slug} uses what MuJoCo {mujoco.__version__} does not have: pip install -U mujoco")
     if problems := list(prose_problems(case, evidence)):
@@ -181,7 +181,7 @@ def build(out: Annotated[Path, typer.Option(help="The folder to write; made anew
 @app.command()
 def triage(path: Annotated[Path, typer.Argument(help="A case's folder, or any MJCF or URDF file.")]) -> None:
     """Run the six steps of triage on a model and print what each saw."""
-    from clinic.triage.child import reports
+    from clinic.triage.process import reports
 
     for said in reports(path):
         print(said, flush=True)
@@ -242,5 +242,5 @@ def main() -> None:
         sys.exit(str(error))
     except ModuleNotFoundError as error:
         sys.exit(f"clinic: {error.name} is not installed; this needs pip install 'mujoco-clinic[site]'")
-    except (ImportError, FileNotFoundError, ConnectionError, LackError) as error:  # the first: too old an engine
-        sys.exit(f"clinic: {error}")
+    except (ImportError, FileNotFoundError, ConnectionError, MissingRequirementError) as error:
+        sys.exit(f"clinic: {error}")  # an ImportError says that the engine is too old

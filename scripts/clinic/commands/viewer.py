@@ -9,9 +9,9 @@ import mujoco
 
 from clinic.engine.simulate import compile_model, controls, data_at
 from clinic.engine.variant import variants
-from clinic.proof.examine import examine
+from clinic.proof.model_problems import check_against_model
 from clinic.record.case import Case
-from clinic.record.problem import CaseError, LackError, listed
+from clinic.record.problem import CaseError, MissingRequirementError, listed
 
 
 def open_viewer(case: Case, variant_id: str) -> None:
@@ -19,11 +19,12 @@ def open_viewer(case: Case, variant_id: str) -> None:
 
     Raises:
         CaseError: If the case has no model, or no such variant.
-        LackError: If there is no display.
+        MissingRequirementError: If there is no display.
     """
     model, data = scene(case, variant_id)
     if sys.platform == "linux" and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
-        raise LackError("no display here: MuJoCo's viewer needs a desktop session (DISPLAY or WAYLAND_DISPLAY)")
+        needed = "a desktop session (DISPLAY or WAYLAND_DISPLAY)"
+        raise MissingRequirementError(f"no display here: MuJoCo's viewer needs {needed}")
     import mujoco.viewer
 
     mujoco.viewer.launch(model, data)
@@ -38,7 +39,7 @@ def scene(case: Case, variant_id: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
     run = case.record.run
     if run is None:
         raise CaseError([case.problem(("script",), "a script", "a case with a model", f"read {case.record.source}")])
-    examine(case)
+    check_against_model(case)
     texts = {variant.id: variant.text for variant in variants(case)}
     if variant_id not in texts:
         expected = f"a variant: {listed(texts, 30)}"

@@ -20,13 +20,13 @@ CARET = re.compile(
 )
 
 
-def found() -> str | None:
+def launcher() -> str | None:
     """The Node of the virtual environment, else the one on the path, or a script that starts it; None if neither."""
     places = (str(Path(sys.executable).parent), os.environ.get("PATH", os.defpath))
     return shutil.which("node", path=os.pathsep.join(places))
 
 
-def program() -> str | None:
+def executable() -> str | None:
     """The program itself, which what is found may only start; None if there is none."""
     return _said("process.execPath")
 
@@ -38,7 +38,7 @@ def release() -> str | None:
 
 @cache
 def _said(expression: str) -> str | None:
-    if (path := found()) is None:
+    if (path := launcher()) is None:
         return None
     return subprocess.run([path, "-p", expression], check=False, capture_output=True, text=True).stdout.strip() or None
 

@@ -8,10 +8,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-OLDEST = (3, 4)
-"""The first release on which a reader's model can be examined."""
-CASES = (4, 0)
-"""The release for which the cases are written."""
+OLDEST = (3, 4)  # the first release on which a reader's model can be examined
+NEEDED_BY_CASES = (4, 0)  # the release for which the cases are written
 
 
 def installed() -> tuple[int, int]:
@@ -57,9 +55,12 @@ def output_of(model: mujoco.MjModel, actuator: int) -> int | None:
     return int(model.actuator_outadr[actuator]) if model.actuator_outnum[actuator] == 1 else None
 
 
-def mass_matrix(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
-    """The joint-space inertia, shape (nv, nv), in kg m^2 or kg; mj_fullM takes other arguments on older releases."""
+def mass_matrix(model: mujoco.MjModel, data: mujoco.MjData | None = None) -> NDArray[np.float64]:
+    """The joint-space inertia, at qpos0 unless data are given, shape (nv, nv), in kg m^2 or kg."""
+    if data is None:
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
     matrix = np.zeros((model.nv, model.nv))
-    for row, unit in zip(matrix, np.eye(model.nv), strict=True):
+    for row, unit in zip(matrix, np.eye(model.nv), strict=True):  # mj_fullM takes other arguments on older releases
         mujoco.mj_mulM(model, data, row, unit)
     return matrix

@@ -10,14 +10,14 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from clinic.record.problem import LackError
+from clinic.record.problem import MissingRequirementError
 
 WIDTH, HEIGHT = 480, 360
 SHADOW_SIZE, SHADOW_CLIP = 1024, 2.0  # smaller than the defaults: faster; wider: no speckles at the edge
 Image = NDArray[np.uint8]
 
 
-class RenderError(LackError):
+class RenderError(MissingRequirementError):
     """Images cannot be drawn on this machine."""
 
 

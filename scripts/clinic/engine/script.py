@@ -59,7 +59,7 @@ def run_script(code: str, files: Mapping[str, str], name: str = "script.py", sec
         ScriptError: If it breaks a limit of the sandbox or ends with an error, or there is no Node.
     """
     javascript = name.endswith(node.ENDING)
-    program = node.program() if javascript else sys.executable
+    program = node.executable() if javascript else sys.executable
     if program is None:
         raise ScriptError(*node.NO_PROGRAM)
     packages = node.modules() if javascript else None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import partial
 
-from clinic.proof.experiments import EVIDENCE, case_task, evidence_of, measure_cases, of_one
+from clinic.proof.experiments import EVIDENCE, case_task, evidence_of, measure_cases, only_case
 from clinic.record.case import Case
 from clinic.record.problem import Problem
 from clinic.work.cache import Cache, Files
@@ -32,18 +32,18 @@ def files_of_case(case: Case, cache: Cache) -> Files:
     Raises:
         CaseError: If the case cannot be run, on this machine or on any.
     """
-    return of_one(case, *files_of_cases([case], cache))
+    return only_case(case, *files_of_cases([case], cache))
 
 
 def drawing_tasks(case: Case, measured: Files) -> Iterator[Task]:
-    """Draw the film, the pictures and the plots, by what was measured."""
+    """Tasks that draw the film, the pictures and the plots, by what was measured."""
     yield from picture_tasks(case)
     evidence = measured[EVIDENCE].decode()
     yield case_task(case, "plots", partial(_plots, case, measured), evidence, of=DRAWING)
 
 
 def picture_tasks(case: Case) -> Iterator[Task]:
-    """Draw the film and the pictures, which hang on the case alone."""
+    """Tasks that draw the film and the pictures, which depend on the case alone."""
     if case.record.film is not None:
         yield case_task(case, "film", partial(_film, case), of=DRAWING)
     yield case_task(case, "pictures", partial(_pictures, case), of=DRAWING)

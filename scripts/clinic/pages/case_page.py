@@ -11,12 +11,12 @@ from clinic.engine.checks import expected, satisfies
 from clinic.engine.variant import diff, variants
 from clinic.pages.error_page import plain_page
 from clinic.pages.text import manual
-from clinic.pages.text.claim import TAKES, taken
+from clinic.pages.text.claim import TAKE_WORDS, taken
 from clinic.pages.text.markup import code, line
 from clinic.pages.text.prose import markdown, opening, prose_problems
 from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence, VariantEvidence
-from clinic.proof.lookalike import Matrix
+from clinic.proof.lookalike import LookalikeMatrix
 from clinic.proof.prose_laws import PROSE
 from clinic.proof.releases import differing, on_releases
 from clinic.proof.robustness import NUDGE, STARTS
@@ -28,11 +28,12 @@ from clinic.record.prose import plain, quantity
 from clinic.work.cache import Files
 
 STILL = 1e-3  # of a signal; less is no motion
-Column = tuple[str, str, Interval | None]
-"""A number taken from a signal: the signal, which number, and over which window."""
+Column = tuple[str, str, Interval | None]  # a number taken from a signal: the signal, which number, over which window
 
 
-def case_page(case: Case, evidence: Evidence, files: Files, others: Mapping[str, Case], alike: Matrix | None) -> str:
+def case_page(
+    case: Case, evidence: Evidence, files: Files, others: Mapping[str, Case], alike: LookalikeMatrix | None
+) -> str:
     """The Markdown of a case's page.
 
     Raises:
@@ -183,7 +184,7 @@ def _steady(case: Case, evidence: Evidence) -> str:
     return " ".join([said, *([f"({', '.join(shaken)}.)"] if shaken else []), *reasons])
 
 
-def _matrix(made: Matrix, cases: Mapping[str, Case]) -> dict[str, Any]:
+def _matrix(made: LookalikeMatrix, cases: Mapping[str, Case]) -> dict[str, Any]:
     """The matrix of look-alikes as a table."""
     members = [cases[slug] for slug in made.cases]
     heads = [f"[{case.record.number}. {line(case.record.title)}](../{case.slug}/index.md)" for case in members]
@@ -195,5 +196,6 @@ def _matrix(made: Matrix, cases: Mapping[str, Case]) -> dict[str, Any]:
             f"{'not measured' if value is None else quantity(value, '', 4)} {'✓' if hold else ''}".strip()
             for value, hold in zip(values, holds, strict=True)
         ]
-        rows.append([f"{line(alike.says)}: {code(alike.path)} {TAKES[alike.take]} is {expected(alike, plain)}", *cells])
+        measured = f"{code(alike.path)} {TAKE_WORDS[alike.take]} is {expected(alike, plain)}"
+        rows.append([f"{line(alike.says)}: {measured}", *cells])
     return {"heads": heads, "rows": rows}

@@ -8,7 +8,6 @@ from pathlib import Path
 
 from clinic.pages.case_files import files_of_cases
 from clinic.pages.case_page import case_page
-from clinic.pages.error_page import by_case
 from clinic.pages.playground import FILE as PLAYGROUND
 from clinic.pages.playground import playground
 from clinic.pages.text.manual import manual_problems
@@ -18,16 +17,16 @@ from clinic.proof.laws import breaches
 from clinic.proof.lookalike import alike_problems
 from clinic.record.case import Case
 from clinic.record.folder import RECORD
-from clinic.record.problem import CaseError, Problem
+from clinic.record.problem import CaseError, Problem, problems_by_case
 from clinic.work.cache import Cache, Files
 
 FOLDER = "cases/{slug}"
 PAGE = f"{FOLDER}/index.md"
-PUBLISHED = ("quoted", "typed", "verdicts", "warned", "lasting", "steady", "swept")  # laws for every page
+BUILD_LAWS = ("quoted", "typed", "verdicts", "warned", "lasting", "steady", "swept")  # laws for every page
 
 
 @dataclass(frozen=True)
-class Shown:
+class CasePage:
     """A case that has a page: the page's text, what lists say of the symptom, and the files beside the page by name."""
 
     case: Case
@@ -36,9 +35,9 @@ class Shown:
     files: Files
 
 
-def shown_cases(
+def case_pages(
     root: Path, read: Iterable[Case], unread: set[str], cache: Cache, with_playground: bool
-) -> tuple[list[Shown], list[Problem]]:
+) -> tuple[list[CasePage], list[Problem]]:
     """The cases that can be shown, and the problems of all.
 
     Args:
@@ -50,7 +49,7 @@ def shown_cases(
     """
     known = {case.slug: case for case in read}
     problems = [problem for problem in alike_problems(known) if problem.found not in unread]
-    left_out = set(by_case(problems))
+    left_out = set(problems_by_case(problems))
     made, failed = files_of_cases(known.values(), cache)
     problems += failed
     left_out |= known.keys() - made.keys()
@@ -59,7 +58,7 @@ def shown_cases(
     for slug, case in cases.items():
         evidence = evidence_of(made[slug])  # of one case at a time: a thousand would fill the memory
         alike, unclear = compare_alike(case, cases, cache)
-        problems += [*manual_problems(case), *breaches(case, evidence, *PUBLISHED), *unclear]
+        problems += [*manual_problems(case), *breaches(case, evidence, *BUILD_LAWS), *unclear]
         files = dict(made[slug])
         if with_playground and case.record.model is not None:
             files[PLAYGROUND] = playground(case, known.values())
@@ -71,7 +70,7 @@ def shown_cases(
         except OSError as error:  # renamed or deleted since it was read
             problems.append(case.problem((), type(error).__name__, "the folder as it was read", "build again"))
         else:
-            shown.append(Shown(case, page, opening(case, evidence), files | sources))
+            shown.append(CasePage(case, page, opening(case, evidence), files | sources))
     return shown, problems
 
 

@@ -5,21 +5,10 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 from html import escape
-from pathlib import PurePosixPath
 from textwrap import indent
 
 from clinic.pages.text.markup import fence, line
 from clinic.record.problem import Problem
-
-
-def by_case(problems: Iterable[Problem]) -> dict[str, list[Problem]]:
-    """The problems of each case, by slug; those of other files are under ``""``."""
-    made: dict[str, list[Problem]] = {}
-    for problem in problems:
-        parts = PurePosixPath(problem.file).parts
-        slug = parts[1] if len(parts) > 1 and parts[0] == "cases" else ""
-        made.setdefault(slug, []).append(problem)
-    return made
 
 
 def notice(problems: Iterable[Problem]) -> str:
@@ -33,9 +22,9 @@ def error_page(title: str, problems: Iterable[Problem]) -> str:
     return plain_page(title, notice(problems))
 
 
-def unmeasured_page(title: str, lack: Problem | None) -> str:
+def unmeasured_page(title: str, missing: Problem | None) -> str:
     """The page of a case that was not measured, for want of something on the machine that built the site."""
-    why = f": {line(lack.found)}. Needed is {line(lack.expected)}" if lack else ""
+    why = f": {line(missing.found)}. Needed is {line(missing.expected)}" if missing else ""
     return plain_page(title, f"The machine that built this page could not measure this case{why}.")
 
 

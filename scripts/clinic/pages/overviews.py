@@ -8,11 +8,11 @@ from pathlib import Path
 
 import mujoco
 
-from clinic.pages.cases import Shown
+from clinic.pages.cases import CasePage
+from clinic.pages.code_fences import NAMED, run_fences
 from clinic.pages.error_page import error_page
 from clinic.pages.messages import load_messages, messages_page, provoke_messages
 from clinic.pages.reference import reference
-from clinic.pages.snippets import NAMED, run_fences
 from clinic.pages.storeys import storeys
 from clinic.pages.symptoms import symptoms_page
 from clinic.pages.text.template import render
@@ -28,7 +28,7 @@ STOREYS_MARK = "The picture is made by the build."
 
 
 def overviews(
-    root: Path, shown: Sequence[Shown], known: Mapping[str, Case], cache: Cache
+    root: Path, shown: Sequence[CasePage], known: Mapping[str, Case], cache: Cache
 ) -> tuple[Files, list[Problem]]:
     """The files, and the problems of those that cannot be made, which hold these problems instead.
 

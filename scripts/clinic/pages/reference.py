@@ -12,7 +12,8 @@ from pydantic import BaseModel
 
 from clinic.engine import signals
 from clinic.engine.checks import TAKES
-from clinic.record import predictions
+from clinic.engine.model_numbers import MODEL_NUMBERS
+from clinic.record import closed_forms
 from clinic.record.expression import FUNCTIONS
 from clinic.record.fields import Record
 from clinic.record.prose import CONVERSIONS
@@ -56,9 +57,9 @@ def _fields() -> list[str]:
 
 def _arithmetic() -> list[str]:
     """The functions of expressions, and the numbers that a prediction can take from the model."""
-    own = {f"`{name}(...)`": _summary(function) for name, function in predictions.FUNCTIONS.items()}
-    own |= {f"`{name}`": f"{_summary(number)} In a prediction." for name, number in predictions.MODEL_NUMBERS.items()}
-    usual = ", ".join(f"`{name}`" for name in FUNCTIONS if name not in predictions.FUNCTIONS)
+    own = {f"`{name}(...)`": _summary(function) for name, function in closed_forms.FUNCTIONS.items()}
+    own |= {f"`{name}`": f"{_summary(number)} In a prediction." for name, number in MODEL_NUMBERS.items()}
+    usual = ", ".join(f"`{name}`" for name in FUNCTIONS if name not in closed_forms.FUNCTIONS)
     return ["### arithmetic in `expr`", "", f"`+ - * / **`, `pi`, and as in NumPy {usual}.", "", *_list(own)]
 
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from clinic.pages.cases import Shown
+from clinic.pages.cases import CasePage
 from clinic.pages.text.template import render
 from clinic.record.case import Case
-from clinic.record.fields import Look
+from clinic.record.fields import SymptomId
 from clinic.record.problem import Problem
 
 
@@ -22,7 +22,7 @@ class Heading(NamedTuple):
     first: str
 
 
-HEADINGS: dict[Look, Heading] = {
+HEADINGS: dict[SymptomId, Heading] = {
     "nothing-moves": Heading(
         "Nothing moves",
         "Print the forces: `data.qfrc_actuator`, `data.qfrc_bias`, `data.qfrc_constraint`. All zero: nothing acts. "
@@ -69,9 +69,9 @@ def symptom_problems(case: Case) -> Iterator[Problem]:
         yield case.problem(("looks",), "nothing", f"one or more of: {', '.join(HEADINGS)}", "add `looks: [...]`")
 
 
-def symptoms_page(shown: Sequence[Shown]) -> str:
+def symptoms_page(shown: Sequence[CasePage]) -> str:
     """The Markdown of the page."""
-    groups: list[tuple[str, Heading, list[Shown]]] = [
+    groups: list[tuple[str, Heading, list[CasePage]]] = [
         (look, heading, [one for one in shown if look in one.case.record.looks]) for look, heading in HEADINGS.items()
     ]
     if others := [one for one in shown if not one.case.record.looks]:

@@ -17,14 +17,14 @@ from clinic.engine.render import why_no_images
 from clinic.engine.script import ScriptError, printed_numbers, run_script
 from clinic.engine.simulate import RunError, compile_model
 from clinic.engine.variant import Variant, variants
-from clinic.proof.examine import examine
+from clinic.proof.model_problems import check_against_model
 from clinic.proof.robustness import Robustness
 from clinic.proof.sweep import SweepEvidence, names_read
 from clinic.proof.trials import checks_in, run_trial, trial_problems
 from clinic.record.case import Case
 from clinic.record.fields import Check, PathSignal, RowSignal, Trial
 from clinic.record.parts import Strict
-from clinic.record.problem import CaseError, LackError, Problem, listed
+from clinic.record.problem import CaseError, MissingRequirementError, Problem, listed
 from clinic.record.yaml_lines import Where
 
 MAX_SAMPLES = 400
@@ -112,13 +112,13 @@ def collect(case: Case) -> Evidence:
 
     Raises:
         CaseError: With every problem that keeps the case from running.
-        LackError: If this machine lacks what the runs need.
+        MissingRequirementError: If this machine lacks what the runs need.
     """
-    examine(case)
+    check_against_model(case)
     if untried := list(trial_problems(case)):
         raise CaseError(untried)
-    if missing := lack(case):
-        raise LackError(f"case {case.record.number} is not measured: {missing.found}")
+    if missing := missing_requirement(case):
+        raise MissingRequirementError(f"case {case.record.number} is not measured: {missing.found}")
     observed: dict[str, VariantEvidence] = {}
     problems: list[Problem] = []
     for variant in variants(case):
@@ -151,14 +151,14 @@ def collect(case: Case) -> Evidence:
     )
 
 
-def lack(case: Case) -> Problem | None:
+def missing_requirement(case: Case) -> Problem | None:
     """What this machine lacks to measure the case."""
     where = "script" if case.record.script else "signals"
     if needs_images(case) and (reason := why_no_images()):
         needed = "OpenGL: this case is measured in images"
         return case.problem((where,), reason, needed, "judge it on a machine that draws")
-    if case.record.language == "javascript" and (node.program() is None or node.version(node.MUJOCO) is None):
-        found, repair = node.NO_PROGRAM if node.program() is None else node.NO_PACKAGE
+    if case.record.language == "javascript" and (node.executable() is None or node.version(node.MUJOCO) is None):
+        found, repair = node.NO_PROGRAM if node.executable() is None else node.NO_PACKAGE
         return case.problem((where,), found, f"Node and {node.MUJOCO}: this case is run by them", repair)
     return None
 

@@ -14,8 +14,8 @@ from pydantic_core import to_json
 
 from clinic.engine import node
 from clinic.engine.signals import SignalError
-from clinic.proof.evidence import Evidence, collect, lack
-from clinic.proof.lookalike import Matrix, matrix, unclear
+from clinic.proof.evidence import Evidence, collect, missing_requirement
+from clinic.proof.lookalike import LookalikeMatrix, matrix, matrix_problems
 from clinic.proof.releases import on_releases
 from clinic.proof.robustness import Robustness, robustness
 from clinic.proof.sweep import SweepEvidence, measure_sweep
@@ -44,7 +44,7 @@ def measure_cases(
     rest, more = run_tasks(sorted(measuring, key=lambda task: task.kind), cache)
     failed = {task.slug for task in measuring} - rest.keys()
     sound = [case for case in cases if case.slug not in failed]
-    return {c.slug: assembled(c, first[c.slug], rest.get(c.slug, {})) for c in sound}, problems + more
+    return {c.slug: whole_evidence(c, first[c.slug], rest.get(c.slug, {})) for c in sound}, problems + more
 
 
 def measure_case(case: Case, cache: Cache, kinds: Container[str] = ("sweeps", "robustness")) -> Evidence:
@@ -53,17 +53,17 @@ def measure_case(case: Case, cache: Cache, kinds: Container[str] = ("sweeps", "r
     Raises:
         CaseError: If the case cannot be run, on this machine or on any.
     """
-    return evidence_of(of_one(case, *measure_cases([case], cache, kinds)))
+    return evidence_of(only_case(case, *measure_cases([case], cache, kinds)))
 
 
-def of_one(case: Case, made: Mapping[str, Files], problems: Iterable[Problem]) -> Files:
+def only_case(case: Case, made: Mapping[str, Files], problems: Iterable[Problem]) -> Files:
     """The files of the only case asked for.
 
     Raises:
         CaseError: If there are none, with the problems or with what this machine lacks.
     """
     if case.slug not in made:
-        raise CaseError([*problems] or [missing for missing in [lack(case)] if missing])
+        raise CaseError([*problems] or [missing for missing in [missing_requirement(case)] if missing])
     return made[case.slug]
 
 
@@ -73,19 +73,19 @@ def evidence_of(files: Files) -> Evidence:
 
 
 def evidence_task(case: Case) -> Task:
-    """Runs every variant and the snippet."""
+    """The task that runs every variant and the snippet."""
     return case_task(case, "evidence", partial(_json_file, EVIDENCE, collect, case))
 
 
 def measuring_tasks(case: Case) -> Iterator[Task]:
-    """Run what needs the variants to be sound: the sweeps, and the variants from other starts."""
+    """Tasks that run what needs the variants to be sound: the sweeps, and the variants from other starts."""
     for name in case.record.sweep:
         yield case_task(case, "sweeps", partial(_json_file, f"sweep-{name}.json", measure_sweep, case, name), name)
     if case.record.run is not None:
         yield case_task(case, "robustness", partial(_json_file, "robustness.json", robustness, case))
 
 
-def assembled(case: Case, first: Files, rest: Files) -> Files:
+def whole_evidence(case: Case, first: Files, rest: Files) -> Files:
     """The file EVIDENCE, whole, from the files of `evidence_task` and those of `measuring_tasks`."""
     files = {name: f"sweep-{name}.json" for name in case.record.sweep}
     sweeps = {key: SweepEvidence.model_validate_json(rest[name]) for key, name in files.items() if name in rest}
@@ -110,7 +110,7 @@ def case_task(case: Case, kind: str, make: Callable[[], Files], *part: object, o
     return Task(case.slug, kind, key_of(kind, *whole, of=of), make)
 
 
-def compare_alike(case: Case, cases: Mapping[str, Case], cache: Cache) -> tuple[Matrix | None, list[Problem]]:
+def compare_alike(case: Case, cases: Mapping[str, Case], cache: Cache) -> tuple[LookalikeMatrix | None, list[Problem]]:
     """The measurements that tell a case from its look-alikes, None if it has none, and what they do not tell apart."""
     if case.record.alike is None:
         return None, []
@@ -122,8 +122,8 @@ def compare_alike(case: Case, cases: Mapping[str, Case], cache: Cache) -> tuple[
         files = cache.remember(key, partial(_json_file, "matrix.json", matrix, members))
     except SignalError as error:
         return None, [case.problem(("alike", "path"), error.found, error.expected, error.repair)]
-    made = Matrix.model_validate_json(files["matrix.json"])
-    return made, list(unclear(case, made))
+    made = LookalikeMatrix.model_validate_json(files["matrix.json"])
+    return made, list(matrix_problems(case, made))
 
 
 def _json_file(name: str, make: Callable[..., object], *of: object) -> Files:

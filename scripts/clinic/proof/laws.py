@@ -1,4 +1,8 @@
-"""The laws that every case obeys. Each law gives where the record breaks it, and what to do."""
+"""The laws that every case obeys. Each law gives where the record breaks it, and what to do.
+
+A new law goes into LAWS, docs/contribute/the-record.md and tests/proof/test_laws.py; one that every page obeys also
+into BUILD_LAWS (`pages/cases.py`), one that a case may be exempt from into `Law` (`record/fields.py`).
+"""
 
 from __future__ import annotations
 
@@ -12,7 +16,7 @@ from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.proof.prose_laws import quoted, typed
 from clinic.proof.releases import differing, on_releases, release_problems
-from clinic.proof.sweep import errors_at, with_names
+from clinic.proof.sweep import errors_at, format_values
 from clinic.proof.task import changes
 from clinic.proof.trials import checks_in
 from clinic.record.case import Case
@@ -55,7 +59,7 @@ def ablation(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 
 def small_edits(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 3. Every remedy changes at most a handful of lines (that edits match once is checked on loading)."""
+    """Law 3. Every remedy changes at most a handful of lines; when variants are made it is checked that edits match."""
     for variant in variants(case)[1:]:
         count = changed_lines(case.text, variant.text)
         if not 1 <= count <= MAX_CHANGED_LINES:
@@ -119,7 +123,7 @@ def swept(case: Case, evidence: Evidence) -> Iterator[Problem]:
         if own.wrong:
             point, _ = max(errors_at(sweep, "prediction", found.points), key=lambda each: each[1])
             seen = "nothing" if point.outcome is None else f"{point.outcome:.4g}"
-            worst = f"{with_names(point.at)}: it says {point.predicted['prediction']:.4g}, and {seen} is measured"
+            worst = f"{format_values(point.at)}: it says {point.predicted['prediction']:.4g}, and {seen} is measured"
             said = f"misses {own.wrong} of {own.judged} points; most at {worst}"
             yield case.problem(where, said, "a prediction that misses none", "correct its `expr`")
         for factor in (0.95, 1.05):
@@ -142,7 +146,7 @@ def filmed(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 
 def same_task(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 7. A fix of a model leaves the task alone, but for what `task.may` names."""
+    """A fix of a model leaves the task alone, but for what `task.may` names."""
     if case.record.run is None:
         return
     broken, *others = variants(case)
@@ -179,7 +183,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
 
 
 def breaches(case: Case, evidence: Evidence, *laws: str) -> list[Problem]:
-    """Where the case breaks the laws, after exemptions (law 11): one that is no longer needed is a breach itself."""
+    """Where the case breaks the laws, after exemptions (law 8): one that is no longer needed is a breach itself."""
     made = []
     for law in laws:
         found = list(LAWS[law](case, evidence))

@@ -13,7 +13,7 @@ from clinic.record.parts import Strict
 from clinic.record.problem import Problem
 
 
-class Matrix(Strict):
+class LookalikeMatrix(Strict):
     """Measurements by cases: `measured[i][j]` is what case i's measurement gives for case j.
 
     Attributes:
@@ -47,14 +47,14 @@ def alike_problems(cases: Mapping[str, Case]) -> Iterator[Problem]:
             yield case.problem(("alike", "path"), error.found, error.expected, error.repair)
 
 
-def matrix(members: list[Case]) -> Matrix:
+def matrix(members: list[Case]) -> LookalikeMatrix:
     """Every member's measurement, run on the broken variant of every member.
 
     Raises:
         SignalError: If a model lacks what a path names.
     """
     runs = [(compile_model(member.text), member.record.run) for member in members if member.record.run is not None]
-    made = Matrix(cases=[member.slug for member in members], measured=[], holds=[])
+    made = LookalikeMatrix(cases=[member.slug for member in members], measured=[], holds=[])
     for alike in (member.record.alike for member in members if member.record.alike is not None):
         path = {"x": parse_path(alike.path)}
         values = [take(simulate(model, run, path).traces["x"], alike.take) for model, run in runs]
@@ -63,7 +63,7 @@ def matrix(members: list[Case]) -> Matrix:
     return made
 
 
-def unclear(case: Case, made: Matrix) -> Iterator[Problem]:
+def matrix_problems(case: Case, made: LookalikeMatrix) -> Iterator[Problem]:
     """Every cell that is not as it should be."""
     for i, row in enumerate(made.holds):
         for j, holds in enumerate(row):

@@ -84,7 +84,7 @@ def lock_text(lock: Lock) -> str:
 
 
 def files_digest(case: Case) -> str:
-    """A digest of what the runs of a case's variants hang on."""
+    """A digest of what the runs of a case's variants depend on."""
     experiment = case.record.model_dump(mode="json", include={"run", "signals", "checks", "fixes", "refuted", "trials"})
     return hashlib.sha256(json.dumps([experiment, case.texts], sort_keys=True).encode()).hexdigest()[:16]
 

@@ -11,13 +11,13 @@ import numpy as np
 
 from clinic.engine.checks import Trace, satisfies, take
 from clinic.engine.measure import measure_model, measure_output
+from clinic.engine.model_numbers import MODEL_NUMBERS
 from clinic.engine.script import run_script
 from clinic.engine.simulate import compile_model
 from clinic.engine.variant import EditError, Variant, apply_edits, variants
 from clinic.record.case import Case
 from clinic.record.expression import ExpressionError, evaluate, names, parse
 from clinic.record.parts import Edit, Strict
-from clinic.record.predictions import MODEL_NUMBERS
 from clinic.record.problem import CaseError
 from clinic.record.sweep import Parameter, Prediction, Sweep
 
@@ -61,7 +61,7 @@ class SweepEvidence(Strict):
     marks: dict[str, dict[str, float]]
 
 
-def numbers(parameter: Parameter) -> list[float]:
+def parameter_values(parameter: Parameter) -> list[float]:
     """The parameter's values, increasing."""
     if parameter.start is None or parameter.stop is None or parameter.count is None:
         return sorted(parameter.values)
@@ -71,7 +71,7 @@ def numbers(parameter: Parameter) -> list[float]:
 
 def grid(sweep: Sweep) -> list[dict[str, float]]:
     """Every combination of the parameters' values, the last parameter changing fastest."""
-    columns = {parameter.name: numbers(parameter) for parameter in sweep.vary}
+    columns = {parameter.name: parameter_values(parameter) for parameter in sweep.vary}
     return [dict(zip(columns, values, strict=True)) for values in itertools.product(*columns.values())]
 
 
@@ -162,7 +162,7 @@ def _measure(case: Case, name: str, base: str, at: dict[str, float]) -> Point:
     sweep = case.record.sweep[name]
 
     def error(found: str, expected: str, repair: str, quoted: str = "") -> CaseError:
-        return CaseError([case.problem(("sweep", name), f"at {with_names(at)}: {found}", expected, repair, quoted)])
+        return CaseError([case.problem(("sweep", name), f"at {format_values(at)}: {found}", expected, repair, quoted)])
 
     try:
         traces, values = _run(case, sweep, substituted(base, sweep, at))
@@ -203,7 +203,7 @@ def _run(case: Case, sweep: Sweep, text: str) -> tuple[dict[str, Trace], dict[st
     return traces, numbers | {name: take(traces[name], "final") for name in read & traces.keys()}
 
 
-def with_names(values: Mapping[str, float]) -> str:
+def format_values(values: Mapping[str, float]) -> str:
     """Numbers in words: `g = 9.81, h = 0.002`."""
     return ", ".join(f"{name} = {value:g}" for name, value in values.items())
 

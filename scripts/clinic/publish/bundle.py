@@ -9,7 +9,7 @@ from pathlib import Path
 
 from clinic.engine import node
 from clinic.work.cache import Cache, Files, key_of
-from clinic.work.task import say_lack
+from clinic.work.task import log_missing_once
 
 FOLDER = "javascripts/playground"
 START = f"{FOLDER}/start.js"  # which a site without Node's packages does not have
@@ -22,20 +22,20 @@ CUSTOM_SECTION = 0
 HEADER = 8  # bytes: WebAssembly's mark and version
 
 
-def parts(root: Path, cache: Cache) -> Files:
+def playground_files(root: Path, cache: Cache) -> Files:
     """The playground's files by their path in the site; without Node or its packages the loader alone.
 
     Raises:
         RuntimeError: If the modules do not bundle, with what the bundler says.
     """
-    if node.found() and (root / ENGINE).is_file():
+    if node.launcher() and (root / ENGINE).is_file():
         modules = sorted((root / "docs/playground").rglob("*.js"))
         sources = [*modules, root / STYLE, root / BUNDLER, root / INSTALLED, Path(__file__)]
         key = key_of("playground", [[path.name, path.read_text(encoding="utf-8")] for path in sources], of="record")
         made = cache.remember(key, lambda: _bundle(root))
         return {f"{FOLDER}/{name}": content for name, content in made.items()}
     cache.incomplete = True
-    say_lack("no playground: Node or its packages are not installed; run `make setup`")
+    log_missing_once("no playground: Node or its packages are not installed; run `make setup`")
     return {f"{FOLDER}/loader.js": (root / LOADER).read_bytes()} if (root / LOADER).is_file() else {}
 
 
@@ -52,7 +52,7 @@ def strip_custom_sections(wasm: bytes) -> bytes:
 
 def _bundle(root: Path) -> Files:
     with tempfile.TemporaryDirectory(prefix="clinic-") as folder:
-        command = [str(node.found()), BUNDLER, folder]
+        command = [str(node.launcher()), BUNDLER, folder]
         done = subprocess.run(command, cwd=root, check=False, capture_output=True, text=True)
         if done.returncode:
             raise RuntimeError(f"{BUNDLER} failed:\n{done.stderr.strip()}")

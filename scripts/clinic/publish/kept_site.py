@@ -8,35 +8,17 @@ from __future__ import annotations
 import json
 import shutil
 import sys
-from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 
-from clinic.record.problem import Problem
-from clinic.work.cache import Cache, Files, key_of
+from clinic.publish.site_files import Site
+from clinic.work.cache import Cache, key_of
 
 INPUTS = ("cases", "docs", "scripts/bundle.mjs", "releases.lock.json", "node_modules/.package-lock.json")
 ABOUT = "site.json"
-SECTION = 50  # cases; more than these are shown in sections
-Navigation = list[dict[str, object]]
 
 
-@dataclass(frozen=True)
-class Site:
-    """What there is to publish; a case in error has a page that says so.
-
-    Attributes:
-        files: Every generated file, by its path below the documentation folder.
-        navigation: As MkDocs takes it.
-        problems: All problems of all cases, and every claim that the runs do not bear out.
-    """
-
-    files: Files
-    navigation: Navigation
-    problems: tuple[Problem, ...] = ()
-
-
-def kept_or_made(root: Path, cache: Cache) -> Site:
+def cached_or_new_site(root: Path, cache: Cache) -> Site:
     """The site of the last build if it was made from the same inputs, or else a new one.
 
     A new one is kept unless something is wrong with it or is missing, or an input was changed meanwhile.
@@ -57,8 +39,7 @@ def kept_or_made(root: Path, cache: Cache) -> Site:
 
 def inputs_digest(root: Path) -> str:
     """A digest of all that a site is made from: the files of the checkout, the package, what is installed, and Node."""
-    given = [root / name for name in INPUTS]
-    paths = sorted(path for place in given for path in (place, *place.rglob("*")))
+    paths = sorted(path for name in INPUTS for path in (root / name, *(root / name).rglob("*")))
     content = {str(path): sha256(path.read_bytes()).hexdigest() for path in paths if path.is_file()}
     packages = sorted({path.name for place in sys.path for path in Path(place).glob("*.dist-info")})
     program = shutil.which("node")

@@ -1,4 +1,4 @@
-"""A served site: after an edit of a model its numbers are shown first, and its film and sweeps when they are made.
+"""Live reload: after an edit of a model the page first shows its numbers, later its film and sweeps.
 
 They are made by a process of their own, which then touches a file that the server watches.
 """
@@ -12,7 +12,8 @@ from pathlib import Path
 
 from mkdocs.livereload import LiveReloadServer
 
-from clinic.publish.kept_site import Site, kept_or_made
+from clinic.publish.kept_site import cached_or_new_site
+from clinic.publish.site_files import Site
 from clinic.record.checkout import cache_folder, project_root
 from clinic.work.cache import Cache
 
@@ -36,13 +37,13 @@ class LiveSite:
     def site(self, root: Path, cache: Cache) -> Site:
         """The whole site; or, if an edited case takes long to measure, the last one with the case's new numbers."""
         if self.watched is None:
-            return kept_or_made(root, cache)
-        from clinic.publish.site import make_site, number_pages, unmeasured
+            return cached_or_new_site(root, cache)
+        from clinic.publish.site import interim_pages, make_site, slow_tasks_to_do
 
-        missing = unmeasured(root, cache)
+        missing = slow_tasks_to_do(root, cache)
         new = {task.key for task in missing} - self.tried
         running = self.process is not None and self.process.poll() is None
-        numbers = number_pages(root, cache, {task.slug for task in missing}) if new or running else None
+        numbers = interim_pages(root, cache, {task.slug for task in missing}) if new or running else None
         if numbers is None:
             return make_site(root, cache)
         if not running:
@@ -54,13 +55,13 @@ class LiveSite:
 
 def on_serve(server: LiveReloadServer, **_: object) -> None:
     """From now on, what takes long is made by a process whose end the server sees."""
-    from clinic.publish.site import unmeasured
+    from clinic.publish.site import slow_tasks_to_do
 
     root = project_root()
     cache = Cache(cache_folder(root))
     LIVE.watched = cache.folder / "served"
     LIVE.watched.mkdir(parents=True, exist_ok=True)
-    LIVE.tried = {task.key for task in unmeasured(root, cache)}  # what this machine lacks the means for
+    LIVE.tried = {task.key for task in slow_tasks_to_do(root, cache)}  # what this machine lacks the means for
     server.watch(str(LIVE.watched))
 
 

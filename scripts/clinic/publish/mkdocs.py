@@ -1,4 +1,4 @@
-"""The adapter for mkdocs-gen-files."""
+"""Writes the site's pages into a MkDocs build, through mkdocs-gen-files."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import os
 import mkdocs_gen_files
 from mkdocs.exceptions import PluginError
 
-from clinic.publish.kept_site import SECTION
 from clinic.publish.live_reload import LIVE
+from clinic.publish.site_files import SECTION
 from clinic.record.checkout import cache_folder, project_root, slugs
 from clinic.record.problem import CaseError
 from clinic.work.cache import Cache

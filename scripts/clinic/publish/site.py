@@ -8,18 +8,18 @@ from pathlib import Path
 
 from clinic.pages.case_files import picture_tasks
 from clinic.pages.case_page import interim_page
-from clinic.pages.cases import FOLDER, PAGE, shown_cases
-from clinic.pages.error_page import by_case, error_page, unmeasured_page, with_problems
+from clinic.pages.cases import FOLDER, PAGE, case_pages
+from clinic.pages.error_page import error_page, unmeasured_page, with_problems
 from clinic.pages.overviews import overviews
 from clinic.pages.schema import FILE as SCHEMA
 from clinic.pages.schema import schema_text
-from clinic.proof.evidence import lack
+from clinic.proof.evidence import missing_requirement
 from clinic.proof.experiments import EVIDENCE, evidence_of, evidence_task, measuring_tasks
 from clinic.publish import bundle
-from clinic.publish.kept_site import SECTION, Navigation, Site
+from clinic.publish.site_files import SECTION, Navigation, Site
 from clinic.record.case import read_cases
 from clinic.record.checkout import slugs
-from clinic.record.problem import CaseError
+from clinic.record.problem import CaseError, problems_by_case
 from clinic.work.cache import Cache, Files
 from clinic.work.task import Task, run_tasks
 
@@ -31,8 +31,8 @@ def make_site(root: Path, cache: Cache) -> Site:
     read, problems = read_cases(root / "cases")
     known = {case.slug: case for case in read}
     unread = sorted(set(slugs(root)) - known.keys())
-    made: Files = bundle.parts(root, cache)
-    shown, wrong = shown_cases(root, read, set(unread), cache, bundle.START in made)
+    made: Files = bundle.playground_files(root, cache)
+    shown, wrong = case_pages(root, read, set(unread), cache, bundle.START in made)
     files, others = overviews(root, shown, known, cache)
     problems += [*wrong, *others]
     made |= files
@@ -40,7 +40,7 @@ def make_site(root: Path, cache: Cache) -> Site:
     made |= {path: (root / part).read_bytes() for path, part in BROWSER_PARTS.items() if (root / part).is_file()}
     for one in shown:
         made |= {f"{FOLDER.format(slug=one.case.slug)}/{name}": content for name, content in one.files.items()}
-    pages, told = {one.case.slug: one.page for one in shown}, by_case(problems)
+    pages, told = {one.case.slug: one.page for one in shown}, problems_by_case(problems)
     headings = {case.slug: f"{case.record.number}. {case.record.title}" for case in read}
     headings |= {slug: slug for slug in unread}
     for slug, heading in headings.items():
@@ -49,18 +49,18 @@ def make_site(root: Path, cache: Cache) -> Site:
         elif slug in told:
             page = error_page(heading, told[slug])
         else:
-            page = unmeasured_page(heading, lack(known[slug]))
+            page = unmeasured_page(heading, missing_requirement(known[slug]))
         made[PAGE.format(slug=slug)] = page.encode()
     return Site(made, navigation(headings), CaseError(problems).problems)
 
 
-def unmeasured(root: Path, cache: Cache) -> list[Task]:
-    """What takes long and is not kept: all but the variants' runs and the plots."""
+def slow_tasks_to_do(root: Path, cache: Cache) -> list[Task]:
+    """Tasks that take long and are not kept: all but the variants' runs and the plots."""
     tasks = [task for case in read_cases(root / "cases")[0] for task in (*measuring_tasks(case), *picture_tasks(case))]
     return [task for task in tasks if not cache.path(task.key).exists()]
 
 
-def number_pages(root: Path, cache: Cache, slugs: Container[str]) -> Files | None:
+def interim_pages(root: Path, cache: Cache, slugs: Container[str]) -> Files | None:
     """The pages of these cases with what their checks measured; None if there are none, or one cannot be run."""
     cases = [case for case in read_cases(root / "cases")[0] if case.slug in slugs]
     found, failed = run_tasks([evidence_task(case) for case in cases], cache)

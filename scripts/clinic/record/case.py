@@ -8,7 +8,7 @@ The stages, in order; each needs the one before:
 4. the files: those the record names exist, nothing else lies in the folder; and the references: names used in checks,
    expressions and the run exist, ids are unique.
 
-What needs the compiled model (edits, signal paths) or the evidence (fields of prose) is checked where these are made.
+Edits are checked when variants are made, signal paths once a model is compiled, fields of prose when these are filled.
 """
 
 from __future__ import annotations
@@ -24,18 +24,18 @@ from pathlib import Path
 import yaml
 from pydantic import ValidationError
 
+from clinic.record.closed_forms import MODEL_NUMBERS
 from clinic.record.expression import ExpressionError, names, parse
 from clinic.record.field_errors import field_problems
 from clinic.record.fields import ExpressionSignal, PathSignal, Record, StartsSignal
 from clinic.record.folder import RECORD, folder_problems
 from clinic.record.parts import WARNINGS
-from clinic.record.predictions import MODEL_NUMBERS
 from clinic.record.problem import CaseError, Problem, article, closest, listed
 from clinic.record.sweep import Prediction
 from clinic.record.yaml_lines import Lines, Where, dotted, read_yaml, yaml_problem
 
 SCALED = re.compile(r"(?:[mck]m|[mµ]s|[mk]N|g|deg|°)(?![A-Za-z])")
-PUBLISHED = ("evidence.json", "playground.json")
+GENERATED_FILES = ("evidence.json", "playground.json")
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ def _file_problems(case: Case) -> Iterator[Problem]:
         if name not in case.texts:
             there = f"a file of the folder: {listed(case.texts)}"
             yield case.problem(where, f"{name}, which does not exist", there, "correct the name, or add the file")
-        if name in PUBLISHED:
+        if name in GENERATED_FILES:
             expected = "a name that the site does not use itself"
             yield case.problem(where, f"{name}, which stands beside the page", expected, "rename the file")
     expected = f"{RECORD} and the files it names: {listed(named)}"

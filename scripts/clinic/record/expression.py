@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from clinic.record import predictions
+from clinic.record import closed_forms
 
 Value = float | NDArray[np.float64]
 
 NUMPY = ("abs", "sqrt", "exp", "log", "sin", "cos", "tan", "arccos", "minimum", "maximum", "floor")
-FUNCTIONS: dict[str, Callable[..., Any]] = {name: getattr(np, name) for name in NUMPY} | predictions.FUNCTIONS
+FUNCTIONS: dict[str, Callable[..., Any]] = {name: getattr(np, name) for name in NUMPY} | closed_forms.FUNCTIONS
 BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,

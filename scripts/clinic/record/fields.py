@@ -13,7 +13,7 @@ from clinic.record.parts import Comparison, Edit, Identifier, Interval, Name, St
 from clinic.record.sweep import Sweep
 
 FileName = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]+\.(?:csv|json|mjs|py|txt|xml|yaml)$")]
-Look = Literal[
+SymptomId = Literal[
     "nothing-moves",
     "moves-wrong",
     "passes-through",
@@ -211,7 +211,7 @@ class Record(Strict):
     lesson: Text = Field(description="What to remember.")
     tags: list[Identifier] = Field(min_length=1, description="Topics: contact, joint, actuator, camera, units, ...")
     phrases: list[Text] = Field(min_length=1, description="What people type into a search engine; feeds the search.")
-    looks: list[Look] = Field(default=[], description="Where *Find your symptom* puts the case.")
+    looks: list[SymptomId] = Field(default=[], description="Where *Find your symptom* puts the case.")
     manual: list[ManualPage] = Field(
         default=[], description="Pages of MuJoCo's manual, each as `modeling.html#anchor`."
     )

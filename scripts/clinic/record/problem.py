@@ -39,7 +39,7 @@ class Problem:
         return CONTROL.sub("?", LF.join(rows))
 
 
-class LackError(RuntimeError):
+class MissingRequirementError(RuntimeError):
     """What this machine lacks, not the author's mistake."""
 
 
@@ -52,6 +52,15 @@ class CaseError(Exception):
 
     def __str__(self) -> str:
         return "\n".join(str(problem) for problem in self.problems)
+
+
+def problems_by_case(problems: Iterable[Problem]) -> dict[str, list[Problem]]:
+    """The problems of each case, by slug; those of other files are under ``""``."""
+    made: dict[str, list[Problem]] = {}
+    for problem in problems:
+        slug = problem.file.split("/")[1] if problem.file.startswith("cases/") else ""
+        made.setdefault(slug, []).append(problem)
+    return made
 
 
 def closest(word: str, known: Iterable[str], likeness: float = 0.6) -> str | None:

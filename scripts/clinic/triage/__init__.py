@@ -2,8 +2,8 @@
 
 It may import `record`, `engine`, `work` and `proof`.
 
-run   the model with its start and controls, recorded; the one run that most steps look at
-model, scene, motion, reduce   what the steps look for
-steps, child   the six steps, on a case or on any model file; the same in a process of its own
+recording   the model with its start and controls, run and recorded; most steps look at one such run
+model_rules, scene_rules, motion, switch_off   what the steps look for
+steps, process   the six steps, on a case or on any model file; the same in a process of its own
 table   the steps against all cases, for the page
 """

@@ -7,18 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from clinic.triage.run import Subject, distance, record, scale
-from clinic.triage.text import Finding, Look, shown
+from clinic.triage.findings import Finding, StepResult, format_number
+from clinic.triage.recording import Subject, distance, record_run, scale
 
-FAST = 1000.0
-"""A degree of freedom faster than this, in rad/s or m/s, is unusual."""
-SHARE = 0.05
-"""A drift or a change of motion of more than this share is unusual."""
-NUDGE = 1e-9
-"""How far every velocity is changed to see whether a motion is chaotic, in rad/s or m/s."""
+FAST = 1000.0  # rad/s or m/s; a degree of freedom faster than this is unusual
+SHARE = 0.05  # a drift or a change of motion of more than this share is unusual
+NUDGE = 1e-9  # rad/s or m/s; how far every velocity is changed to see whether a motion is chaotic
 
 
-def warnings(s: Subject) -> Look:
+def warnings(s: Subject) -> StepResult:
     """What MuJoCo warns of, how often time goes back, and whether numbers stay finite and moderate."""
     run = s.watched
     found = [Finding("warned", name, message) for name, message in run.warnings.items()]
@@ -26,16 +23,16 @@ def warnings(s: Subject) -> Look:
     if run.resets:
         found.append(Finding("reset", "data.time", f"goes back on {run.resets} of {run.steps} steps by a reset"))
     if not run.finite:
-        found.append(Finding("finite", "state", f"is no longer finite after {shown(run.time, 's')}"))
+        found.append(Finding("finite", "state", f"is no longer finite after {format_number(run.time, 's')}"))
     if (speed := run.fastest.max(initial=0.0)) > FAST:
         joint = s.called("joint", s.model.dof_jntid[run.fastest.argmax()])
-        found.append(Finding("fast", joint, f"reaches {shown(speed, 'rad/s or m/s')}"))
+        found.append(Finding("fast", joint, f"reaches {format_number(speed, 'rad/s or m/s')}"))
     cut = "" if run.steps == run.planned else f" of {run.planned}, then the time or the numbers ended"
-    said = f"{'warnings' if run.warnings else 'no warning'} in {run.steps} steps{cut}, {shown(run.time, 's')}"
+    said = f"{'warnings' if run.warnings else 'no warning'} in {run.steps} steps{cut}, {format_number(run.time, 's')}"
     return said, found
 
 
-def conservation(s: Subject) -> Look:
+def conservation(s: Subject) -> StepResult:
     """Whether energy appears in the run, or drifts where nothing takes it away."""
     if s.model.nv == 0:
         return "nothing moves", []
@@ -51,13 +48,14 @@ def conservation(s: Subject) -> Look:
         said.append("without contacts, dampers and actuators the motion explodes")
         found.append(Finding("explodes", "energy", "grows beyond all bounds where it should stay"))
     elif drift is not None:
-        said.append(f"it drifts by {shown(100 * drift, '%', 2)} without contacts, dampers and actuators")
+        percent = format_number(100 * drift, "%", 2)
+        said.append(f"it drifts by {percent} without contacts, dampers and actuators")
         if drift > SHARE:
-            found.append(Finding("drift", "energy", f"drifts by {shown(100 * drift, '%', 2)} where it should stay"))
+            found.append(Finding("drift", "energy", f"drifts by {percent} where it should stay"))
     return "; ".join(said) or "nothing to compare", found
 
 
-def halved(s: Subject) -> Look:
+def halved(s: Subject) -> StepResult:
     """Whether the outcome changes with half the timestep, or a twentieth of it."""
     run = s.watched
     if len(run.points) < 2:
@@ -65,7 +63,7 @@ def halved(s: Subject) -> Look:
     found, said = [], []
     size, chaotic = scale(s, run), chaos(s)
     for finer, name in ((2, "half"), (20, "a twentieth")):
-        again = record(s, 0.3, finer=finer)
+        again = record_run(s, 0.3, finer=finer)
         if not len(again.points):
             continue
         if again.warnings.keys() != run.warnings.keys() or again.finite != run.finite:
@@ -74,19 +72,19 @@ def halved(s: Subject) -> Look:
             continue
         share = distance(run, again) / size
         if share > SHARE and chaotic < 0.5 * share:
-            text = f"at {name} of the timestep up to {shown(share * size, 'm')} elsewhere"
+            text = f"at {name} of the timestep up to {format_number(share * size, 'm')} elsewhere"
             found.append(Finding(name, "motion", text))
-        part = "" if len(again.points) >= len(run.points) else f" in the first {shown(again.time, 's')}"
-        said.append(f"{name}: {shown(100 * share, '%', 2)} of {shown(size, 'm')}{part}")
+        part = "" if len(again.points) >= len(run.points) else f" in the first {format_number(again.time, 's')}"
+        said.append(f"{name}: {format_number(100 * share, '%', 2)} of {format_number(size, 'm')}{part}")
     if chaotic > SHARE:
-        said.append(f"chaotic: a change of {NUDGE:g} at the start gives {shown(100 * chaotic, '%', 2)}")
+        said.append(f"chaotic: a change of {NUDGE:g} at the start gives {format_number(100 * chaotic, '%', 2)}")
     return "; ".join(said) or "not enough time for it", found
 
 
 def chaos(s: Subject) -> float:
     """How far the motion changes with every start velocity changed by NUDGE, as a share of the scene's scale."""
     run = s.watched
-    return distance(run, record(s, 0.15, nudge=NUDGE)) / scale(s, run)
+    return distance(run, record_run(s, 0.15, nudge=NUDGE)) / scale(s, run)
 
 
 def energy_gained(s: Subject) -> float | None:
@@ -114,7 +112,7 @@ def energy_drift(s: Subject) -> float | None:
     model.opt.density = model.opt.viscosity = 0.0
     model.body_gravcomp[:] = 0
     bare = replace(s, model=model)
-    run = record(bare, 0.2, without=("constraint", "damper", "actuation"))
+    run = record_run(bare, 0.2, without=("constraint", "damper", "actuation"))
     if not run.finite or run.resets or run.warnings:
         return float("inf")
     kinetic = max((float(kinetic) for _, kinetic in run.energies), default=0.0)

@@ -23,10 +23,9 @@ from clinic.record.case import Case, load_case
 from clinic.record.fields import RunSpec
 from clinic.record.folder import RECORD
 from clinic.record.problem import CaseError, Problem
-from clinic.triage import model as compiled
-from clinic.triage import motion, reduce, scene
-from clinic.triage.run import Subject
-from clinic.triage.text import Finding, Look
+from clinic.triage import model_rules, motion, scene_rules, switch_off
+from clinic.triage.findings import Finding, StepResult
+from clinic.triage.recording import Subject
 
 SECONDS = 7.0
 DURATION = 2.0
@@ -34,13 +33,13 @@ MAX_STEPS = 4000
 SHOWN = 3
 FIRST = "the first keyframe"
 ENGINE_ERRORS = (ValueError, mujoco.FatalError, mujoco.UnexpectedError)
-STEPS: dict[str, tuple[str, Callable[[Subject], Look]]] = {
+STEPS: dict[str, tuple[str, Callable[[Subject], StepResult]]] = {
     "warnings": ("MuJoCo's warnings", motion.warnings),
-    "model": ("the model as compiled", compiled.look),
-    "overlays": ("the scene with overlays", scene.look),
+    "model": ("the model as compiled", model_rules.look),
+    "overlays": ("the scene with overlays", scene_rules.look),
     "conservation": ("conservation", motion.conservation),
     "timestep": ("half the timestep", motion.halved),
-    "reduce": ("a reduced scene", reduce.look),
+    "reduce": ("a reduced scene", switch_off.look),
 }
 
 

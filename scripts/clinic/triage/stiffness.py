@@ -9,11 +9,10 @@ import mujoco
 import numpy as np
 
 from clinic.engine.releases import mass_matrix, output_of
-from clinic.triage.run import Array, Subject
+from clinic.triage.recording import Array, Subject
 
 HINGE, SLIDE = int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE)
-DENSE = 300
-"""Degrees of freedom up to which inertias and eigenvalues are computed."""
+DENSE = 300  # degrees of freedom up to which inertias and eigenvalues are computed
 
 
 def highest_frequency(s: Subject) -> float:

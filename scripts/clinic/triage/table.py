@@ -10,17 +10,16 @@ from pydantic import BaseModel
 
 from clinic.engine.variant import variants
 from clinic.record.case import Case
-from clinic.triage import model, scene
+from clinic.triage import model_rules, scene_rules
+from clinic.triage.findings import Finding
 from clinic.triage.steps import STEPS, Observation, subject_of_case, triage
-from clinic.triage.text import Finding
 from clinic.work.cache import Files, key_of
 from clinic.work.task import Task
 
 FILE = "triage.json"
 MARK = "The table is made by the build."
 LENGTH = 90
-MEANS_SOMETHING = str.maketrans({"|": "\\|", "[": "\\[", "]": "\\]", "<": "&lt;", "*": "\\*"})
-"""What would mean something to Markdown's tables and links, and how to write it."""
+MARKDOWN_ESCAPES = str.maketrans({"|": "\\|", "[": "\\[", "]": "\\]", "<": "&lt;", "*": "\\*"})
 
 
 class Screening(BaseModel, frozen=True):
@@ -38,7 +37,7 @@ class Screening(BaseModel, frozen=True):
 
 
 def screening_tasks(cases: Iterable[Case]) -> Iterator[Task]:
-    """The work for every case that has a model."""
+    """Tasks that take the steps on every case that has a model."""
     for case in cases:
         if case.record.run is not None:
             run, texts = case.record.run.model_dump(mode="json"), [variant.text for variant in variants(case)[:2]]
@@ -60,7 +59,7 @@ def table(cases: Iterable[Case], files: Mapping[str, Files]) -> str:
     lines = [f"| case | {' | '.join(titles)} |", "|---" * (1 + len(STEPS)) + "|"]
     for case in cases:
         link = f"cases/{case.slug}/index.md"
-        name = f"{case.record.number}. {case.record.title.translate(MEANS_SOMETHING)}"
+        name = f"{case.record.number}. {case.record.title.translate(MARKDOWN_ESCAPES)}"
         cells = [f"[{text}]({link})" for text in (name, *(cell(found.get(case.slug), step) for step in STEPS))]
         lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(
@@ -83,7 +82,7 @@ def _said(findings: list[Finding]) -> str:
     if len(first) > LENGTH:
         first = first[: first.rindex(" ", 0, LENGTH)] + " …"
     more = f" (and {len(findings) - 1} more)" if len(findings) > 1 else ""
-    return first.translate(MEANS_SOMETHING) + more
+    return first.translate(MARKDOWN_ESCAPES) + more
 
 
 def _sum(cases: list[Case], screenings: Collection[Screening]) -> str:
@@ -97,7 +96,7 @@ def _sum(cases: list[Case], screenings: Collection[Screening]) -> str:
 
 def _rules() -> Iterator[str]:
     yield from ('??? info "What steps 2 and 3 look for"', "")
-    for module in (model, scene):
+    for module in (model_rules, scene_rules):
         for rule in module.RULES:
             yield f"    - {' '.join((inspect.getdoc(rule) or '').split())}"
         yield ""

@@ -57,7 +57,7 @@ class Cache:
                     archive.writestr(name, content)
             os.replace(part, self.path(key))
         except OSError as error:
-            say_unkept(self.folder, type(error).__name__)
+            log_cache_unwritable(self.folder, type(error).__name__)
             with suppress(OSError):
                 part.unlink()
 
@@ -70,18 +70,18 @@ class Cache:
 
 
 @lru_cache
-def say_unkept(folder: Path, reason: str) -> None:
+def log_cache_unwritable(folder: Path, reason: str) -> None:
     """Logs once that results are not kept."""
     log.warning("%s takes no files (%s): results are not kept, and the next build makes them again", folder, reason)
 
 
 def key_of(*parts: object, of: str) -> str:
-    """A key for work of the package's folder `of` that depends on `parts`, as JSON takes them, and on its origin."""
-    return hashlib.sha256(json.dumps([*parts, origin(of)], sort_keys=True).encode()).hexdigest()[:32]
+    """A key for work of the package's folder `of` that depends on `parts`, as JSON takes them, and `dependencies`."""
+    return hashlib.sha256(json.dumps([*parts, dependencies(of)], sort_keys=True).encode()).hexdigest()[:32]
 
 
-def origin(folder: str = STOREYS[-1]) -> dict[str, str | None]:
-    """What every result of a folder hangs on: the source of the package up to there, the engines, and how they draw."""
+def dependencies(folder: str = STOREYS[-1]) -> dict[str, str | None]:
+    """What every result of a folder depends on: the source of the package up to there, the engines, how they draw."""
     return {"clinic": source_digest(folder), **engines(), **{name: os.environ.get(name) for name in SETTINGS}}
 
 

@@ -1,7 +1,7 @@
 """Work in parallel: in processes of this machine, or on the Dask cluster that CLINIC_DASK names.
 
 A worker of a cluster gets functions by their names and runs its own copy of this package. So each must have what the
-results hang on as this process has it, and one thread, for MuJoCo's warnings are heard process by process.
+results depend on as this process has it, and one thread, for MuJoCo's warnings are heard process by process.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from clinic.engine import node
-from clinic.work.cache import origin
+from clinic.work.cache import dependencies
 
 PATIENCE = 5.0  # s
 T = TypeVar("T")
@@ -47,8 +47,8 @@ def jobs() -> int:
 
 
 def versions() -> dict[str, str | None]:
-    """What the results of this process hang on."""
-    return {**origin(), "node": node.release(), node.MUJOCO: node.version(node.MUJOCO)}
+    """What the results of this process depend on."""
+    return {**dependencies(), "node": node.release(), node.MUJOCO: node.version(node.MUJOCO)}
 
 
 @contextmanager

@@ -11,7 +11,7 @@ from functools import lru_cache
 
 from clinic.engine.render import RenderError
 from clinic.record.folder import RECORD
-from clinic.record.problem import CaseError, LackError, Problem
+from clinic.record.problem import CaseError, MissingRequirementError, Problem
 from clinic.work.cache import Cache, Files
 from clinic.work.parallel import parallel
 
@@ -44,9 +44,9 @@ def run_tasks(tasks: list[Task], cache: Cache) -> tuple[dict[str, Files], list[P
             log.info("%d of %d parts are made", count, len(missing))
         if isinstance(made, CaseError):
             problems += made.problems
-        elif isinstance(made, LackError):
+        elif isinstance(made, MissingRequirementError):
             done[key], cache.incomplete = {}, True
-            say_lack(str(made))
+            log_missing_once(str(made))
         else:
             done[key] = made
             cache.put(key, made)
@@ -59,18 +59,18 @@ def run_tasks(tasks: list[Task], cache: Cache) -> tuple[dict[str, Files], list[P
 
 
 @lru_cache
-def say_lack(reason: str) -> None:
+def log_missing_once(reason: str) -> None:
     """Says once what is left out; a warning in CI, where a strict build then fails."""
     log.log(logging.WARNING if os.environ.get("CI") else logging.INFO, reason)
 
 
-def _attempt(task: Task) -> tuple[str, Files | CaseError | LackError]:
+def _attempt(task: Task) -> tuple[str, Files | CaseError | MissingRequirementError]:
     """The task's key, and its files or why there are none."""
     try:
         return task.key, task.make()
     except RenderError as error:
-        return task.key, LackError(f"no pictures and no films: {error}")
-    except (CaseError, LackError) as error:
+        return task.key, MissingRequirementError(f"no pictures and no films: {error}")
+    except (CaseError, MissingRequirementError) as error:
         return task.key, error
     except Exception as error:  # one case, whatever it does to the engine, leaves the others alone
         found = f"{type(error).__name__}: {error}".strip(": ")

@@ -53,7 +53,7 @@ def film(case: Case) -> Files:
     )
     pictures = [beside(left, right) for left, right in zip(broken, fixed, strict=True)]
     moments = np.linspace(0, len(pictures) - 1, STRIP).round().astype(int)
-    at = round(min(record.picture.time / filmed(record.film, record.run), 1.0) * (len(pictures) - 1))
+    at = round(min(record.picture.time / film_duration(record.film, record.run), 1.0) * (len(pictures) - 1))
     return {
         "film.mp4": encode(pictures),
         "poster.webp": webp(pictures[at]),
@@ -61,7 +61,7 @@ def film(case: Case) -> Files:
     }
 
 
-def filmed(spec: Film, run: RunSpec) -> float:
+def film_duration(spec: Film, run: RunSpec) -> float:
     """The simulated time that is filmed, in s."""
     return min(spec.duration or run.duration, MAX_FRAMES / FPS * spec.speed)
 
@@ -72,7 +72,7 @@ def frames(model: mujoco.MjModel, run: RunSpec, spec: Film, camera: str) -> Iter
     A state that has moved by less than STILL, in m or rad, is not drawn anew. From the first warning of a
     diverging run on, the last image before it stays: a state that is reset every few steps would flash.
     """
-    count = max(2, math.floor(filmed(spec, run) / spec.speed * FPS) + 1)
+    count = max(2, math.floor(film_duration(spec, run) / spec.speed * FPS) + 1)
     last = round((count - 1) / FPS * spec.speed / model.opt.timestep)
     data, drive, option = initial_data(model, run), controls(model, run, last), mujoco.MjvOption()
     for name in spec.overlays:

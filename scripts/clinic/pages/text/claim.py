@@ -7,7 +7,7 @@ from clinic.record.case import Case
 from clinic.record.fields import Check
 from clinic.record.parts import Interval
 
-TAKES = {
+TAKE_WORDS = {
     "final": "at the end",
     "first": "after one step",
     "min": "lowest",
@@ -28,7 +28,7 @@ def claim(case: Case, check: Check) -> str:
 def taken(case: Case, name: str, take: str, window: Interval | None) -> str:
     """What is taken of a signal: `height of the box, at the end, 1 to 2 s`."""
     signal = case.record.signals[name]
-    words = {**TAKES, **(PRINTED if case.record.script is not None else {})}[take]
+    words = {**TAKE_WORDS, **(PRINTED if case.record.script is not None else {})}[take]
     words = "" if hasattr(signal, "measure") else f", {words}"
     span = f", {window[0]:g} to {window[1]:g} s" if window else ""
     return f"{signal.label or name}{words}{span}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from clinic.triage.scene import RULES, ghosts, look
+from clinic.triage.scene_rules import RULES, ghosts, look
 from helpers import BALL, MODEL, RESTING
 from subjects import subject
 

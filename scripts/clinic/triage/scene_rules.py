@@ -8,9 +8,9 @@ import mujoco
 import numpy as np
 
 from clinic.engine.simulate import captured_messages
-from clinic.triage.model import Rule, Seen, apply, collides
-from clinic.triage.run import Subject
-from clinic.triage.text import Look, counted, shown
+from clinic.triage.findings import StepResult, counted, format_number
+from clinic.triage.model_rules import Rule, Seen, apply, collides
+from clinic.triage.recording import Subject
 
 FLAT = (int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_HFIELD))
 
@@ -21,7 +21,7 @@ def cameras(s: Subject) -> Seen:
     for i in range(s.model.ncam):
         up = s.data.cam_xmat[i].reshape(3, 3)[:, 1]
         if s.model.body_treeid[s.model.cam_bodyid[i]] < 0 and up @ gravity > 0.1 * np.linalg.norm(gravity):
-            axis = ", ".join(shown(round(float(x), 2) + 0.0, "", 2) for x in up)
+            axis = ", ".join(format_number(round(float(x), 2) + 0.0, "", 2) for x in up)
             yield s.called("camera", i), f"the image's up is ({axis}): upside down"
 
 
@@ -30,7 +30,7 @@ def deep_start(s: Subject) -> Seen:
     for contact in s.data.contact:
         one, two = (int(g) for g in contact.geom)
         if min(one, two) >= 0 and -contact.dist > 0.05 * min(_half_size(s.model, one), _half_size(s.model, two)):
-            yield _pair(s, one, two), f"start {shown(-1e3 * contact.dist, 'mm')} inside each other"
+            yield _pair(s, one, two), f"start {format_number(-1e3 * contact.dist, 'mm')} inside each other"
 
 
 def leaps(s: Subject) -> Seen:
@@ -41,7 +41,7 @@ def leaps(s: Subject) -> Seen:
     thinnest = min(fixed, key=lambda i: fixed[i], default=-1)
     for i in colliding:
         if fixed and i not in fixed and farthest[i] > fixed[thinnest] + _half_size(m, i):
-            way = shown(1e3 * farthest[i], "mm")
+            way = format_number(1e3 * farthest[i], "mm")
             yield s.called("geom", i), f"goes {way} in a step; {s.called('geom', thinnest)} is thinner"
 
 
@@ -62,17 +62,17 @@ def ghosts(s: Subject) -> Seen:
                     since.setdefault(tuple(contact.geom.tolist()), k * every)
     for (one, two), time in since.items():
         if time > 0:
-            yield _pair(s, one, two), f"overlap from {shown(time, 's')} on without a contact"
+            yield _pair(s, one, two), f"overlap from {format_number(time, 's')} on without a contact"
 
 
 RULES: tuple[Rule, ...] = (cameras, deep_start, leaps, ghosts)
 
 
-def look(s: Subject) -> Look:
+def look(s: Subject) -> StepResult:
     """Applies every rule to the start and to the watched run."""
     run = s.watched
-    pairs = counted(len(run.touching), "pair")
-    said = f"{counted(s.data.ncon, 'contact')} at the start, {pairs} of geoms in contact within {shown(run.time, 's')}"
+    pairs, time = counted(len(run.touching), "pair"), format_number(run.time, "s")
+    said = f"{counted(s.data.ncon, 'contact')} at the start, {pairs} of geoms in contact within {time}"
     return said, apply(RULES, s)
 
 

@@ -57,7 +57,7 @@ class Subject:
     @cached_property
     def watched(self) -> Recording:
         """The run of the model as it is, at which most steps look."""
-        return record(self, 0.25)
+        return record_run(self, 0.25)
 
     def called(self, kind: str, index: int) -> str:
         """An element as a report names it: `joint elbow`, or `geom 3 of body torso` without a name."""
@@ -103,7 +103,7 @@ class Recording:
     points: list[Array] = field(default_factory=list)
 
 
-def record(
+def record_run(
     subject: Subject, share: float = 1.0, without: tuple[str, ...] = (), finer: int = 1, nudge: float = 0.0
 ) -> Recording:
     """Runs the subject's model from its start with its controls.

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clinic.engine.releases import control_of
-from clinic.triage.run import Array, Subject, flags
+from clinic.triage.findings import Finding, StepResult, counted, format_number
+from clinic.triage.recording import Array, Subject, flags
 from clinic.triage.stiffness import HINGE, SLIDE, highest_frequency, inertias, joint_servos
-from clinic.triage.text import Finding, Look, counted, shown
 
 Seen = Iterator[tuple[str, str]]
 Rule = Callable[[Subject], Seen]
@@ -29,7 +29,7 @@ def ranges(s: Subject) -> Seen:
         if s.model.jnt_type[i] == HINGE and s.model.jnt_limited[i]:
             low, high = s.model.jnt_range[i]
             if high - low < 0.1 or high - low > 8 * math.pi:
-                yield s.called("joint", i), f"range {shown(low, '')} to {shown(high, 'rad')}"
+                yield s.called("joint", i), f"range {format_number(low)} to {format_number(high, 'rad')}"
 
 
 def unused_ranges(s: Subject) -> Seen:
@@ -49,11 +49,11 @@ def start_outside(s: Subject) -> Seen:
     for i in range(m.njnt):
         value = d.qpos[m.jnt_qposadr[i]]
         if m.jnt_limited[i] and m.jnt_type[i] in (HINGE, SLIDE) and _outside(value, m.jnt_range[i]):
-            yield s.called("joint", i), f"starts at {shown(value, '')}, outside its range {_pair(m.jnt_range[i])}"
+            yield s.called("joint", i), f"starts at {format_number(value)}, outside its range {_pair(m.jnt_range[i])}"
     for i in range(m.nu):
         control, limits = control_of(m, i), m.actuator_ctrlrange[i]
         if m.actuator_ctrllimited[i] and control is not None and _outside(d.ctrl[control], limits):
-            yield s.called("actuator", i), f"control {shown(d.ctrl[control], '')} is clamped to {_pair(limits)}"
+            yield s.called("actuator", i), f"control {format_number(d.ctrl[control])} is clamped to {_pair(limits)}"
 
 
 def gains(s: Subject) -> Seen:
@@ -72,8 +72,9 @@ def weak_servos(s: Subject) -> Seen:
         hinge = s.model.jnt_type[s.model.dof_jntid[dof]] == HINGE
         sag = abs(s.data.qfrc_bias[dof] - s.data.qfrc_gravcomp[dof]) / stiffness
         if sag > (0.2 if hinge else 0.05):
-            load = shown(abs(s.data.qfrc_bias[dof]), "N m" if hinge else "N")
-            yield s.called("actuator", i), f"carries {load} with {shown(stiffness, 'N m/rad' if hinge else 'N/m')}"
+            load = format_number(abs(s.data.qfrc_bias[dof]), "N m" if hinge else "N")
+            kp = format_number(stiffness, "N m/rad" if hinge else "N/m")
+            yield s.called("actuator", i), f"carries {load} with {kp}"
 
 
 def undamped(s: Subject) -> Seen:
@@ -88,7 +89,7 @@ def undamped(s: Subject) -> Seen:
     critical = 2 * np.sqrt(stiffness * inertias(s))
     for dof, element in sorted(elements.items()):
         if damping[dof] < 0.02 * critical[dof]:
-            ratio = shown(damping[dof] / critical[dof], "")
+            ratio = format_number(damping[dof] / critical[dof])
             yield s.called(*element), f"damping ratio {ratio}: nothing ends its oscillation"
 
 
@@ -98,24 +99,25 @@ def masses(s: Subject) -> Seen:
     moving = [int(b) for b in np.flatnonzero(m.body_treeid >= 0)]
     heaviest = max((m.body_mass[b] for b in moving), default=0.0)
     for b in moving:
+        mass = format_number(m.body_mass[b], "kg")
         if m.body_mass[b] > 1e4:
-            yield s.called("body", b), f"mass {shown(m.body_mass[b], 'kg')}"
+            yield s.called("body", b), f"mass {mass}"
         elif 0 < m.body_mass[b] < 1e-4 * heaviest:
-            yield s.called("body", b), f"mass {shown(m.body_mass[b], 'kg')} beside {shown(heaviest, 'kg')}"
+            yield s.called("body", b), f"mass {mass} beside {format_number(heaviest, 'kg')}"
 
 
 def lengths(s: Subject) -> Seen:
     """The scene fits into 10 mm or reaches over 1 km, as scenes in a wrong unit do; planes left out."""
     size = s.model.stat.extent
     if s.model.ngeom and not 0.01 <= size <= 1000:
-        yield "scene", f"is {shown(size, 'm')} long"
+        yield "scene", f"is {format_number(size, 'm')} long"
 
 
 def gravity(s: Subject) -> Seen:
     """Gravity is not between 9 and 10.5 m/s² along −z."""
     g = np.asarray(s.model.opt.gravity)
     if not (9 <= -g[2] <= 10.5 and abs(g[:2]).max() < 0.1):
-        yield "option", f"gravity {' '.join(shown(v, '') for v in g)} m/s²"
+        yield "option", f"gravity {' '.join(format_number(v) for v in g)} m/s²"
 
 
 def switches(s: Subject) -> Seen:
@@ -129,10 +131,10 @@ def time_steps(s: Subject) -> Seen:
     """The timestep is not positive, or above 80 % of the longest that springs and servos allow, 2/omega_max."""
     h, name = s.model.opt.timestep, mujoco.mjtIntegrator(s.model.opt.integrator).name
     if h <= 0:
-        yield "option", f"timestep {shown(h, 's')}: time does not go on"
+        yield "option", f"timestep {format_number(h, 's')}: time does not go on"
     elif name in LIMITS and highest_frequency(s) * h > 0.8 * LIMITS[name]:
-        longest = shown(1e3 * LIMITS[name] / highest_frequency(s), "ms")
-        yield "option", f"timestep {shown(1e3 * h, 'ms')}; springs and servos are stable to {longest}"
+        longest = format_number(1e3 * LIMITS[name] / highest_frequency(s), "ms")
+        yield "option", f"timestep {format_number(1e3 * h, 'ms')}; springs and servos are stable to {longest}"
 
 
 def time_constants(s: Subject) -> Seen:
@@ -140,7 +142,7 @@ def time_constants(s: Subject) -> Seen:
     m, shortest = s.model, 2 * s.model.opt.timestep
     for i in filter(lambda i: collides(m, i), range(m.ngeom)):
         if 0 < m.geom_solref[i, 0] < shortest * (1 - 1e-9):
-            solref, two = shown(1e3 * m.geom_solref[i, 0], "ms"), shown(1e3 * shortest, "ms")
+            solref, two = format_number(1e3 * m.geom_solref[i, 0], "ms"), format_number(1e3 * shortest, "ms")
             yield s.called("geom", i), f"solref {solref}, two steps are {two}"
 
 
@@ -163,8 +165,9 @@ def priorities(s: Subject) -> Seen:
         lower = others[matching & (m.geom_priority[others] < m.geom_priority[i])]
         roughest = int(lower[friction[lower].argmax()]) if len(lower) else i
         if friction[i] < 0.5 * friction[roughest]:
-            sets = f"priority {m.geom_priority[i]} sets friction {shown(friction[i], '')}"
-            yield s.called("geom", i), f"{sets} against {shown(friction[roughest], '')} of {s.called('geom', roughest)}"
+            sets = f"priority {m.geom_priority[i]} sets friction {format_number(friction[i])}"
+            other = f"{format_number(friction[roughest])} of {s.called('geom', roughest)}"
+            yield s.called("geom", i), f"{sets} against {other}"
 
 
 def quaternions(s: Subject) -> Seen:
@@ -180,7 +183,7 @@ def quaternions(s: Subject) -> Seen:
             name, text = f"{kind} {element.name}".strip(), " ".join(f"{v:.6g}" for v in q)
             length = float(np.linalg.norm(q))
             if abs(length - 1) > 1e-2 and not np.isin(np.abs(q), (0, 1)).all():
-                yield name, f"quat {text} has length {shown(length, '')}"
+                yield name, f"quat {text} has length {format_number(length)}"
             elif element.name in world and abs(q[:2]).max() < 1e-6 and abs(q[2:]).min() > 1e-3:
                 turn = math.degrees(math.remainder(2 * math.atan2(q[2], q[3]), 2 * math.pi))
                 yield name, f"quat {text} is a half turn about a slanted axis; w last it is {turn:.0f}° about z"
@@ -211,11 +214,11 @@ RULES: tuple[Rule, ...] = (
 )  # fmt: skip
 
 
-def look(s: Subject) -> Look:
+def look(s: Subject) -> StepResult:
     """Applies every rule to the compiled model."""
     m = s.model
     sizes = [counted(m.nbody - 1, "body", "bodies"), counted(m.njnt, "joint"), counted(m.nu, "actuator")]
-    return f"{', '.join(sizes)}, timestep {shown(1e3 * m.opt.timestep, 'ms')}", apply(RULES, s)
+    return f"{', '.join(sizes)}, timestep {format_number(1e3 * m.opt.timestep, 'ms')}", apply(RULES, s)
 
 
 def apply(rules: tuple[Rule, ...], s: Subject) -> list[Finding]:
@@ -244,4 +247,4 @@ def _outside(value: float, limits: Array) -> bool:
 
 
 def _pair(limits: Array) -> str:
-    return f"{shown(limits[0], '')} to {shown(limits[1], '')}"
+    return f"{format_number(limits[0])} to {format_number(limits[1])}"

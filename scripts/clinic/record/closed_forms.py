@@ -1,44 +1,9 @@
-"""Numbers that closed forms need: of a compiled model, and functions of numbers. Each states its source."""
+"""Closed forms: functions of numbers that a record's arithmetic may name. Each states its source."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import partial
-
-import mujoco
-import numpy as np
-from numpy.typing import NDArray
-
-
-def omega_max(model: mujoco.MjModel) -> float:
-    """The highest natural frequency of the joint springs at qpos0, in rad/s: sqrt of the largest eigenvalue of M^-1 K.
-
-    An undamped linear oscillator under semi-implicit Euler is stable for h < 2 / omega; coupled joints have one such
-    limit a mode, and the highest mode decides. See Hairer, Lubich, Wanner, *Geometric Numerical Integration*, I.5.
-    """
-    mass = mass_matrix(model)
-    stiffness = np.diag(model.jnt_stiffness[model.dof_jntid])
-    return math.sqrt(float(np.max(np.linalg.eigvals(np.linalg.solve(mass, stiffness)).real)))
-
-
-def omega_one_link(model: mujoco.MjModel) -> float:
-    """The popular estimate of the same, in rad/s: sqrt(k / I) of the last joint with its own link's inertia."""
-    stiffness = float(model.jnt_stiffness[-1])
-    return math.sqrt(stiffness / float(mass_matrix(model)[-1, -1]))
-
-
-def mass_matrix(model: mujoco.MjModel) -> NDArray[np.float64]:
-    """The dense joint-space inertia at qpos0, shape (nv, nv), in kg m^2 or kg."""
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    mass = np.zeros((model.nv, model.nv))
-    for row, unit in zip(mass, np.eye(model.nv), strict=True):  # mj_fullM takes other arguments on older releases
-        mujoco.mj_mulM(model, data, row, unit)
-    return mass
-
-
-MODEL_NUMBERS: dict[str, Callable[[mujoco.MjModel], float]] = {"omega_max": omega_max, "omega_one_link": omega_one_link}
 
 
 def servo_sag(kp: float, load: float) -> float:
@@ -157,3 +122,4 @@ MOST_STEPS = 20_000
 D_MAX = 0.95
 GRAVITY = 9.81
 FUNCTIONS = {function.__name__: function for function in (servo_sag, bits, held_share, upright_time)}
+MODEL_NUMBERS = ("omega_max", "omega_one_link")  # what a prediction reads of a model: engine/model_numbers.py

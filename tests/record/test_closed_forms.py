@@ -1,54 +1,19 @@
-"""Closed forms against models and numbers with known answers."""
+"""Closed forms against numbers with known answers."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 
-import mujoco
-import numpy as np
 import pytest
-from clinic.record.predictions import (
+from clinic.record.closed_forms import (
     bits,
     held_share,
     impedance,
-    mass_matrix,
-    omega_max,
-    omega_one_link,
     servo_sag,
     thrown_back,
     upright_time,
 )
-
-PENDULA = """
-<mujoco>
-  <worldbody>
-    <body>
-      <joint axis="0 1 0" stiffness="8"/>
-      <inertial pos="0 0 0" mass="1" diaginertia="2 2 2"/>
-    </body>
-    <body>
-      <joint axis="0 1 0" stiffness="18"/>
-      <inertial pos="0 0 0" mass="1" diaginertia="2 2 2"/>
-    </body>
-  </worldbody>
-</mujoco>
-"""
-
-
-def test_uncoupled_springs_have_the_frequencies_of_each() -> None:
-    model = mujoco.MjModel.from_xml_string(PENDULA)
-
-    assert omega_max(model) == pytest.approx(3.0)
-    assert omega_one_link(model) == pytest.approx(3.0)
-    np.testing.assert_allclose(mass_matrix(model), [[2, 0], [0, 2]])
-
-
-def test_the_fast_joint_decides_wherever_it_stands() -> None:
-    model = mujoco.MjModel.from_xml_string(PENDULA.replace('"8"', '"32"'))
-
-    assert omega_max(model) == pytest.approx(4.0)
-    assert omega_one_link(model) == pytest.approx(3.0)
 
 
 @pytest.mark.parametrize("kp", [0.01, 1.0, 4.9, 500.0])

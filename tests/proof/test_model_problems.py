@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from clinic.proof.examine import examine
+from clinic.proof.model_problems import check_against_model
 from clinic.record.case import Case
 from clinic.record.problem import CaseError
 from helpers import MODEL, only_problem, script_case, tiny_case, write_case
@@ -18,13 +18,13 @@ STARTS = (
 
 def places(case: Case) -> list[str]:
     with pytest.raises(CaseError) as caught:
-        examine(case)
+        check_against_model(case)
     return [problem.where for problem in caught.value.problems]
 
 
 def test_nothing_is_said_of_a_valid_case(tmp_path: Path) -> None:
-    assert examine(tiny_case(tmp_path / "model")) is None
-    assert examine(script_case(tmp_path / "script")) is None
+    assert check_against_model(tiny_case(tmp_path / "model")) is None
+    assert check_against_model(script_case(tmp_path / "script")) is None
 
 
 @pytest.mark.parametrize(

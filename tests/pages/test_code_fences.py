@@ -6,7 +6,7 @@ from pathlib import Path
 from textwrap import dedent
 
 import pytest
-from clinic.pages.snippets import run_fences
+from clinic.pages.code_fences import run_fences
 from clinic.record.problem import CaseError
 from clinic.work.cache import Cache
 from helpers import SLUG, tiny_case

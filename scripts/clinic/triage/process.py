@@ -18,7 +18,7 @@ from clinic.triage.steps import SECONDS, STEPS, report, subject_of, triage
 LIMIT = 30.0  # s
 MEMORY = 4 * 2**30  # bytes
 MARK = "\x1e"
-CHILD = (sys.executable, "-m", "clinic.triage.child")
+CHILD = (sys.executable, "-m", "clinic.triage.process")
 
 
 def reports(path: Path, limit: float = LIMIT, child: tuple[str, ...] = CHILD) -> Iterator[str]:

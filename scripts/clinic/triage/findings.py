@@ -16,11 +16,10 @@ class Finding(NamedTuple):
     text: str
 
 
-Look = tuple[str, list[Finding]]
-"""What a step looked at and measured, and what it found."""
+StepResult = tuple[str, list[Finding]]  # what a step looked at and measured, and what it found
 
 
-def shown(value: float, unit: str, digits: int = 3) -> str:
+def format_number(value: float, unit: str = "", digits: int = 3) -> str:
     """The number with its unit, whether finite or not."""
     value = float(value)
     if not math.isfinite(value):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from clinic.record.problem import CaseError
-from clinic.triage.child import MARK, reports
+from clinic.triage.process import MARK, reports
 from clinic.triage.steps import STEPS
 from helpers import BALL
 
@@ -51,11 +51,10 @@ def test_a_process_that_hangs_is_stopped(model: Path) -> None:
 
 
 def test_a_mistake_in_the_examination_is_named_as_one(model: Path) -> None:
-    code = (
-        "import sys\nfrom pathlib import Path\nfrom clinic.triage import child\nchild.subject_of = lambda path: 1 / 0\n"
-    )
+    code = "import sys\nfrom pathlib import Path\nfrom clinic.triage import process\n"
+    code += "process.subject_of = lambda path: 1 / 0\n"
     with pytest.raises(CaseError, match="ZeroDivisionError: division by zero"):
-        list(reports(model, child=child(f"{code}child.main(Path(sys.argv[1]))")))
+        list(reports(model, child=child(f"{code}process.main(Path(sys.argv[1]))")))
 
 
 def test_a_process_that_cannot_read_the_model(model: Path) -> None:

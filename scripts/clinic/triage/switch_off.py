@@ -6,18 +6,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from clinic.triage.model import collides
-from clinic.triage.run import Recording, Subject, distance, flags, record, scale
-from clinic.triage.text import Finding, Look, counted
+from clinic.triage.findings import Finding, StepResult, counted
+from clinic.triage.model_rules import collides
+from clinic.triage.recording import Recording, Subject, distance, flags, record_run, scale
 
-FELT = 0.05
-"""A motion hangs on what changes it by more than this share of the scene's size."""
-SAME = 1e-9
-"""Motions that differ by less than this share are the same."""
+FELT = 0.05  # a motion depends on what changes it by more than this share of the scene's size
+SAME = 1e-9  # motions that differ by less than this share are the same
 
 
-def look(s: Subject) -> Look:
-    """Says what the motion hangs on and what touches nothing, and finds the parts that its warnings need."""
+def look(s: Subject) -> StepResult:
+    """Says what the motion depends on and what touches nothing, and finds the parts that its warnings need."""
     run = s.watched
     if s.model.nv == 0:
         return "nothing moves", []
@@ -25,7 +23,7 @@ def look(s: Subject) -> Look:
         return "too few steps to compare", []
     found, matter, idle, size = [], [], [], scale(s, run)
     for effect in effects(s, run):
-        without = record(s, 0.2, without=(effect,))
+        without = record_run(s, 0.2, without=(effect,))
         if not without.steps:
             break
         share = distance(run, without) / size

@@ -18,7 +18,7 @@ from clinic.record.problem import CaseError, Problem
 from clinic.record.yaml_lines import Where
 
 
-def examine(case: Case) -> None:
+def check_against_model(case: Case) -> None:
     """Compiles every variant of a case and looks up in it what the record names.
 
     Raises:

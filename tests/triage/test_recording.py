@@ -7,14 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from clinic.engine.simulate import RunError
-from clinic.triage.run import distance, record, scale
+from clinic.triage.recording import distance, record_run, scale
 from helpers import BALL, PENDULUM, RESTING
 from subjects import subject
 
 
 def test_a_recording_samples_positions_at_even_times() -> None:
     ball = subject(BALL)
-    made = record(ball)
+    made = record_run(ball)
     assert made.time == pytest.approx(1.0)
     assert np.shape(made.points) == (100, 3, 3)
     times = np.arange(1, 101) * 0.01
@@ -23,7 +23,7 @@ def test_a_recording_samples_positions_at_even_times() -> None:
 
 def test_a_finer_recording_has_samples_at_the_same_times() -> None:
     ball = subject(BALL)
-    one, other = record(ball), record(ball, finer=4)
+    one, other = record_run(ball), record_run(ball, finer=4)
     assert len(one.points) == len(other.points)
     assert distance(one, other) == pytest.approx(9.81 / 2 * (0.001 - 0.00025), rel=1e-6)
 
@@ -36,7 +36,7 @@ def test_controls_and_keyframes_of_the_run_apply() -> None:
 
 def test_a_recording_ends_with_the_numbers() -> None:
     broken = subject("<mujoco><worldbody><body pos='nan 0 0'><freejoint/><geom size='.1'/></body></worldbody></mujoco>")
-    made = record(broken)
+    made = record_run(broken)
     assert not made.finite
     assert made.points == []
     assert scale(broken, made) > 0
@@ -45,14 +45,14 @@ def test_a_recording_ends_with_the_numbers() -> None:
 def test_a_timestep_of_zero_is_refused_with_a_reason() -> None:
     still = subject("<mujoco><option timestep='0'/></mujoco>")
     with pytest.raises(RunError, match="timestep of 0 s"):
-        record(still)
+        record_run(still)
 
 
 def test_time_cuts_the_recording_and_distance_compares_what_both_have(monkeypatch: pytest.MonkeyPatch) -> None:
     ball = subject(BALL)
-    whole = record(ball)
-    monkeypatch.setattr("clinic.triage.run.perf_counter", iter(range(1000)).__next__)
-    cut = record(replace(ball, end=300))
+    whole = record_run(ball)
+    monkeypatch.setattr("clinic.triage.recording.perf_counter", iter(range(1000)).__next__)
+    cut = record_run(replace(ball, end=300))
     assert 0 < len(cut.points) < len(whole.points)
     assert 0 < cut.steps < cut.planned
     assert distance(cut, whole) == 0

@@ -1,9 +1,9 @@
-"""Step 6: what the motion hangs on, and what touches nothing."""
+"""Step 6: what the motion depends on, and what touches nothing."""
 
 from __future__ import annotations
 
-from clinic.triage.reduce import look
-from clinic.triage.text import Finding
+from clinic.triage.findings import Finding
+from clinic.triage.switch_off import look
 from helpers import RESTING
 from subjects import subject
 

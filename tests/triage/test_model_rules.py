@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from clinic.triage.model import RULES
+from clinic.triage.model_rules import RULES
 from helpers import BALL, RESTING
 from subjects import arm, subject
 

@@ -122,6 +122,7 @@ def test_commands_in_the_text_are_there(root: Path) -> None:
 
 def test_hooks_check_what_make_lint_checks(root: Path) -> None:
     hooks = yaml.safe_load((root / ".pre-commit-config.yaml").read_text(encoding="utf-8"))["repos"][0]["hooks"]
-    made = subprocess.run(["make", "--dry-run", "lint"], cwd=root, check=True, capture_output=True, text=True).stdout
+    dry = ["make", "--dry-run", "--no-print-directory", "lint"]  # a test that make runs is told of no folder
+    made = subprocess.run(dry, cwd=root, check=True, capture_output=True, text=True).stdout
     checks = made.splitlines()[-len(hooks) :]
     assert [hook["entry"].rstrip("'").split()[-2:] for hook in hooks] == [check.split()[-2:] for check in checks]

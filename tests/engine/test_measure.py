@@ -1,13 +1,15 @@
-"""Signals of every kind."""
+"""Signals of every kind, and numbers of models with known answers."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
+import mujoco
 import numpy as np
 import pytest
-from clinic.engine.measure import measure_model, measure_output
+from clinic.engine.measure import MODEL_NUMBERS, measure_model, measure_output, omega_max, omega_one_link
 from clinic.engine.simulate import compile_model
+from clinic.record import closed_forms
 from clinic.record.fields import Record
 from helpers import MODEL, script_case, tiny_case
 
@@ -93,3 +95,37 @@ def test_what_was_not_printed_is_an_empty_trace_and_so_is_what_is_computed_from_
         script_case(tmp_path, ("{path: printed(error), unit: m}", more)).record, "error = 1\nerror = 2\n"
     )
     assert {name: len(trace.value) for name, trace in traces.items()} == {"error": 2, "other": 0, "sum": 0}
+
+
+PENDULA = """
+<mujoco>
+  <worldbody>
+    <body>
+      <joint axis="0 1 0" stiffness="8"/>
+      <inertial pos="0 0 0" mass="1" diaginertia="2 2 2"/>
+    </body>
+    <body>
+      <joint axis="0 1 0" stiffness="18"/>
+      <inertial pos="0 0 0" mass="1" diaginertia="2 2 2"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+
+
+def test_uncoupled_springs_have_the_frequencies_of_each() -> None:
+    model = mujoco.MjModel.from_xml_string(PENDULA)
+
+    assert omega_max(model) == pytest.approx(3.0)
+    assert omega_one_link(model) == pytest.approx(3.0)
+
+
+def test_the_fast_joint_decides_wherever_it_stands() -> None:
+    model = mujoco.MjModel.from_xml_string(PENDULA.replace('"8"', '"32"'))
+
+    assert omega_max(model) == pytest.approx(4.0)
+    assert omega_one_link(model) == pytest.approx(3.0)
+
+
+def test_a_record_may_name_each_of_them() -> None:
+    assert tuple(MODEL_NUMBERS) == closed_forms.MODEL_NUMBERS

@@ -1,13 +1,15 @@
-"""All signals of a variant: read from runs, computed from each other, or measured over many runs."""
+"""All signals of a variant, read from runs, computed or measured over many runs; and numbers of the compiled model."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping
 
 import mujoco
 import numpy as np
 
 from clinic.engine.checks import Trace, judge
+from clinic.engine.releases import mass_matrix
 from clinic.engine.render import geom_row
 from clinic.engine.script import printed_numbers
 from clinic.engine.signals import Path, parse_path
@@ -104,3 +106,21 @@ def fraction_of_starts(record: Record, signal: StartsSignal, model: mujoco.MjMod
         return judge(signal.holds, simulate(model, spec, path, nudge).traces).holds
 
     return sum(map(holds_from, np.linspace(*signal.offset, signal.count))) / signal.count
+
+
+def omega_max(model: mujoco.MjModel) -> float:
+    """The highest natural frequency of the joint springs at qpos0, in rad/s: sqrt of the largest eigenvalue of M^-1 K.
+
+    An undamped linear oscillator under semi-implicit Euler is stable for h < 2 / omega; coupled joints have one such
+    limit a mode, and the highest mode decides. See Hairer, Lubich, Wanner, *Geometric Numerical Integration*, I.5.
+    """
+    stiffness = np.diag(model.jnt_stiffness[model.dof_jntid])
+    return math.sqrt(float(np.max(np.linalg.eigvals(np.linalg.solve(mass_matrix(model), stiffness)).real)))
+
+
+def omega_one_link(model: mujoco.MjModel) -> float:
+    """The popular estimate of the same, in rad/s: sqrt(k / I) of the last joint with its own link's inertia."""
+    return math.sqrt(float(model.jnt_stiffness[-1]) / float(mass_matrix(model)[-1, -1]))
+
+
+MODEL_NUMBERS = {"omega_max": omega_max, "omega_one_link": omega_one_link}

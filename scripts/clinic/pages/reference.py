@@ -12,7 +12,7 @@ from pydantic import BaseModel
 
 from clinic.engine import signals
 from clinic.engine.checks import TAKES
-from clinic.engine.model_numbers import MODEL_NUMBERS
+from clinic.engine.measure import MODEL_NUMBERS
 from clinic.record import closed_forms
 from clinic.record.expression import FUNCTIONS
 from clinic.record.fields import Record

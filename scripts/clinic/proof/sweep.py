@@ -10,8 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from clinic.engine.checks import Trace, satisfies, take
-from clinic.engine.measure import measure_model, measure_output
-from clinic.engine.model_numbers import MODEL_NUMBERS
+from clinic.engine.measure import MODEL_NUMBERS, measure_model, measure_output
 from clinic.engine.script import run_script
 from clinic.engine.simulate import compile_model
 from clinic.engine.variant import EditError, Variant, apply_edits, variants

@@ -122,4 +122,4 @@ MOST_STEPS = 20_000
 D_MAX = 0.95
 GRAVITY = 9.81
 FUNCTIONS = {function.__name__: function for function in (servo_sag, bits, held_share, upright_time)}
-MODEL_NUMBERS = ("omega_max", "omega_one_link")  # what a prediction reads of a model: engine/model_numbers.py
+MODEL_NUMBERS = ("omega_max", "omega_one_link")  # what a prediction reads of a model: engine/measure.py

@@ -16,7 +16,7 @@ from pathlib import Path, PurePosixPath
 
 Files = dict[str, bytes]
 PACKAGE = Path(__file__).parent.parent
-STOREYS = ("record", "engine", "work", "proof", "triage", "pages", "publish", "commands")
+STOREYS = ("record", "engine", "work", "proof", "triage", "diagnosis", "pages", "publish", "commands")
 ENGINES = ("mujoco", "numpy", "matplotlib", "kiwisolver", "pillow", "av")
 SETTINGS = ("MUJOCO_GL", "MUJOCO_EGL_DEVICE_ID", "LIBGL_ALWAYS_SOFTWARE", "GALLIUM_DRIVER")
 log = logging.getLogger("clinic")

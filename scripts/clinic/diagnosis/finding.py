@@ -1,0 +1,118 @@
+"""What a diagnosis says: findings, and the whole of them as data and as text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.suspect import Level
+
+CAUSES_SHOWN = 3
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One finding. `before` and `after` are the probe's number without and with the edit, in `unit`.
+
+    A number that is not finite, such as the speed of a simulation that explodes, is infinity; None in JSON.
+    """
+
+    rule: str
+    title: str
+    level: Level
+    elements: tuple[str, ...]
+    file: str
+    line: int | None
+    attribute: str
+    now: str
+    value: str
+    edit: tuple[Edit, ...]
+    probe: str
+    unit: str
+    before: float
+    after: float | None
+    says: str
+    healthy: str
+    page: str | None = None
+
+    def data(self) -> dict[str, Any]:
+        """The finding as JSON has it."""
+        made = asdict(self)
+        for name in ("before", "after"):
+            if made[name] is not None and not math.isfinite(made[name]):
+                made[name] = None
+        kept = ("file", "line", "element", "action", "attribute", "value")
+        made["edit"] = [{name: getattr(each, name) for name in kept} for each in self.edit]
+        return made
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """What was found in a model.
+
+    Attributes:
+        engine: The release that ran it.
+        file: The model.
+        causes: Proved by an edit, the most telling first.
+        hints: What intent decides, or what no edit here mends.
+        ruled_out: Rules that found nothing.
+        tried: What was done to the model.
+    """
+
+    engine: str
+    file: str
+    causes: tuple[Finding, ...]
+    hints: tuple[Finding, ...]
+    ruled_out: tuple[str, ...]
+
+    def data(self) -> dict[str, Any]:
+        """The public contract, as JSON has it."""
+        return {
+            "engine": self.engine,
+            "file": self.file,
+            "causes": [each.data() for each in self.causes],
+            "hints": [each.data() for each in self.hints],
+            "ruled_out": list(self.ruled_out),
+        }
+
+    def text(self, every: bool = False) -> str:
+        """The diagnosis for a terminal: three causes, then hints in a line each, then what was ruled out."""
+        shown = self.causes if every else self.causes[:CAUSES_SHOWN]
+        lines = [line for number, each in enumerate(shown, 1) for line in _cause(number, each)]
+        if len(shown) < len(self.causes):
+            lines.append(f"   and {len(self.causes) - len(shown)} more: --all")
+        for each in self.hints:
+            where = f"{each.file}:{each.line}  " if each.line else ""
+            lines.append(f"hint     {each.rule}  {where}{_elements(each.elements)}: {each.says}")
+        if not self.causes and not self.hints:
+            lines.append(f"Nothing found, by {len(self.ruled_out)} rules: {', '.join(self.ruled_out)}.")
+        elif self.ruled_out:
+            lines.append(f"ruled out ({len(self.ruled_out)}): {', '.join(self.ruled_out)}")
+        return "\n".join(lines)
+
+
+def _cause(number: int, found: Finding) -> list[str]:
+    where = f"{found.file}:{found.line}  " if found.line else ""
+    change = f"{found.attribute} {found.now} -> {found.value}" if found.attribute else found.value
+    after = "" if found.after is None else f" With the edit: {shown(found.after, found.unit)}."
+    indent = "   "
+    return [
+        f"{number}  cause   {found.rule}  {where}{_elements(found.elements)}  {change}",
+        f"{indent}{found.says}",
+        f"{indent}{found.probe}: {shown(found.before, found.unit)}.{after}",
+    ]
+
+
+def _elements(elements: Sequence[str]) -> str:
+    more = f" and {len(elements) - 3} more" if len(elements) > 3 else ""
+    return ", ".join(elements[:3]) + more
+
+
+def shown(value: float, unit: str) -> str:
+    """A number of three digits with its unit."""
+    if not math.isfinite(value):
+        return "beyond all bounds"
+    return f"{value:.3g} {unit}".rstrip()

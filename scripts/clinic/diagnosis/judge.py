@@ -1,0 +1,113 @@
+"""Suspects judged by the counterfactual: only an edit that makes the measured symptom go away names a cause."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import CompileError
+from clinic.diagnosis.probes.run import resets
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules import Rule
+from clinic.diagnosis.suspect import Level, Suspect
+
+AS_GOOD = 1.5  # a rival whose number is within this factor helps as much
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A suspect with the probe's numbers without and with its edit; `after` is None where no edit was tried."""
+
+    rule: Rule
+    suspect: Suspect
+    level: Level
+    before: float
+    after: float | None
+
+    @property
+    def severity(self) -> float:
+        """How far the symptom is beyond its limit, on a scale of tens; what explodes is worst."""
+        if math.isinf(self.before):
+            return 9.0
+        return min(8.0, math.log10(max(self.before, 1e-9) / max(self.suspect.limit, 1e-9)))
+
+
+def judge(model: ReaderModel, rule: Rule, suspect: Suspect) -> Judged | None:
+    """The verdict on a suspect; None where the symptom does not show, or where its edit does harm."""
+    before = model.measured(suspect.probe)
+    if not before > suspect.limit:
+        return None
+    if not suspect.edits or suspect.level == "hint":
+        return Judged(rule, suspect, "hint", before, None)
+    after = model.measured(suspect.probe, suspect.edits)
+    helps = after <= suspect.limit or after <= suspect.share * before
+    if not helps or not _calm(model, suspect):
+        return None
+    return Judged(rule, suspect, "cause", before, after)
+
+
+def _calm(model: ReaderModel, suspect: Suspect) -> bool:
+    """Whether the model runs with the edit: where it exploded before, a symptom that takes steps says nothing."""
+    if rule_of_errors(model):
+        return True
+    was, now = model.measured(resets()), model.measured(resets(), suspect.edits)
+    if was > 0 and suspect.probe.dynamic:
+        return now == 0
+    return now <= was
+
+
+def rule_of_errors(model: ReaderModel) -> bool:
+    """Whether the model does not compile."""
+    return bool(model.error)
+
+
+def without_rivals(found: Sequence[Judged]) -> list[Judged]:
+    """The causes but for those whose symptom another edit mends clearly better, or as well with a stronger reason."""
+    made = []
+    for each in found:
+        if each.level == "cause":
+            rivals = [other for other in found if other is not each and _same_symptom(each, other)]
+            if any(_beats(other, each) for other in rivals):
+                made.append(replace(each, level="hint"))
+                continue
+        made.append(each)
+    return made
+
+
+def _same_symptom(one: Judged, other: Judged) -> bool:
+    same = (one.suspect.probe.measure, one.suspect.probe.of) == (other.suspect.probe.measure, other.suspect.probe.of)
+    return other.level == "cause" and same and other.rule.id != one.rule.id
+
+
+def _beats(one: Judged, other: Judged) -> bool:
+    assert one.after is not None
+    assert other.after is not None
+    if one.after * AS_GOOD < other.after and other.after > other.suspect.limit:
+        return True
+    as_good = one.after <= max(other.after * AS_GOOD, one.suspect.limit)
+    return as_good and one.suspect.excess > other.suspect.excess
+
+
+def order(found: Sequence[Judged], families: Sequence[str]) -> list[Judged]:
+    """The worst first; those of the symptom that the reader names before all others."""
+
+    def key(each: Judged) -> tuple[bool, float, float]:
+        named = bool(set(each.rule.families) & set(families))
+        return (not named, -each.severity, -each.suspect.excess)
+
+    return sorted(found, key=key)
+
+
+def suspects_of(model: ReaderModel, rule: Rule, tell: Callable[[str], None]) -> Iterator[Suspect]:
+    """What a rule suspects; one that stumbles over the model says so and finds nothing."""
+    try:
+        yield from rule.suspects(model)
+    except (ArithmeticError, LookupError, ValueError, CompileError) as error:
+        tell(f"{rule.id}: {type(error).__name__}: {error}")
+
+
+def edits_of(found: Sequence[Judged]) -> tuple[Edit, ...]:
+    """All edits of the causes."""
+    return tuple(dict.fromkeys(each for one in found if one.level == "cause" for each in one.suspect.edits))

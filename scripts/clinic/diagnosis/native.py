@@ -1,0 +1,113 @@
+"""The engine of this process: MuJoCo's Python binding."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from clinic.diagnosis.engine import Compiled, CompileError, Contact
+
+OBJECTS = {"joint": "njnt", "camera": "ncam", "equality": "neq", "actuator": "nu", "dof": "nv", "sensor": "nsensor"}
+
+
+class NativeModel:
+    """A compiled model with one `mjData`."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        self.mj, self.mjdata = model, mujoco.MjData(model)
+
+    def count(self, kind: str) -> int:
+        return int(getattr(self.mj, OBJECTS.get(kind, f"n{kind}")))
+
+    def name(self, kind: str, index: int) -> str:
+        return mujoco.mj_id2name(self.mj, getattr(mujoco.mjtObj, f"mjOBJ_{kind.upper()}"), index) or ""
+
+    def model(self, field: str) -> Sequence[float]:
+        return _numbers(_field(self.mj, field))
+
+    def data(self, field: str) -> Sequence[float]:
+        return _numbers(_field(self.mjdata, field))
+
+    def write(self, field: str, values: Sequence[float], start: int = 0) -> None:
+        _write(self.mjdata, field, values, start)
+
+    def write_model(self, field: str, values: Sequence[float], start: int = 0) -> None:
+        _write(self.mj, field, values, start)
+
+    def reset(self, key: int = -1) -> None:
+        if key >= 0:
+            mujoco.mj_resetDataKeyframe(self.mj, self.mjdata, key)
+        else:
+            mujoco.mj_resetData(self.mj, self.mjdata)
+
+    def forward(self) -> None:
+        mujoco.mj_forward(self.mj, self.mjdata)
+
+    def step(self, count: int = 1) -> None:
+        mujoco.mj_step(self.mj, self.mjdata, nstep=count)
+
+    def contacts(self) -> list[Contact]:
+        made, force = [], np.zeros(6)
+        for index, contact in enumerate(self.mjdata.contact):
+            mujoco.mj_contactForce(self.mj, self.mjdata, index, force)
+            position, normal = contact.pos.tolist(), contact.frame[:3].tolist()
+            pair = (int(contact.geom[0]), int(contact.geom[1]))
+            made.append(Contact(pair, float(contact.dist), tuple(position), tuple(normal), float(force[0])))
+        return made
+
+    def mass_diagonal(self) -> list[float]:
+        dense = np.zeros((self.mj.nv, self.mj.nv))
+        if self.mj.nv:
+            try:
+                mujoco.mj_fullM(self.mj, self.mjdata, dense)
+            except TypeError:  # before MuJoCo 3.10
+                mujoco.mj_fullM(self.mj, dense, self.mjdata.qM)
+        return [float(number) for number in np.diagonal(dense)]
+
+    def warnings(self) -> dict[str, int]:
+        counts = {
+            kind: int(self.mjdata.warning[int(kind)].number)
+            for kind in mujoco.mjtWarning.__members__.values()
+            if int(kind) < len(self.mjdata.warning)
+        }
+        return {kind.name.removeprefix("mjWARN_"): count for kind, count in counts.items() if count}
+
+
+class NativeEngine:
+    """The MuJoCo that is installed. Files are found as from the current folder."""
+
+    version = mujoco.__version__
+
+    def __init__(self) -> None:
+        mujoco.set_mju_user_warning(lambda _: None)
+
+    def compile(self, main: str, files: Mapping[str, str]) -> Compiled:
+        try:
+            assets = {name: text.encode() for name, text in files.items()}
+            return NativeModel(mujoco.MjModel.from_xml_string(main, assets))
+        except (ValueError, mujoco.FatalError) as error:
+            raise CompileError(str(error)) from None
+
+
+def _field(of: Any, field: str) -> Any:
+    for part in field.split("."):
+        of = getattr(of, part)
+    return of
+
+
+def _numbers(value: Any) -> Sequence[float]:
+    return np.ravel(value).tolist()  # type: ignore[no-any-return]
+
+
+def _write(of: Any, field: str, values: Sequence[float], start: int) -> None:
+    *path, last = field.split(".")
+    for part in path:
+        of = getattr(of, part)
+    array = getattr(of, last)
+    if isinstance(array, np.ndarray):
+        array.reshape(-1)[start : start + len(values)] = values
+    else:
+        setattr(of, last, type(array)(values[0]))

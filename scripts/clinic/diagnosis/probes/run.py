@@ -1,0 +1,67 @@
+"""Letting a model go: what happens within two seconds when nobody does anything."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe
+
+SECONDS = 2.0
+
+
+@dataclass
+class LetGo:
+    """What was seen: the number of resets, the fastest hinge or slide in rad/s or m/s, the deepest contact in m."""
+
+    resets: int
+    fastest: float
+    fastest_joint: int | None
+    deepest: float
+    warnings: dict[str, int]
+
+
+def let_go(simulation: Simulation, seconds: float = SECONDS) -> LetGo:
+    """Runs the model from its start with the controls of the start; the run is kept with the simulation."""
+    kept = simulation.kept
+    if ("let go", seconds) not in kept:
+        kept["let go", seconds] = _let_go(simulation, seconds)
+    found = kept["let go", seconds]
+    assert isinstance(found, LetGo)
+    return found
+
+
+def _let_go(simulation: Simulation, seconds: float) -> LetGo:
+    simulation.begin()
+    made = LetGo(0, 0.0, None, 0.0, {})
+    owners = simulation.dof_joints
+    for _ in simulation.run(seconds):
+        if simulation.unstable():
+            made.resets += 1
+            made.warnings = simulation.engine.warnings()
+            made.fastest = float("inf")
+            break
+        for dof, speed in enumerate(simulation.data("qvel")):
+            if abs(speed) > made.fastest:
+                made.fastest, made.fastest_joint = abs(speed), owners[dof]
+        distances = [contact.distance for contact in simulation.engine.contacts()]
+        made.deepest = max(made.deepest, -min(distances, default=0.0))
+    return made
+
+
+def _resets(simulation: Simulation, seconds: float) -> float:
+    return float(let_go(simulation, seconds).resets)
+
+
+def resets(seconds: float = SECONDS) -> Probe:
+    """Whether the simulation goes to infinity: 0 or 1."""
+    return Probe(f"goes to infinity within {seconds:g} s after letting go", "", _resets, (seconds,))
+
+
+def _fastest(simulation: Simulation, seconds: float) -> float:
+    return let_go(simulation, seconds).fastest
+
+
+def fastest(seconds: float = SECONDS) -> Probe:
+    """The highest speed of a degree of freedom."""
+    return Probe(f"fastest joint within {seconds:g} s after letting go", "rad/s", _fastest, (seconds,))

@@ -1,0 +1,146 @@
+"""A reader's model: its source beside what was compiled of it, and every edited copy that was tried."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from clinic.diagnosis.edit import Edit, apply, insert, remove_attribute, set_attribute
+from clinic.diagnosis.engine import CompileError, Engine
+from clinic.diagnosis.simulation import Simulation, Start
+from clinic.diagnosis.source import REPEATING, Element, Source
+from clinic.diagnosis.suspect import Probe
+
+TAGS = {  # how the elements of a kind are written
+    "joint": ("joint", "freejoint"),
+    "geom": ("geom",),
+    "site": ("site",),
+    "camera": ("camera",),
+    "light": ("light",),
+}
+SECTION = {"actuator": "actuator", "sensor": "sensor", "equality": "equality", "tendon": "tendon", "key": "keyframe"}
+
+
+class ReaderModel:
+    """The model under diagnosis.
+
+    Attributes:
+        source: Its text with places; None where it is not well-formed XML.
+        error: What the engine says when it does not compile; empty when it does.
+        simulation: The compiled model as it is; only where `error` is empty.
+    """
+
+    def __init__(self, engine: Engine, texts: dict[str, str], source: Source | None, start: Start) -> None:
+        self.engine, self.texts, self.source, self.start = engine, texts, source, start
+        self._compiled: dict[tuple[Edit, ...], Simulation | CompileError] = {}
+        self._measured: dict[tuple[object, ...], float] = {}
+        found = self.with_edits(())
+        self.error = str(found) if isinstance(found, CompileError) else ""
+        self._elements: dict[str, list[Element | None]] = {}
+
+    @property
+    def simulation(self) -> Simulation:
+        found = self.with_edits(())
+        assert isinstance(found, Simulation)
+        return found
+
+    def with_edits(self, edits: Sequence[Edit]) -> Simulation | CompileError:
+        """The model after edits of its text, compiled anew, or what the engine says against it."""
+        key = tuple(edits)
+        if key not in self._compiled:
+            texts = apply(self.texts, key)
+            main, *others = texts
+            try:
+                compiled = self.engine.compile(texts[main], {name: texts[name] for name in others})
+                self._compiled[key] = Simulation(compiled, self.start)
+            except CompileError as error:
+                self._compiled[key] = error
+        return self._compiled[key]
+
+    def measured(self, probe: Probe, edits: Sequence[Edit] = ()) -> float:
+        """A probe's number on the model after edits; infinity where it does not compile."""
+        key = (probe.measure, probe.of, tuple(edits))
+        if key not in self._measured:
+            found = self.with_edits(edits)
+            self._measured[key] = float("inf") if isinstance(found, CompileError) else probe.run(found)
+        return self._measured[key]
+
+    def element(self, kind: str, index: int) -> Element | None:
+        """Where an element of the compiled model is written; None for one that a macro made."""
+        if kind not in self._elements:
+            self._elements[kind] = self._placed(kind)
+        placed = self._elements[kind]
+        return placed[index] if 0 <= index < len(placed) else None
+
+    def _placed(self, kind: str) -> list[Element | None]:
+        assert self.source is not None
+        names = self.simulation.names(kind)
+        if kind == "body":
+            written = list(self.source.elements("link")) if self.source.urdf else list(self.source.bodies())
+        elif kind in TAGS:
+            written = self.source.of_bodies(*TAGS[kind])
+        else:
+            written = list(self.source.section(SECTION.get(kind, kind)))
+        if self.source.urdf and kind == "joint":
+            written = list(self.source.elements("joint"))
+        by_name = {element.get("name"): element for element in written if element.get("name")}
+        whole = not self.source.urdf and not any(True for _ in self.source.elements(*REPEATING))
+        if whole and len(written) == len(names):
+            fits = all(element.get("name") in ("", name) for element, name in zip(written, names, strict=True))
+            if fits or kind == "body":
+                return list(written)
+        return [by_name.get(name) if name else None for name in names]
+
+    def value(self, kind: str, index: int, attribute: str) -> str | None:
+        """What is written for an attribute, on the element or in its default class; None where nothing is."""
+        element = self.element(kind, index)
+        return self.source.value(element, attribute) if element is not None and self.source else None
+
+    def set(self, kind: str, indices: Sequence[int], attribute: str, value: str) -> tuple[Edit, ...]:
+        """Edits that give an attribute of elements a value: in their default class where all of its users are meant.
+
+        Empty where one of them has no place in the text.
+        """
+        found = [self.element(kind, index) for index in indices]
+        if self.source is None or not found or any(each is None for each in found):
+            return ()
+        elements = [each for each in found if each is not None]
+        made: dict[Edit, None] = {}
+        for element in elements:
+            target = element
+            holder = self.source.written(element, attribute)
+            if (
+                holder
+                and holder[0] is not element
+                and self._users(kind, holder[0], attribute) <= set(map(id, elements))
+            ):
+                target = holder[0]
+            made[set_attribute(target, attribute, value)] = None
+        return tuple(made)
+
+    def remove(self, kind: str, indices: Sequence[int], attribute: str) -> tuple[Edit, ...]:
+        """Edits that take an attribute off elements that have it themselves."""
+        found = [self.element(kind, index) for index in indices]
+        return tuple(remove_attribute(each, attribute) for each in found if each and attribute in each.attributes)
+
+    def option(self, attribute: str, value: str, tag: str = "option") -> tuple[Edit, ...]:
+        """The edit that gives `<option>`, or another element below the root, an attribute."""
+        if self.source is None or self.source.urdf:
+            return ()
+        there = [child for child in self.source.root.children if child.tag == tag]
+        holder = next((child for child in there if attribute in child.attributes), there[-1] if there else None)
+        if holder is not None:
+            return (set_attribute(holder, attribute, value),)
+        return (insert(self.source.root, f'<{tag} {attribute}="{value}"/>'),)
+
+    def add(self, section: str, xml: str) -> tuple[Edit, ...]:
+        """The edit that adds an element to a section such as `contact`."""
+        if self.source is None or self.source.urdf:
+            return ()
+        there = self.source.root.first(section)
+        return (insert(there, xml) if there else insert(self.source.root, f"<{section}>{xml}</{section}>"),)
+
+    def _users(self, kind: str, holder: Element, attribute: str) -> set[int]:
+        assert self.source is not None
+        written = [self.element(kind, index) for index in range(self.simulation.count(kind))]
+        users = [each for each in written if each is not None and self.source.written(each, attribute)]
+        return {id(each) for each in users if (self.source.written(each, attribute) or (None,))[0] is holder}

@@ -1,0 +1,71 @@
+"""The rules, a module each, in folders by what they are about. A rule exists because its module does.
+
+A rule's name is its module's, with hyphens. The module has
+
+TITLE      the fault, in a few words
+FAMILIES   the symptoms that it explains, by their names in `families.toml`; the first is the likeliest
+SINCE      the release of the clinic that brought it
+CASE       the case that shows it, where there is one
+suspects   a function that takes a `ReaderModel` and gives `Suspect`s; for a model that does not compile, with FAMILIES
+           `will-not-compile`, it reads `model.error`
+
+and a docstring that is its page: what it is, why it matters, `Bad:` and `Good:` with an example of a few lines each,
+the number and its source, and when it is wrong.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from clinic.diagnosis.reader_model import ReaderModel
+    from clinic.diagnosis.suspect import Suspect
+
+COMPILES_NOT = "will-not-compile"
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A rule's module, read."""
+
+    id: str
+    title: str
+    families: tuple[str, ...]
+    since: str
+    case: str | None
+    text: str
+    suspects: Callable[[ReaderModel], Iterable[Suspect]]
+
+    def example(self, which: str) -> str:
+        """The model that the docstring shows under `Bad:` or `Good:`."""
+        lines = iter(self.text.partition(f"\n{which}:\n")[2].splitlines())
+        shown: list[str] = []
+        for line in lines:
+            if line.strip() and not line.startswith("    "):
+                break
+            shown.append(line[4:])
+        return "\n".join(shown).strip() + "\n"
+
+    @property
+    def of_errors(self) -> bool:
+        """Whether it is about models that do not compile."""
+        return COMPILES_NOT in self.families
+
+
+@cache
+def rules() -> dict[str, Rule]:
+    """All rules by id, in alphabetical order."""
+    made = {}
+    for found in pkgutil.walk_packages(__path__, f"{__name__}."):
+        if found.ispkg or found.name.rpartition(".")[2].startswith("_"):
+            continue
+        module = importlib.import_module(found.name)
+        name = found.name.rpartition(".")[2].replace("_", "-")
+        case, text = getattr(module, "CASE", None), (module.__doc__ or "").strip()
+        made[name] = Rule(name, module.TITLE, module.FAMILIES, module.SINCE, case, text, module.suspects)
+    return dict(sorted(made.items()))

@@ -1,0 +1,1 @@
+"""Rules about contacts: whether things touch, and how."""

@@ -1,0 +1,1 @@
+"""Rules about texts that do not compile: each has the edit that mends it."""

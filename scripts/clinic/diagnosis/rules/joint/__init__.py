@@ -1,0 +1,1 @@
+"""Rules about joints: ranges, axes, springs and the start."""

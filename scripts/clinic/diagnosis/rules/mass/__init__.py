@@ -1,0 +1,1 @@
+"""Rules about mass and inertia."""

@@ -1,0 +1,1 @@
+"""Rules about actuators: gains, ranges, gears."""

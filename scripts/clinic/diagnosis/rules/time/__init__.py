@@ -1,0 +1,1 @@
+"""Rules about time: the timestep and the integrator."""

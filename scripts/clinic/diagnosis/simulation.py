@@ -1,0 +1,154 @@
+"""A compiled model to try things with: arrays by row, names, and runs of it that are bounded in steps."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from clinic.diagnosis.engine import BALL, FREE, HINGE, SLIDE, Compiled
+
+WIDTH = {FREE: (7, 6), BALL: (4, 3), SLIDE: (1, 1), HINGE: (1, 1)}  # of a joint in qpos and qvel
+REFERENCES = {"body": "body_parentid", "joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid"}
+UNSTABLE = ("BADQPOS", "BADQVEL", "BADQACC")
+
+
+@dataclass(frozen=True)
+class Start:
+    """How a run begins: a keyframe, positions, and controls by actuator."""
+
+    key: int = -1
+    ctrl: Mapping[str, float] = field(default_factory=dict)
+
+
+class Simulation:
+    """One compiled text. Fields of the model are read once."""
+
+    def __init__(self, compiled: Compiled, start: Start) -> None:
+        self.engine, self.begin_with = compiled, start
+        self._fields: dict[str, Sequence[float]] = {}
+        self._counts: dict[str, int] = {}
+        self.kept: dict[object, object] = {}  # what probes share: a run that several of them look at
+
+    def count(self, kind: str) -> int:
+        if kind not in self._counts:
+            self._counts[kind] = self.engine.count(kind)
+        return self._counts[kind]
+
+    def names(self, kind: str) -> list[str]:
+        return [self.engine.name(kind, i) for i in range(self.count(kind))]
+
+    def name(self, kind: str, index: int) -> str:
+        """`joint "wrist"`, or `joint 3 of body "hand"` for one without a name."""
+        if index < 0:
+            return f"no {kind}"
+        if kind == "body" and index == 0:
+            return "the world"
+        if name := self.engine.name(kind, index):
+            return f'{kind} "{name}"'
+        if kind in REFERENCES and kind != "body":
+            return f"{kind} {index} of {self.name('body', int(self.model(REFERENCES[kind])[index]))}"
+        return f"{kind} {index}"
+
+    def model(self, field: str) -> Sequence[float]:
+        """A field of mjModel, flat; derived values are those of the compilation."""
+        if field not in self._fields:
+            self._fields[field] = self.engine.model(field)
+        return self._fields[field]
+
+    def row(self, field: str, index: int, width: int) -> tuple[float, ...]:
+        """Row `index` of a model's field."""
+        return tuple(self.model(field)[width * index : width * (index + 1)])
+
+    def data(self, field: str) -> Sequence[float]:
+        """A field of mjData, flat, as it is now."""
+        return self.engine.data(field)
+
+    def data_row(self, field: str, index: int, width: int) -> tuple[float, ...]:
+        return tuple(self.data(field)[width * index : width * (index + 1)])
+
+    @property
+    def timestep(self) -> float:
+        return self.model("opt.timestep")[0]
+
+    def begin(self, *, ctrl: bool = True, forward: bool = True) -> None:
+        """Back to the start that the reader chose; controls are the keyframe's and the reader's."""
+        self.engine.reset(self.begin_with.key)
+        if ctrl:
+            names = self.names("actuator") if self.begin_with.ctrl else []
+            for name, value in self.begin_with.ctrl.items():
+                if name in names:
+                    self.engine.write("ctrl", [value], names.index(name))
+        if forward:
+            self.engine.forward()
+
+    def steps(self, seconds: float, most: int = 4000) -> int:
+        """How many steps `seconds` are; fewer for a large model, so that no run takes long."""
+        size = max(1, self.count("dof")) * max(1.0, self.count("geom") / 50)
+        return max(10, min(math.ceil(seconds / self.timestep), most, int(most * 25 / max(25, size))))
+
+    def run(self, seconds: float, samples: int = 50) -> Iterator[float]:
+        """Steps on from where the state is, and stops about `samples` times; gives the time in s since the call."""
+        total = self.steps(seconds)
+        each = max(1, total // samples)
+        for done in range(each, total + 1, each):
+            self.engine.step(each)
+            yield done * self.timestep
+
+    @cached_property
+    def mass_diagonal(self) -> list[float]:
+        """The diagonal of the mass matrix at the start."""
+        self.begin()
+        return self.engine.mass_diagonal()
+
+    @cached_property
+    def dof_joints(self) -> list[int]:
+        """The joint of each degree of freedom."""
+        return [int(joint) for joint in self.model("dof_jntid")]
+
+    @cached_property
+    def moving_bodies(self) -> list[int]:
+        """Bodies that some joint moves."""
+        parents, joints = self.model("body_parentid"), self.model("body_jntnum")
+        moves = [False] * self.count("body")
+        for body in range(1, self.count("body")):
+            moves[body] = bool(joints[body]) or moves[int(parents[body])]
+        return [body for body, each in enumerate(moves) if each]
+
+    @cached_property
+    def free_bodies(self) -> list[int]:
+        """Bodies with a free joint."""
+        kinds, bodies = self.model("jnt_type"), self.model("jnt_bodyid")
+        return [int(bodies[joint]) for joint, kind in enumerate(kinds) if int(kind) == FREE]
+
+    def joints_of(self, body: int) -> list[int]:
+        first, count = int(self.model("body_jntadr")[body]), int(self.model("body_jntnum")[body])
+        return list(range(first, first + count))
+
+    def geoms_of(self, body: int) -> list[int]:
+        first, count = int(self.model("body_geomadr")[body]), int(self.model("body_geomnum")[body])
+        return list(range(first, first + count))
+
+    def joint_type(self, joint: int) -> int:
+        return int(self.model("jnt_type")[joint])
+
+    def position(self, joint: int) -> float:
+        """The angle in rad or the way in m of a hinge or slide, as it is now."""
+        return self.data("qpos")[int(self.model("jnt_qposadr")[joint])]
+
+    def dof(self, joint: int) -> int:
+        """The first degree of freedom of a joint."""
+        return int(self.model("jnt_dofadr")[joint])
+
+    def driven_joint(self, actuator: int) -> int | None:
+        """The hinge or slide that an actuator drives directly; None for another transmission."""
+        if int(self.model("actuator_trntype")[actuator]) > 1:
+            return None
+        joint = int(self.model("actuator_trnid")[2 * actuator])
+        return joint if self.joint_type(joint) in (HINGE, SLIDE) else None
+
+    def unstable(self) -> bool:
+        """Whether the simulation went to infinity since the last `begin`."""
+        found = self.engine.warnings()
+        return any(found.get(kind) for kind in UNSTABLE)

@@ -1,0 +1,64 @@
+"""What a rule says: a suspect, the edit that would mend it, and the number that must become well by it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.simulation import Simulation
+
+Level = Literal["cause", "hint"]
+
+
+@dataclass(frozen=True)
+class Probe:
+    """A measurement of a compiled model: one number, small where the model is well.
+
+    Probes that are equal are run once for each text; so the arguments of `measure` stand in `of`, hashable.
+    """
+
+    title: str  # "fastest joint in 2 s after letting go"
+    unit: str
+    measure: Callable[..., float]
+    of: tuple[object, ...] = ()
+    dynamic: bool = True  # needs steps, so that a run that explodes spoils it
+
+    def run(self, simulation: Simulation) -> float:
+        """The number; infinity where it is not finite."""
+        value = self.measure(simulation, *self.of)
+        return value if abs(value) < float("inf") else float("inf")
+
+
+@dataclass(frozen=True)
+class Suspect:
+    """Something in the model that may be the cause of a symptom.
+
+    Attributes:
+        elements: What it is about: `joint "wrist"`, ...
+        attribute: The XML attribute, as it is written.
+        now: Its value in the model.
+        value: The value that the edit gives it.
+        edits: The change of the text; empty where it has no place, or only intent knows it: then it is a hint.
+        probe: What measures the symptom.
+        limit: The probe's number above which the model is ill.
+        says: One sentence with the numbers that made it a suspect.
+        healthy: The range that is well, with its source.
+        share: An edit helps when the number falls below `limit` and below this share of what it was.
+        excess: How many times the static limit is exceeded; decides between rivals that help equally.
+        level: `hint` where intent decides.
+    """
+
+    elements: tuple[str, ...]
+    attribute: str
+    now: str
+    value: str
+    edits: tuple[Edit, ...]
+    probe: Probe
+    limit: float
+    says: str
+    healthy: str = ""
+    share: float = 0.6
+    excess: float = 1.0
+    level: Level = "cause"

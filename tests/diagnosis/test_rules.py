@@ -1,0 +1,45 @@
+"""The laws that every rule obeys; no rule is listed by hand."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from clinic.diagnosis.diagnose import Diagnosis, examine
+from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.rules import rules
+from clinic.engine.variant import variants
+from clinic.record.case import Case, load_case
+from clinic.record.checkout import project_root
+
+CASES = [load_case(folder) for folder in sorted((project_root() / "cases").iterdir())]
+MODELS = [case for case in CASES if case.record.run is not None]
+
+
+def diagnosed(text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Diagnosis:
+    monkeypatch.chdir(tmp_path)
+    return examine(NativeEngine(), {"model.xml": text})
+
+
+@pytest.mark.parametrize("rule", rules().values(), ids=rules().keys())
+def test_its_bad_example_is_found_and_its_good_one_is_not(rule, tmp_path, monkeypatch):
+    bad = diagnosed(rule.example("Bad"), tmp_path, monkeypatch)
+    assert rule.id in {each.rule for each in (*bad.causes, *bad.hints)}
+    good = diagnosed(rule.example("Good"), tmp_path, monkeypatch)
+    assert not good.causes, good.text()
+    assert rule.id not in {each.rule for each in good.hints}
+
+
+@pytest.mark.parametrize("case", MODELS, ids=lambda case: case.slug)
+def test_no_repaired_model_of_a_case_has_a_cause(case: Case, tmp_path, monkeypatch):
+    for variant in variants(case):
+        if variant.kind == "fix":
+            found = diagnosed(variant.text, tmp_path, monkeypatch)
+            assert not found.causes, f"{variant.id}:\n{found.text()}"
+
+
+@pytest.mark.parametrize("rule", [rule for rule in rules().values() if rule.case], ids=lambda rule: rule.id)
+def test_it_names_the_cause_in_the_broken_model_of_its_case(rule, tmp_path, monkeypatch):
+    (case,) = (case for case in CASES if case.slug == rule.case)
+    found = diagnosed(case.text, tmp_path, monkeypatch)
+    assert rule.id in {each.rule for each in found.causes[:3]}, found.text()

@@ -32,11 +32,13 @@ class Simulation:
         self.kept: dict[object, object] = {}  # what probes share: a run that several of them look at
 
     def count(self, kind: str) -> int:
+        """How many elements of a kind there are."""
         if kind not in self._counts:
             self._counts[kind] = self.engine.count(kind)
         return self._counts[kind]
 
     def names(self, kind: str) -> list[str]:
+        """The names of a kind's elements, empty for unnamed ones."""
         return [self.engine.name(kind, i) for i in range(self.count(kind))]
 
     def name(self, kind: str, index: int) -> str:
@@ -66,10 +68,12 @@ class Simulation:
         return self.engine.data(field)
 
     def data_row(self, field: str, index: int, width: int) -> tuple[float, ...]:
+        """Row `index` of a field of mjData, as it is now."""
         return tuple(self.data(field)[width * index : width * (index + 1)])
 
     @property
     def timestep(self) -> float:
+        """In s."""
         return self.model("opt.timestep")[0]
 
     def begin(self, *, ctrl: bool = True, forward: bool = True) -> None:
@@ -123,14 +127,17 @@ class Simulation:
         return [int(bodies[joint]) for joint, kind in enumerate(kinds) if int(kind) == FREE]
 
     def joints_of(self, body: int) -> list[int]:
+        """The joints of a body."""
         first, count = int(self.model("body_jntadr")[body]), int(self.model("body_jntnum")[body])
         return list(range(first, first + count))
 
     def geoms_of(self, body: int) -> list[int]:
+        """The geoms of a body."""
         first, count = int(self.model("body_geomadr")[body]), int(self.model("body_geomnum")[body])
         return list(range(first, first + count))
 
     def joint_type(self, joint: int) -> int:
+        """FREE, BALL, SLIDE or HINGE."""
         return int(self.model("jnt_type")[joint])
 
     def position(self, joint: int) -> float:

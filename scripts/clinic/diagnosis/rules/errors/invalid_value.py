@@ -85,12 +85,10 @@ def _edits(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
     elif "axis too small" in said:
         yield put("axis", "0 0 1")
     elif re.search(r"size \d+ must be positive", said):
-        numbers = [abs(float(number)) or 0.01 for number in element.get("size", "0.01").split()]
+        sizes = [abs(float(number)) or 0.01 for number in element.get("size", "0.01").split()]
         count = int(re.findall(r"size (\d+)", said)[0])
-        yield put(
-            "size", " ".join(f"{number:g}" for number in (numbers + numbers[-1:] * 3)[: max(len(numbers), count + 1)])
-        )
-        yield put("size", " ".join(f"{number:g}" for number in (numbers + numbers[-1:] * 3)[:3]))
+        for length in (max(len(sizes), count + 1), 3):
+            yield put("size", " ".join(f"{number:g}" for number in (sizes + sizes[-1:] * 3)[:length]))
     elif "zero quaternion" in said:
         yield put("quat", "1 0 0 0")
     elif "orientation" in said or "at most one of" in said:

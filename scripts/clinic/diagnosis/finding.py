@@ -140,11 +140,12 @@ def _cause(number: int, found: Finding) -> list[str]:
     change = f"{found.attribute} {found.now} -> {found.value}" if found.attribute else found.value
     after = "" if found.after is None else f" With the edit: {shown(found.after, found.unit)}."
     indent = "   "
-    return [
-        f"{number}  cause   {found.rule}  {where}{_elements(found.elements)}  {change}",
-        f"{indent}{found.says}",
-        f"{indent}{found.probe}: {shown(found.before, found.unit)}.{after}",
-    ]
+    lines = [f"{number}  cause   {found.rule}  {where}{_elements(found.elements)}  {change}", f"{indent}{found.says}"]
+    if found.probe and found.unit != "errors":
+        lines.append(f"{indent}{found.probe}: {shown(found.before, found.unit)}.{after}")
+    if found.page:
+        lines.append(f"{indent}{found.page}")
+    return lines
 
 
 def _elements(elements: Sequence[str]) -> str:

@@ -53,7 +53,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         numbers = NUMBER.findall(now)
         if not numbers:
             continue
-        tries = [" ".join(numbers)]
+        tries = [" ".join(numbers), re.sub(r"(?<=\d),(?=\d)", ".", now)]
         tries += [" ".join(numbers[:count]) for count in range(len(numbers) - 1, 0, -1)]
         tries += [" ".join([*numbers, *["0"] * more]) for more in (1, 2, 3)]
         for value in dict.fromkeys(tries):

@@ -53,6 +53,7 @@ SINCE = "0.2"
 
 MESSAGE = re.compile(r".*(?:opening file|resource not found[^']*|file not found[^']*|could not open[^']*) ?'([^']+)'")
 MOST = 20_000  # files that are looked at
+DEPTH = 4  # folders
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -96,7 +97,8 @@ def _moved(model: ReaderModel, element: Element) -> list[Edit]:
     if os.path.exists(posixpath.join(folder, file)):
         return []
     base = posixpath.basename(file.replace("\\", "/"))
-    there = _files().get(base) or [path for name in nearest(base, _files()) for path in _files()[name]][:1]
+    alike = [name for name in nearest(base, _files()) if name.lower() == base.lower()]
+    there = _files().get(base) or [path for name in alike for path in _files()[name]]
     if not there:
         return []
     parts = set(file.split("/"))
@@ -114,14 +116,14 @@ def _folder(model: ReaderModel, element: Element) -> str:
 
 
 @cache
-def _files(around: str = "") -> dict[str, list[str]]:
+def _files() -> dict[str, list[str]]:
     """The files below the current folder and the one around it, by their names."""
     made: dict[str, list[str]] = {}
     seen = 0
     for top in (".", ".."):
         for folder, inner, names in os.walk(top):
             inner[:] = [name for name in inner if not name.startswith(".")]
-            if folder.count("/") > 6:
+            if folder.count("/") > DEPTH:
                 inner.clear()
             for name in names:
                 made.setdefault(name, []).append(posixpath.normpath(posixpath.join(folder, name)))

@@ -58,7 +58,7 @@ def _key(keyframe: str | None, model: str) -> int:
 
 
 def _series(path: Path) -> list[tuple[float, Mapping[str, float]]]:
-    """Controls by time: a CSV whose first column is `time`, or an NPZ with an array `time` and one for each actuator."""
+        raise OptionError(f"--ctrl {path}: {error.strerror or error}; expected name=value, a CSV or NPZ") from None
     try:
         if path.suffix == ".npz":
             import numpy as np

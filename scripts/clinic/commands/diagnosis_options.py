@@ -58,7 +58,7 @@ def _key(keyframe: str | None, model: str) -> int:
 
 
 def _series(path: Path) -> list[tuple[float, Mapping[str, float]]]:
-        raise OptionError(f"--ctrl {path}: {error.strerror or error}; expected name=value, a CSV or NPZ") from None
+    """Controls by time: a CSV or NPZ with a column `time` and one for each actuator."""
     try:
         if path.suffix == ".npz":
             import numpy as np
@@ -71,9 +71,7 @@ def _series(path: Path) -> list[tuple[float, Mapping[str, float]]]:
             columns = {name: [float(row[name]) for row in rows] for name in (rows[0] if rows else {})}
         times = columns.pop("time")
     except OSError as error:
-        raise OptionError(
-            f"--ctrl {path}: {error.strerror or error}; name=value, a CSV or an NPZ is expected"
-        ) from None
+        raise OptionError(f"--ctrl {path}: {error.strerror or error}; expected name=value, a CSV or NPZ") from None
     except KeyError:
         raise OptionError(f"--ctrl {path}: no column `time`, in s, beside those of the actuators") from None
     except (ValueError, TypeError) as error:

@@ -97,8 +97,9 @@ def _moved(model: ReaderModel, element: Element) -> list[Edit]:
     if os.path.exists(posixpath.join(folder, file)):
         return []
     base = posixpath.basename(file.replace("\\", "/"))
-    alike = [name for name in nearest(base, _files()) if name.lower() == base.lower()]
-    there = _files().get(base) or [path for name in alike for path in _files()[name]]
+    files = _files(os.getcwd())
+    alike = [name for name in nearest(base, files) if name.lower() == base.lower()]
+    there = files.get(base) or [path for name in alike for path in files[name]]
     if not there:
         return []
     parts = set(file.split("/"))
@@ -116,8 +117,8 @@ def _folder(model: ReaderModel, element: Element) -> str:
 
 
 @cache
-def _files() -> dict[str, list[str]]:
-    """The files below the current folder and the one around it, by their names."""
+def _files(around: str) -> dict[str, list[str]]:
+    """The files below the current folder, `around`, and below the one around that, by their names."""
     made: dict[str, list[str]] = {}
     seen = 0
     for top in (".", ".."):

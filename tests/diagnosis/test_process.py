@@ -52,7 +52,8 @@ def test_the_reader_s_file_is_left_as_it_is_and_the_folder_too(tmp_path):
 
 def test_files_that_lie_on_no_disk_are_given_beside_the_text():
     corner = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
-    text = '<mujoco><asset><mesh name="part" file="part.obj"/></asset><worldbody><geom type="mesh" mesh="part"/></worldbody></mujoco>'
+    asset = '<asset><mesh name="part" file="part.obj"/></asset>'
+    text = f'<mujoco>{asset}<worldbody><geom type="mesh" mesh="part"/></worldbody></mujoco>'
     assert "missing-file" in {each.rule for each in diagnose(text).hints}
     assert not diagnose(text, assets={"part.obj": corner}).error
 

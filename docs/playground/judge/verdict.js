@@ -27,7 +27,7 @@ export function verdict(record, judgement, ours) {
   const { changes, situations, repaired } = judgement;
   const told = [...changes, ...situations.flatMap(({ failed }) => failed)];
   const list = el("ul", { class: "pg-told" }, ...told.map((sentence) => el("li", {}, sentence)));
-  const measured = el("details", {}, el("summary", {}, "All that was measured"), table(record, situations));
+  const measured = el("details", { class: "pg-fold" }, el("summary", {}, "All that was measured"), table(record, situations));
   return {
     summary: repaired ? accepted(record, ours) : refused(judgement),
     parts: [...(told.length > 0 ? [list] : []), ...(situations.length > 0 ? [measured] : [])],

@@ -5,6 +5,7 @@ import { assets } from "./engine/assets.js";
 import { InteractiveSimulation } from "./engine/interactive.js";
 import { newer } from "./engine/mjcf.js";
 import { judgeText } from "./judge/judgement.js";
+import { fetchBytes } from "./page/fetch.js";
 
 /** @import {MainModule} from "@mujoco/mujoco" */
 /** @import {CaseRecord} from "./record/types.js" */
@@ -112,14 +113,7 @@ self.onmessage = async ({ data: message }) => {
 
 /** @param {string} url of the gzipped module; some servers inflate it on the way */
 async function boot(url) {
-  const response = await fetch(url);
-  if (!response.ok) throw new Error(`the engine could not be loaded (${response.status})`);
-  let bytes = await response.arrayBuffer();
-  const [first, second] = new Uint8Array(bytes, 0, 2);
-  if (first === 0x1f && second === 0x8b) {
-    bytes = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-  }
-  return loadMujoco({ wasmBinary: bytes, print: () => {}, printErr: () => {} });
+  return loadMujoco({ wasmBinary: await fetchBytes(url), print: () => {}, printErr: () => {} });
 }
 
 /**

@@ -1,6 +1,6 @@
 // The engine as the diagnosis asks for it: `Engine` and `Compiled` of scripts/clinic/diagnosis/engine.py, on WebAssembly.
 
-import { warningStat } from "../engine/signals.js";
+import { nameOf, warningStat } from "../engine/signals.js";
 
 /** @import {MainModule, MjData, MjModel} from "@mujoco/mujoco" */
 
@@ -102,7 +102,7 @@ class CompiledModel {
   name(kind, index) {
     const { mujoco } = this.engine;
     const type = /** @type {Record<string, any>} */ (mujoco.mjtObj)[`mjOBJ_${kind.toUpperCase()}`];
-    return mujoco.mj_id2name(this.use().model, type.value, index) ?? "";
+    return nameOf(mujoco, this.use().model, type.value, index);
   }
 
   /**

@@ -88,7 +88,7 @@ def engine_default(path: str) -> str:
 
 def _defaults(root: Element, parents: dict[Element, Element], chosen: str | None, tag: str) -> dict[str, str]:
     """What the default classes say of such elements, an inner class over the one around it."""
-    classes = [node for node in root.iter("default")]
+    classes = list(root.iter("default"))
     node = next((one for one in classes if chosen and one.get("class") == chosen), None) or next(iter(classes), None)
     chain = [] if node is None else [node, *(one for one in _above(node, parents) if one.tag == "default")]
     made: dict[str, str] = {}

@@ -14,8 +14,9 @@ from clinic.engine.checks import expected
 from clinic.engine.simulate import compile_model
 from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
-from clinic.proof.formulas import formulas
-from clinic.proof.prose_laws import owned, quoted, stated, taken, typed
+from clinic.proof.prose.formulas import formulas
+from clinic.proof.prose.numbers import titled, typed
+from clinic.proof.prose_laws import owned, quoted, stated, taken
 from clinic.proof.releases import differing, on_releases, release_problems
 from clinic.proof.sweep import errors_at, format_values
 from clinic.proof.task import changes
@@ -177,6 +178,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         stated,
         formulas,
         owned,
+        titled,
         lasting,
         steady,
         swept,

@@ -1,37 +1,30 @@
-"""Law 5: what prose says is bound to what was run. Numbers come from the runs, quotations from the files."""
+"""Law 5: what prose says is bound to what was run. A quotation names its element, a number its remedy."""
 
 from __future__ import annotations
 
+import contextlib
 import re
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
-from clinic.engine.quotation import QUOTATION, attributes
+from clinic.engine.quotation import QUOTATION, QuotationError, attributes, quotation
 from clinic.engine.variant import Variant, variants
-from clinic.proof.evidence import Evidence
 from clinic.record.case import Case
 from clinic.record.problem import Problem, listed
 from clinic.record.prose import CODE, FIELD, FORMULA
 from clinic.record.yaml_lines import Where
 
+if TYPE_CHECKING:
+    from clinic.proof.evidence import Evidence
+
 PROSE = ("symptom", "diagnosis", "cause", "fix", "lesson")
 ELSEWHERE = ("engine", "sweep", "default", "formula", "record")  # what a field begins with that names no variant
 SPAN = re.compile(r"`([^`]+)`")
 ATTRIBUTE = re.compile(r'([a-z_]+)="[^"]*"')
+BARE = re.compile(r"[-+\d.e ]*\d[-+\d.e ]*")
 DIGIT = re.compile(r"(?<![\w])\d")
-SMALL = "three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen twenty thirty forty"
-SMALL += " fifty sixty seventy eighty ninety hundred thousand million dozen"
-COUNT = "|".join(f"{word}s?" for word in SMALL.split())
-SHARE = "fourth|fifth|sixth|seventh|eighth|ninth|tenth|twelfth|twentieth|fiftieth|hundredth|thousandth|millionth"
-SIZE = r"(?:metres?|centimetres?|millimetres?|seconds?|milliseconds?|radians?|degrees?|kilograms?|newtons?|percent)"
-NUMBER = re.compile(
-    rf"(?<![\w.])[-\u2212]?\d[\d_,.]*(?:(?<=\d))(?:[\s\u00a0]?(?:°|%))?|\b(?:{COUNT})(?:-(?:\w+))?\b|\b(?:{SHARE})s?\b|"
-    rf"\btwice\b|\bthrice\b|\bdoubl(?:es|ed|ing)\b|\bhal(?:ve[sd]?|ving)\b|\ba third\b|\bhalf (?:an?|of a) {SIZE}\b|"
-    rf"\b(?:one|two|zero) {SIZE}\b",
-    re.IGNORECASE,
-)
 LITERAL = re.compile(r"\d|\\[dt]?frac|\\sqrt|/|\^|\\(?:sin|cos|tan|exp|log)\b")
 SUBSCRIPT = re.compile(r"_(?:\w|\{[^{}]*\})|\\neq 0|\^\{?'+\}?")
-OPERATOR = re.compile(r"[\d/*=^√()+·]")
 NEAR = 40  # characters between a word such as *lowest* and the number it is said of
 TAKEN = ("final", "first", "min", "max", "mean", "span")
 TAKES = (
@@ -64,7 +57,10 @@ def quoted(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 yield case.problem(where, attribute[0], wanted, repair, quoted=attribute[0])
         for span in spans:
             code = " ".join(ATTRIBUTE.sub("", span).split())
-            if DIGIT.search(code) and not any(_stands(code, known) for known in texts):
+            if BARE.fullmatch(code):
+                repair = "write a field such as {{ broken.signal.final }}, {{ default.geom.solref }}"
+                yield case.problem(where, span, "a number from a run, the record or the engine", repair, quoted=span)
+            elif DIGIT.search(code) and not any(_stands(code, known) for known in texts):
                 wanted = "code that stands in the case's files, its snippet or what this prints"
                 yield case.problem(where, code, wanted, "quote it as it stands there, or say it in words", quoted=span)
         for warning in re.findall(r"mjWARN_(\w+)", text):
@@ -72,32 +68,6 @@ def quoted(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 wanted = f"what the broken variant raises: {listed(case.record.warnings)}"
                 yield case.problem(where, f"mjWARN_{warning}", wanted, "correct the name", quoted=f"mjWARN_{warning}")
         yield from _misnamed(case, made, where, text)
-
-
-def typed(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 5, numbers. None is typed, in digits or in words; a run, the record or the engine has it."""
-    labels: list[tuple[Where, str]] = [
-        (("signals", name, "label"), signal.label) for name, signal in case.record.signals.items()
-    ]
-    for spec, reason in case.record.older.items():
-        for release in re.findall(r"\d+\.\d[\d.]*\d|\d+\.\d", CODE.sub("", reason)):
-            if release not in spec:
-                wanted, repair = f"the release of its key, {spec}", "correct the release"
-                yield case.problem(("older", spec), release, wanted, repair, quoted=release)
-    for key, sweep in case.record.sweep.items():
-        labels.append((("sweep", key, "title"), sweep.title))
-        labels += [(("sweep", key, "vary", k, "label"), parameter.label) for k, parameter in enumerate(sweep.vary)]
-    for where, text in [*prose_of(case), *labels]:
-        for found in NUMBER.finditer(FORMULA.sub("", FIELD.sub("x", CODE.sub("", text)))):
-            number = found[0].strip().rstrip(".,")
-            if not any(number in spec for spec in case.record.older):
-                repair = "write a field such as {{ broken.signal.final }}, or say it without a number"
-                yield case.problem(where, f"{number!r}, typed by hand", "what a run gave", repair, quoted=number)
-    for key, sweep in case.record.sweep.items():
-        for place, form in [("prediction", sweep.prediction), *((f"rivals.{r.id}", r) for r in sweep.rivals)]:
-            if OPERATOR.search(form.label) or NUMBER.search(form.label):
-                wanted, repair = "words alone: the formula stands beside them", "leave the formula out"
-                yield case.problem(("sweep", key, *place.split(".")[:1]), form.label, wanted, repair, form.label)
 
 
 def taken(case: Case, evidence: Evidence) -> Iterator[Problem]:
@@ -130,7 +100,7 @@ def stated(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 
 def owned(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 5, whose number. A remedy's number stands where that remedy is spoken of; a title agrees with its edits."""
+    """Law 5, whose number. What belongs to a remedy stands where that remedy is spoken of."""
     made = {variant.id: variant for variant in variants(case)}
     for where, text in prose_of(case):
         own = case.record.refuted[where[1]].id if where[0] == "refuted" and isinstance(where[1], int) else "broken"
@@ -142,6 +112,11 @@ def owned(case: Case, evidence: Evidence) -> Iterator[Problem]:
                     spoken = name
                 elif QUOTATION.fullmatch(field[1].partition("|")[0]):
                     spoken = own if name == "broken" else name
+                    apt = made[name].kind == "fix" and where == ("fix",) if name in made else True
+                    told = where[0] not in ("symptom", "diagnosis") and _named(name, paragraph, field)
+                    if not (apt or told or name in (own, "broken")):
+                        repair = f"correct the field, or say {name.replace('-', ' ')!r} in the sentence"
+                        yield case.problem(where, field[0], f"an attribute of {own}", repair, quoted=field[0])
                     if name in made and name != "broken" and _same_as_broken(made, field[1]):
                         found, repair = (
                             f"{field[0]}, which {name} leaves as it is",
@@ -152,13 +127,17 @@ def owned(case: Case, evidence: Evidence) -> Iterator[Problem]:
                     wanted = f"a number of {spoken}" if spoken == own else f"a number of {spoken}, of which this speaks"
                     repair = f"correct the field, or say {name.replace('-', ' ')!r} in the sentence"
                     yield case.problem(where, field[0], wanted, repair, quoted=field[0])
-    for variant in list(made.values())[1:]:
-        allowed = _numbers_of(variant, evidence)
-        for found in NUMBER.finditer(variant.title):
-            values = _values(found[0])
-            if not any(abs(value - known) <= 1e-6 * abs(value) for value in values for known in allowed):
-                wanted = f"a number or a ratio of its edits: {listed(sorted(f'{value:g}' for value in allowed), 12)}"
-                yield case.problem((*variant.where, "title"), found[0], wanted, "correct the title", quoted=found[0])
+
+
+def quotations(case: Case) -> Iterator[tuple[Where, str]]:
+    """Every attribute quoted in prose, as it is written, with the field's place."""
+    for where, text in prose_of(case):
+        shown = SPAN.findall(FIELD.sub("", text))
+        for field in FIELD.finditer(text):
+            if match := QUOTATION.fullmatch(field[1].partition("|")[0]):
+                with contextlib.suppress(QuotationError):  # told where the prose is filled
+                    shown.append(quotation(case, match))
+        yield from ((where, found[0]) for span in shown for found in ATTRIBUTE.finditer(span))
 
 
 def prose_of(case: Case) -> Iterator[tuple[Where, str]]:
@@ -185,7 +164,7 @@ def _shown(text: str, tag: str, name: str | None) -> list[str]:
 
 
 def _stands(code: str, text: str) -> bool:
-    return code in " ".join(text.split())
+    return re.search(rf"(?<!\w){re.escape(code)}(?!\w)", " ".join(text.split())) is not None
 
 
 def _misnamed(case: Case, made: Sequence[Variant], where: Where, text: str) -> Iterator[Problem]:
@@ -228,32 +207,3 @@ def _same_as_broken(made: dict[str, Variant], field: str) -> bool:
     tag = match["tag"] or match["alone"]
     before, after = (attributes(made[key].text, tag, match["name"]) for key in ("broken", match["variant"]))
     return any(before.get(key) == after.get(key) for key in match["attributes"].split())
-
-
-def _numbers_of(variant: Variant, evidence: Evidence) -> set[float]:
-    """The numbers that a remedy writes, and its ratios to those that it replaces."""
-    made: set[float] = set()
-    for edit in variant.edits:
-        old, new = (
-            [float(n) for n in re.findall(r"(?<![\w.])\d[\d_]*\.?\d*(?:e-?\d+)?", t)] for t in (edit.find, edit.replace)
-        )
-        made |= set(new) | {a / b for a in new for b in old if b} | {b / a for a in new for b in old if a}
-    steps = [evidence.variants[key].timestep for key in ("broken", variant.id)]
-    if steps[0] and steps[1]:
-        made |= {round(steps[0] / steps[1], 9)}
-    return made
-
-
-def _values(number: str) -> list[float]:
-    """What a number in a title may stand for: itself, in thousandths, or the factor that it names."""
-    words = {"twice": 2.0, "double": 2.0, "halve": 2.0, "halving": 2.0, "doubling": 2.0, "dozen": 12.0}
-    words |= {word: float(n) for n, word in enumerate(SMALL.split()[:12], 3)} | {"hundred": 100.0, "thousand": 1000.0}
-    words |= {"fourth": 4.0, "fifth": 5.0, "tenth": 10.0, "hundredth": 100.0, "thousandth": 1000.0, "half": 2.0}
-    word = number.lower().split("-")[0]
-    if word in words:
-        return [words[word]]
-    try:
-        value = float(re.sub(r"[^\d.]", "", number))
-    except ValueError:
-        return [float("nan")]
-    return [value, value / 1000]

@@ -11,7 +11,7 @@ import latex2mathml.converter
 from clinic.engine.quotation import QUOTATION, QuotationError, engine_default, quotation
 from clinic.pages.text.markup import escaped
 from clinic.proof.evidence import Evidence
-from clinic.proof.formulas import sides_as_latex
+from clinic.proof.prose.formulas import sides_as_latex
 from clinic.proof.prose_laws import prose_of
 from clinic.proof.sweep import predictions
 from clinic.record.case import Case

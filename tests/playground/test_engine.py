@@ -15,6 +15,8 @@ from clinic.engine.node import executable as node
 from clinic.pages.playground import playground
 from clinic.record.case import Case, read_cases
 from clinic.record.expression import evaluate, parse
+from packaging.specifiers import SpecifierSet
+from packaging.version import Version
 
 pytestmark = pytest.mark.xdist_group("parity")
 TOLERANCE = 1e-9
@@ -112,6 +114,10 @@ def test_every_variant_gets_the_verdicts_of_the_evidence(cases: list[Case], brow
     for case in cases:
         _, evidence = proven(case.slug)
         for name, variant in evidence.variants.items():
+            if name not in browser["cases"][case.slug]:  # an edit that this engine does not know yet
+                known = [Version(browser["engine"]) in SpecifierSet(releases) for releases in case.record.older]
+                assert any(known), f"{case.slug} {name} does not compile, and `older` does not say so"
+                continue
             found = browser["cases"][case.slug][name]
             for kind, results in variant.checks.items():
                 for result, there in zip(results, found[kind], strict=True):
@@ -127,6 +133,7 @@ def test_every_variant_gets_the_verdicts_of_the_evidence(cases: list[Case], brow
 def test_every_number_is_that_of_the_same_engine_in_python(browser: dict[str, Any], twin: dict[str, Any]) -> None:
     wrong, compared = [], 0
     for slug, variants in twin["cases"].items():
+        assert variants.keys() == browser["cases"][slug].keys()
         for name, here in variants.items():
             there = browser["cases"][slug][name]
             checks = [

@@ -68,7 +68,7 @@ def compare(root: Path, slugs: Sequence[str], releases: Sequence[str]) -> Iterat
     for slug, locked in measure(root, cases, releases).items():
         case = next(case for case in cases if case.slug == slug)
         evidence = measure_case(case, Cache(cache_folder(root)), ())
-        yield from release_problems(case, differing(evidence, locked.releases))
+        yield from release_problems(case, differing(evidence.model_copy(update={"releases": locked.releases})))
 
 
 def write_lock(root: Path, measured: Lock, slugs: Iterable[str]) -> None:

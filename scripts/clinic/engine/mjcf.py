@@ -5,10 +5,7 @@ So a case's key in the build cache covers all that its model is made of, and the
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from xml.parsers import expat
-
-from clinic.record.problem import listed
 
 
 class ModelError(ValueError):
@@ -22,12 +19,8 @@ class ModelError(ValueError):
         return f"line {self.line}: {self.found}"
 
 
-def check_text(xml: str, beside: Collection[str] = ()) -> None:
+def check_text(xml: str) -> None:
     """Refuses a text that is not well-formed XML, of which MuJoCo's own parser accepts some, or that names a file.
-
-    Args:
-        xml: The text of a model.
-        beside: The files that it may name.
 
     Raises:
         ModelError: For the first mistake.
@@ -37,10 +30,10 @@ def check_text(xml: str, beside: Collection[str] = ()) -> None:
     def check_element(element: str, attributes: dict[str, str]) -> None:
         around.append(f", in the <{element}> of line {parser.CurrentLineNumber}")
         for name, value in attributes.items():
-            if name.startswith("file") and value not in beside:
-                expected = f"a file of the folder: {listed(sorted(beside))}" if beside else "a model in one file"
+            if name.startswith("file"):
                 repair = "write out what it names: elements, `vertex` of a mesh, `builtin` of a texture"
-                raise ModelError(parser.CurrentLineNumber, f'<{element} {name}="{value}">', expected, repair)
+                found = f'<{element} {name}="{value}">'
+                raise ModelError(parser.CurrentLineNumber, found, "a model in one file", repair)
 
     parser = expat.ParserCreate("utf-8")
     parser.StartElementHandler = check_element

@@ -18,7 +18,7 @@ from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence, VariantEvidence
 from clinic.proof.lookalike import LookalikeMatrix
 from clinic.proof.prose_laws import PROSE
-from clinic.proof.releases import differing, on_releases
+from clinic.proof.releases import differing
 from clinic.proof.robustness import NUDGE, STARTS
 from clinic.record.case import Case
 from clinic.record.fields import Check
@@ -153,7 +153,7 @@ def _smaller_steps(case: Case, evidence: Evidence) -> str:
 
 def _releases(case: Case, evidence: Evidence) -> str:
     """On which releases of MuJoCo the case is the same, and why not on the others; empty if that was not measured."""
-    told = differing(evidence, on_releases(case))
+    told = differing(evidence)
     if not told:
         return ""
     releases = sorted(told, key=lambda release: [int(part) for part in release.split(".")])

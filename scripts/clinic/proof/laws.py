@@ -17,7 +17,7 @@ from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observ
 from clinic.proof.prose.formulas import formulas
 from clinic.proof.prose.numbers import titled, typed
 from clinic.proof.prose_laws import owned, quoted, stated, taken
-from clinic.proof.releases import differing, on_releases, release_problems
+from clinic.proof.releases import differing, release_problems
 from clinic.proof.sweep import errors_at, format_values
 from clinic.proof.task import changes
 from clinic.proof.trials import checks_in
@@ -161,7 +161,7 @@ def same_task(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 def released(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 9. Every release of MuJoCo that was measured does the same, or `older` says why not."""
-    yield from release_problems(case, differing(evidence, on_releases(case)))
+    yield from release_problems(case, differing(evidence))
 
 
 LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {

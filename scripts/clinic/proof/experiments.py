@@ -25,7 +25,7 @@ from clinic.work.cache import Cache, Files, key_of
 from clinic.work.task import Task, run_tasks
 
 EVIDENCE = "evidence.json"
-WORDS = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "no_sweep"}
+WORDS = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "no_sweep", "formulas"}
 WORDS |= {"tags", "phrases", "looks", "manual", "see", "alike", "exempt"}
 ROBUST = TypeAdapter(dict[str, Robustness])
 

@@ -14,8 +14,10 @@ from clinic.engine.checks import expected
 from clinic.engine.simulate import compile_model
 from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
-from clinic.proof.prose_laws import quoted, typed
-from clinic.proof.releases import differing, on_releases, release_problems
+from clinic.proof.prose.formulas import formulas
+from clinic.proof.prose.numbers import titled, typed
+from clinic.proof.prose_laws import owned, quoted, stated, taken
+from clinic.proof.releases import differing, release_problems
 from clinic.proof.sweep import errors_at, format_values
 from clinic.proof.task import changes
 from clinic.proof.trials import checks_in
@@ -159,7 +161,7 @@ def same_task(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 def released(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 9. Every release of MuJoCo that was measured does the same, or `older` says why not."""
-    yield from release_problems(case, differing(evidence, on_releases(case)))
+    yield from release_problems(case, differing(evidence))
 
 
 LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
@@ -172,6 +174,11 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         warned,
         quoted,
         typed,
+        taken,
+        stated,
+        formulas,
+        owned,
+        titled,
         lasting,
         steady,
         swept,

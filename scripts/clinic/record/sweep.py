@@ -76,5 +76,10 @@ class Sweep(Strict):
     yes: str = Field(default="", description="What a yes means, for the legend.")
     no: str = Field(default="", description="What a no means.")
     side: Literal["below", "above"] = Field(default="below", description="With `holds`: where, of the line, it is yes.")
+    apart: Text | None = Field(
+        default=None,
+        description="With `holds`: why no point within twice `within` of the line is judged on each side, or why a "
+        "model's outcome is not taken at the end of the run.",
+    )
     prediction: Prediction = Field(description="The closed form that a law holds to its word.")
     rivals: list[Rival] = Field(default=[], description="Closed forms that are popular and wrong.")

@@ -151,8 +151,8 @@ def tightness(case: Case, evidence: Evidence) -> Iterator[Problem]:
             yield case.problem(("loose",), said, "checks that pin each number down", repair)
     for words in reasons if evidence.loose is not None else ():
         if not any(covers(case, words, number) for number in found):
-            said, wanted = f"{words}: checks notice each change", "text that holds a number of which none notices"
-            yield case.problem(("loose", words), said, wanted, "remove it, or copy the text character by character")
+            wanted = "text that holds a number of which a change goes unnoticed"
+            yield case.problem(("loose", words), words, wanted, "remove it, or copy the text character by character")
 
 
 def filmed(case: Case, evidence: Evidence) -> Iterator[Problem]:

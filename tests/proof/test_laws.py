@@ -214,6 +214,15 @@ def test_a_breach_tells_file_and_line(tmp_path: Path) -> None:
             ],
             id="a-line-with-points-near-to-it-on-one-side",
         ),
+        pytest.param(
+            "swept",
+            [*LINE, ("[1, 2, 4, 8]", "[1, 2, 3.9, 4.06, 8]")],
+            [
+                "sweep.fall: no point below it within 0.02 of the line, relative, that is judged; "
+                f"{JUDGED_NEAR}; add points there, or say in `apart` why not"
+            ],
+            id="a-line-with-points-near-to-it-on-the-other-side",
+        ),
         pytest.param("swept", [*LINE, FAR, APART], [], id="a-reason-for-points-apart-from-the-line"),
         pytest.param(
             "swept",

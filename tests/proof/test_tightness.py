@@ -9,7 +9,7 @@ from clinic.proof.evidence import collect
 from clinic.proof.laws import breaches
 from clinic.proof.tightness import loose_numbers, numbers, value_of, words_of
 from clinic.record.case import Case
-from helpers import script_case, tiny_case
+from helpers import MODEL, changed, script_case, tiny_case
 
 OTHER_BIT = ("replace: ''", 'replace: \' contype="1" conaffinity="4"\'')
 SWEEP = """\
@@ -75,6 +75,22 @@ def test_what_a_fix_s_checks_notice_is_not_loose(tmp_path: Path) -> None:
         'find: \'mass="1"\', replace: \'mass="1" contype="2"\'',
     )
     assert ("broken", 'conaffinity="2"', "doubled") not in loose(tiny_case(tmp_path, quoting, bit))
+
+
+def test_a_warning_that_comes_or_goes_is_noticed(tmp_path: Path) -> None:
+    spring = (
+        '<body><joint type="slide" stiffness="1500" springref="1"/><geom size="0.1" mass="0.001" pos="9 0 9"/></body>'
+    )
+    quoting = ("lesson: Look at the masks.", 'lesson: Look at `stiffness="1500"`.\nwarnings: [BADQACC]')
+    case = tiny_case(tmp_path, quoting, model=changed(MODEL, ("<worldbody>", f"<worldbody>{spring}")))
+    assert "1500" in [value_of(case, number) for number in numbers(case)]
+    assert ("broken", 'stiffness="1500"', "halved") not in loose(case)
+
+
+def test_a_text_that_does_not_run_is_noticed(tmp_path: Path) -> None:
+    repeated = ("{find: '0.5', replace: '0.0'}", "{find: 'range(1)', replace: 'range(3)'}")
+    case = script_case(tmp_path, repeated, script='for k in range(1):\n    print("error = 0.5")\n')
+    assert loose(case) == [("broken", "for k in range(1):", "doubled")]
 
 
 def test_what_a_trial_s_checks_notice_is_not_loose(tmp_path: Path) -> None:

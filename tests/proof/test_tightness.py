@@ -57,6 +57,12 @@ def test_numbers_that_a_sweep_varies(tmp_path: Path) -> None:
     assert ("broken", 'mass="1"', "1") in mattering(case)
 
 
+def test_a_sweep_that_does_not_fit_is_left_to_its_own_run(tmp_path: Path) -> None:
+    misfit = changed(SWEEP, ("find: 'mass=\"1\"'", "find: 'mass=\"7\"'"))
+    case = tiny_case(tmp_path, ("no_sweep: The masks are not a number.\n", misfit))
+    assert [words for _, words, _ in mattering(case)] == ['contype="2"', 'conaffinity="2"']
+
+
 def test_a_number_of_a_script_is_told_by_its_line(tmp_path: Path) -> None:
     assert mattering(script_case(tmp_path)) == [("broken", 'print("error = 0.5")', "0.5")]
 

@@ -44,7 +44,7 @@ def measure_cases(
     cases = sorted(cases, key=lambda case: case.record.run is not None)  # what takes long goes first, not last
     first, problems = run_tasks([evidence_task(case) for case in cases], cache)
     cases = [case for case in cases if EVIDENCE in first.get(case.slug, {})]
-    measuring = [task for case in cases for task in measuring_tasks(case) if task.kind in kinds]
+    measuring = [task for case in cases for task in measuring_tasks(case, kinds)]
     rest, more = run_tasks(sorted(measuring, key=lambda task: task.kind), cache)
     failed = {task.slug for task in measuring} - rest.keys()
     sound = [case for case in cases if case.slug not in failed]
@@ -81,13 +81,13 @@ def evidence_task(case: Case) -> Task:
     return case_task(case, "evidence", partial(_json_file, EVIDENCE, collect, case))
 
 
-def measuring_tasks(case: Case) -> Iterator[Task]:
+def measuring_tasks(case: Case, kinds: Container[str] = ALL) -> Iterator[Task]:
     """Tasks that run what needs the variants to be sound: sweeps, other starts, and numbers halved and doubled."""
-    for name in case.record.sweep:
+    for name in case.record.sweep if "sweeps" in kinds else ():
         yield case_task(case, "sweeps", partial(_json_file, f"sweep-{name}.json", measure_sweep, case, name), name)
-    if case.record.run is not None:
+    if case.record.run is not None and "robustness" in kinds:
         yield case_task(case, "robustness", partial(_json_file, "robustness.json", robustness, case))
-    if case.record.loose is not None:
+    if case.record.loose is not None and "tightness" in kinds:
         asked = numbers(case)
         make = partial(_json_file, "loose.json", loose_numbers, case, asked)
         yield case_task(case, "tightness", make, [number.model_dump() for number in asked])

@@ -81,7 +81,7 @@ def evidence_task(case: Case) -> Task:
     return case_task(case, "evidence", partial(_json_file, EVIDENCE, collect, case))
 
 
-def measuring_tasks(case: Case, kinds: Container[str] = ALL) -> Iterator[Task]:
+def measuring_tasks(case: Case, kinds: Container[str] = SHOWN) -> Iterator[Task]:
     """Tasks that run what needs the variants to be sound: sweeps, other starts, and numbers halved and doubled."""
     for name in case.record.sweep if "sweeps" in kinds else ():
         yield case_task(case, "sweeps", partial(_json_file, f"sweep-{name}.json", measure_sweep, case, name), name)

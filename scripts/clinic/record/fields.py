@@ -234,6 +234,11 @@ class Record(Strict):
     see: list[Identifier] = Field(default=[], description="Related cases, by folder name.")
     alike: Alike | None = Field(default=None, description="What tells this case from those that look like it.")
     exempt: dict[Law, Text] = Field(default={}, description="Laws that this case need not obey, each with the reason.")
+    loose: dict[Text, Text] | None = Field(
+        default=None,
+        description="Why no check need notice when a number that matters is halved or doubled, by the attribute or the "
+        "part of a line that holds it: `{'axis=\"0 0 1\"': reason}`; `{}` if checks notice each.",
+    )
     run: RunSpec | None = Field(default=None, description="How to start and drive a model; none for a script.")
     signals: dict[Name, Signal] = Field(min_length=1, description="Named measurements; the first one is plotted.")
     checks: Checks = Field(description="The pair of predicates for every variant.")
@@ -264,6 +269,15 @@ class Record(Strict):
         if self.script is not None and not self.script.endswith((".py", ".mjs")):
             raise ValueError(f"{self.script}||a script in Python, .py, or for Node, .mjs||rename the script")
         return self
+
+    @property
+    def lacking(self) -> dict[str, str]:
+        """Fields that grade A asks for and the record is without, with what is not known for want of each."""
+        wanted = {
+            "trials": (self.trials, "whether a repair holds in another situation"),
+            "loose": (self.loose is not None, "whether a check notices when a number is halved or doubled"),
+        }
+        return {name: unknown for name, (given, unknown) in wanted.items() if not given}
 
     @property
     def language(self) -> Literal["python", "javascript"]:

@@ -74,5 +74,10 @@ class Sweep(Strict):
     outcome: Taken = Field(description="The number measured at every point.")
     holds: Comparison | None = Field(default=None, description="Makes of the outcome a yes or no, as a check does.")
     side: Literal["below", "above"] = Field(default="below", description="With `holds`: where, of the line, it is yes.")
+    apart: Text | None = Field(
+        default=None,
+        description="With `holds`: why no point within twice `within` of the line is judged on each side, or why a "
+        "model's outcome is not taken at the end of the run.",
+    )
     prediction: Prediction = Field(description="The closed form that a law holds to its word.")
     rivals: list[Rival] = Field(default=[], description="Closed forms that are popular and wrong.")

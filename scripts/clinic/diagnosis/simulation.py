@@ -16,10 +16,21 @@ UNSTABLE = ("BADQPOS", "BADQVEL", "BADQACC")
 
 @dataclass(frozen=True)
 class Start:
-    """How a run begins: a keyframe, positions, and controls by actuator."""
+    """How a run begins and is driven.
+
+    Attributes:
+        key: A keyframe; -1 for the model's own start.
+        ctrl: Controls by actuator, in place of the keyframe's.
+        series: Controls by time in s, increasing, each from its time on.
+        duration: How long the model is let go, in s.
+        seed: Of whatever is drawn.
+    """
 
     key: int = -1
     ctrl: Mapping[str, float] = field(default_factory=dict)
+    series: Sequence[tuple[float, Mapping[str, float]]] = ()
+    duration: float = 2.0
+    seed: int = 0
 
 
 class Simulation:
@@ -80,10 +91,8 @@ class Simulation:
         """Back to the start that the reader chose; controls are the keyframe's and the reader's."""
         self.engine.reset(self.begin_with.key)
         if ctrl:
-            names = self.names("actuator") if self.begin_with.ctrl else []
-            for name, value in self.begin_with.ctrl.items():
-                if name in names:
-                    self.engine.write("ctrl", [value], names.index(name))
+            self._drive(self.begin_with.ctrl)
+            self._drive(next((controls for _, controls in self.begin_with.series), {}))
         if forward:
             self.engine.forward()
 
@@ -97,8 +106,16 @@ class Simulation:
         total = self.steps(seconds)
         each = max(1, total // samples)
         for done in range(each, total + 1, each):
+            for _, controls in [row for row in self.begin_with.series if row[0] <= (done - each) * self.timestep][-1:]:
+                self._drive(controls)
             self.engine.step(each)
             yield done * self.timestep
+
+    def _drive(self, controls: Mapping[str, float]) -> None:
+        names = self.names("actuator") if controls else []
+        for name, value in controls.items():
+            if name in names:
+                self.engine.write("ctrl", [value], names.index(name))
 
     @cached_property
     def mass_diagonal(self) -> list[float]:

@@ -200,6 +200,14 @@ class Source:
         element.children = made
 
 
+def read_source(texts: Mapping[str, str]) -> Source | None:
+    """The elements of texts; None where one is not well-formed XML."""
+    try:
+        return Source(texts)
+    except SourceError:
+        return None
+
+
 def read_texts(main: str, name: str, read: Callable[[str], str | None]) -> dict[str, str]:
     """The text of a model and those that it includes, by the names that are written.
 

@@ -13,6 +13,7 @@ from clinic.pages.code_fences import NAMED, run_fences
 from clinic.pages.error_page import error_page
 from clinic.pages.messages import load_messages, messages_page, provoke_messages
 from clinic.pages.reference import reference
+from clinic.pages.rules import rule_pages
 from clinic.pages.storeys import storeys
 from clinic.pages.symptoms import symptoms_page
 from clinic.pages.text.template import render
@@ -42,6 +43,7 @@ def overviews(
     screenings, problems = run_tasks(list(screening_tasks(cases)), cache)
     made = {f"cases/{slug}/{name}": text for slug, files in screenings.items() for name, text in files.items()}
     made["index.md"] = render("home", shown=shown, engine=mujoco.__version__).encode()
+    made |= rule_pages(known, cache)
     made["symptoms.md"] = symptoms_page(shown).encode()
     screened = [case for case in cases if case.record.run is None or case.slug in screenings]
     parts = {

@@ -82,6 +82,7 @@ def navigation(headings: Mapping[str, str]) -> Navigation:
         {"Home": "index.md"},
         {"Find your symptom": "symptoms.md"},
         {"What MuJoCo says": "messages.md"},
+        {"Diagnose your model": "rules/index.md"},
         {"Triage": "triage.md"},
         {"Cases": divided if len(sections) > 1 else cases},
         {"By thing": "tags.md"},

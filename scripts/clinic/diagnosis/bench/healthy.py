@@ -68,7 +68,9 @@ def survey(root: Path, cache: Cache) -> tuple[list[Healthy], dict[str, str]]:
 
 def _files(root: Path) -> Iterator[tuple[str, Path]]:
     folders = {package: root.absolute() / FOLDER / package for package in PACKAGES}
-    folders |= {Path(name).name: Path(name).absolute() for name in filter(None, os.environ.get(FURTHER, "").split(os.pathsep))}
+    folders |= {
+        Path(name).name: Path(name).absolute() for name in filter(None, os.environ.get(FURTHER, "").split(os.pathsep))
+    }
     for package, folder in folders.items():
         for path in folder.rglob("*"):
             if path.suffix in (".xml", ".urdf"):

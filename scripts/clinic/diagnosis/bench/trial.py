@@ -161,19 +161,23 @@ def _right(finding: dict[str, Any], kind: Kind, fault: Fault, lines: set[tuple[s
 
 
 def _diagnosed(texts: Mapping[str, str]) -> Told:
-    made, ids, running, since = Told(), {rule.title: rule.id for rule in rules().values()}, "", perf_counter()
+    made, running, since = Told(), "", perf_counter()
 
     def tell(said: str) -> None:
         nonlocal running, since
-        if said in ids:
-            made.seconds[running] = made.seconds.get(running, 0.0) + perf_counter() - since
-            running, since = ids[said], perf_counter()
-        else:
+        if said and said not in rules():
             made.stumbled.append(said)
+            return
+        if running:
+            made.seconds[running] = made.seconds.get(running, 0.0) + perf_counter() - since
+        running, since = said, perf_counter()
 
-    found = examine(NativeEngine(), dict(texts), tell=tell)
-    tell(next(iter(ids), ""))
-    made.seconds.pop("", None)
+    try:
+        found = examine(NativeEngine(), dict(texts), tell=tell)
+    except Exception as error:  # a rule in the making leaves the others measurable
+        made.stumbled.append(f"{running}: {type(error).__name__}: {error}")
+        return made
+    tell("")
     made.findings = [_finding(each) for each in (*found.causes, *found.hints)]
     return made
 

@@ -9,7 +9,7 @@ from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, text_of
 from clinic.diagnosis.edit import Edit, delete, insert, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 
-FELT = ("weighs", "accelerates", "unstable")
+FELT = ("weighs", "accelerates", "unstable", "strays")
 INERTIA = ("inertia-against-geometry", "placeholder-inertia", "inertia-of-geometry")
 
 

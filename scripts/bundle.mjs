@@ -16,7 +16,7 @@ const options = /** @type {const} */ ({
   metafile: true,
 });
 const made = [
-  await build({ ...options, entryPoints: ["docs/playground/start.js"], splitting: true, chunkNames: "[name]-[hash]" }),
+  await build({ ...options, entryPoints: ["docs/playground/start.js", "docs/playground/diagnose.js"], splitting: true, chunkNames: "[name]-[hash]" }),
   await build({ ...options, entryPoints: ["docs/playground/loader.js"], format: "iife" }),
   await build({
     ...options,

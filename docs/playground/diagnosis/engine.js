@@ -1,10 +1,11 @@
 // The engine as the diagnosis asks for it: `Engine` and `Compiled` of scripts/clinic/diagnosis/engine.py, on WebAssembly.
 
-import { warningStat } from "../engine/signals.js";
+import { nameOf, warningStat } from "../engine/signals.js";
 
 /** @import {MainModule, MjData, MjModel} from "@mujoco/mujoco" */
 
 const KEPT = 12; // compiled models; an older one is compiled anew when it is asked for again
+const MAIN = "clinic-main.xml"; // `from_xml_string` would take the name `model.xml`, which a file may have
 const COUNTS = { joint: "njnt", camera: "ncam", equality: "neq", actuator: "nu", dof: "nv", sensor: "nsensor" };
 
 /** Compiles texts, and keeps the last few models. */
@@ -42,9 +43,10 @@ export class DiagnosisEngine {
     const vfs = new mujoco.MjVFS();
     try {
       const encoder = new TextEncoder();
-      const all = new Map([...this.files, ...texts.map(([name, text]) => /** @type {const} */ ([name, encoder.encode(text)]))]);
+      const given = [...texts, /** @type {[string, string]} */ ([MAIN, main])];
+      const all = new Map([...this.files, ...given.map(([name, text]) => /** @type {const} */ ([name, encoder.encode(text)]))]);
       for (const [name, bytes] of all) vfs.addBuffer(name, bytes);
-      return mujoco.MjModel.from_xml_string(main, vfs);
+      return mujoco.MjModel.from_xml_path(MAIN, vfs);
     } finally {
       vfs.delete();
     }
@@ -100,7 +102,7 @@ class CompiledModel {
   name(kind, index) {
     const { mujoco } = this.engine;
     const type = /** @type {Record<string, any>} */ (mujoco.mjtObj)[`mjOBJ_${kind.toUpperCase()}`];
-    return mujoco.mj_id2name(this.use().model, type.value, index) ?? "";
+    return nameOf(mujoco, this.use().model, type.value, index);
   }
 
   /**

@@ -23,6 +23,7 @@ PYODIDE = "node_modules/pyodide"
 PYTHON = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json")
 DIAGNOSIS = "javascripts/diagnosis"
 INSTALLED = "node_modules/.package-lock.json"
+TABLES = ("scripts/clinic/engine/since.json", "scripts/clinic/proof/task.json")  # which the modules import
 CUSTOM_SECTION = 0
 HEADER = 8  # bytes: WebAssembly's mark and version
 
@@ -35,7 +36,7 @@ def playground_files(root: Path, cache: Cache) -> Files:
     """
     if node.launcher() and (root / ENGINE).is_file():
         modules = sorted((root / "docs/playground").rglob("*.js"))
-        sources = [*modules, root / STYLE, root / BUNDLER, root / INSTALLED, Path(__file__)]
+        sources = [*modules, *(root / path for path in (STYLE, BUNDLER, INSTALLED, *TABLES)), Path(__file__)]
         key = key_of("playground", [[path.name, path.read_text(encoding="utf-8")] for path in sources], of="record")
         made = cache.remember(key, lambda: _bundle(root))
         return {f"{FOLDER}/{name}": content for name, content in made.items()}

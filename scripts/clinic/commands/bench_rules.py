@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+if TYPE_CHECKING:
+    from clinic.diagnosis.bench.healthy import Healthy
+    from clinic.diagnosis.bench.table import Task
 
 app = typer.Typer()
 
@@ -23,7 +27,7 @@ def bench_rules(
         bool, typer.Option("--all", help="Print every plant that was missed, and what was named.")
     ] = False,
 ) -> None:
-    """Measure the rules, on healthy models of other people and on faults planted in them; CLINIC_HEALTHY adds folders."""
+    """Measure the rules on healthy models and on faults planted in them; CLINIC_HEALTHY names more folders of models."""
     from clinic.commands import terminal
     from clinic.diagnosis.bench.faults import kinds
     from clinic.diagnosis.bench.table import data, measure, tasks
@@ -37,13 +41,7 @@ def bench_rules(
         made = measure(
             root,
             Cache(cache_folder(root)),
-            lambda models: [
-                task
-                for task in tasks(
-                    [m for m in models if not robot or any(each in m.name for each in robot)], seed, plants, held_out
-                )
-                if (task.kind in kind if task.kind else True) or (not kind and task.kind)
-            ],
+            lambda models: _chosen(tasks(_named(models, robot), seed, plants, held_out), kind),
             seed,
             lambda done, of: status.update(f"{done} of {of}"),
         )
@@ -73,6 +71,15 @@ def bench_rules(
             )
     for said in table["stumbled"]:
         print(f"stumbled: {said}")
+
+
+def _named(models: list[Healthy], parts: list[str]) -> list[Healthy]:
+    return [model for model in models if not parts or any(part in model.name for part in parts)]
+
+
+def _chosen(all_: list[Task], names: list[str]) -> list[Task]:
+    """Only the plants of these kinds, where some are named."""
+    return [task for task in all_ if not names or task.kind in names]
 
 
 def _share(counts: dict[str, int]) -> str:

@@ -16,7 +16,7 @@ from clinic.diagnosis.engine import FREE, HINGE, SLIDE
 Array = NDArray[np.float64]
 SECONDS, SAMPLES, MOST_STEPS = 1.0, 20, 2500
 UNSTABLE = ("mjWARN_BADQPOS", "mjWARN_BADQVEL", "mjWARN_BADQACC")
-ALONE = int(mujoco.mjtDisableBit.mjDSBL_CONTACT) | int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
+ALONE = sum(int(getattr(mujoco.mjtDisableBit, f"mjDSBL_{what}")) for what in ("CONTACT", "GRAVITY", "ACTUATION"))
 
 
 @dataclass
@@ -78,7 +78,7 @@ class Behaviour:
 
     @cached_property
     def pressed(self) -> tuple[Run, Run]:
-        """Hinges and slides are pressed to their upper, then their lower end, without contacts and gravity."""
+        """Hinges and slides pressed up, then down, without contacts, gravity and actuators."""
         return self._pressed(1.0), self._pressed(-1.0)
 
     @cached_property

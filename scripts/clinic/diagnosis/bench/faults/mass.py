@@ -176,7 +176,7 @@ def freejoint_removed(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((delete(element),), (model.simulation.name("body", body),), "freejoint")
 
 
-@kind("twin-joints", "twins", "missing-joint", harms=("strays",))
+@kind("missing-joint", "twin-joint-differs", harms=("strays",))
 def joint_removed(model: ReaderModel, random: Random) -> Fault | None:
     """A body without the hinge or slide that it had."""
     assert model.source is not None

@@ -146,19 +146,19 @@ def _control_range(model: ReaderModel, random: Random, low: float, high: float) 
     return Fault(edits, _names(model, i), "ctrlrange", factor)
 
 
-@kind("control-range-beyond-joint", "control-range-too-wide", harms=GOES, servos=True)
+@kind("control-range-too-wide", harms=GOES, servos=True)
 def control_range_wide(model: ReaderModel, random: Random) -> Fault | None:
     """A servo's target may lie 1.5 to 20 times as far out as its joint may go."""
     return _control_range(model, random, 1.5, 20)
 
 
-@kind("control-range-in-degrees", "control-range-beyond-joint", "control-range-too-wide", harms=GOES, servos=True)
+@kind("control-range-too-wide", "control-range-in-degrees", harms=GOES, servos=True)
 def control_range_in_degrees(model: ReaderModel, random: Random) -> Fault | None:
     """A servo's control range in degrees."""
     return _control_range(model, random, 180 / math.pi, 180 / math.pi)
 
 
-@kind("control-range-too-narrow", "control-range-beyond-joint", harms=GOES, servos=True)
+@kind("control-range-too-narrow", harms=GOES, servos=True)
 def control_range_narrow(model: ReaderModel, random: Random) -> Fault | None:
     """A servo's control range 0.1 to 20 % of what it was, about zero."""
     return _control_range(model, random, 0.001, 0.2)
@@ -175,7 +175,7 @@ def gear_of_a_servo(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((set_attribute(element, "gear", text_of(factor)),), _names(model, i), "gear", factor)
 
 
-@kind("twin-actuators", "twin-joints", "twins", "gear", "gear-sign", harms=("strays", *GOES))
+@kind("twin-actuator-differs", "twin-joint-differs", "gear", "gear-sign", harms=("strays", *GOES))
 def gear_of_a_motor(model: ReaderModel, random: Random) -> Fault | None:
     """A motor's gear 0.02 to 50 times what it was, or of the other sign."""
     simulation = model.simulation
@@ -191,7 +191,7 @@ def gear_of_a_motor(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((set_attribute(element, "gear", text_of(gear)),), _names(model, i), "gear", factor)
 
 
-@kind("actuator-on-wrong-joint", "twin-actuators", "twins", harms=("strays", *GOES))
+@kind("actuator-on-wrong-joint", "twin-actuator-differs", harms=("strays", *GOES))
 def actuators_swapped(model: ReaderModel, random: Random) -> Fault | None:
     """Two actuators that drive each other's joint."""
     found = [(i, model.element("actuator", i)) for i in written(model, "actuator")]

@@ -9,11 +9,13 @@ from clinic.diagnosis.edit import delete, insert, remove_attribute, replace, set
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.source import Element
 
-OLD_OPTIONS = (
+OLD = (
     ("option", "collision", "all"),
     ("option", "apirate", "100"),
-    ("compiler", "coordinate", "local"),
+    ("option", "mpr_iterations", "50"),
+    ("compiler", "coordinate", "global"),
     ("compiler", "convexhull", "true"),
+    ("compiler", "exactmeshinertia", "true"),
     ("size", "nkeyframes", "1"),
 )
 
@@ -28,14 +30,14 @@ def _xml(model: ReaderModel, element: Element) -> str:
     return model.source.texts[element.file].encode()[element.start : element.end].decode()
 
 
-@kind("removed-attribute", harms=DOES_NOT_COMPILE)
+@kind("unknown-attribute", "removed-attribute", harms=DOES_NOT_COMPILE)
 def attribute_of_an_older_release(model: ReaderModel, random: Random) -> Fault | None:
     """An attribute of `<option>` or `<compiler>` that newer releases do not know."""
-    tag, name, value = random.choice(OLD_OPTIONS)
+    tag, name, value = random.choice(OLD)
     return Fault(model.option(name, value, tag=tag), (), name)
 
 
-@kind("misspelt-attribute", "unknown-attribute", "removed-attribute", "schema-violation", harms=DOES_NOT_COMPILE)
+@kind("unknown-attribute", harms=DOES_NOT_COMPILE)
 def attribute_misspelt(model: ReaderModel, random: Random) -> Fault | None:
     """An attribute with two letters swapped, one doubled or one left out."""
     found = [(e, name) for e in _elements(model, "geom", "joint", "body", "motor", "position") for name in e.attributes]
@@ -51,7 +53,7 @@ def attribute_misspelt(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((remove_attribute(element, name), set_attribute(element, wrong, element.get(name))), (), wrong)
 
 
-@kind("misspelt-element", "unknown-element", "removed-element", "schema-violation", harms=DOES_NOT_COMPILE)
+@kind("unknown-element", harms=DOES_NOT_COMPILE)
 def element_misspelt(model: ReaderModel, random: Random) -> Fault | None:
     """An element's name misspelt, or another format's."""
     other = {"geom": "geometry", "joint": "hinge", "site": "sites", "motor": "moter", "camera": "cam", "light": "lamp"}
@@ -64,7 +66,7 @@ def element_misspelt(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((replace(element, xml),), (), wrong)
 
 
-@kind("element-in-wrong-place", "schema-violation", harms=DOES_NOT_COMPILE)
+@kind("misplaced-joint", "unknown-element", harms=DOES_NOT_COMPILE)
 def element_in_the_wrong_place(model: ReaderModel, random: Random) -> Fault | None:
     """A geom outside of `<worldbody>`, or a joint in the world."""
     assert model.source is not None
@@ -87,7 +89,7 @@ def file_missing(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((set_attribute(element, "file", new),), (), "file") if new != old else None
 
 
-@kind("duplicate-name", harms=DOES_NOT_COMPILE)
+@kind("repeated-name", harms=DOES_NOT_COMPILE)
 def name_twice(model: ReaderModel, random: Random) -> Fault | None:
     """Two elements of a kind with one name."""
     of = random.choice(("geom", "body", "joint", "site"))
@@ -115,7 +117,7 @@ def number_malformed(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((set_attribute(element, name, " ".join(words)),), (), name)
 
 
-@kind("malformed-xml", "not-well-formed", harms=DOES_NOT_COMPILE)
+@kind("malformed-xml", harms=DOES_NOT_COMPILE)
 def tag_not_closed(model: ReaderModel, random: Random) -> Fault | None:
     """An element that is not closed, or a quotation mark that is missing."""
     found = [element for element in _elements(model, "geom", "joint") if element.empty and element.attributes]
@@ -127,7 +129,7 @@ def tag_not_closed(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((replace(element, wrong),), (), "")
 
 
-@kind("unknown-name", "misspelt-name", "unknown-reference", harms=DOES_NOT_COMPILE)
+@kind("unknown-reference", harms=DOES_NOT_COMPILE)
 def name_unknown(model: ReaderModel, random: Random) -> Fault | None:
     """An actuator, sensor or exclusion that names what is not there."""
     found = []
@@ -152,7 +154,7 @@ def name_unknown(model: ReaderModel, random: Random) -> Fault | None:
     )
 
 
-@kind("massless-body", harms=DOES_NOT_COMPILE)
+@kind("massless-body", "invalid-inertia", harms=DOES_NOT_COMPILE)
 def body_without_mass(model: ReaderModel, random: Random) -> Fault | None:
     """A moving body that lost its geoms and its `<inertial>`."""
     simulation = model.simulation
@@ -166,7 +168,7 @@ def body_without_mass(model: ReaderModel, random: Random) -> Fault | None:
     return Fault(tuple(delete(each) for each in gone), (), "mass") if gone else None
 
 
-@kind("keyframe-size", "key-size", harms=DOES_NOT_COMPILE)
+@kind("keyframe-size", harms=DOES_NOT_COMPILE)
 def key_too_long(model: ReaderModel, random: Random) -> Fault | None:
     """A keyframe with 1 to 7 more numbers than there are positions."""
     positions = list(model.simulation.model("qpos0"))

@@ -10,7 +10,7 @@ from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 
 SIDES = (("left", "right"), ("Left", "Right"), ("LEFT", "RIGHT"), ("l", "r"), ("L", "R"), ("1", "2"))
-TWINS = ("twins", "twin-joints", "twin-bodies", "twin-actuators", "twin-geoms")
+TWINS = ("twin-joint-differs", "twin-inertia-differs", "twin-place-differs", "twin-actuator-differs")
 FELT = ("strays", "reaches", "commands", "accelerates", "weighs", "misses", "jumps", "unstable", "faster")
 
 
@@ -41,6 +41,8 @@ def _changed(
         return None
     factor = random.choice(change) if change else between(random, 1.3, 10) ** random.choice((-1, 1))
     new = [factor * each if at is None or k == at else each for k, each in enumerate(found)]
+    if text_of(*new) == text_of(*found):
+        return None
     names = tuple(model.simulation.name(of, each) for each in pair)
     if of == "geom":
         names += tuple(model.simulation.name("body", int(model.simulation.model("geom_bodyid")[each])) for each in pair)
@@ -50,13 +52,13 @@ def _changed(
     return Fault((set_attribute(element, attribute, text_of(*new)),), names, attribute, factor)
 
 
-@kind("twin-joints", *TWINS, harms=FELT)
+@kind("twin-joint-differs", *TWINS, harms=FELT)
 def twin_axis(model: ReaderModel, random: Random) -> Fault | None:
     """One of a pair of joints turns the other way."""
     return _changed(model, random, "joint", "axis", [-1.0])
 
 
-@kind("twin-joints", *TWINS, harms=FELT)
+@kind("twin-joint-differs", *TWINS, harms=FELT)
 def twin_range(model: ReaderModel, random: Random) -> Fault | None:
     """One of a pair of joints with its range mirrored, or another."""
     pairs = _pairs(model, "joint", "range")
@@ -73,7 +75,7 @@ def twin_range(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((set_attribute(element, "range", text_of(*new)),), names, "range", factor)
 
 
-@kind("twin-joints", *TWINS, harms=FELT)
+@kind("twin-joint-differs", *TWINS, harms=FELT)
 def twin_damping(model: ReaderModel, random: Random) -> Fault | None:
     """One of a pair of joints with 0.1 to 10 times its damping, stiffness, armature or dry friction."""
     attributes = ["damping", "stiffness", "armature", "frictionloss"]
@@ -82,13 +84,13 @@ def twin_damping(model: ReaderModel, random: Random) -> Fault | None:
     return next((each for each in made if each), None)
 
 
-@kind("twin-actuators", *TWINS, "gear-sign", harms=FELT)
+@kind("twin-actuator-differs", *TWINS, "gear-sign", harms=FELT)
 def twin_gear(model: ReaderModel, random: Random) -> Fault | None:
     """One of a pair of actuators with another gear, of the other sign too."""
     return _changed(model, random, "actuator", "gear", [-1.0, 0.1, 0.5, 2.0, 10.0])
 
 
-@kind("twin-actuators", *TWINS, harms=FELT)
+@kind("twin-actuator-differs", *TWINS, harms=FELT)
 def twin_gains(model: ReaderModel, random: Random) -> Fault | None:
     """One of a pair of actuators with 0.1 to 10 times its gain, force range or control range."""
     attributes = ["kp", "forcerange", "ctrlrange", "kv"]
@@ -97,19 +99,19 @@ def twin_gains(model: ReaderModel, random: Random) -> Fault | None:
     return next((each for each in made if each), None)
 
 
-@kind("twin-bodies", *TWINS, harms=FELT)
+@kind("twin-place-differs", *TWINS, harms=FELT)
 def twin_position(model: ReaderModel, random: Random) -> Fault | None:
     """One of a pair of bodies on the other side, or further out."""
     return _changed(model, random, "body", "pos", [-1.0, 0.5, 1.5, 2.0], at=random.randrange(3))
 
 
-@kind("twin-geoms", *TWINS, harms=FELT)
+@kind("twin-place-differs", *TWINS, harms=FELT)
 def twin_size(model: ReaderModel, random: Random) -> Fault | None:
     """One of a pair of geoms 0.3 to 3 times its size."""
     return _changed(model, random, "geom", "size", [0.3, 0.5, 1.5, 2.0, 3.0])
 
 
-@kind("twin-bodies", *TWINS, "inertia-against-geometry", "mass-of-another-unit", harms=FELT)
+@kind("twin-inertia-differs", *TWINS, "inertia-against-geometry", "mass-of-another-unit", harms=FELT)
 def twin_mass(model: ReaderModel, random: Random) -> Fault | None:
     """One of a pair of geoms with 0.1 to 10 times its mass."""
     pairs = _pairs(model, "geom", "")

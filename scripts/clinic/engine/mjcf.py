@@ -8,12 +8,9 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Collection
 from pathlib import Path
 from xml.etree import ElementTree
 from xml.parsers import expat
-
-from clinic.record.problem import listed
 
 SINCE: dict[str, list[str]] = json.loads(Path(__file__).with_name("since.json").read_text(encoding="utf-8"))
 """`element.attribute`, or an element, by the release whose schema was the first to have it, oldest release first."""
@@ -31,12 +28,8 @@ class ModelError(ValueError):
         return f"line {self.line}: {self.found}"
 
 
-def check_text(xml: str, beside: Collection[str] = ()) -> None:
+def check_text(xml: str) -> None:
     """Refuses a text that is not well-formed XML, of which MuJoCo's own parser accepts some, or that names a file.
-
-    Args:
-        xml: The text of a model.
-        beside: The files that it may name.
 
     Raises:
         ModelError: For the first mistake.
@@ -46,10 +39,10 @@ def check_text(xml: str, beside: Collection[str] = ()) -> None:
     def check_element(element: str, attributes: dict[str, str]) -> None:
         around.append(f", in the <{element}> of line {parser.CurrentLineNumber}")
         for name, value in attributes.items():
-            if name.startswith("file") and value not in beside:
-                expected = f"a file of the folder: {listed(sorted(beside))}" if beside else "a model in one file"
+            if name.startswith("file"):
                 repair = "write out what it names: elements, `vertex` of a mesh, `builtin` of a texture"
-                raise ModelError(parser.CurrentLineNumber, f'<{element} {name}="{value}">', expected, repair)
+                found = f'<{element} {name}="{value}">'
+                raise ModelError(parser.CurrentLineNumber, found, "a model in one file", repair)
 
     parser = expat.ParserCreate("utf-8")
     parser.StartElementHandler = check_element

@@ -27,7 +27,7 @@ def bench_rules(
         bool, typer.Option("--all", help="Print every plant that was missed, and what was named.")
     ] = False,
 ) -> None:
-    """Measure the rules on healthy models and on faults planted in them; CLINIC_HEALTHY names more folders of models."""
+    """Measure the rules on healthy models and on faults planted in them; CLINIC_HEALTHY names more folders."""
     from clinic.commands import terminal
     from clinic.diagnosis.bench.faults import kinds
     from clinic.diagnosis.bench.table import data, measure, tasks

@@ -36,7 +36,7 @@ def _range(model: ReaderModel, joint: int, low: float, high: float, strength: fl
     return _set(model, joint, "range", text_of(low, high), strength)
 
 
-@kind("angle-units", "range-in-wrong-unit", "joint-range-units", harms=ENDS)
+@kind("range-in-the-wrong-unit", "start-outside-range", harms=ENDS)
 def range_of_a_joint_in_the_other_unit(model: ReaderModel, random: Random) -> Fault | None:
     """The range of one hinge in degrees among radians, or in radians among degrees."""
     hinges = [i for i in _limited(model) if model.simulation.joint_type(i) == HINGE]
@@ -48,7 +48,7 @@ def range_of_a_joint_in_the_other_unit(model: ReaderModel, random: Random) -> Fa
     return _range(model, joint, low * factor, high * factor, factor)
 
 
-@kind("angle-units", "range-in-wrong-unit", "joint-range-units", harms=ENDS)
+@kind("range-in-the-wrong-unit", "start-outside-range", harms=ENDS)
 def angles_in_the_other_unit(model: ReaderModel, random: Random) -> Fault | None:
     """The compiler reads all angles in the other unit: `angle` of `<compiler>`."""
     assert model.source is not None
@@ -83,7 +83,7 @@ def range_narrow(model: ReaderModel, random: Random) -> Fault | None:
     return _range(model, joint, low * share, high * share, share)
 
 
-@kind("range-not-applied", "limits-off", harms=ENDS)
+@kind("range-not-applied", harms=ENDS)
 def range_not_applied(model: ReaderModel, random: Random) -> Fault | None:
     """A joint's range is written, and not applied."""
     if not (found := _limited(model)):

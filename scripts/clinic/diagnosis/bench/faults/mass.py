@@ -10,7 +10,7 @@ from clinic.diagnosis.edit import Edit, delete, insert, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 
 FELT = ("weighs", "accelerates", "unstable", "strays")
-INERTIA = ("inertia-against-geometry", "placeholder-inertia", "inertia-of-geometry")
+INERTIA = ("inertia-unlike-geoms", "inertia-across-geoms", "denser-than-metal", "lighter-than-air")
 
 
 def _bodies(model: ReaderModel) -> list[int]:
@@ -49,7 +49,7 @@ def _fault(model: ReaderModel, body: int, edits: tuple[Edit, ...], attribute: st
     return Fault(edits, (model.simulation.name("body", body),), attribute, strength)
 
 
-@kind(*INERTIA[1:], INERTIA[0], harms=FELT)
+@kind(*INERTIA, harms=FELT)
 def inertia_placeholder(model: ReaderModel, random: Random) -> Fault | None:
     """A body's inertia is a placeholder: 1 1 1, 0.1, 0.01, 0.001 or 1e-6 in every direction."""
     if not (found := _bodies(model)):
@@ -67,7 +67,7 @@ def inertia_of_another_size(model: ReaderModel, random: Random) -> Fault | None:
     return _fault(model, body, _inertial(model, body, moments=(factor,) * 3), "diaginertia", factor)
 
 
-@kind(*INERTIA, "inertia-axes", harms=FELT)
+@kind("inertia-across-geoms", *INERTIA, harms=FELT)
 def inertia_not_turned(model: ReaderModel, random: Random) -> Fault | None:
     """A body's principal moments without the rotation of their axes, or in another order."""
     inertia = {b: model.simulation.row("body_inertia", b, 3) for b in _bodies(model)}
@@ -79,7 +79,7 @@ def inertia_not_turned(model: ReaderModel, random: Random) -> Fault | None:
     return _fault(model, body, _inertial(model, body, absolute=(y, z, x)), "diaginertia", 1)
 
 
-@kind("centre-of-mass", *INERTIA, harms=("accelerates", "strays"))
+@kind("centre-of-mass-outside", harms=("accelerates", "strays"))
 def centre_of_mass_displaced(model: ReaderModel, random: Random) -> Fault | None:
     """A body's centre of mass away from where its geoms are, by 0.5 to 10 of their size."""
     if not (found := _bodies(model)):
@@ -93,7 +93,7 @@ def centre_of_mass_displaced(model: ReaderModel, random: Random) -> Fault | None
     return _fault(model, body, _inertial(model, body, offset=(x, y, z)), "pos", factor)
 
 
-@kind("mass-of-another-unit", "mass-ratio", "whole-mass", "density", *INERTIA, harms=FELT)
+@kind("denser-than-metal", *INERTIA, harms=FELT)
 def mass_times(model: ReaderModel, random: Random) -> Fault | None:
     """A body's mass and inertia 2 to 1,000 times too large or too small."""
     if not (found := _bodies(model)):
@@ -102,7 +102,7 @@ def mass_times(model: ReaderModel, random: Random) -> Fault | None:
     return _fault(model, body, _inertial(model, body, mass=factor, moments=(factor,) * 3), "mass", factor)
 
 
-@kind(*INERTIA, "mass-of-another-unit", harms=FELT)
+@kind(*INERTIA, harms=FELT)
 def mass_without_its_inertia(model: ReaderModel, random: Random) -> Fault | None:
     """A body's mass 3 to 1,000 times too large or too small, its inertia as it was."""
     if not (found := _bodies(model)):
@@ -111,7 +111,7 @@ def mass_without_its_inertia(model: ReaderModel, random: Random) -> Fault | None
     return _fault(model, body, _inertial(model, body, mass=factor), "mass", factor)
 
 
-@kind("near-zero-mass", "mass-ratio", *INERTIA, harms=FELT)
+@kind("lighter-than-air", *INERTIA, harms=FELT)
 def mass_near_zero(model: ReaderModel, random: Random) -> Fault | None:
     """A body that weighs a millionth of what it did, or less."""
     if not (found := _bodies(model)):
@@ -147,7 +147,7 @@ def visual_geom_with_mass(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((insert(element, xml),), (name, own), "mass", factor)
 
 
-@kind("visual-mass", "density", "mass-of-another-unit", "whole-mass", harms=FELT)
+@kind("visual-mass", "denser-than-metal", harms=FELT)
 def inertial_forgotten(model: ReaderModel, random: Random) -> Fault | None:
     """Bodies without the `<inertial>` that they had: their geoms weigh as water does."""
     assert model.source is not None
@@ -161,6 +161,23 @@ def inertial_forgotten(model: ReaderModel, random: Random) -> Fault | None:
     names = tuple(simulation.name("body", b) for b, _ in chosen)
     names += tuple(simulation.name("geom", g) for b, _ in chosen for g in simulation.geoms_of(b))
     return Fault(tuple(delete(each) for _, each in chosen), names, "mass", len(chosen))
+
+
+@kind("geom-twice", harms=FELT)
+def geom_twice(model: ReaderModel, random: Random) -> Fault | None:
+    """A geom that stands twice in its body."""
+    assert model.source is not None
+    simulation, found = model.simulation, [(b, model.element("body", b)) for b in _bodies(model)]
+    geoms = [(b, e, g) for b, e in found if e and not e.first("inertial") for g in simulation.geoms_of(b)]
+    placed = [(b, e, g, model.element("geom", g)) for b, e, g in geoms]
+    copies = [(b, e, g, geom) for b, e, g, geom in placed if geom is not None and geom.empty]
+    if not copies:
+        return None
+    body, around, geom, element = random.choice(copies)
+    written_ = "".join(f' {name}="{value}"' for name, value in element.attributes.items() if name != "name")
+    name = simulation.name("body", body)
+    own = f"geom {simulation.geoms_of(body)[-1] + 1} of {name}"
+    return Fault((insert(around, f"<geom{written_}/>"),), (name, simulation.name("geom", geom), own), "mass")
 
 
 @kind("nothing-falls", "no-freejoint", "nothing-moves", harms=("strays",))
@@ -227,7 +244,7 @@ def key_with_w_last(model: ReaderModel, random: Random) -> Fault | None:
     return Fault(model.add("keyframe", xml), (), "qpos", turn)
 
 
-@kind("density", "visual-mass", "mass-of-another-unit", *INERTIA, harms=FELT)
+@kind("denser-than-metal", "lighter-than-air", harms=FELT)
 def geom_of_another_density(model: ReaderModel, random: Random) -> Fault | None:
     """A geom that weighs 5 to 1,000 times as much, or as little."""
     found = [g for b in _bodies(model) for g in model.simulation.geoms_of(b) if model.value("geom", g, "mass") is None]

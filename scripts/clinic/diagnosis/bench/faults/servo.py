@@ -103,6 +103,19 @@ def servo_damped_too_much(model: ReaderModel, random: Random) -> Fault | None:
     return Fault(edits, _names(model, i), "kv", kv)
 
 
+@kind("target-not-held", harms=SWAYS, servos=True)
+def bias_forgotten(model: ReaderModel, random: Random) -> Fault | None:
+    """A position servo as a general actuator with its gain and without its bias, so that it only pushes."""
+    if (chosen := _position(model, random)) is None:
+        return None
+    i, element = chosen
+    kept = "".join(
+        f' {name}="{element.get(name)}"' for name in ("name", "joint", "ctrlrange", "gear") if element.get(name)
+    )
+    xml = f'<general{kept} gainprm="{text_of(_gain(model, i))}" biastype="affine"/>'
+    return Fault((replace(element, xml),), _names(model, i), "biasprm")
+
+
 @kind("force-range-too-small", "weak-servo", harms=("misses", "commands"), servos=True)
 def force_range_small(model: ReaderModel, random: Random) -> Fault | None:
     """A servo that may push with 2 to 80 % of what its joint's load takes."""
@@ -191,7 +204,7 @@ def gear_of_a_motor(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((set_attribute(element, "gear", text_of(gear)),), _names(model, i), "gear", factor)
 
 
-@kind("actuator-on-wrong-joint", "twin-actuator-differs", harms=("strays", *GOES))
+@kind("actuator-on-another-joint", "twin-actuator-differs", harms=("strays", *GOES))
 def actuators_swapped(model: ReaderModel, random: Random) -> Fault | None:
     """Two actuators that drive each other's joint."""
     found = [(i, model.element("actuator", i)) for i in written(model, "actuator")]

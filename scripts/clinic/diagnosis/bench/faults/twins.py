@@ -111,7 +111,7 @@ def twin_size(model: ReaderModel, random: Random) -> Fault | None:
     return _changed(model, random, "geom", "size", [0.3, 0.5, 1.5, 2.0, 3.0])
 
 
-@kind("twin-inertia-differs", *TWINS, "inertia-against-geometry", "mass-of-another-unit", harms=FELT)
+@kind("twin-inertia-differs", *TWINS, "inertia-unlike-geoms", harms=FELT)
 def twin_mass(model: ReaderModel, random: Random) -> Fault | None:
     """One of a pair of geoms with 0.1 to 10 times its mass."""
     pairs = _pairs(model, "geom", "")

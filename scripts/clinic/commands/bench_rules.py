@@ -69,6 +69,8 @@ def bench_rules(
             print(
                 f"{plant.outcome}: {plant.kind} {plant.strength:.3g} in {plant.model}: {what} ({plant.harm}); {named}"
             )
+    for model in table["untried"]:
+        print(f"no time for every rule: {model}")
     for said in table["stumbled"]:
         print(f"stumbled: {said}")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 import pytest
-from clinic.diagnosis.bench.healthy import FURTHER, survey
+from clinic.diagnosis.bench.healthy import FURTHER, KNOWN, survey
 from clinic.record.checkout import cache_folder
 from clinic.record.problem import MissingRequirementError
 from clinic.work.cache import Cache
@@ -43,6 +43,11 @@ def test_a_robot_is_held_out_with_all_its_models(surveyed):
     assert 1 / 4 < Counter(next(iter(side)) for side in sides.values())[True] / len(sides) < 1 / 2
     assert sides["hand"] == {True}
     assert sides["humanoid"] == {False}
+
+
+def test_a_known_fault_is_of_a_model_that_is_there(surveyed):
+    models, _ = surveyed
+    assert set(KNOWN) <= {model.name for model in models}
 
 
 def test_further_folders_are_measured_too(root, tmp_path, monkeypatch):

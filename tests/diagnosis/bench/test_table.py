@@ -8,8 +8,8 @@ from random import Random
 import pytest
 from clinic.diagnosis.bench import table, trial
 from clinic.diagnosis.bench.faults import Fault, kinds
-from clinic.diagnosis.bench.healthy import Healthy
-from clinic.diagnosis.bench.table import Task, data, measure, tasks
+from clinic.diagnosis.bench.healthy import KNOWN, Healthy
+from clinic.diagnosis.bench.table import Bench, Task, data, measure, tasks
 from clinic.diagnosis.bench.trial import Told, plant_one
 from clinic.record.checkout import cache_folder
 from clinic.work.cache import Cache
@@ -45,6 +45,14 @@ def test_healthy_models_of_the_sample_get_no_cause(sampled):
 def test_plants_of_the_sample_do_harm_and_no_rule_stumbles(sampled):
     assert sampled["planted"]["seen"]["harmful"] >= 6
     assert sampled["stumbled"] == []
+
+
+def test_a_cause_on_a_healthy_model_is_false_unless_the_fault_is_known():
+    named = [{"rule": rule, "level": "cause", "right": False} for rule in ("lighter-than-air", "weak-servo")]
+    healthy = [(Healthy(name, "", 3), Told(findings=named)) for name in ("a/robot.xml", *KNOWN)]
+    made = data(Bench(0, healthy, [], [], {}))
+    assert made["models"]["a/robot.xml"]["causes"] == ["lighter-than-air", "weak-servo"]
+    assert [made["models"][name]["causes"] for name in KNOWN] == [["weak-servo"]] * len(KNOWN)
 
 
 def test_the_table_is_plain_data(sampled):

@@ -121,13 +121,12 @@ def _run(task: Task) -> tuple[Task, dict[str, Any] | None]:
 
 def data(bench: Bench) -> dict[str, Any]:
     """The whole table, as JSON has it. Seconds are those of the machine that ran it; all else is the same anywhere."""
-    own = {model.name: told.rules("cause") for model, told in bench.healthy}
+    own = {model.name: _false(model, told) for model, told in bench.healthy}
     return {
         "engine": mujoco.__version__,
         "seed": bench.seed,
         "healthy": {
-            side: _healthy([told for model, told in bench.healthy if model.held_out == out])
-            for side, out in SIDES.items()
+            side: _healthy([pair for pair in bench.healthy if pair[0].held_out == out]) for side, out in SIDES.items()
         },
         "planted": {
             side: _counts(plant for plant in bench.plants if plant.held_out == out) for side, out in SIDES.items()
@@ -135,10 +134,11 @@ def data(bench: Bench) -> dict[str, Any]:
         "rules": [_rule(bench, rule, own) for rule in rules()],
         "kinds": [_kind(bench, kind, own) for kind in kinds().values()],
         "models": {
-            model.name: {"held_out": model.held_out, "causes": told.rules("cause"), "hints": told.rules("hint")}
+            model.name: {"held_out": model.held_out, "causes": _false(model, told), "hints": told.rules("hint")}
             for model, told in bench.healthy
         },
         "left_out": bench.left_out,
+        "untried": sorted({model.name for model, told in bench.healthy if told.untried}),
         "stumbled": sorted({said for told in _all(bench) for said in told.stumbled}),
     }
 
@@ -147,9 +147,14 @@ def _all(bench: Bench) -> list[Told]:
     return [*(told for _, told in bench.healthy), *(plant.told for plant in bench.plants)]
 
 
-def _healthy(told: Sequence[Told]) -> dict[str, Any]:
-    counts = [len(each.findings) for each in told]
-    named = sum(1 for each in told if each.rules("cause"))
+def _false(model: Healthy, told: Told) -> list[str]:
+    """The rules that name a cause in a healthy model, but for the faults that it is known to have."""
+    return [rule for rule in told.rules("cause") if rule not in model.known]
+
+
+def _healthy(told: Sequence[tuple[Healthy, Told]]) -> dict[str, Any]:
+    counts = [len(each.findings) for _, each in told]
+    named = sum(1 for model, each in told if _false(model, each))
     return {"models": len(told), "with_a_cause": named, "median_findings": median(counts) if counts else 0}
 
 
@@ -194,7 +199,7 @@ def _kind(bench: Bench, kind: Kind, own: dict[str, list[str]]) -> dict[str, Any]
 
 
 def _beside(plant: Plant, own: dict[str, list[str]]) -> Counter[str]:
-    """The causes named on a plant that are not the fault, and that the healthy model does not get either."""
+    """The causes named on a plant that are not the fault, and that the healthy model does not get anyway."""
     right = {each["rule"] for each in plant.told.findings if each["right"]}
     return Counter(
         rule for rule in plant.told.rules("cause") if rule not in right and rule not in own.get(plant.model, ())

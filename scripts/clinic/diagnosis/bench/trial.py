@@ -33,7 +33,7 @@ NAMED_FIRST = 3  # causes that a reader looks at
 
 @dataclass
 class Told:
-    """What a diagnosis said: its findings, the time each rule took in s, and rules that stumbled.
+    """What a diagnosis said: its findings, the time each rule took in s, rules that stumbled, rules left untried.
 
     A finding is its rule, its level, its first element and, for a plant, whether it is right.
     """
@@ -41,6 +41,7 @@ class Told:
     findings: list[dict[str, Any]] = field(default_factory=list)
     seconds: dict[str, float] = field(default_factory=dict)
     stumbled: list[str] = field(default_factory=list)
+    untried: list[str] = field(default_factory=list)
 
     def rules(self, level: str) -> list[str]:
         """The rules with a finding of that level, each once."""
@@ -178,6 +179,7 @@ def _diagnosed(texts: Mapping[str, str]) -> Told:
         made.stumbled.append(f"{running}: {type(error).__name__}: {error}")
         return made
     tell("")
+    made.untried = [] if found.error else [rule for rule in found.ruled_out if rule not in made.seconds]
     made.findings = [_finding(each) for each in (*found.causes, *found.hints)]
     return made
 

@@ -42,6 +42,7 @@ def test_a_robot_is_held_out_with_all_its_models(surveyed):
     assert all(len(side) == 1 for side in sides.values())
     assert 1 / 4 < Counter(next(iter(side)) for side in sides.values())[True] / len(sides) < 1 / 2
     assert sides["hand"] == {True}
+    assert "coupled" not in sides
     assert sides["humanoid"] == {False}
 
 

@@ -44,7 +44,7 @@ class Healthy:
     def robot(self) -> str:
         """What the models of one robot have in common: their folder's name, or the first word of their own."""
         *_, folder, file = ("", *self.name.split("/"))
-        return re.split(r"[_.\d]", file if folder in SHARED else folder)[0]
+        return re.split(r"[_.\d]", file.removeprefix("coupled_") if folder in SHARED else folder)[0]
 
     @property
     def held_out(self) -> bool:

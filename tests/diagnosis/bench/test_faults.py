@@ -16,7 +16,7 @@ from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import Source
 from subjects import LEGS
 
-ELSEWHERE = {"file-missing"}  # kinds that this model has no place for, for it names no file
+ELSEWHERE = {"file-missing", "inertial-forgotten"}  # it names no file, and has one `<inertial>`
 
 
 def read(text: str) -> ReaderModel:

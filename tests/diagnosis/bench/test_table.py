@@ -71,14 +71,14 @@ def test_a_text_fault_is_found_where_it_was_planted(legs):
 
 def test_a_plant_that_does_no_harm_is_not_diagnosed(legs, monkeypatch):
     monkeypatch.setattr(trial, "HARMS", dict.fromkeys(trial.HARMS, lambda was, now: 0.5))
-    made = plant_one([legs], "mass-times", 3, 0)
+    made = plant_one([legs], "mass-too-large", 3, 0)
     assert (made["harm"], made["harmless"], made["told"]["findings"]) == ("", 0, [])
 
 
 def test_the_same_seed_plants_the_same(legs, monkeypatch):
     monkeypatch.setattr(trial, "_diagnosed", lambda texts: Told())
     assert plant_one([legs], "twin-range", 5, 2) == plant_one([legs], "twin-range", 5, 2)
-    strengths = {plant_one([legs], "mass-times", 5, number)["strength"] for number in range(5)}
+    strengths = {plant_one([legs], "mass-too-large", 5, number)["strength"] for number in range(5)}
     assert len(strengths) > 1
 
 

@@ -28,6 +28,7 @@ from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import Source, read_texts
 
 ATTEMPTS = 8  # models tried for a plant that does harm
+STRIDE = 4  # robots from one plant of a kind to the next
 NAMED_FIRST = 3  # causes that a reader looks at
 
 
@@ -104,7 +105,7 @@ def plant_one(models: Sequence[Healthy], kind_name: str, seed: int, number: int)
     Robots are as likely as each other, however many models a package has of one. None where no model has a place.
     """
     kind, made, harmless = kinds()[kind_name], None, 0
-    for model in _drawn(models, Random(f"{seed} {kind_name} {number}"))[: 4 * ATTEMPTS]:
+    for model in _drawn(models, Random(f"{seed} {kind_name}"), number):
         if harmless == ATTEMPTS:
             break
         with _inside(model):
@@ -116,11 +117,14 @@ def plant_one(models: Sequence[Healthy], kind_name: str, seed: int, number: int)
     return asdict(made) if made else None
 
 
-def _drawn(models: Sequence[Healthy], random: Random) -> list[Healthy]:
+def _drawn(models: Sequence[Healthy], random: Random, number: int) -> list[Healthy]:
+    """A model of each robot; the n-th plant begins elsewhere in their order than the one before it."""
     robots: dict[str, list[Healthy]] = {}
     for model in models:
         robots.setdefault(model.robot, []).append(model)
-    return [random.choice(robots[name]) for name in random.sample(sorted(robots), len(robots))]
+    order = [random.choice(robots[name]) for name in random.sample(sorted(robots), len(robots))]
+    begin = STRIDE * number % len(order)
+    return order[begin:] + order[:begin]
 
 
 def _planted(model: Healthy, kind: Kind, random: Random, harmless: int) -> Plant | None:

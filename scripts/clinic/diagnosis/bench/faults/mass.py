@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from random import Random
 
-from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, text_of, written
+from clinic.diagnosis.bench.faults import Fault, between, kind, text_of, written
 from clinic.diagnosis.edit import Edit, delete, insert, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 
@@ -94,11 +94,20 @@ def centre_of_mass_displaced(model: ReaderModel, random: Random) -> Fault | None
 
 
 @kind("denser-than-metal", *INERTIA, harms=FELT)
-def mass_times(model: ReaderModel, random: Random) -> Fault | None:
-    """A body's mass and inertia 2 to 1,000 times too large or too small."""
+def mass_too_large(model: ReaderModel, random: Random) -> Fault | None:
+    """A body's mass and inertia 30 to 10,000 times too large."""
     if not (found := _bodies(model)):
         return None
-    body, factor = random.choice(found), random.choice((2.0, 7.0, between(random, 2, 1000))) ** random.choice((-1, 1))
+    body, factor = random.choice(found), random.choice((1000.0, between(random, 30, 1e4)))
+    return _fault(model, body, _inertial(model, body, mass=factor, moments=(factor,) * 3), "mass", factor)
+
+
+@kind("whole-mass", "twin-inertia-differs", "denser-than-metal", harms=FELT)
+def mass_doubled(model: ReaderModel, random: Random) -> Fault | None:
+    """A body's mass and inertia 2 or 7 times too large or too small."""
+    if not (found := _bodies(model)):
+        return None
+    body, factor = random.choice(found), random.choice((0.5, 1 / 7, 2.0, 7.0))
     return _fault(model, body, _inertial(model, body, mass=factor, moments=(factor,) * 3), "mass", factor)
 
 
@@ -113,8 +122,11 @@ def mass_without_its_inertia(model: ReaderModel, random: Random) -> Fault | None
 
 @kind("lighter-than-air", *INERTIA, harms=FELT)
 def mass_near_zero(model: ReaderModel, random: Random) -> Fault | None:
-    """A body that weighs a millionth of what it did, or less."""
-    if not (found := _bodies(model)):
+    """The last body of a chain, which collides, weighs a millionth of what it did, or less."""
+    simulation, parents = model.simulation, set(model.simulation.model("body_parentid"))
+    collides = simulation.model("geom_contype")
+    found = [b for b in _bodies(model) if b not in parents and any(collides[g] for g in simulation.geoms_of(b))]
+    if not found:
         return None
     body, factor = random.choice(found), between(random, 1e-10, 1e-6)
     return _fault(model, body, _inertial(model, body, mass=factor, moments=(factor,) * 3), "mass", factor)
@@ -147,20 +159,17 @@ def visual_geom_with_mass(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((insert(element, xml),), (name, own), "mass", factor)
 
 
-@kind("visual-mass", "denser-than-metal", harms=FELT)
+@kind("inertial-missing", "visual-mass", "denser-than-metal", *INERTIA, harms=FELT)
 def inertial_forgotten(model: ReaderModel, random: Random) -> Fault | None:
-    """Bodies without the `<inertial>` that they had: their geoms weigh as water does."""
-    assert model.source is not None
-    simulation = model.simulation
+    """A body without the `<inertial>` that it and at least three others had: its geoms weigh as water does."""
     found = [(b, model.element("body", b)) for b in _bodies(model)]
-    inertials = [(b, e.first("inertial")) for b, e in found if e is not None]
-    there = [(b, each) for b, each in inertials if each is not None]
-    if not there:
+    there = [(b, e.first("inertial")) for b, e in found if e is not None and e.first("inertial") is not None]
+    if len(there) < 4:
         return None
-    chosen = random.choice((there, [random.choice(there)]))
-    names = tuple(simulation.name("body", b) for b, _ in chosen)
-    names += tuple(simulation.name("geom", g) for b, _ in chosen for g in simulation.geoms_of(b))
-    return Fault(tuple(delete(each) for _, each in chosen), names, "mass", len(chosen))
+    body, inertial = random.choice(there)
+    assert inertial is not None
+    geoms = tuple(model.simulation.name("geom", g) for g in model.simulation.geoms_of(body))
+    return Fault((delete(inertial),), (model.simulation.name("body", body), *geoms), "mass")
 
 
 @kind("geom-twice", harms=FELT)
@@ -244,17 +253,16 @@ def key_with_w_last(model: ReaderModel, random: Random) -> Fault | None:
     return Fault(model.add("keyframe", xml), (), "qpos", turn)
 
 
-@kind("denser-than-metal", "lighter-than-air", harms=FELT)
-def geom_of_another_density(model: ReaderModel, random: Random) -> Fault | None:
-    """A geom that weighs 5 to 1,000 times as much, or as little."""
+@kind("denser-than-metal", harms=FELT)
+def geom_too_dense(model: ReaderModel, random: Random) -> Fault | None:
+    """A geom of 30,000 to 1,000,000 kg/m3, where gold has 19,300."""
     found = [g for b in _bodies(model) for g in model.simulation.geoms_of(b) if model.value("geom", g, "mass") is None]
     found = [g for g in found if model.element("geom", g) is not None]
     if not found:
         return None
-    geom, factor = random.choice(found), between(random, 5, 1000) ** random.choice((-1, 1))
-    density = (numbers(model.value("geom", geom, "density")) or [1000.0])[0]
+    geom, density = random.choice(found), between(random, 3e4, 1e6)
     element = model.element("geom", geom)
     assert element is not None
     body = model.simulation.name("body", int(model.simulation.model("geom_bodyid")[geom]))
-    edit = set_attribute(element, "density", text_of(density * factor))
-    return Fault((edit,), (model.simulation.name("geom", geom), body), "density", factor)
+    edit = set_attribute(element, "density", text_of(density))
+    return Fault((edit,), (model.simulation.name("geom", geom), body), "density", density)

@@ -9,13 +9,13 @@ from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, text_of
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 
-SIDES = (("left", "right"), ("Left", "Right"), ("LEFT", "RIGHT"), ("l", "r"), ("L", "R"), ("1", "2"))
+SIDES = (("left", "right"), ("Left", "Right"), ("LEFT", "RIGHT"), ("l", "r"), ("L", "R"))
 TWINS = ("twin-joint-differs", "twin-inertia-differs", "twin-place-differs", "twin-actuator-differs")
 FELT = ("strays", "reaches", "commands", "accelerates", "weighs", "misses", "jumps", "unstable", "faster")
 
 
 def _pairs(model: ReaderModel, of: str, attribute: str) -> list[tuple[int, int]]:
-    """Pairs of elements whose names differ by their side alone, and whose first has a value for the attribute."""
+    """Pairs whose names differ by their side alone, on mirrored bodies; the first has a value for the attribute."""
     names = {name: i for i, name in enumerate(model.simulation.names(of)) if name}
     made = []
     for name, i in names.items():
@@ -23,7 +23,27 @@ def _pairs(model: ReaderModel, of: str, attribute: str) -> list[tuple[int, int]]
             if (mirrored := re.sub(rf"(?<![A-Za-z0-9]){one}(?![a-z0-9])", other, name)) != name and mirrored in names:
                 made.append((i, names[mirrored]))
     kept = set(written(model, of, attribute))
-    return [(i, k) for i, k in made if i in kept and model.element(of, k) is not None]
+    return [(i, k) for i, k in made if i in kept and model.element(of, k) is not None and _mirrored(model, of, i, k)]
+
+
+def _mirrored(model: ReaderModel, of: str, i: int, k: int) -> bool:
+    """Whether the bodies of two elements, or what carries them, hang from one body at places that are mirror images."""
+    one, other = (_body(model, of, each) for each in (i, k))
+    parents = model.simulation.model("body_parentid")
+    while one and other and parents[one] != parents[other]:
+        one, other = int(parents[one]), int(parents[other])
+    places = [model.simulation.row("body_pos", each, 3) for each in (one, other)]
+    alike = all(abs(abs(a) - abs(b)) < 1e-6 for a, b in zip(*places, strict=True))
+    return one != other and alike and places[0] != places[1]
+
+
+def _body(model: ReaderModel, of: str, i: int) -> int:
+    """The body of an element; for an actuator that of its joint."""
+    if of == "actuator":
+        joint = model.simulation.driven_joint(i)
+        return _body(model, "joint", joint) if joint is not None else 0
+    owner = {"joint": "jnt_bodyid", "geom": "geom_bodyid"}.get(of)
+    return int(model.simulation.model(owner)[i]) if owner else i
 
 
 def _changed(

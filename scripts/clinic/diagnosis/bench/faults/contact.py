@@ -121,7 +121,7 @@ def exclude_removed(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((delete(gone),), (f'body "{gone.get("body1")}"', f'body "{gone.get("body2")}"'), "")
 
 
-@kind("gravity", harms=MOVES)
+@kind("gravity-upwards", "gravity", harms=MOVES)
 def gravity_wrong(model: ReaderModel, random: Random) -> Fault | None:
     """Gravity of the other sign, along another axis, in millimetres, or none."""
     g = model.simulation.model("opt.gravity")

@@ -189,7 +189,7 @@ def geom_twice(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((insert(around, f"<geom{written_}/>"),), (name, simulation.name("geom", geom), own), "mass")
 
 
-@kind("nothing-falls", "no-freejoint", "nothing-moves", harms=("strays",))
+@kind("root-is-fixed", "nothing-can-move", harms=("strays",))
 def freejoint_removed(model: ReaderModel, random: Random) -> Fault | None:
     """A body without the free joint that it had, so that it hangs in the air."""
     free = [j for j in written(model, "joint") if model.simulation.joint_type(j) == 0]

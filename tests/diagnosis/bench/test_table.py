@@ -48,11 +48,14 @@ def test_plants_of_the_sample_do_harm_and_no_rule_stumbles(sampled):
 
 
 def test_a_cause_on_a_healthy_model_is_false_unless_the_fault_is_known():
-    named = [{"rule": rule, "level": "cause", "right": False} for rule in ("lighter-than-air", "weak-servo")]
-    healthy = [(Healthy(name, "", 3), Told(findings=named)) for name in ("a/robot.xml", *KNOWN)]
-    made = data(Bench(0, healthy, [], [], {}))
-    assert made["models"]["a/robot.xml"]["causes"] == ["lighter-than-air", "weak-servo"]
+    def told(*rules: str) -> Told:
+        return Told(findings=[{"rule": rule, "level": "cause", "right": False} for rule in rules])
+
+    healthy = [(Healthy(name, "", 3), told("weak-servo", *faults)) for name, faults in KNOWN.items()]
+    made = data(Bench(0, [*healthy, (Healthy("a/robot.xml", "", 3), told("lighter-than-air"))], [], [], {}))
     assert [made["models"][name]["causes"] for name in KNOWN] == [["weak-servo"]] * len(KNOWN)
+    assert made["models"]["a/robot.xml"]["causes"] == ["lighter-than-air"]
+    assert made["healthy"]["seen"]["with_a_cause"] == len(healthy) + 1
 
 
 def test_the_table_is_plain_data(sampled):

@@ -78,7 +78,7 @@ lock: setup
 	sed -n 's/.*"@mujoco\/mujoco": "\(.*\)".*/mujoco==\1/p' package.json | $(BIN)/uv pip compile - --universal --python-version 3.11 \
 	  --no-deps --generate-hashes --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" \
 	  --upgrade --quiet --output-file requirements-parity.txt
-	printf '%s\n' dm-control gymnasium gymnasium-robotics | $(BIN)/uv pip compile - --universal --python-version 3.11 \
+	printf '%s\n' dm-control gymnasium gymnasium-robotics cloudpickle farama-notifications imageio typing-extensions glfw | $(BIN)/uv pip compile - --universal --python-version 3.11 \
 	  --no-deps --generate-hashes --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" \
 	  --upgrade --quiet --output-file requirements-healthy.txt
 

@@ -1,0 +1,241 @@
+"""What is odd about the pairs of a model: the comparisons that stand out, and the edit that makes a pair alike."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
+from clinic.diagnosis.probes.inertia import inertial, set_inertial
+from clinic.diagnosis.probes.twins import Comparison, Twins, twins
+from clinic.diagnosis.probes.vector import sub, times, transpose, turned, written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+ODD_SHARE = 0.12  # of all comparisons: more of them, and the model is not meant to be its own mirror image
+FEW = 0.2  # of the comparisons of one quantity
+ENOUGH = 12  # comparisons that make a model one of pairs
+COPIED = {  # attributes that are the same on both sides
+    **{
+        name: (name,)
+        for name in ("stiffness", "damping", "armature", "frictionloss", "type", "gravcomp", "fovy", "gear")
+    },
+    **{name: (name,) for name in ("contype", "conaffinity", "condim", "friction", "size")},
+    "gain": ("kp", "kv", "dampratio", "gainprm", "biasprm"),
+    "bias": ("kp", "kv", "dampratio", "gainprm", "biasprm"),
+}
+FRAMES = {
+    "body": "body_parentid",
+    "geom": "geom_bodyid",
+    "site": "site_bodyid",
+    "camera": "cam_bodyid",
+    "joint": "jnt_bodyid",
+}
+PLACES = {"body": "xpos", "geom": "geom_xpos", "site": "site_xpos", "camera": "cam_xpos", "joint": "xanchor"}
+
+
+def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> Iterator[tuple[list[Comparison], bool]]:
+    """Comparisons that stand out in a model of pairs, those of one quantity together, and whether they stand out clearly."""
+    found = twins(model.simulation)
+    trusted = [each for each in found.comparisons if found.trusted(each)]
+    if len(trusted) < ENOUGH or sum(each.odd for each in trusted) > max(2, ODD_SHARE * len(trusted)):
+        return
+    for kind in kinds:
+        for quantity in quantities:
+            same = [each for each in trusted if (each.kind, each.quantity) == (kind, quantity)]
+            few = [each for each in same if each.odd]
+            if (
+                few
+                and len(few) <= max(1, FEW * len(same))
+                and (len(same) - len(few) >= 2 or quantity in ("joint", "target"))
+            ):
+                yield few, len(same) - len(few) >= 3 and all(each.unlike > each.clear for each in few)
+
+
+def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Suspect:
+    """The suspect that makes the pairs alike; a hint where it stands out little or no edit does it."""
+    first, simulation = found[0], model.simulation
+    sides = [_odd_side(model, each) for each in found]
+    probe = Probe(
+        f"{first.quantity} of {first.kind} and twin, unlike by",
+        first.unit,
+        _unlike,
+        tuple((each.kind, each.quantity, each.left, each.right) for each in found),
+        dynamic=False,
+    )
+    limit = max(each.limit for each in found)
+    edits = tuple(edit for each, side in zip(found, sides, strict=True) for edit in edits_of(model, each, side))
+    if edits and not model.measured(probe, edits) <= limit:
+        edits = ()
+    names = tuple(simulation.name(first.kind, side) for side in sides)
+    others = [
+        simulation.name(first.kind, each.left + each.right - side) for each, side in zip(found, sides, strict=True)
+    ]
+    compared = twins(simulation).comparisons
+    alike = sum((each.kind, each.quantity) == (first.kind, first.quantity) and not each.odd for each in compared)
+    says = (
+        f"It differs from its twin, {others[0]}, in a model where {alike} other pairs agree in their {first.quantity}."
+    )
+    return Suspect(
+        names,
+        first.quantity,
+        _told(model, first, sides[0]),
+        edits[0].value if edits else f"that of {others[0]}",
+        edits,
+        probe,
+        limit,
+        says,
+        f"at most {limit:.3g} {first.unit}: of the models of 14 robots all but a few pairs agree to less",
+        level="cause" if clear and edits else "hint",
+    )
+
+
+def _unlike(simulation: Simulation, *pairs: tuple[str, str, int, int]) -> float:
+    found = twins(simulation).comparisons
+    return max(
+        (each.unlike for each in found if (each.kind, each.quantity, each.left, each.right) in pairs), default=0.0
+    )
+
+
+def _told(model: ReaderModel, each: Comparison, side: int) -> str:
+    return next(
+        (text for name in COPIED.get(each.quantity, (each.quantity,)) if (text := model.value(each.kind, side, name))),
+        "",
+    )
+
+
+def _odd_side(model: ReaderModel, each: Comparison) -> int:
+    """Which of a pair is the odd one: the one whose value fewer elements have; the left one when both have as many."""
+    simulation = model.simulation
+
+    def key(index: int) -> tuple[object, ...]:
+        names = COPIED.get(each.quantity, (each.quantity,))
+        texts = [model.value(each.kind, index, name) or "" for name in names]
+        try:
+            return tuple(sorted(round(abs(float(number)), 6) for text in texts for number in text.split()))
+        except ValueError:
+            return tuple(texts)
+
+    if each.kind == "body" and inertial(model, each.left) is not None:
+        far = [_centre_off(simulation, body) for body in (each.left, each.right)]
+        return each.left if far[0] >= far[1] else each.right
+    if each.quantity == "joint":
+        joints = [simulation.driven_joint(actuator) for actuator in range(simulation.count("actuator"))]
+        names = [
+            simulation.engine.name("joint", joint) if (joint := joints[side]) is not None else ""
+            for side in (each.left, each.right)
+        ]
+        own = [simulation.engine.name("actuator", side) for side in (each.left, each.right)]
+        alike = [len(set(_pieces(a)) ^ set(_pieces(b))) for a, b in zip(names, own, strict=True)]
+        return each.right if alike[1] > alike[0] else each.left
+    counts = Counter(key(index) for index in range(simulation.count(each.kind)))
+    return each.right if counts[key(each.right)] < counts[key(each.left)] else each.left
+
+
+def _pieces(name: str) -> list[str]:
+    return name.lower().replace("-", "_").replace("/", "_").split("_")
+
+
+def _centre_off(simulation: Simulation, body: int) -> float:
+    """How far the centre of mass is from the middle of the body's geoms, in m."""
+    places = [simulation.row("geom_pos", geom, 3) for geom in simulation.geoms_of(body)]
+    if not places:
+        return 0.0
+    middle = tuple(sum(each) / len(places) for each in zip(*places, strict=True))
+    off = sub(simulation.row("body_ipos", body, 3), middle)
+    return sum(x * x for x in off) ** 0.5
+
+
+def edits_of(model: ReaderModel, each: Comparison, side: int) -> tuple[Edit, ...]:
+    """The edit of one side that makes it its twin's image; empty where none is known."""
+    found = twins(model.simulation)
+    twin = each.left + each.right - side
+    if each.quantity in COPIED:
+        return _copied(model, each.kind, side, twin, COPIED[each.quantity])
+    if each.quantity in ("range", "ctrlrange", "forcerange", "limited"):
+        return _range(model, found, each, side, twin)
+    if each.quantity == "joint":
+        return _other_joint(model, found, side, twin)
+    if each.kind == "body" and each.quantity in ("mass", "center of mass", "inertia"):
+        return _inertial(model, found, each, side, twin)
+    if each.quantity == "pos":
+        return _place(model, found, each, side, twin)
+    if each.quantity == "axis":
+        return _axis(model, found, each, side, twin)
+    return ()
+
+
+def _copied(model: ReaderModel, kind: str, side: int, twin: int, names: Sequence[str]) -> tuple[Edit, ...]:
+    made: list[Edit] = []
+    element = model.element(kind, side)
+    for name in names:
+        own, other = model.value(kind, side, name), model.value(kind, twin, name)
+        if element is None or own == other:
+            continue
+        if other is not None:
+            made.append(set_attribute(element, name, other))
+        elif name in element.attributes:
+            made.append(remove_attribute(element, name))
+    return tuple(made)
+
+
+def _range(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:
+    name = "range" if each.quantity == "limited" else each.quantity
+    text, element = model.value(each.kind, twin, name), model.element(each.kind, side)
+    if text is None or element is None:
+        return ()
+    low, high = (float(number) for number in text.split())
+    if found.interval_sign(each) < 0:
+        low, high = -high, -low
+    made = [set_attribute(element, name, written((low, high)))]
+    if each.quantity == "limited" and (limited := model.value(each.kind, twin, "limited")):
+        made.append(set_attribute(element, "limited", limited))
+    return tuple(made)
+
+
+def _other_joint(model: ReaderModel, found: Twins, side: int, twin: int) -> tuple[Edit, ...]:
+    driven, element = model.simulation.driven_joint(twin), model.element("actuator", side)
+    partner = found.partner("joint", driven) if driven is not None else None
+    if partner is None or element is None:
+        return ()
+    return (set_attribute(element, "joint", model.simulation.engine.name("joint", partner)),)
+
+
+def _inertial(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:
+    if inertial(model, side) is None:
+        geoms = [(found.partner("geom", geom), geom) for geom in model.simulation.geoms_of(side)]
+        pairs = [(partner, geom) for partner, geom in geoms if partner is not None]
+        return tuple(
+            made for partner, geom in pairs for made in _copied(model, "geom", geom, partner, ("mass", "density"))
+        )
+    simulation, image = model.simulation, found.image(each.left, side)
+    frame = transpose(found.at("xmat", side, 9))
+    centre = times(frame, times(image.matrix, sub(found.at("xipos", twin), found.at("xpos", twin))))
+    about = turned(frame, turned(image.matrix, found.tensor(twin)))
+    return set_inertial(model, side, simulation.model("body_mass")[twin], centre, about)
+
+
+def _place(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:
+    element, simulation = model.element(each.kind, side), model.simulation
+    if element is None or "fromto" in element.attributes:
+        return ()
+    owners = simulation.model(FRAMES[each.kind])
+    here, there = int(owners[side]), int(owners[twin])
+    left_body = each.left if each.kind == "body" else int(owners[each.left])
+    image = found.image(left_body, here if each.kind != "body" else side)
+    seen = times(image.matrix, sub(found.at(PLACES[each.kind], twin), found.at("xpos", there)))
+    if here == there:
+        seen = sub(image.of(found.at(PLACES[each.kind], twin)), found.at("xpos", here))
+    return (set_attribute(element, "pos", written(times(transpose(found.at("xmat", here, 9)), seen))),)
+
+
+def _axis(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:
+    element, body = model.element("joint", side), int(model.simulation.model("jnt_bodyid")[side])
+    if element is None:
+        return ()
+    image = found.image(int(model.simulation.model("jnt_bodyid")[each.left]), body)
+    axis = times(transpose(found.at("xmat", body, 9)), times(image.matrix, found.at("xaxis", twin)))
+    own = model.simulation.row("jnt_axis", side, 3)
+    sign = 1.0 if sum(a * b for a, b in zip(axis, own, strict=True)) >= 0 else -1.0
+    return (set_attribute(element, "axis", written(tuple(sign * x for x in axis))),)

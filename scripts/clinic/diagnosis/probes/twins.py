@@ -105,6 +105,7 @@ class Twins:
         self.images: dict[int, Image] = {}
         self.share: dict[int, float] = {}
         self.size: dict[int, float] = {}
+        self.common: dict[int, int] = {}
         self._find_images()
         self.comparisons = [each for each in self._compared() if math.isfinite(each.unlike)]
 
@@ -125,13 +126,17 @@ class Twins:
         back = transpose(image.matrix)
         return Image(back, tuple(-x for x in times(back, image.offset)), image.sign)
 
-    def trusted(self, each: Comparison) -> bool:
-        """Whether the two sides are images of each other but for a few points."""
+    def group(self, each: Comparison) -> int:
+        """The body that both sides of a comparison hang on; -1 for actuators and sensors."""
         owners = {"joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid", "camera": "cam_bodyid"}
         if each.kind in ("actuator", "sensor"):
-            return True
-        body = each.left if each.kind == "body" else int(self.of.model(owners[each.kind])[each.left])
-        return self.share.get(body, 0.0) >= 0.85
+            return -1
+        return self.common[each.left if each.kind == "body" else int(self.of.model(owners[each.kind])[each.left])]
+
+    def trusted(self, group: int, compared: list[Comparison]) -> bool:
+        """Whether what hangs on a body on both sides is the other's image but for little."""
+        fits = next((self.share[left] for left, body in self.common.items() if body == group), 1.0)
+        return fits >= 0.85 and sum(each.odd for each in compared) <= max(2, 0.2 * len(compared))
 
     def interval_sign(self, each: Comparison) -> float:
         """Whether a range of the pair is the same on both sides (1) or mirrored (-1)."""
@@ -200,7 +205,7 @@ class Twins:
             )
             image, share = self._best(common, pairs, points, FITS * size)
             for left, _ in pairs:
-                self.images[left], self.share[left], self.size[left] = image, share, size
+                self.images[left], self.share[left], self.size[left], self.common[left] = image, share, size, common
 
     def _points(self, pairs: list[tuple[int, int]]) -> list[tuple[Vector, Vector]]:
         inside = {left for left, _ in pairs}
@@ -219,12 +224,14 @@ class Twins:
         axes += [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
         axes += [unit(sub(self.at("xpos", left), self.at("xpos", right))) for left, right in pairs[:2]]
         still = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
-        tried = [(_reflection(axis), -1) for axis in axes]
-        tried += [*((_half_turn(axis), 1) for axis in axes[:6]), (still, 1)]
+        tried = [(_reflection(axis), -1, axis) for axis in axes]
+        tried += [*((_half_turn(axis), 1, axis) for axis in axes[:6]), (still, 1, (0.0, 0.0, 0.0))]
         best, most = Image(still, (0.0, 0.0, 0.0), 1), -1.0
-        for matrix, sign in tried:
+        for matrix, sign, normal in tried:
             offsets = [sub(right, times(matrix, left)) for left, right in points]
             offset = tuple(sorted(each[axis] for each in offsets)[len(offsets) // 2] for axis in range(3))
+            along = dot(offset, normal)  # a reflection shifts along its normal, a turn across its axis
+            offset = tuple(along * x for x in normal) if sign < 0 else add(offset, normal, -along)
             fit = sum(norm(sub(each, offset)) <= near for each in offsets) / len(points)
             if fit > most + (0.15 if sign > 0 and best.sign < 0 else 1e-9):
                 best, most = Image(matrix, offset, sign), fit
@@ -237,8 +244,11 @@ class Twins:
         for left, right in self.pairs["joint"]:
             if int(self.of.model("jnt_bodyid")[left]) in self.images:
                 yield from self._joints(left, right)
+        kinds, bodies = self.of.model("geom_type"), self.of.model("geom_bodyid")
+        named = self.of.names("geom")
+        unordered = {bodies[a] for a, b in self.pairs["geom"] if kinds[a] != kinds[b] and not (named[a] and named[b])}
         for left, right in self.pairs["geom"]:
-            if int(self.of.model("geom_bodyid")[left]) in self.images:
+            if int(bodies[left]) in self.images and bodies[left] not in unordered:
                 yield from self._geoms(left, right)
         for left, right in self.pairs["site"]:
             if (body := int(self.of.model("site_bodyid")[left])) in self.images:
@@ -315,10 +325,10 @@ class Twins:
         if of.joint_type(left) == FREE:
             return
         for quantity, field in (("stiffness", "jnt_stiffness"),):
-            yield Comparison("joint", quantity, left, right, apart(of.model(field)[left], of.model(field)[right]), 5)
+            yield Comparison("joint", quantity, left, right, apart(of.model(field)[left], of.model(field)[right]), 30)
         for quantity in ("damping", "armature", "frictionloss"):
             field = of.model(f"dof_{quantity}")
-            yield Comparison("joint", quantity, left, right, apart(field[of.dof(left)], field[of.dof(right)]), 5)
+            yield Comparison("joint", quantity, left, right, apart(field[of.dof(left)], field[of.dof(right)]), 30)
         other = int(of.model("jnt_bodyid")[right])
         yield Comparison(
             "joint", "pos", left, right, self._offset(body, "xanchor", left, right, other), FITS * self.size[body], "m"
@@ -337,7 +347,7 @@ class Twins:
                     left,
                     right,
                     _intervals(of.row("jnt_range", left, 2), of.row("jnt_range", right, 2), sign),
-                    5,
+                    10,
                 )
 
     def _geoms(self, left: int, right: int) -> Iterator[Comparison]:
@@ -395,12 +405,12 @@ class Twins:
         of = self.of
         joints = of.driven_joint(left), of.driven_joint(right)
         gears = of.row("actuator_gear", left, 6), of.row("actuator_gear", right, 6)
-        yield Comparison("actuator", "gear", left, right, apart(norm(gears[0]), norm(gears[1])), 5)
+        yield Comparison("actuator", "gear", left, right, apart(norm(gears[0]), norm(gears[1])), 30)
         for quantity, field in (("gain", "actuator_gainprm"), ("bias", "actuator_biasprm")):
             width = len(of.model(field)) // max(1, of.count("actuator"))
             rows = of.row(field, left, width), of.row(field, right, width)
             yield Comparison(
-                "actuator", quantity, left, right, max(apart(abs(a), abs(b)) for a, b in zip(*rows, strict=True)), 5
+                "actuator", quantity, left, right, max(apart(abs(a), abs(b)) for a, b in zip(*rows, strict=True)), 30
             )
         if joints[0] is None or joints[1] is None:
             return
@@ -412,7 +422,7 @@ class Twins:
         for quantity in ("ctrl", "force"):
             limited = [bool(of.model(f"actuator_{quantity}limited")[each]) for each in (left, right)]
             if all(limited):
-                same = Comparison("actuator", f"{quantity}range", left, right, 0.0, 5)
+                same = Comparison("actuator", f"{quantity}range", left, right, 0.0, 10)
                 rows = [of.row(f"actuator_{quantity}range", each, 2) for each in (left, right)]
                 yield replace(same, unlike=_intervals(rows[0], rows[1], self.interval_sign(same)))
 

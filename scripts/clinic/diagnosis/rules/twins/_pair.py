@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
@@ -38,36 +38,49 @@ PLACES = {"body": "xpos", "geom": "geom_xpos", "site": "site_xpos", "camera": "c
 def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> Iterator[tuple[list[Comparison], bool]]:
     """Comparisons that stand out in a model of pairs, those of one quantity together, and whether they stand out clearly."""
     found = twins(model.simulation)
-    trusted = [each for each in found.comparisons if found.trusted(each)]
+    groups: dict[int, list[Comparison]] = {}
+    for each in found.comparisons:
+        groups.setdefault(found.group(each), []).append(each)
+    trusted = [each for group, some in groups.items() if found.trusted(group, some) for each in some]
     if len(trusted) < ENOUGH or sum(each.odd for each in trusted) > max(2, ODD_SHARE * len(trusted)):
         return
+    told: dict[tuple[object, ...], tuple[list[Comparison], bool]] = {}
     for kind in kinds:
         for quantity in quantities:
             same = [each for each in trusted if (each.kind, each.quantity) == (kind, quantity)]
             few = [each for each in same if each.odd]
-            if (
-                few
-                and len(few) <= max(1, FEW * len(same))
-                and (len(same) - len(few) >= 2 or quantity in ("joint", "target"))
-            ):
-                yield few, len(same) - len(few) >= 3 and all(each.unlike > each.clear for each in few)
+            agree = len(same) - len(few)
+            close = sum(each.unlike <= each.limit / 5 for each in same)
+            most = max(1, FEW * len(same), 2 if agree >= 3 else 0)
+            if not few or len(few) > most or (agree < 2 and quantity not in ("joint", "target")) or close < 0.7 * agree:
+                continue
+            clear = agree >= 3 and len(few) <= 3 and all(each.unlike > each.clear for each in few)
+            if clear or (kind in ("body", "joint", "actuator", "sensor") and len(few) <= 2):
+                pairs = tuple((each.left, each.right) for each in few)
+                before, was_clear = told.get((kind, *pairs), ([], False))
+                told[kind, *pairs] = ([*before, *few], clear or was_clear)
+    yield from told.values()
 
 
 def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Suspect:
     """The suspect that makes the pairs alike; a hint where it stands out little or no edit does it."""
     first, simulation = found[0], model.simulation
+    alone = [each for each in found if each.quantity == first.quantity]
     sides = [_odd_side(model, each) for each in found]
     probe = Probe(
         f"{first.quantity} of {first.kind} and twin, unlike by",
         first.unit,
         _unlike,
-        tuple((each.kind, each.quantity, each.left, each.right) for each in found),
+        tuple((each.kind, each.quantity, each.left, each.right) for each in alone),
         dynamic=False,
     )
-    limit = max(each.limit for each in found)
-    edits = tuple(edit for each, side in zip(found, sides, strict=True) for edit in edits_of(model, each, side))
+    limit = max(each.limit for each in alone)
+    edits = _together(edit for each, side in zip(found, sides, strict=True) for edit in edits_of(model, each, side))
+    if _absent(model, found):
+        clear = False
     if edits and not model.measured(probe, edits) <= limit:
         edits = ()
+    quantities = " and ".join(dict.fromkeys(each.quantity for each in found))
     names = tuple(simulation.name(first.kind, side) for side in sides)
     others = [
         simulation.name(first.kind, each.left + each.right - side) for each, side in zip(found, sides, strict=True)
@@ -75,10 +88,10 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
     compared = twins(simulation).comparisons
     alike = sum((each.kind, each.quantity) == (first.kind, first.quantity) and not each.odd for each in compared)
     says = (
-        f"It differs from its twin, {others[0]}, in a model where {alike} other pairs agree in their {first.quantity}."
+        f"It differs from its twin, {others[0]}, in a model where {alike} other pairs agree in their {quantities}."
     )
     return Suspect(
-        names,
+        tuple(dict.fromkeys(names)),
         first.quantity,
         _told(model, first, sides[0]),
         edits[0].value if edits else f"that of {others[0]}",
@@ -89,6 +102,23 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
         f"at most {limit:.3g} {first.unit}: of the models of 14 robots all but a few pairs agree to less",
         level="cause" if clear and edits else "hint",
     )
+
+
+def _together(edits: Iterable[Edit]) -> tuple[Edit, ...]:
+    """The edits without those of what another one writes anew."""
+    made = {(each.file, each.start, each.action, each.attribute): each for each in edits}
+    return tuple(made.values())
+
+
+def _absent(model: ReaderModel, found: Sequence[Comparison]) -> bool:
+    """Whether one side has none of it, as where a default was left in force: that may be meant."""
+    fields = {"stiffness": "jnt_stiffness"} | {name: f"dof_{name}" for name in ("damping", "armature", "frictionloss")}
+    field = fields.get(found[0].quantity)
+    if field is None:
+        return False
+    of = model.simulation
+    index = (lambda joint: joint) if field.startswith("jnt") else of.dof
+    return any(of.model(field)[index(joint)] == 0 for each in found for joint in (each.left, each.right))
 
 
 def _unlike(simulation: Simulation, *pairs: tuple[str, str, int, int]) -> float:
@@ -120,6 +150,10 @@ def _odd_side(model: ReaderModel, each: Comparison) -> int:
     if each.kind == "body" and inertial(model, each.left) is not None:
         far = [_centre_off(simulation, body) for body in (each.left, each.right)]
         return each.left if far[0] >= far[1] else each.right
+    if each.quantity == "ctrlrange":
+        shares = [_in_reach(simulation, actuator) for actuator in (each.left, each.right)]
+        if shares[0] != shares[1]:
+            return each.left if shares[0] < shares[1] else each.right
     if each.quantity == "joint":
         joints = [simulation.driven_joint(actuator) for actuator in range(simulation.count("actuator"))]
         names = [
@@ -131,6 +165,16 @@ def _odd_side(model: ReaderModel, each: Comparison) -> int:
         return each.right if alike[1] > alike[0] else each.left
     counts = Counter(key(index) for index in range(simulation.count(each.kind)))
     return each.right if counts[key(each.right)] < counts[key(each.left)] else each.left
+
+
+def _in_reach(simulation: Simulation, actuator: int) -> float:
+    """The share of an actuator's control range that is in its joint's range."""
+    joint = simulation.driven_joint(actuator)
+    if joint is None or not simulation.model("jnt_limited")[joint]:
+        return 1.0
+    low, high = simulation.row("actuator_ctrlrange", actuator, 2)
+    bottom, top = simulation.row("jnt_range", joint, 2)
+    return max(0.0, min(high, top) - max(low, bottom)) / max(high - low, 1e-9)
 
 
 def _pieces(name: str) -> list[str]:
@@ -183,7 +227,15 @@ def _copied(model: ReaderModel, kind: str, side: int, twin: int, names: Sequence
 def _range(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:
     name = "range" if each.quantity == "limited" else each.quantity
     text, element = model.value(each.kind, twin, name), model.element(each.kind, side)
-    if text is None or element is None:
+    if element is None:
+        return ()
+    if model.source is not None and model.source.urdf:
+        low, high = model.simulation.row("jnt_range", twin, 2)
+        if found.interval_sign(each) < 0:
+            low, high = -high, -low
+        limit = element.first("limit")
+        return tuple(set_attribute(limit, name, f"{value:.6g}") for name, value in (("lower", low), ("upper", high)) if limit)
+    if text is None:
         return ()
     low, high = (float(number) for number in text.split())
     if found.interval_sign(each) < 0:

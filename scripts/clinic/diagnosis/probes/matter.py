@@ -6,10 +6,24 @@ import math
 from dataclasses import dataclass
 from itertools import product
 
-from clinic.diagnosis.engine import BOX, CAPSULE, CYLINDER, ELLIPSOID, HFIELD, PLANE, SPHERE
-from clinic.diagnosis.probes.inertia import tensor
-from clinic.diagnosis.probes.vector import IDENTITY, Vector, add, diagonal, dot, of_quaternion, sub, times, turned
+from clinic.diagnosis.engine import BALL, CAPSULE, CYLINDER, ELLIPSOID, FREE, HFIELD, HINGE, PLANE, SLIDE, SPHERE
+from clinic.diagnosis.probes.inertia import inertial, tensor
+from clinic.diagnosis.probes.vector import (
+    IDENTITY,
+    Vector,
+    add,
+    diagonal,
+    dot,
+    norm,
+    of_quaternion,
+    sub,
+    times,
+    turned,
+    unit,
+)
+from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe
 
 
 @dataclass(frozen=True)
@@ -52,9 +66,26 @@ class Matter:
         return math.sqrt(own / solid) if solid > 0 else 1.0
 
     @property
+    def along(self) -> tuple[float, float]:
+        """The inertia about the geoms' longest axis, of the geoms and of the body; 1 is the mean of all axes."""
+        spread = sub(tuple(_trace(self.solid) / 2 * x for x in IDENTITY), self.solid)
+        axis = max(((1.0, 0.1, 0.1), (0.1, 1.0, 0.1), (0.1, 0.1, 1.0)), key=lambda each: norm(times(spread, each)))
+        for _ in range(50):  # power iteration
+            axis = unit(times(spread, axis))
+        geoms, own = (
+            3 * dot(axis, times(each, axis)) / _trace(each) if _trace(each) else 1.0
+            for each in (self.solid, self.about)
+        )
+        return geoms, own
+
+    @property
     def density(self) -> float:
         """In kg/m3."""
         return self.mass / self.volume if self.volume > 0 else 0.0
+
+
+def _trace(tensor_: Vector) -> float:
+    return tensor_[0] + tensor_[4] + tensor_[8]
 
 
 def matter(simulation: Simulation, body: int) -> Matter | None:
@@ -80,7 +111,7 @@ def _matter(simulation: Simulation, body: int) -> Matter | None:
         centre = add(place, times(turn, box[:3]))
         for signs in product((-1, 1), repeat=3):
             corners.append(add(centre, times(turn, tuple(s * h for s, h in zip(signs, box[3:], strict=True)))))
-        volume, moments = _solid(int(kinds[geom]), simulation.row("geom_size", geom, 3), box[3:])
+        volume, moments = _solid(int(kinds[geom]), box[3:])
         parts.append((volume, centre, turned(turn, diagonal(moments))))
     low, high = (tuple(pick(each) for each in zip(*corners, strict=True)) for pick in (min, max))
     total = sum(volume for volume, _, _ in parts) or 1e-30
@@ -106,7 +137,7 @@ def _matter(simulation: Simulation, body: int) -> Matter | None:
     )
 
 
-def _solid(kind: int, size: Vector, box: Vector) -> tuple[float, Vector]:
+def _solid(kind: int, box: Vector) -> tuple[float, Vector]:
     """Volume in m3, and inertia per mass about the centre along the geom's axes in m2."""
     a, b, c = box
     if kind in (SPHERE, ELLIPSOID):
@@ -114,5 +145,91 @@ def _solid(kind: int, size: Vector, box: Vector) -> tuple[float, Vector]:
     if kind in (CAPSULE, CYLINDER):
         across = (3 * a * a + 4 * c * c) / 12
         return 2 * math.pi * a * a * c, (across, across, a * a / 2)
-    assert kind >= BOX or size
     return 8 * a * b * c, ((b * b + c * c) / 3, (a * a + c * c) / 3, (a * a + b * b) / 3)
+
+
+def explicit(model: ReaderModel) -> list[tuple[int, Matter]]:
+    """The moving bodies that have an `<inertial>` and geoms, and how they lie to each other."""
+    if model.source is None:
+        return []
+    of = model.simulation
+    found = [(body, matter(of, body)) for body in of.moving_bodies if inertial(model, body) is not None]
+    return [(body, each) for body, each in found if each is not None and each.about[0] > 0]
+
+
+def _heavier(simulation: Simulation, body: int) -> float:
+    """How many times the inertia of the joint that turns a body differs from what its geoms would give it."""
+    found, best = matter(simulation, body), 1.0
+    if found is None:
+        return best
+    joint_body = body
+    kinds = simulation.model("jnt_type")
+    while joint_body and not any(int(kinds[joint]) != SLIDE for joint in simulation.joints_of(joint_body)):
+        joint_body = int(simulation.model("body_parentid")[joint_body])
+    diagonal_of = simulation.mass_diagonal
+    turn = simulation.data_row("xmat", body, 9)
+    excess = turned(turn, sub(found.about, found.solid))
+    for joint in simulation.joints_of(joint_body):
+        kind, dof = int(kinds[joint]), simulation.dof(joint)
+        if kind == HINGE:
+            turns = [(dof, simulation.data_row("xaxis", joint, 3))]
+        elif kind in (FREE, BALL):
+            frame, first = simulation.data_row("xmat", joint_body, 9), dof + (3 if kind == FREE else 0)
+            turns = [(first + i, frame[i::3]) for i in range(3)]
+        else:
+            continue
+        for index, axis in turns:
+            mine = diagonal_of[index]
+            other = mine - dot(axis, times(excess, axis))
+            if mine > 0:
+                best = max(best, mine / max(other, mine * 1e-6), other / mine)
+    return best
+
+
+def _heaviest(simulation: Simulation, *bodies: int) -> float:
+    simulation.begin()
+    return max(_heavier(simulation, body) for body in bodies)
+
+
+def joint_inertia(bodies: tuple[int, ...]) -> Probe:
+    """How many times the joints' inertia is what the geoms would give, or that in it."""
+    return Probe("inertia at the joint, times that of the geoms or its inverse", "", _heaviest, bodies, dynamic=False)
+
+
+def _mass(simulation: Simulation, *bodies: int) -> float:
+    return sum(simulation.model("body_mass")[body] for body in bodies)
+
+
+def mass_of(bodies: tuple[int, ...]) -> Probe:
+    """The mass of some bodies."""
+    return Probe("mass", "kg", _mass, bodies, dynamic=False)
+
+
+def _outside(simulation: Simulation, *bodies: int) -> float:
+    found = [matter(simulation, body) for body in bodies]
+    return max((each.outside / max(each.half) for each in found if each is not None), default=0.0)
+
+
+def centre_outside(bodies: tuple[int, ...]) -> Probe:
+    """How far the centre of mass is outside of the geoms, in half lengths of the body."""
+    return Probe("centre of mass outside of the geoms by", "half lengths", _outside, bodies, dynamic=False)
+
+
+def _across(simulation: Simulation, body: int) -> float:
+    found = matter(simulation, body)
+    return found.along[1] if found is not None else 0.0
+
+
+def across(body: int) -> Probe:
+    """The inertia about the geoms' long axis, where the mean of the three principal ones is 1."""
+    return Probe("inertia about the long axis, times the mean", "", _across, (body,), dynamic=False)
+
+
+def _density(simulation: Simulation, *bodies: int) -> float:
+    found = [matter(simulation, body) for body in bodies]
+    return max((each.density for each in found if each is not None), default=0.0)
+
+
+def density(bodies: tuple[int, ...]) -> Probe:
+    """The density of the densest body."""
+    return Probe("density", "kg/m3", _density, bodies, dynamic=False)

@@ -87,9 +87,7 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
     ]
     compared = twins(simulation).comparisons
     alike = sum((each.kind, each.quantity) == (first.kind, first.quantity) and not each.odd for each in compared)
-    says = (
-        f"It differs from its twin, {others[0]}, in a model where {alike} other pairs agree in their {quantities}."
-    )
+    says = f"It differs from its twin, {others[0]}, in a model where {alike} other pairs agree in their {quantities}."
     return Suspect(
         tuple(dict.fromkeys(names)),
         first.quantity,
@@ -234,7 +232,9 @@ def _range(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: 
         if found.interval_sign(each) < 0:
             low, high = -high, -low
         limit = element.first("limit")
-        return tuple(set_attribute(limit, name, f"{value:.6g}") for name, value in (("lower", low), ("upper", high)) if limit)
+        return tuple(
+            set_attribute(limit, name, f"{value:.6g}") for name, value in (("lower", low), ("upper", high)) if limit
+        )
     if text is None:
         return ()
     low, high = (float(number) for number in text.split())

@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from clinic.diagnosis.engine import BALL, FREE, MESH, SLIDE
+from clinic.diagnosis.engine import BALL, FREE, HINGE, MESH, SLIDE
 from clinic.diagnosis.probes.vector import (
     Vector,
     add,
@@ -80,9 +80,15 @@ class Comparison:
     @property
     def clear(self) -> float:
         """The number above which it cannot be a matter of taste."""
-        return {"mass": 40.0, "inertia": 60.0, "range": 20.0, "axis": 20.0, "ctrlrange": 20.0, "forcerange": 40.0}.get(
-            self.quantity, 45.0 if self.unit == "%" and self.limit > 1 else 2 * self.limit
-        )
+        return {
+            "axis sign": math.inf,
+            "mass": 40.0,
+            "inertia": 60.0,
+            "range": 20.0,
+            "axis": 20.0,
+            "ctrlrange": 20.0,
+            "forcerange": 40.0,
+        }.get(self.quantity, 45.0 if self.unit == "%" and self.limit > 1 else 2 * self.limit)
 
 
 class Twins:
@@ -257,6 +263,7 @@ class Twins:
         for left, right in self.pairs["camera"]:
             if (body := int(self.of.model("cam_bodyid")[left])) in self.images:
                 yield from self._cameras(body, left, right)
+        yield from self._signs()
         for left, right in self.pairs["actuator"]:
             yield from self._actuators(left, right)
         for left, right in self.pairs["sensor"]:
@@ -349,6 +356,29 @@ class Twins:
                     _intervals(of.row("jnt_range", left, 2), of.row("jnt_range", right, 2), sign),
                     10,
                 )
+
+    def _signs(self) -> Iterator[Comparison]:
+        """Joint axes against the habit of the model: those along the normal of the mirror, and those across it."""
+        kinds = (SLIDE, HINGE)
+        for common in set(self.common.values()):
+            normals: dict[bool, list[tuple[int, int, float]]] = {True: [], False: []}
+            for left, right in self.pairs["joint"]:
+                body = int(self.of.model("jnt_bodyid")[left])
+                if (
+                    self.common.get(body) != common
+                    or self.images[body].sign > 0
+                    or self.of.joint_type(left) not in kinds
+                ):
+                    continue
+                axis = self.at("xaxis", left)
+                along = norm(add(times(self.images[body].matrix, axis), axis)) / 2  # 0 along the normal, 1 across it
+                sign, angle = self.joint_sign(left, right)
+                if (along < 0.3 or along > 0.85) and angle < 30 and self.of.joint_type(left) == HINGE:
+                    normals[along < 0.3].append((left, right, sign))
+            for found in normals.values():
+                most = sum(sign for _, _, sign in found)
+                for left, right, sign in found if abs(most) >= len(found) - 2 and len(found) >= 4 else ():
+                    yield Comparison("joint", "axis sign", left, right, 100 * (sign * most < 0), 1)
 
     def _geoms(self, left: int, right: int) -> Iterator[Comparison]:
         of = self.of

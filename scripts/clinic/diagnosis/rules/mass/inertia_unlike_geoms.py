@@ -65,8 +65,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for inertia, bodies in groups.items():
         placeholder = max(inertia) < 1.03 * min(inertia)
         worst = max((found[body] for body in bodies), key=lambda each: max(each.radius, 1 / each.radius))
-        if not placeholder and (FAR[0] < worst.radius < FAR[1] or len(bodies) > max(1, FEW * len(found))):
+        if not placeholder and (FAR[0] < worst.radius < FAR[1] or len(bodies) > FEW * len(found)):
             continue
+        probe, limit = joint_inertia(tuple(bodies)), 2 * LIMIT
+        if placeholder:
+            limit = ALIKE if len(bodies) > 1 else LIMIT
         edits = tuple(
             edit
             for body in bodies
@@ -78,9 +81,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "diaginertia " + " ".join(f"{x:.3g}" for x in inertia),
             "that of the geoms",
             edits,
-            joint_inertia(tuple(bodies)),
-            (ALIKE if len(bodies) > 1 else LIMIT) if placeholder else 2 * LIMIT,
+            probe,
+            limit,
             f"The radius of gyration is {worst.radius:.3g} times that of its geoms, filled evenly with {worst.mass:.3g} kg.",
             "0.4 to 2.5 times: 90 % of 1475 bodies in healthy models lie between 0.53 and 1.7",
             excess=max(worst.radius, 1 / worst.radius),
+            level="cause" if model.measured(probe) > LIMIT else "hint",
         )

@@ -28,7 +28,7 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: the body's mass, and without that of geoms for which no mass and no density is written. More than a fifth less
+The number: the body's mass, and without that of geoms for which no mass and no density is written. Half as much again
 tells a cause.
 
 When it is wrong: where the visible geoms are meant to be the mass; a mass or density that is written says so.
@@ -49,7 +49,7 @@ TITLE = "Geoms that are only seen have mass"
 FAMILIES = ("sags", "too-heavy", "tips-over", "drifts")
 SINCE = "0.2"
 
-MORE = 1.2
+MORE = 1.5
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -54,7 +54,8 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
             most = max(1, FEW * len(same), 2 if agree >= 3 else 0)
             if not few or len(few) > most or (agree < 2 and quantity not in ("joint", "target")) or close < 0.7 * agree:
                 continue
-            clear = agree >= 3 and len(few) <= 3 and all(each.unlike > each.clear for each in few)
+            enough = 6 if kind in ("geom", "site", "camera") and quantity in ("size", "pos", "quat") else 3
+            clear = agree >= enough and len(few) <= 3 and all(each.unlike > each.clear for each in few)
             if clear or (kind in ("body", "joint", "actuator", "sensor") and len(few) <= 2):
                 pairs = tuple((each.left, each.right) for each in few)
                 before, was_clear = told.get((kind, *pairs), ([], False))
@@ -205,6 +206,8 @@ def edits_of(model: ReaderModel, each: Comparison, side: int) -> tuple[Edit, ...
         return _place(model, found, each, side, twin)
     if each.quantity == "axis":
         return _axis(model, found, each, side, twin)
+    if each.quantity == "axis sign":
+        return _turned_axis(model, side)
     return ()
 
 
@@ -280,6 +283,18 @@ def _place(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: 
     if here == there:
         seen = sub(image.of(found.at(PLACES[each.kind], twin)), found.at("xpos", here))
     return (set_attribute(element, "pos", written(times(transpose(found.at("xmat", here, 9)), seen))),)
+
+
+def _turned_axis(model: ReaderModel, side: int) -> tuple[Edit, ...]:
+    element = model.element("joint", side)
+    if element is None:
+        return ()
+    if model.source is not None and model.source.urdf:
+        axis = element.first("axis")
+        turned_axis = written(tuple(-float(x) for x in axis.get("xyz").split())) if axis is not None else ""
+        return (set_attribute(axis, "xyz", turned_axis),) if axis is not None else ()
+    text = model.value("joint", side, "axis") or "0 0 1"
+    return (set_attribute(element, "axis", written(tuple(-float(x) for x in text.split()))),)
 
 
 def _axis(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:

@@ -63,6 +63,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for found, clear in odd(
         model,
         ("joint",),
-        ("type", "axis", "pos", "range", "limited", "damping", "armature", "frictionloss", "stiffness"),
+        ("type", "axis sign", "axis", "pos", "range", "limited", "damping", "armature", "frictionloss", "stiffness"),
     ):
         yield suspect(model, found, clear)

@@ -1,0 +1,90 @@
+"""The quaternion of a keyframe has w last.
+
+MuJoCo writes quaternions as w x y z. `0 0 0 1`, no rotation where w stands last, is half a turn about z.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <body name="robot" pos="0 0 0.2">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.1"/>
+        </body>
+      </worldbody>
+      <keyframe>
+        <key name="home" qpos="0 0 0.1 0 0 0 1"/>
+      </keyframe>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <body name="robot" pos="0 0 0.2">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.1"/>
+        </body>
+      </worldbody>
+      <keyframe>
+        <key name="home" qpos="0 0 0.1 1 0 0 0"/>
+      </keyframe>
+    </mujoco>
+
+The number: the angle between the free body at the keyframe and at the model's start. Told for `0 0 0 1` and for
+quaternions within 12 degrees of it.
+
+When it is wrong: a robot that is meant to look back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import math
+
+from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.probes.key import start_at
+from clinic.diagnosis.probes.vector import written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A keyframe's quaternion has w last"
+FAMILIES = ("tips-over", "jumps-at-start")
+SINCE = "0.2"
+
+LIMIT = 150.0  # degrees
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Free bodies that a keyframe turns by half a turn."""
+    of = model.simulation
+    for key in range(of.count("key")):
+        element = model.element("key", key)
+        start_at(of, key)
+        qpos = list(of.data("qpos"))
+        for body in of.free_bodies:
+            at = int(of.model("jnt_qposadr")[of.joints_of(body)[0]]) + 3
+            w, x, y, z = qpos[at : at + 4]
+            if element is None or z < 0.995 or abs(of.model("qpos0")[at]) < 0.9:
+                continue
+            changed = [*qpos[:at], z, w, x, y, *qpos[at + 4 :]]
+            yield Suspect(
+                (of.name("key", key), of.name("body", body)),
+                "qpos",
+                written((w, x, y, z)),
+                written((z, w, x, y)),
+                (set_attribute(element, "qpos", written(changed)),),
+                Probe("angle between keyframe and start", "degrees", _angle, (key, at), dynamic=False),
+                LIMIT,
+                "Read as w x y z it turns the body by half a turn about z; read as x y z w it does not turn it.",
+                "w first: 1 0 0 0 is no rotation",
+            )
+
+
+def _angle(simulation: Simulation, key: int, at: int) -> float:
+    start_at(simulation, key)
+    now, start = simulation.data("qpos")[at : at + 4], simulation.model("qpos0")[at : at + 4]
+    return math.degrees(2 * math.acos(min(1.0, abs(sum(a * b for a, b in zip(now, start, strict=True))))))

@@ -39,7 +39,7 @@ Good:
       </keyframe>
     </mujoco>
 
-The number: how far the worst joint is outside, in rad or m: 0.05 and more.
+The number: how far the worst joint is outside, in rad or m: 0.1 and more.
 
 When it is wrong: a limit that is soft on purpose.
 """
@@ -58,7 +58,7 @@ TITLE = "A keyframe is outside of the joints' ranges"
 FAMILIES = ("jumps-at-start", "explodes")
 SINCE = "0.2"
 
-LIMIT = 0.05  # rad or m
+LIMIT = 0.1  # rad or m
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -77,7 +77,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         found = servos(of, key)
         off = [actuator for actuator, (target, at) in found.items() if abs(target - at) > LIMIT]
         element = model.element("key", key)
-        if len(off) < 2 or len(off) < 0.5 * len(found) or element is None or "qpos" not in element.attributes:
+        if (
+            len(off) < 2
+            or len(off) < 0.5 * len(found)
+            or element is None
+            or len(element.get("qpos").split()) != len(of.model("qpos0"))
+        ):
             continue
         ctrl = list(of.data("ctrl"))
         gain, bias = of.model("actuator_gainprm"), of.model("actuator_biasprm")

@@ -139,6 +139,17 @@ class Twins:
             return -1
         return self.common[each.left if each.kind == "body" else int(self.of.model(owners[each.kind])[each.left])]
 
+    def bodies(self, each: Comparison) -> tuple[int, int]:
+        """The bodies that a comparison is of; those of the joints that actuators drive."""
+        owners = {"joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid", "camera": "cam_bodyid"}
+        pair = (each.left, each.right)
+        if each.kind == "actuator":
+            pair = tuple(joint if (joint := self.of.driven_joint(one)) is not None else -1 for one in pair)
+        if each.kind in ("body", "sensor") or -1 in pair:
+            return pair
+        field = self.of.model(owners.get(each.kind, "jnt_bodyid"))
+        return int(field[pair[0]]), int(field[pair[1]])
+
     def trusted(self, group: int, compared: list[Comparison]) -> bool:
         """Whether what hangs on a body on both sides is the other's image but for little."""
         fits = next((self.share[left] for left, body in self.common.items() if body == group), 1.0)
@@ -398,7 +409,9 @@ class Twins:
         yield Comparison("geom", "friction", left, right, apart(frictions[0][0], frictions[1][0]), 5)
         if kinds[0] == kinds[1] != MESH:
             boxes = [of.row("geom_aabb", each, 6)[3:] for each in (left, right)]
-            yield Comparison("geom", "size", left, right, apart(norm(boxes[0]), norm(boxes[1])), 5)
+            yield Comparison(
+                "geom", "size", left, right, max(apart(a, b) for a, b in zip(*map(sorted, boxes), strict=True)), 10
+            )
             nearest = min(self._offset(body, "geom_xpos", left, each, other) for each in self._alike(right))
             yield Comparison("geom", "pos", left, right, nearest, FITS * size, "m")
             if nearest < self._offset(body, "geom_xpos", left, right, other) - FITS * size:

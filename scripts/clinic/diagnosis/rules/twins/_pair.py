@@ -7,11 +7,13 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
+from clinic.diagnosis.probes.siblings import UNLIKE, Odd, odd_ones
+from clinic.diagnosis.probes.siblings import unlike as alike
 from clinic.diagnosis.probes.twins import Comparison, Twins, twins
 from clinic.diagnosis.probes.vector import sub, times, transpose, turned, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Level, Probe, Suspect
 
 ODD_SHARE = 0.12  # of all comparisons: more of them, and the model is not meant to be its own mirror image
 FEW = 0.2  # of the comparisons of one quantity
@@ -48,19 +50,51 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
     for kind in kinds:
         for quantity in quantities:
             same = [each for each in trusted if (each.kind, each.quantity) == (kind, quantity)]
-            few = [each for each in same if each.odd]
+            few = [each for each in same if each.odd and not (kind == "body" and _of_geoms(model, found, each))]
             agree = len(same) - len(few)
             close = sum(each.unlike <= each.limit / 5 for each in same)
             most = max(1, FEW * len(same), 2 if agree >= 3 else 0)
             if not few or len(few) > most or (agree < 2 and quantity not in ("joint", "target")) or close < 0.7 * agree:
                 continue
+            bodies = {found.bodies(each) for each in few}
+            alone = len(trusted) >= 30 and not any(each.odd and found.bodies(each) not in bodies for each in trusted)
             enough = 6 if kind in ("geom", "site", "camera") and quantity in ("size", "pos", "quat") else 3
-            clear = agree >= enough and len(few) <= 3 and all(each.unlike > each.clear for each in few)
+            clear = (
+                agree >= (2 if alone and len(few) == 1 else enough)
+                and len(few) <= 3
+                and all(each.unlike > each.clear for each in few)
+            )
             if clear or (kind in ("body", "joint", "actuator", "sensor") and len(few) <= 2):
                 pairs = tuple((each.left, each.right) for each in few)
                 before, was_clear = told.get((kind, *pairs), ([], False))
                 told[kind, *pairs] = ([*before, *few], clear or was_clear)
     yield from told.values()
+
+
+def siblings(model: ReaderModel, kind: str) -> Iterator[Suspect]:
+    """One of three or more that are alike but for a number or a finger in their names."""
+    of = model.simulation
+    found = list(odd_ones(of, kind))
+    if len({each.index for each in found}) > 1:  # two that differ alike, left and right, are meant
+        return
+    for each in found:
+        names = COPIED.get(each.attribute, (each.attribute,))
+        edits = _copied(model, kind, each.index, each.siblings[0], names)
+        if edits and not model.measured(alike(each), edits) <= UNLIKE:
+            edits = ()
+        others = ", ".join(of.name(kind, other) for other in each.siblings[:3])
+        now = next((text for name in names if (text := model.value(kind, each.index, name))), "")
+        says = f"{others} agree in their {each.attribute}, and it differs by {each.unlike:.3g} %."
+        probe, value = alike(each), edits[0].value if edits else "that of its siblings"
+        level: Level = "cause" if edits and len(each.siblings) >= 2 and not _none(of, each) else "hint"
+        healthy = "siblings alike"
+        elements = (of.name(kind, each.index),)
+        yield Suspect(elements, each.attribute, now, value, edits, probe, UNLIKE, says, healthy, level=level)
+
+
+def _none(of: Simulation, each: Odd) -> bool:
+    """Whether the one or the others have none of it."""
+    return each.unlike >= 99.9 and each.attribute in ("damping", "armature", "frictionloss", "stiffness")
 
 
 def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Suspect:
@@ -77,6 +111,9 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
     )
     limit = max(each.limit for each in alone)
     edits = _together(edit for each, side in zip(found, sides, strict=True) for edit in edits_of(model, each, side))
+    if any(each.quantity == "axis sign" for each in found):  # the axis turned, a range that differs is mirrored too
+        turned_axes = [(each, side) for each, side in zip(found, sides, strict=True) if each.quantity == "axis sign"]
+        edits = _together(edit for each, side in turned_axes for edit in edits_of(model, each, side))
     if _absent(model, found):
         clear = False
     if edits and not model.measured(probe, edits) <= limit:
@@ -101,6 +138,14 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
         f"at most {limit:.3g} {first.unit}: of the models of 14 robots all but a few pairs agree to less",
         level="cause" if clear and edits else "hint",
     )
+
+
+def _of_geoms(model: ReaderModel, found: Twins, each: Comparison) -> bool:
+    """Whether a body's mass differs because its geoms do, which is told of them."""
+    if each.quantity in ("pos", "gravcomp") or inertial(model, each.left) is not None:
+        return False
+    pair = found.bodies(each)
+    return any(other.odd and other.kind == "geom" and found.bodies(other) == pair for other in found.comparisons)
 
 
 def _together(edits: Iterable[Edit]) -> tuple[Edit, ...]:

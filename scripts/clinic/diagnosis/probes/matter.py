@@ -69,7 +69,9 @@ class Matter:
     def along(self) -> tuple[float, float]:
         """The inertia about the geoms' longest axis, of the geoms and of the body; 1 is the mean of all axes."""
         spread = sub(tuple(_trace(self.solid) / 2 * x for x in IDENTITY), self.solid)
-        axis = max(((1.0, 0.1, 0.1), (0.1, 1.0, 0.1), (0.1, 0.1, 1.0)), key=lambda each: norm(times(spread, each)))
+        axis: Vector = max(
+            ((1.0, 0.1, 0.1), (0.1, 1.0, 0.1), (0.1, 0.1, 1.0)), key=lambda each: norm(times(spread, each))
+        )
         for _ in range(50):  # power iteration
             axis = unit(times(spread, axis))
         geoms, own = (

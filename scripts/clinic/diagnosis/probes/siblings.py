@@ -1,4 +1,4 @@
-"""Elements that are alike but for a number or a finger in their names, at the same depth: `finger_1` to `finger_3`."""
+"""Elements that are alike but for a number or a finger in their names, about as deep: `finger_1` to `finger_3`."""
 
 from __future__ import annotations
 
@@ -46,16 +46,20 @@ class Odd:
 
 def groups(simulation: Simulation, kind: str) -> list[list[int]]:
     """Siblings of a kind, three at least."""
-    made: dict[tuple[object, ...], list[int]] = {}
+    made: dict[tuple[object, ...], list[tuple[int, int]]] = {}
     for index, name in enumerate(simulation.names(kind)):
         joint = index if kind == "joint" else simulation.driven_joint(index)
         if joint is None or (kind == "joint" and simulation.joint_type(joint) < 2):
             continue
         depth = _depth(simulation, int(simulation.model("jnt_bodyid")[joint]))
         for found in WHICH.finditer(name):
-            key = (name[: found.start()], name[found.end() :], depth, simulation.joint_type(joint))
-            made.setdefault(key, []).append(index)
-    return [each for each in made.values() if len(each) >= 3]
+            key = (name[: found.start()], name[found.end() :], simulation.joint_type(joint))
+            made.setdefault(key, []).append((index, depth))
+    return [
+        [index for index, _ in some]
+        for some in made.values()
+        if len(some) >= 3 and max(depth for _, depth in some) - min(depth for _, depth in some) <= 1
+    ]
 
 
 def _depth(simulation: Simulation, body: int) -> int:
@@ -89,10 +93,9 @@ def _row(simulation: Simulation, kind: str, attribute: str, index: int) -> tuple
 
 
 def _apart(one: tuple[float, ...], other: tuple[float, ...]) -> float:
-    wide = max(max(map(abs, one)), max(map(abs, other)))
-    return max(
-        apart(a, b) if len(one) == 1 else 100 * abs(a - b) / max(wide, 1e-9) for a, b in zip(one, other, strict=True)
-    )
+    wide = max(map(abs, (*one, *other)))
+    pairs = zip(one, other, strict=True)
+    return max(apart(a, b) if len(one) == 1 else 100 * abs(a - b) / max(wide, 1e-9) for a, b in pairs)
 
 
 def _unlike(simulation: Simulation, kind: str, attribute: str, index: int, other: int) -> float:

@@ -15,14 +15,17 @@ def add(a: Sequence[float], b: Sequence[float], scale: float = 1.0) -> Vector:
 
 
 def sub(a: Sequence[float], b: Sequence[float]) -> Vector:
+    """`a - b`."""
     return tuple(x - y for x, y in zip(a, b, strict=True))
 
 
 def dot(a: Sequence[float], b: Sequence[float]) -> float:
+    """The scalar product."""
     return sum(x * y for x, y in zip(a, b, strict=True))
 
 
 def norm(a: Sequence[float]) -> float:
+    """The length."""
     return math.sqrt(dot(a, a))
 
 
@@ -33,6 +36,7 @@ def unit(a: Sequence[float]) -> Vector:
 
 
 def transpose(m: Sequence[float]) -> Vector:
+    """Rows for columns; the inverse of a rotation."""
     return tuple(m[3 * column + row] for row in range(3) for column in range(3))
 
 
@@ -50,6 +54,7 @@ def turned(m: Sequence[float], tensor: Sequence[float]) -> Vector:
 
 
 def diagonal(a: Sequence[float]) -> Vector:
+    """The matrix with these numbers on its diagonal."""
     return (a[0], 0.0, 0.0, 0.0, a[1], 0.0, 0.0, 0.0, a[2])
 
 

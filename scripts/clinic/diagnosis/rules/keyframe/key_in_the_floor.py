@@ -1,7 +1,7 @@
 """A keyframe puts the robot into the floor.
 
-The height of a free joint that belongs to another pose, or to another frame: the contacts throw the robot up at the first
-step.
+The height of a free joint that belongs to another pose, or to another frame: the contacts throw the robot up at the
+first step.
 
 Bad:
 

@@ -100,7 +100,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             (set_attribute(element, "ctrl", written(ctrl)),),
             off_target(key),
             LIMIT,
-            f"{len(off)} of {len(found)} servos are sent away: {of.name('actuator', worst)} from {at:.3g} to {target:.3g}.",
+            f"{len(off)} of {len(found)} servos go away: {of.name('actuator', worst)} from {at:.3g} to {target:.3g}.",
             "the targets of a pose are its joints' positions",
             level="cause" if "ctrl" in element.attributes else "hint",
         )

@@ -83,7 +83,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             (set_attribute(element, "qpos", written(qpos)),),
             probe,
             0.5,
-            f"It has {len(values)} of {len(start)} numbers: {of.name('joint', 0)}, a free joint, takes the first of them.",
+            f"It has {len(values)} of {len(start)} numbers: {of.name('joint', 0)}, free, takes the first.",
             "as many numbers as nq",
             level="cause" if missing % 7 == 0 and len(values) % 7 else "hint",
         )

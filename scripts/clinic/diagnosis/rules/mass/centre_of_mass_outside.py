@@ -1,7 +1,7 @@
 """The centre of mass is outside of the body's geoms.
 
-`pos` of `<inertial>` in millimetres, with a wrong sign, or in the frame of another body. The joint then carries a moment
-that is not there, and a robot leans or tips over.
+`pos` of `<inertial>` in millimetres, with a wrong sign, or in the frame of another body. The joint then carries a
+moment that is not there, and a robot leans or tips over.
 
 Bad:
 
@@ -27,8 +27,9 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: how far outside of the box around the geoms, in half lengths of that box. 0 for 95 % of 1475 bodies in healthy
-models; 0.5 for one body of five and more, else 2.5, tell a cause. Bodies of less than 1 % of the moving mass are left alone.
+The number: how far outside of the box around the geoms, in half lengths of that box. 0 for 95 % of 1475 bodies in
+healthy models; 0.5 for one body of five and more, else 2.5, tell a cause. Bodies of less than 1 % of the moving mass
+are left alone.
 
 When it is wrong: a body that is drawn only in part.
 """

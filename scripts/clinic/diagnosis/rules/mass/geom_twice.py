@@ -25,7 +25,8 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: the body's mass, and without the copy. Geoms count as the same when type, size, place, mesh, masks and color are.
+The number: the body's mass, and without the copy. Geoms count as the same when type, size, place, mesh, masks and
+color are.
 
 When it is wrong: two layers that are meant; more than two copies in a model are.
 """

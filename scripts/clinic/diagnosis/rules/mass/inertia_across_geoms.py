@@ -27,8 +27,8 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: the inertia about the longest axis of the geoms, where the mean of the three is 1. A thin rod has 0 about its
-axis and 1.5 across. Of 249 long bodies of healthy robots, whose geoms have at most 0.3, none has more than 0.9.
+The number: the inertia about the longest axis of the geoms, where the mean of the three is 1. A thin rod has 0 about
+its axis and 1.5 across. Of 249 long bodies of healthy robots, whose geoms have at most 0.3, none has more than 0.9.
 
 When it is wrong: a long cover around a flat motor.
 """
@@ -66,7 +66,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             set_inertial(model, body, found.mass, found.centre, tuple(scale * x for x in found.solid)),
             across(body),
             LIMIT,
-            f"Its geoms are long: their inertia about the long axis is {geoms:.2g} of the mean, the body's is {own:.2g}.",
+            f"Its geoms are long: their inertia about the long axis is {geoms:.2g} of the mean, its own {own:.2g}.",
             "below 1: at most 0.9 in 249 long bodies of healthy robots",
             excess=own,
         )

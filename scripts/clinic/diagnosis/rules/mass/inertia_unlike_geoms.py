@@ -1,8 +1,8 @@
 """The inertia of a body is not that of its geoms.
 
-A placeholder (`diaginertia="0.001 0.001 0.001"` on a finger of 10 g, or on a base of 60 kg), a tensor in g mm2, one that
-belongs to another mass. The joint then turns far too easily, and explodes under a servo that the real one bears; or it
-is far too sluggish.
+A placeholder (`diaginertia="0.001 0.001 0.001"` on a finger of 10 g, or on a base of 60 kg), a tensor in g mm2, one
+that belongs to another mass. The joint then turns far too easily, and explodes under a servo that the real one bears;
+or it is far too sluggish.
 
 Bad:
 
@@ -83,7 +83,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             edits,
             probe,
             limit,
-            f"The radius of gyration is {worst.radius:.3g} times that of its geoms, filled evenly with {worst.mass:.3g} kg.",
+            f"The radius of gyration is {worst.radius:.3g} times that of its geoms, filled with {worst.mass:.3g} kg.",
             "0.4 to 2.5 times: 90 % of 1475 bodies in healthy models lie between 0.53 and 1.7",
             excess=max(worst.radius, 1 / worst.radius),
             level="cause" if model.measured(probe) > LIMIT else "hint",

@@ -26,9 +26,9 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: the mass of the air that its geoms displace (1.2 kg/m3) over its own, for everything that moves together.
-More than 300 tells a cause: Gymnasium's second pusher pushes a puck of 120, its first one of 120,000. A model in
-centimetres has 10.
+The number: the mass of the air that its geoms displace (1.2 kg/m3) over its own, for everything that moves together,
+and for single links with a joint. More than 300 tells a cause: Gymnasium's second pusher pushes a puck of 120, its
+first one of 120,000. A model in centimetres has 10.
 
 When it is wrong: a balloon.
 """
@@ -61,7 +61,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         while int(parents[root]) in moving:
             root = int(parents[root])
         trees.setdefault(root, []).append(body)
-    for root, bodies in trees.items():
+    light = [body for body in moving if of.joints_of(body) and _air(of, body) > LIMIT]
+    groups = list(trees.items())
+    if len(light) <= 2:  # a link of a tree that is heavy enough
+        groups += [(body, [body]) for body in light if trees.get(body) != [body]]
+    for root, bodies in groups:
         geoms = [geom for body in bodies for geom in of.geoms_of(body)]
         if not any(of.model("geom_contype")[geom] or of.model("geom_conaffinity")[geom] for geom in geoms):
             continue

@@ -1,4 +1,4 @@
-"""The wheels turn and the robot stays.
+"""The wheels turn, or the legs move, and the robot stays.
 
 The body that carries the wheels has no joint, so it is part of the world. A URDF has no floating base either.
 
@@ -41,8 +41,9 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: wheels that touch the floor, below a body that nothing can move. A wheel is a hinge without limits whose round
-geom has its middle on the axis.
+The number: wheels that touch the floor, below a body that nothing can move. A wheel is a hinge without limits whose
+round geom has its middle on the axis. Legs are two limbs and more of a body in the air whose ends are within 15 % of
+its height of the floor.
 
 When it is wrong: a test bench with rollers.
 """
@@ -58,14 +59,14 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
-TITLE = "The wheels turn and the robot is fixed to the world"
+TITLE = "The robot is fixed to the world"
 FAMILIES = ("stuck",)
 SINCE = "0.2"
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The body without a joint that carries wheels on the floor."""
-    wheels = _wheels(model.simulation)
+    wheels = _wheels(model.simulation) or _feet(model.simulation)
     of, parents = model.simulation, model.simulation.model("body_parentid")
     roots = set()
     for body in wheels:
@@ -79,13 +80,37 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     element = model.element("body", root)
     urdf = model.source is not None and model.source.urdf
     edits = (insert(element, "<freejoint/>"),) if element is not None and not urdf else ()
-    says = f"{len(wheels)} wheels touch the floor, and no joint lets the body that carries them move."
-    probe = Probe("wheels on the floor below a fixed body", "", _count, dynamic=False)
+    says = f"{len(wheels)} wheels or legs reach the floor, and no joint lets the body that carries them move."
+    probe = Probe("wheels and legs on the floor below a fixed body", "", _count, dynamic=False)
     yield Suspect((of.name("body", root),), "freejoint", "left out", "<freejoint/>", edits, probe, 1.5, says, "none")
 
 
+def _feet(of: Simulation) -> list[int]:
+    """Bodies that are the first to move on their way from the world, of limbs that reach down to the floor."""
+    of.begin()
+    kinds, parents = of.model("geom_type"), of.model("body_parentid")
+    moving, heights = set(of.moving_bodies), of.data("xpos")[2::3]
+    floors = [of.data("geom_xpos")[3 * geom + 2] for geom, kind in enumerate(kinds) if int(kind) == PLANE]
+    lowest: dict[int, float] = {}
+    for body in moving if len(floors) == 1 else ():
+        first = body
+        while int(parents[first]) in moving:
+            first = int(parents[first])
+        low = min((of.data("geom_xpos")[3 * geom + 2] for geom in of.geoms_of(body)), default=float("inf"))
+        lowest[first] = min(low, lowest.get(first, float("inf")))
+    made = []
+    for first, low in lowest.items():
+        root = int(parents[first])
+        height = heights[root] - max(floors)
+        own = [of.data("geom_xpos")[3 * geom + 2] for geom in of.geoms_of(root) if of.model("geom_contype")[geom]]
+        in_air = bool(own) and root > 0 and min(own) - max(floors) > 0.4 * height
+        if in_air and parents[root] == 0 and 0 <= low - max(floors) < 0.15 * height:
+            made.append(first)
+    return made
+
+
 def _count(simulation: Simulation) -> float:
-    return float(len(_wheels(simulation)))
+    return float(len(_wheels(simulation) or _feet(simulation)))
 
 
 def _wheels(of: Simulation) -> list[int]:

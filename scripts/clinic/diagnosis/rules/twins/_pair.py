@@ -10,7 +10,7 @@ from clinic.diagnosis.probes.inertia import inertial, set_inertial
 from clinic.diagnosis.probes.siblings import UNLIKE, Odd, odd_ones
 from clinic.diagnosis.probes.siblings import unlike as alike
 from clinic.diagnosis.probes.twins import Comparison, Twins, twins
-from clinic.diagnosis.probes.vector import sub, times, transpose, turned, written
+from clinic.diagnosis.probes.vector import norm, sub, times, transpose, turned, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Level, Probe, Suspect
@@ -38,7 +38,7 @@ PLACES = {"body": "xpos", "geom": "geom_xpos", "site": "site_xpos", "camera": "c
 
 
 def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> Iterator[tuple[list[Comparison], bool]]:
-    """Comparisons that stand out in a model of pairs, those of one quantity together, and whether they stand out clearly."""
+    """Comparisons of a model of pairs that stand out, those of equal pairs together; and whether they do so clearly."""
     found = twins(model.simulation)
     groups: dict[int, list[Comparison]] = {}
     for each in found.comparisons:
@@ -232,7 +232,7 @@ def _centre_off(simulation: Simulation, body: int) -> float:
         return 0.0
     middle = tuple(sum(each) / len(places) for each in zip(*places, strict=True))
     off = sub(simulation.row("body_ipos", body, 3), middle)
-    return sum(x * x for x in off) ** 0.5
+    return norm(off)
 
 
 def edits_of(model: ReaderModel, each: Comparison, side: int) -> tuple[Edit, ...]:

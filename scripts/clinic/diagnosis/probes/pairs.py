@@ -145,8 +145,8 @@ class Pairs:
                 groups.setdefault(common, []).append((left, right))
         for common, pairs in groups.items():
             points = self._points(pairs)
-            (left, right), *_ = points
-            size = max(1e-4, *(norm(sub(p, left)) for p, _ in points), *(norm(sub(q, right)) for _, q in points))
+            here, there = points[0]
+            size = max(1e-4, *(norm(sub(p, here)) for p, _ in points), *(norm(sub(q, there)) for _, q in points))
             image, share = self._best(common, pairs, points, FITS * size)
             for left, _ in pairs:
                 self.images[left], self.share[left], self.size[left], self.common[left] = image, share, size, common

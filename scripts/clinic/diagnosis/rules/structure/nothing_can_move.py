@@ -26,7 +26,7 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: the share of the bodies and geoms in the air that nothing can move. All of them, and gravity on, is a cause.
+The number: the share of the bodies and geoms in the air that nothing can move. All of them, above a plane and with gravity, is a cause; geoms of the world itself count where they are meshes.
 
 When it is wrong: a model that is meant to be looked at only.
 """
@@ -36,7 +36,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, insert, replace
-from clinic.diagnosis.engine import HFIELD, PLANE
+from clinic.diagnosis.engine import MESH, PLANE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
@@ -52,12 +52,13 @@ FREE_JOINT = "<freejoint/>"
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Everything that stands in the world, where the model has no degree of freedom."""
     of = model.simulation
-    if of.count("dof") or model.source is None or model.source.urdf or not any(of.model("opt.gravity")):
+    planes = [geom for geom in of.geoms_of(0) if int(of.model("geom_type")[geom]) == PLANE]
+    if of.count("dof") or not planes or model.source is None or model.source.urdf or not any(of.model("opt.gravity")):
         return
     parents, counts = of.model("body_parentid"), of.model("body_geomnum")
     in_air = _in_air(of)
     bodies = [body for body in range(1, of.count("body")) if parents[body] == 0 and counts[body] and body in in_air]
-    geoms = [geom for geom in of.geoms_of(0) if int(of.model("geom_type")[geom]) not in (PLANE, HFIELD)]
+    geoms = [geom for geom in of.geoms_of(0) if int(of.model("geom_type")[geom]) == MESH]
     if bodies:
         edits = tuple(insert(element, FREE_JOINT) for body in bodies if (element := model.element("body", body)))
     else:

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from itertools import product
 
-from clinic.diagnosis.engine import BALL, CAPSULE, CYLINDER, ELLIPSOID, FREE, HFIELD, HINGE, PLANE, SLIDE, SPHERE
+from clinic.diagnosis.engine import BALL, CAPSULE, CYLINDER, ELLIPSOID, FREE, HFIELD, HINGE, MESH, PLANE, SLIDE, SPHERE
 from clinic.diagnosis.probes.inertia import inertial, tensor
 from clinic.diagnosis.probes.vector import (
     IDENTITY,
@@ -155,8 +155,16 @@ def explicit(model: ReaderModel) -> list[tuple[int, Matter]]:
     if model.source is None:
         return []
     of = model.simulation
-    found = [(body, matter(of, body)) for body in of.moving_bodies if inertial(model, body) is not None]
+    bodies = [body for body in of.moving_bodies if inertial(model, body) is not None and not _decorated(model, body)]
+    found = [(body, matter(of, body)) for body in bodies]
     return [(body, each) for body, each in found if each is not None and each.about[0] > 0]
+
+
+def _decorated(model: ReaderModel, body: int) -> bool:
+    """Whether all geoms of a body are primitives of which it is written that they have no mass."""
+    of = model.simulation
+    kinds = of.model("geom_type")
+    return all(int(kinds[geom]) != MESH and model.value("geom", geom, "mass") == "0" for geom in of.geoms_of(body))
 
 
 def _heavier(simulation: Simulation, body: int) -> float:

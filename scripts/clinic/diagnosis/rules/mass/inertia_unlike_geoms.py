@@ -62,10 +62,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for body, each in found.items():
         if not USUAL[0] < each.radius < USUAL[1]:
             groups.setdefault(model.simulation.row("body_inertia", body, 3), []).append(body)
+    unusual = sum(map(len, groups.values()))
     for inertia, bodies in groups.items():
         placeholder = max(inertia) < 1.03 * min(inertia)
         worst = max((found[body] for body in bodies), key=lambda each: max(each.radius, 1 / each.radius))
-        if not placeholder and (FAR[0] < worst.radius < FAR[1] or len(bodies) > FEW * len(found)):
+        if not placeholder and (FAR[0] < worst.radius < FAR[1] or unusual > FEW * len(found)):
             continue
         probe, limit = joint_inertia(tuple(bodies)), 2 * LIMIT
         if placeholder:

@@ -26,9 +26,10 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: the share of the bodies and geoms in the air that nothing can move. All of them, above a plane and with gravity, is a cause; geoms of the world itself count where they are meshes.
+The number: the share of the bodies and geoms in the air that nothing can move. All of them, above a plane and with
+gravity, is a cause; geoms of the world itself count where they are meshes.
 
-When it is wrong: a model that is meant to be looked at only.
+When it is wrong: a model that is meant to be looked at only; one with a camera is left alone.
 """
 
 from __future__ import annotations
@@ -53,7 +54,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Everything that stands in the world, where the model has no degree of freedom."""
     of = model.simulation
     planes = [geom for geom in of.geoms_of(0) if int(of.model("geom_type")[geom]) == PLANE]
-    if of.count("dof") or not planes or model.source is None or model.source.urdf or not any(of.model("opt.gravity")):
+    if (
+        of.count("dof")
+        or of.count("camera")
+        or not planes
+        or model.source is None
+        or model.source.urdf
+        or not any(of.model("opt.gravity"))
+    ):
         return
     parents, counts = of.model("body_parentid"), of.model("body_geomnum")
     in_air = _in_air(of)

@@ -72,9 +72,12 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
 
 
 def siblings(model: ReaderModel, kind: str) -> Iterator[Suspect]:
-    """One of three or more that are alike but for a number or a finger in their names."""
-    of = model.simulation
-    found = list(odd_ones(of, kind))
+    """One of three or more that are alike but for a number or a finger in their names, where its twin tells nothing."""
+    of, pairs = model.simulation, twins(model.simulation).comparisons
+    paired = {
+        (each.quantity, side) for each in pairs if each.kind == kind and each.odd for side in (each.left, each.right)
+    }
+    found = [each for each in odd_ones(of, kind) if (each.attribute, each.index) not in paired]
     if len({each.index for each in found}) > 1:  # two that differ alike, left and right, are meant
         return
     for each in found:
@@ -194,6 +197,10 @@ def _odd_side(model: ReaderModel, each: Comparison) -> int:
     if each.kind == "body" and inertial(model, each.left) is not None:
         far = [_centre_off(simulation, body) for body in (each.left, each.right)]
         return each.left if far[0] >= far[1] else each.right
+    if each.kind in ("joint", "actuator"):
+        for one in odd_ones(simulation, each.kind):
+            if one.attribute == each.quantity and one.index in (each.left, each.right):
+                return one.index
     if each.quantity == "ctrlrange":
         shares = [_in_reach(simulation, actuator) for actuator in (each.left, each.right)]
         if shares[0] != shares[1]:

@@ -58,9 +58,9 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
                 continue
             bodies = {found.bodies(each) for each in few}
             alone = len(trusted) >= 30 and not any(each.odd and found.bodies(each) not in bodies for each in trusted)
-            enough = 6 if kind in ("geom", "site", "camera") and quantity in ("size", "pos", "quat") else 3
+            enough = 6 if kind in ("geom", "site", "camera") and quantity in ("pos", "quat") else 3
             clear = (
-                agree >= (2 if alone and len(few) == 1 else enough)
+                agree >= (2 if alone and len(few) == 1 and enough == 3 else enough)
                 and len(few) <= 3
                 and all(each.unlike > each.clear for each in few)
             )

@@ -32,7 +32,7 @@ Bad:
           </body>
           <body name="right_rear" pos="-0.2 -0.1 0">
             <joint name="right_rear" axis="0 1 0" range="-30 60"/>
-            <geom type="box" size="0.03 0.02 0.01" pos="0.02 0 0"/>
+            <geom type="box" size="0.06 0.02 0.01"/>
           </body>
         </body>
       </worldbody>

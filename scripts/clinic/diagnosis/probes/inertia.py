@@ -1,0 +1,48 @@
+"""Mass, centre of mass and inertia of a body, and the edit that gives it others."""
+
+from __future__ import annotations
+
+from clinic.diagnosis.edit import Edit, insert, replace
+from clinic.diagnosis.probes.vector import Vector, diagonal, of_quaternion, turned, written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.source import Element
+
+
+def tensor(simulation: Simulation, body: int) -> Vector:
+    """The inertia about the centre of mass in the axes of the body's frame, in kg m2."""
+    return turned(
+        of_quaternion(simulation.row("body_iquat", body, 4)), diagonal(simulation.row("body_inertia", body, 3))
+    )
+
+
+def inertial(model: ReaderModel, body: int) -> Element | None:
+    """The `<inertial>` of a body; None where its geoms make its inertia."""
+    element = model.element("body", body)
+    return element.first("inertial") if element is not None else None
+
+
+def set_inertial(model: ReaderModel, body: int, mass: float, centre: Vector, about: Vector) -> tuple[Edit, ...]:
+    """The edit that writes a body's inertial anew.
+
+    Args:
+        model: The reader's model.
+        body: Its index.
+        mass: In kg.
+        centre: In the body's frame, in m.
+        about: The tensor about the centre of mass in the axes of the body's frame, in kg m2, row by row.
+    """
+    element = model.element("body", body)
+    if element is None or model.source is None:
+        return ()
+    xx, xy, xz, _, yy, yz, _, _, zz = about
+    if model.source.urdf:
+        moments = {"ixx": xx, "ixy": xy, "ixz": xz, "iyy": yy, "iyz": yz, "izz": zz}
+        inner = f'<origin xyz="{written(centre)}" rpy="0 0 0"/><mass value="{mass:.6g}"/>'
+        inner += "<inertia " + " ".join(f'{name}="{value:.6g}"' for name, value in moments.items()) + "/>"
+        xml = f"<inertial>{inner}</inertial>"
+    else:
+        full = written((xx, yy, zz, xy, xz, yz))
+        xml = f'<inertial pos="{written(centre)}" mass="{mass:.6g}" fullinertia="{full}"/>'
+    there = element.first("inertial")
+    return (replace(there, xml) if there else insert(element, xml),)

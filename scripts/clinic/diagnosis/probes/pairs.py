@@ -1,0 +1,203 @@
+"""Pairs of elements, left and right, and what makes one side the image of the other.
+
+Pairs are found by name (`left_knee`, `knee_L`, `FL_hip`), then by place in the tree. Mirrored are they across the
+plane that fits most of what hangs on both sides, or turned by half a turn, or shifted, whatever fits best.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from clinic.diagnosis.engine import SLIDE
+from clinic.diagnosis.probes.vector import Vector, add, dot, norm, sub, times, transpose, unit
+from clinic.diagnosis.simulation import Simulation
+
+SIDES = {"l": "r", "fl": "fr", "hl": "hr", "bl": "br", "ml": "mr", "rl": "rr"} | {
+    "lf": "rf", "lh": "rh", "lr": "rr", "lb": "rb", "lm": "rm"
+}  # fmt: skip
+WORDS = (("left", "right"), ("Left", "Right"), ("LEFT", "RIGHT"))
+TOKEN = re.compile(r"[A-Z](?=[A-Z][a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
+KINDS = ("body", "joint", "geom", "site", "camera", "actuator", "sensor")
+FITS = 0.02  # of the size of what hangs on both sides: as far may a point be from its image
+
+
+def right_of(name: str) -> Iterator[str]:
+    """What the right twin of a left element may be called."""
+    for left, right in WORDS:
+        if left in name:
+            yield name.replace(left, right)
+    tokens = [found for found in TOKEN.finditer(name) if found.group().lower() in SIDES]
+    for found in tokens:
+        side = found.group()
+        other = SIDES[side.lower()]
+        other = other.upper() if side.isupper() else other.title() if side[0].isupper() else other
+        yield name[: found.start()] + other + name[found.end() :]
+
+
+@dataclass(frozen=True)
+class Image:
+    """How one side becomes the other: `matrix * point + offset`; `sign` is -1 for a reflection."""
+
+    matrix: Vector
+    offset: Vector
+    sign: int
+
+    def of(self, point: Vector) -> Vector:
+        """Where a point of one side is on the other."""
+        return add(times(self.matrix, point), self.offset)
+
+
+class Pairs:
+    """The pairs of a model at its zero pose.
+
+    Attributes:
+        pairs: Left and right index, by kind.
+        images: By the index of the left body, how the left side becomes the right.
+        share: By the index of the left body, the share of its side's points that the image fits.
+        size: By the index of the left body, the size in m of what hangs on its side.
+        common: By the index of the left body, the body that both sides hang on.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self.of = simulation
+        simulation.engine.reset(-1)
+        simulation.engine.forward()
+        fields = ("xpos", "xmat", "xipos", "ximat", "xanchor", "xaxis", "geom_xpos", "geom_xmat", "site_xpos")
+        self._data = {name: simulation.data(name) for name in (*fields, "cam_xpos", "cam_xmat")}
+        self.pairs: dict[str, list[tuple[int, int]]] = {kind: _by_name(simulation, kind) for kind in KINDS}
+        self._by_place()
+        self.images: dict[int, Image] = {}
+        self.share: dict[int, float] = {}
+        self.size: dict[int, float] = {}
+        self.common: dict[int, int] = {}
+        self._find_images()
+
+    def at(self, field: str, index: int, width: int = 3) -> Vector:
+        """A row of a field of mjData at the zero pose."""
+        return tuple(self._data[field][width * index : width * (index + 1)])
+
+    def partner(self, kind: str, index: int) -> int | None:
+        """The twin of an element; None for one without."""
+        return next(
+            (right if left == index else left for left, right in self.pairs[kind] if index in (left, right)), None
+        )
+
+    def image(self, left: int, side: int) -> Image:
+        """The image that gives one side of the pair of a left body: itself, or its inverse for the left side."""
+        image = self.images[left]
+        if side != left:
+            return image
+        back = transpose(image.matrix)
+        return Image(back, tuple(-x for x in times(back, image.offset)), image.sign)
+
+    def joint_sign(self, left: int, right: int) -> tuple[float, float]:
+        """Whether equal angles are mirror images (1) or opposite ones (-1), and the axes' angle in degrees."""
+        body = int(self.of.model("jnt_bodyid")[left])
+        image = self.images[body]
+        mirrored = times(image.matrix, self.at("xaxis", left))
+        if self.of.joint_type(left) != SLIDE:
+            mirrored = tuple(image.sign * x for x in mirrored)
+        cosine = dot(mirrored, self.at("xaxis", right))
+        return math.copysign(1, cosine), math.degrees(math.acos(min(1.0, abs(cosine))))
+
+    def _by_place(self) -> None:
+        of = self.of
+        children: dict[int, list[int]] = {}
+        for body in range(1, of.count("body")):
+            children.setdefault(int(of.model("body_parentid")[body]), []).append(body)
+        paired = {kind: {index for pair in self.pairs[kind] for index in pair} for kind in KINDS}
+
+        def pair(kind: str, left: list[int], right: list[int]) -> None:
+            left = [each for each in left if each not in paired[kind]]
+            right = [each for each in right if each not in paired[kind]]
+            if len(left) == len(right) and not set(left) & set(right):
+                self.pairs[kind] += zip(left, right, strict=True)
+                paired[kind] |= {*left, *right}
+
+        for kind, owners in (("joint", "jnt_bodyid"), ("geom", "geom_bodyid")):
+            for left, right in list(self.pairs[kind]):
+                a, b = int(of.model(owners)[left]), int(of.model(owners)[right])
+                if a != b:
+                    pair("body", [a], [b])
+        done = 0
+        while done < len(self.pairs["body"]):
+            left, right = self.pairs["body"][done]
+            pair("body", children.get(left, []), children.get(right, []))
+            pair("joint", of.joints_of(left), of.joints_of(right))
+            pair("geom", of.geoms_of(left), of.geoms_of(right))
+            done += 1
+
+    def _ancestors(self, body: int) -> list[int]:
+        made = [body]
+        while made[-1]:
+            made.append(int(self.of.model("body_parentid")[made[-1]]))
+        return made
+
+    def _find_images(self) -> None:
+        groups: dict[int, list[tuple[int, int]]] = {}
+        for left, right in self.pairs["body"]:
+            above = set(self._ancestors(right))
+            common = next(body for body in self._ancestors(left) if body in above)
+            if common not in (left, right):
+                groups.setdefault(common, []).append((left, right))
+        for common, pairs in groups.items():
+            points = self._points(pairs)
+            here, there = points[0]
+            size = max(1e-4, *(norm(sub(p, here)) for p, _ in points), *(norm(sub(q, there)) for _, q in points))
+            image, share = self._best(common, pairs, points, FITS * size)
+            for left, _ in pairs:
+                self.images[left], self.share[left], self.size[left], self.common[left] = image, share, size, common
+
+    def _points(self, pairs: list[tuple[int, int]]) -> list[tuple[Vector, Vector]]:
+        inside = {left for left, _ in pairs}
+        made = [(self.at("xpos", left), self.at("xpos", right)) for left, right in pairs]
+        made += [(self.at("xipos", left), self.at("xipos", right)) for left, right in pairs]
+        for left, right in self.pairs["joint"]:
+            if int(self.of.model("jnt_bodyid")[left]) in inside:
+                made.append((self.at("xanchor", left), self.at("xanchor", right)))
+        return made
+
+    def _best(
+        self, common: int, pairs: list[tuple[int, int]], points: list[tuple[Vector, Vector]], near: float
+    ) -> tuple[Image, float]:
+        frame = self.at("xmat", common, 9)
+        axes = [tuple(frame[column + 3 * row] for row in range(3)) for column in range(3)]
+        axes += [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
+        axes += [unit(sub(self.at("xpos", left), self.at("xpos", right))) for left, right in pairs[:2]]
+        still = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+        tried = [(_reflection(axis), -1, axis) for axis in axes]
+        tried += [*((_half_turn(axis), 1, axis) for axis in axes[:6]), (still, 1, (0.0, 0.0, 0.0))]
+        best, most = Image(still, (0.0, 0.0, 0.0), 1), -1.0
+        for matrix, sign, normal in tried:
+            offsets = [sub(right, times(matrix, left)) for left, right in points]
+            offset = tuple(sorted(each[axis] for each in offsets)[len(offsets) // 2] for axis in range(3))
+            along = dot(offset, normal)  # a reflection shifts along its normal, a turn across its axis
+            offset = tuple(along * x for x in normal) if sign < 0 else add(offset, normal, -along)
+            fit = sum(norm(sub(each, offset)) <= near for each in offsets) / len(points)
+            if fit > most + (0.15 if sign > 0 and best.sign < 0 else 1e-9):
+                best, most = Image(matrix, offset, sign), fit
+        return best, most
+
+
+def _reflection(axis: Vector) -> Vector:
+    return tuple((i == j) - 2 * axis[i] * axis[j] for i in range(3) for j in range(3))
+
+
+def _half_turn(axis: Vector) -> Vector:
+    return tuple(2 * axis[i] * axis[j] - (i == j) for i in range(3) for j in range(3))
+
+
+def _by_name(simulation: Simulation, kind: str) -> list[tuple[int, int]]:
+    names = simulation.names(kind)
+    places = {name: index for index, name in enumerate(names) if name}
+    made: list[tuple[int, int]] = []
+    used: set[int] = set()
+    for index, name in enumerate(names):
+        right = next((places[other] for other in right_of(name) if other in places), None) if name else None
+        if right is not None and not used & {index, right}:
+            made.append((index, right))
+            used |= {index, right}
+    return made

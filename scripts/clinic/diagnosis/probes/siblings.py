@@ -1,0 +1,108 @@
+"""Elements that are alike but for a number or a finger in their names, about as deep: `finger_1` to `finger_3`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from clinic.diagnosis.probes.vector import apart
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe
+
+WHICH = re.compile(
+    r"\d+|(?:FF|MF|RF|LF)(?=J|[a-z_])|(?<![a-z])(?:ff|mf|rf|lf)(?=j\d|[a-z_])|(?i:index|middle|ring|little|pinky)|"
+    r"(?<![A-Za-z])(?:[fr][lr]|[FR][LR]|[hH][lrLR])(?![a-z])|(?i:front|rear|hind)"
+)
+FIELDS = {  # attribute: field, width of a row, columns compared
+    "joint": {
+        "damping": ("dof_damping", 1, (0,)),
+        "armature": ("dof_armature", 1, (0,)),
+        "frictionloss": ("dof_frictionloss", 1, (0,)),
+        "stiffness": ("jnt_stiffness", 1, (0,)),
+        "range": ("jnt_range", 2, (0, 1)),
+    },
+    "actuator": {
+        "gear": ("actuator_gear", 6, (0,)),
+        "gain": ("actuator_gainprm", 10, (0,)),
+        "bias": ("actuator_biasprm", 10, (1, 2)),
+        "ctrlrange": ("actuator_ctrlrange", 2, (0, 1)),
+        "forcerange": ("actuator_forcerange", 2, (0, 1)),
+    },
+}
+UNLIKE, LIKE = 25.0, 0.1  # %
+
+
+@dataclass(frozen=True)
+class Odd:
+    """An element that differs from its siblings, which agree."""
+
+    kind: str
+    attribute: str
+    index: int
+    siblings: tuple[int, ...]
+    unlike: float
+
+
+def groups(simulation: Simulation, kind: str) -> list[list[int]]:
+    """Siblings of a kind, three at least."""
+    made: dict[tuple[object, ...], list[tuple[int, int]]] = {}
+    for index, name in enumerate(simulation.names(kind)):
+        joint = index if kind == "joint" else simulation.driven_joint(index)
+        if joint is None or (kind == "joint" and simulation.joint_type(joint) < 2):
+            continue
+        depth = _depth(simulation, int(simulation.model("jnt_bodyid")[joint]))
+        for found in WHICH.finditer(name):
+            key = (name[: found.start()], name[found.end() :], simulation.joint_type(joint))
+            made.setdefault(key, []).append((index, depth))
+    return [
+        [index for index, _ in some]
+        for some in made.values()
+        if len(some) >= 3 and max(depth for _, depth in some) - min(depth for _, depth in some) <= 1
+    ]
+
+
+def _depth(simulation: Simulation, body: int) -> int:
+    depth = 0
+    while body:
+        body, depth = int(simulation.model("body_parentid")[body]), depth + 1
+    return depth
+
+
+def odd_ones(simulation: Simulation, kind: str) -> Iterator[Odd]:
+    """The one of each group that differs where all others agree."""
+    seen = set()
+    for group in groups(simulation, kind):
+        for attribute in FIELDS[kind]:
+            rows = {index: _row(simulation, kind, attribute, index) for index in group}
+            for index in group:
+                others = [each for each in group if each != index]
+                first = rows[others[0]]
+                if any(_apart(rows[each], first) > LIKE for each in others) or (index, attribute) in seen:
+                    continue
+                if (unlike := _apart(rows[index], first)) > UNLIKE:
+                    seen.add((index, attribute))
+                    yield Odd(kind, attribute, index, tuple(others), unlike)
+
+
+def _row(simulation: Simulation, kind: str, attribute: str, index: int) -> tuple[float, ...]:
+    field, width, columns = FIELDS[kind][attribute]
+    place = simulation.dof(index) if field.startswith("dof") else index
+    row = simulation.row(field, place, width)
+    return tuple(row[column] for column in columns)
+
+
+def _apart(one: tuple[float, ...], other: tuple[float, ...]) -> float:
+    wide = max(map(abs, (*one, *other)))
+    pairs = zip(one, other, strict=True)
+    return max(apart(a, b) if len(one) == 1 else 100 * abs(a - b) / max(wide, 1e-9) for a, b in pairs)
+
+
+def _unlike(simulation: Simulation, kind: str, attribute: str, index: int, other: int) -> float:
+    return _apart(_row(simulation, kind, attribute, index), _row(simulation, kind, attribute, other))
+
+
+def unlike(odd: Odd) -> Probe:
+    """How unlike an element is to its first sibling, in %."""
+    of = (odd.kind, odd.attribute, odd.index, odd.siblings[0])
+    return Probe(f"{odd.attribute} of {odd.kind} and siblings, unlike by", "%", _unlike, of, dynamic=False)

@@ -1,0 +1,326 @@
+"""How far each of a pair, left and right, is from being the other's mirror image."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from clinic.diagnosis.engine import BALL, FREE, HINGE, MESH, SLIDE
+from clinic.diagnosis.probes.pairs import FITS, Pairs
+from clinic.diagnosis.probes.vector import Vector, add, apart, diagonal, dot, norm, sub, times, turned
+from clinic.diagnosis.simulation import Simulation
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One quantity of a pair: how unlike it is, and the number above which it is."""
+
+    kind: str
+    quantity: str
+    left: int
+    right: int
+    unlike: float
+    limit: float
+    unit: str = "%"
+
+    @property
+    def odd(self) -> bool:
+        """Whether the two differ."""
+        return self.unlike > self.limit
+
+    @property
+    def clear(self) -> float:
+        """The number above which it cannot be a matter of taste."""
+        return {
+            "axis sign": math.inf,
+            "mass": 40.0,
+            "inertia": 60.0,
+            "range": 20.0,
+            "axis": 20.0,
+            "ctrlrange": 20.0,
+            "forcerange": 40.0,
+        }.get(self.quantity, 45.0 if self.unit == "%" and self.limit > 1 else 2 * self.limit)
+
+
+class Twins(Pairs):
+    """The pairs of a model, and their quantities compared."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        super().__init__(simulation)
+        self.comparisons = [each for each in self._compared() if math.isfinite(each.unlike)]
+
+    def group(self, each: Comparison) -> int:
+        """The body that both sides of a comparison hang on; -1 for actuators and sensors."""
+        owners = {"joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid", "camera": "cam_bodyid"}
+        if each.kind in ("actuator", "sensor"):
+            return -1
+        return self.common[each.left if each.kind == "body" else int(self.of.model(owners[each.kind])[each.left])]
+
+    def bodies(self, each: Comparison) -> tuple[int, int]:
+        """The bodies that a comparison is of; those of the joints that actuators drive."""
+        owners = {"joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid", "camera": "cam_bodyid"}
+        pair = (each.left, each.right)
+        if each.kind == "actuator":
+            left, right = (self.of.driven_joint(one) for one in pair)
+            pair = (-1 if left is None else left, -1 if right is None else right)
+        if each.kind in ("body", "sensor") or -1 in pair:
+            return pair
+        field = self.of.model(owners.get(each.kind, "jnt_bodyid"))
+        return int(field[pair[0]]), int(field[pair[1]])
+
+    def trusted(self, group: int, compared: list[Comparison]) -> bool:
+        """Whether what hangs on a body on both sides is the other's image but for little."""
+        fits = next((self.share[left] for left, body in self.common.items() if body == group), 1.0)
+        return fits >= 0.85 and sum(each.odd for each in compared) <= max(2, 0.2 * len(compared))
+
+    def interval_sign(self, each: Comparison) -> float:
+        """Whether a range of the pair is the same on both sides (1) or mirrored (-1)."""
+        if each.kind == "joint":
+            return self.joint_sign(each.left, each.right)[0]
+        joints = [self.of.driven_joint(actuator) or 0 for actuator in (each.left, each.right)]
+        gears = [self.of.row("actuator_gear", actuator, 6)[0] for actuator in (each.left, each.right)]
+        return self.joint_sign(joints[0], joints[1])[0] * math.copysign(1, gears[0] * gears[1])
+
+    def _compared(self) -> Iterator[Comparison]:
+        for left, right in self.pairs["body"]:
+            if left in self.images:
+                yield from self._bodies(left, right)
+        for left, right in self.pairs["joint"]:
+            if int(self.of.model("jnt_bodyid")[left]) in self.images:
+                yield from self._joints(left, right)
+        kinds, bodies = self.of.model("geom_type"), self.of.model("geom_bodyid")
+        named = self.of.names("geom")
+        unordered = {bodies[a] for a, b in self.pairs["geom"] if kinds[a] != kinds[b] and not (named[a] and named[b])}
+        for left, right in self.pairs["geom"]:
+            if int(bodies[left]) in self.images and bodies[left] not in unordered:
+                yield from self._geoms(left, right)
+        for left, right in self.pairs["site"]:
+            if (body := int(self.of.model("site_bodyid")[left])) in self.images:
+                unlike = self._offset(body, "site_xpos", left, right, int(self.of.model("site_bodyid")[right]))
+                yield Comparison("site", "pos", left, right, unlike, FITS * self.size[body], "m")
+        for left, right in self.pairs["camera"]:
+            if (body := int(self.of.model("cam_bodyid")[left])) in self.images:
+                yield from self._cameras(body, left, right)
+        yield from self._signs()
+        for left, right in self.pairs["actuator"]:
+            yield from self._actuators(left, right)
+        for left, right in self.pairs["sensor"]:
+            yield from self._sensors(left, right)
+
+    def _offset(self, body: int, field: str, left: int, right: int, other: int) -> float:
+        """How far a point of the right body is from the image of its twin's, seen from their bodies' origins."""
+        image = times(self.images[body].matrix, sub(self.at(field, left), self.at("xpos", body)))
+        return norm(sub(image, sub(self.at(field, right), self.at("xpos", other))))
+
+    def _alike(self, geom: int) -> list[int]:
+        """The geoms of the same body that have its type and size: which is which needs no order."""
+        of = self.of
+        body, kind, size = (
+            int(of.model("geom_bodyid")[geom]),
+            of.model("geom_type")[geom],
+            norm(of.row("geom_size", geom, 3)),
+        )
+        kinds = of.model("geom_type")
+        same = [each for each in of.geoms_of(body) if kinds[each] == kind]
+        return [each for each in same if apart(norm(of.row("geom_size", each, 3)), size) < 5]
+
+    def _bodies(self, left: int, right: int) -> Iterator[Comparison]:
+        of, image, size = self.of, self.images[left], self.size[left]
+        parents = [int(of.model("body_parentid")[each]) for each in (left, right)]
+        if parents[0] == parents[1]:
+            unlike = norm(sub(image.of(self.at("xpos", left)), self.at("xpos", right)))
+        else:
+            here, there = (
+                sub(self.at("xpos", b), self.at("xpos", p)) for b, p in zip((left, right), parents, strict=True)
+            )
+            unlike = norm(sub(times(image.matrix, here), there))
+        yield Comparison("body", "pos", left, right, unlike, FITS * size, "m")
+        masses = of.model("body_mass")[left], of.model("body_mass")[right]
+        yield Comparison("body", "mass", left, right, apart(*masses), 10)
+        if min(masses) > 1e-9:
+            yield Comparison(
+                "body",
+                "center of mass",
+                left,
+                right,
+                self._offset(left, "xipos", left, right, right),
+                2 * FITS * size,
+                "m",
+            )
+            tensors = [
+                tuple(x / mass for x in self.tensor(body)) for body, mass in zip((left, right), masses, strict=True)
+            ]
+            difference = sub(turned(image.matrix, tensors[0]), tensors[1])
+            yield Comparison(
+                "body", "inertia", left, right, 100 * norm(difference) / max(norm(tensors[0]), norm(tensors[1])), 25
+            )
+        yield Comparison(
+            "body", "gravcomp", left, right, apart(of.model("body_gravcomp")[left], of.model("body_gravcomp")[right]), 5
+        )
+
+    def tensor(self, body: int) -> Vector:
+        """A body's inertia about its centre of mass in the world's axes, in kg m2."""
+        return turned(self.at("ximat", body, 9), diagonal(self.of.row("body_inertia", body, 3)))
+
+    def _joints(self, left: int, right: int) -> Iterator[Comparison]:
+        of = self.of
+        body = int(of.model("jnt_bodyid")[left])
+        if of.joint_type(left) != of.joint_type(right):
+            yield Comparison("joint", "type", left, right, 100, 1)
+            return
+        if of.joint_type(left) == FREE:
+            return
+        springs = of.model("jnt_stiffness")
+        yield Comparison("joint", "stiffness", left, right, apart(springs[left], springs[right]), 30)
+        for quantity in ("damping", "armature", "frictionloss"):
+            field = of.model(f"dof_{quantity}")
+            yield Comparison("joint", quantity, left, right, apart(field[of.dof(left)], field[of.dof(right)]), 30)
+        other = int(of.model("jnt_bodyid")[right])
+        yield Comparison(
+            "joint", "pos", left, right, self._offset(body, "xanchor", left, right, other), FITS * self.size[body], "m"
+        )
+        limited = [bool(of.model("jnt_limited")[each]) for each in (left, right)]
+        if of.joint_type(left) == BALL:
+            return
+        sign, angle = self.joint_sign(left, right)
+        yield Comparison("joint", "axis", left, right, angle, 5, "degrees")
+        if angle < 30:
+            yield Comparison("joint", "limited", left, right, 100 * (limited[0] != limited[1]), 1)
+            if all(limited):
+                yield Comparison(
+                    "joint",
+                    "range",
+                    left,
+                    right,
+                    _intervals(of.row("jnt_range", left, 2), of.row("jnt_range", right, 2), sign),
+                    10,
+                )
+
+    def _signs(self) -> Iterator[Comparison]:
+        """Joint axes against the habit of the model: those along the normal of the mirror, and those across it."""
+        kinds = (SLIDE, HINGE)
+        for common in set(self.common.values()):
+            normals: dict[bool, list[tuple[int, int, float]]] = {True: [], False: []}
+            for left, right in self.pairs["joint"]:
+                body = int(self.of.model("jnt_bodyid")[left])
+                if (
+                    self.common.get(body) != common
+                    or self.images[body].sign > 0
+                    or self.of.joint_type(left) not in kinds
+                ):
+                    continue
+                axis = self.at("xaxis", left)
+                along = norm(add(times(self.images[body].matrix, axis), axis)) / 2  # 0 along the normal, 1 across it
+                sign, angle = self.joint_sign(left, right)
+                if (along < 0.3 or along > 0.85) and angle < 30 and self.of.joint_type(left) == HINGE:
+                    normals[along < 0.3].append((left, right, sign))
+            for found in normals.values():
+                most = sum(sign for _, _, sign in found)
+                for left, right, sign in found if abs(most) >= len(found) - 2 and len(found) >= 4 else ():
+                    yield Comparison("joint", "axis sign", left, right, 100 * (sign * most < 0), 1)
+
+    def _geoms(self, left: int, right: int) -> Iterator[Comparison]:
+        of = self.of
+        body, other = (int(of.model("geom_bodyid")[each]) for each in (left, right))
+        size = self.size[body]
+        if not any(of.model(field)[each] for field in ("geom_contype", "geom_conaffinity") for each in (left, right)):
+            return
+        kinds = of.model("geom_type")[left], of.model("geom_type")[right]
+        yield Comparison("geom", "type", left, right, 100 * (kinds[0] != kinds[1]), 1)
+        for quantity, field in (
+            ("contype", "geom_contype"),
+            ("conaffinity", "geom_conaffinity"),
+            ("condim", "geom_condim"),
+        ):
+            yield Comparison("geom", quantity, left, right, 100 * (of.model(field)[left] != of.model(field)[right]), 1)
+        frictions = [of.row("geom_friction", each, 3) for each in (left, right)]
+        yield Comparison("geom", "friction", left, right, apart(frictions[0][0], frictions[1][0]), 5)
+        if kinds[0] == kinds[1] != MESH:
+            boxes = [of.row("geom_aabb", each, 6)[3:] for each in (left, right)]
+            yield Comparison(
+                "geom", "size", left, right, max(apart(a, b) for a, b in zip(*map(sorted, boxes), strict=True)), 10
+            )
+            nearest = min(self._offset(body, "geom_xpos", left, each, other) for each in self._alike(right))
+            yield Comparison("geom", "pos", left, right, nearest, FITS * size, "m")
+            if nearest < self._offset(body, "geom_xpos", left, right, other) - FITS * size:
+                return
+            shapes = [turned(self.at("geom_xmat", each, 9), diagonal(tuple(x * x for x in box)))
+                      for each, box in zip((left, right), boxes, strict=True)]  # fmt: skip
+            turn = sub(turned(self.images[body].matrix, shapes[0]), shapes[1])
+            yield Comparison(
+                "geom", "quat", left, right, 100 * norm(turn) / max(norm(shapes[0]), norm(shapes[1]), 1e-12), 20
+            )
+
+    def _cameras(self, body: int, left: int, right: int) -> Iterator[Comparison]:
+        of = self.of
+        other = int(of.model("cam_bodyid")[right])
+        yield Comparison(
+            "camera",
+            "pos",
+            left,
+            right,
+            self._offset(body, "cam_xpos", left, right, other),
+            FITS * self.size[body],
+            "m",
+        )
+        views = [tuple(self.at("cam_xmat", each, 9)[2::3]) for each in (left, right)]
+        cosine = dot(times(self.images[body].matrix, views[0]), views[1])
+        yield Comparison(
+            "camera", "direction", left, right, math.degrees(math.acos(max(-1.0, min(1.0, cosine)))), 5, "degrees"
+        )
+        yield Comparison(
+            "camera", "fovy", left, right, apart(of.model("cam_fovy")[left], of.model("cam_fovy")[right]), 5
+        )
+
+    def _actuators(self, left: int, right: int) -> Iterator[Comparison]:
+        of = self.of
+        joints = of.driven_joint(left), of.driven_joint(right)
+        gears = of.row("actuator_gear", left, 6), of.row("actuator_gear", right, 6)
+        yield Comparison("actuator", "gear", left, right, apart(norm(gears[0]), norm(gears[1])), 30)
+        for quantity, field in (("gain", "actuator_gainprm"), ("bias", "actuator_biasprm")):
+            width = len(of.model(field)) // max(1, of.count("actuator"))
+            rows = of.row(field, left, width), of.row(field, right, width)
+            yield Comparison(
+                "actuator", quantity, left, right, max(apart(abs(a), abs(b)) for a, b in zip(*rows, strict=True)), 30
+            )
+        if joints[0] is None or joints[1] is None:
+            return
+        paired = self.partner("joint", joints[0])
+        if paired is not None or joints[0] == joints[1] or self.partner("joint", joints[1]) is not None:
+            yield Comparison("actuator", "joint", left, right, 100 * (paired != joints[1]), 1)
+        if paired != joints[1] or int(of.model("jnt_bodyid")[joints[0]]) not in self.images:
+            return
+        for quantity in ("ctrl", "force"):
+            limited = [bool(of.model(f"actuator_{quantity}limited")[each]) for each in (left, right)]
+            if all(limited):
+                same = Comparison("actuator", f"{quantity}range", left, right, 0.0, 10)
+                ranges = [of.row(f"actuator_{quantity}range", each, 2) for each in (left, right)]
+                yield replace(same, unlike=_intervals(ranges[0], ranges[1], self.interval_sign(same)))
+
+    def _sensors(self, left: int, right: int) -> Iterator[Comparison]:
+        of = self.of
+        if of.model("sensor_objtype")[left] != of.model("sensor_objtype")[right]:
+            return
+        kind = {1: "body", 2: "body", 3: "joint", 5: "geom", 6: "site", 7: "camera", 19: "actuator"}
+        found = kind.get(int(of.model("sensor_objtype")[left]))
+        targets = [int(of.model("sensor_objid")[each]) for each in (left, right)]
+        partner = self.partner(found, targets[0]) if found else None
+        if partner is not None or targets[0] == targets[1]:
+            yield Comparison("sensor", "target", left, right, 100 * (partner != targets[1]), 1)
+
+
+def _intervals(left: Vector, right: Vector, sign: float) -> float:
+    """How unlike a range is to its twin's image, in % of the wider."""
+    image = left if sign > 0 else (-left[1], -left[0])
+    wide = max(left[1] - left[0], right[1] - right[0], 1e-9)
+    return 100 * max(abs(a - b) for a, b in zip(image, right, strict=True)) / wide
+
+
+def twins(simulation: Simulation) -> Twins:
+    """The pairs of a model, found once."""
+    if "twins" not in simulation.kept:
+        simulation.kept["twins"] = Twins(simulation)
+    found = simulation.kept["twins"]
+    assert isinstance(found, Twins)
+    return found

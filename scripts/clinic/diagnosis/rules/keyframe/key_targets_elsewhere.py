@@ -1,0 +1,106 @@
+"""The servos of a keyframe are told to go elsewhere than where it puts the joints.
+
+A `<key>` with `qpos` and no `ctrl`, or with a `ctrl` in another order: at the first step the robot leaves the pose.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="upper" pos="0 0 1">
+          <joint name="shoulder" axis="0 1 0" range="-90 90" damping="1" armature="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
+          <body name="lower" pos="0.3 0 0">
+            <joint name="elbow" axis="0 1 0" range="0 120" damping="1" armature="0.1"/>
+            <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
+          </body>
+        </body>
+      </worldbody>
+      <actuator>
+        <position name="shoulder" joint="shoulder" kp="50" kv="5"/>
+        <position name="elbow" joint="elbow" kp="50" kv="5"/>
+      </actuator>
+      <keyframe>
+        <key name="home" qpos="0.8 1.2"/>
+      </keyframe>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="upper" pos="0 0 1">
+          <joint name="shoulder" axis="0 1 0" range="-90 90" damping="1" armature="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
+          <body name="lower" pos="0.3 0 0">
+            <joint name="elbow" axis="0 1 0" range="0 120" damping="1" armature="0.1"/>
+            <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
+          </body>
+        </body>
+      </worldbody>
+      <actuator>
+        <position name="shoulder" joint="shoulder" kp="50" kv="5"/>
+        <position name="elbow" joint="elbow" kp="50" kv="5"/>
+      </actuator>
+      <keyframe>
+        <key name="home" qpos="0.8 1.2" ctrl="0.8 1.2"/>
+      </keyframe>
+    </mujoco>
+
+The number: the distance between target and joint that three quarters of the position servos keep, in rad or m; 0.1 and
+more tells a cause, for keyframes in which at least two servos and half of them are off.
+
+When it is wrong: a keyframe that is meant to start a motion.
+Whether `ctrl` is left out on purpose, only its author knows: all zero and no `ctrl` is a hint.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.probes.key import off_target, servos
+from clinic.diagnosis.probes.vector import written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "A keyframe's targets are not its pose"
+FAMILIES = ("drifts", "jumps-at-start", "tips-over", "sags")
+SINCE = "0.2"
+
+LIMIT = 0.1  # rad or m
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Keyframes whose `ctrl` holds another pose than their `qpos`."""
+    of = model.simulation
+    for key in range(of.count("key")):
+        found = servos(of, key)
+        off = [actuator for actuator, (target, at) in found.items() if abs(target - at) > LIMIT]
+        element = model.element("key", key)
+        if (
+            len(off) < 2
+            or len(off) < 0.5 * len(found)
+            or element is None
+            or len(element.get("qpos").split()) != len(of.model("qpos0"))
+        ):
+            continue
+        ctrl = list(of.data("ctrl"))
+        gain, bias = of.model("actuator_gainprm"), of.model("actuator_biasprm")
+        width = len(gain) // of.count("actuator")
+        for actuator, (_, at) in found.items():
+            gear = of.row("actuator_gear", actuator, 6)[0]
+            ctrl[actuator] = at * gear * -bias[width * actuator + 1] / gain[width * actuator]
+        worst = max(off, key=lambda actuator: abs(found[actuator][0] - found[actuator][1]))
+        target, at = found[worst]
+        yield Suspect(
+            (of.name("key", key),),
+            "ctrl",
+            element.get("ctrl") or "left out",
+            written(ctrl),
+            (set_attribute(element, "ctrl", written(ctrl)),),
+            off_target(key),
+            LIMIT,
+            f"{len(off)} of {len(found)} servos go away: {of.name('actuator', worst)} from {at:.3g} to {target:.3g}.",
+            "the targets of a pose are its joints' positions",
+            level="cause" if "ctrl" in element.attributes else "hint",
+        )

@@ -1,0 +1,94 @@
+"""A keyframe has fewer positions than the model.
+
+On MuJoCo 4.0 a `qpos` that is too short is filled up from the model's start, without a word. A free body that stands
+before the robot then takes the robot's first seven numbers, and the robot the rest.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="box" pos="1 0 0.5">
+          <freejoint/>
+          <geom size="0.1"/>
+        </body>
+        <body name="link" pos="0 0 1">
+          <joint axis="0 1 0" range="-90 90"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
+        </body>
+      </worldbody>
+      <keyframe>
+        <key name="home" qpos="0.8"/>
+      </keyframe>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="box" pos="1 0 0.5">
+          <freejoint/>
+          <geom size="0.1"/>
+        </body>
+        <body name="link" pos="0 0 1">
+          <joint axis="0 1 0" range="-90 90"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
+        </body>
+      </worldbody>
+      <keyframe>
+        <key name="home" qpos="1 0 0.5 1 0 0 0 0.8"/>
+      </keyframe>
+    </mujoco>
+
+The number: how many numbers are missing. Where free bodies stand first, the edit puts their places
+before the numbers that are written. Seven, fourteen, ... missing numbers tell a cause.
+
+When it is wrong: free bodies that come last and are meant to keep their places.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.engine import FREE
+from clinic.diagnosis.probes.vector import written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A keyframe is too short"
+FAMILIES = ("jumps-at-start", "drifts")
+SINCE = "0.2"
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Keyframes with fewer positions than joints need, where a free body takes what is another's."""
+    of = model.simulation
+    start = list(of.model("qpos0"))
+    for key in range(of.count("key")):
+        element = model.element("key", key)
+        values = [float(text) for text in element.get("qpos").split()] if element is not None else []
+        missing = len(start) - len(values)
+        free = 7 * len(of.free_bodies)
+        first = bool(of.count("joint")) and of.joint_type(0) == FREE
+        if element is None or not values or missing <= 0 or not first or missing > free:
+            continue
+        qpos = [*start[:missing], *values]
+        probe = Probe("numbers that go to another joint", "", _astray, (key, tuple(qpos)), dynamic=False)
+        yield Suspect(
+            (of.name("key", key),),
+            "qpos",
+            f"{len(values)} numbers",
+            f"{len(start)} numbers",
+            (set_attribute(element, "qpos", written(qpos)),),
+            probe,
+            0.5,
+            f"It has {len(values)} of {len(start)} numbers: {of.name('joint', 0)}, free, takes the first.",
+            "as many numbers as nq",
+            level="cause" if missing % 7 == 0 and len(values) % 7 else "hint",
+        )
+
+
+def _astray(simulation: Simulation, key: int, meant: tuple[float, ...]) -> float:
+    simulation.engine.reset(key)
+    return float(sum(abs(a - b) > 1e-5 for a, b in zip(simulation.data("qpos"), meant, strict=True)))

@@ -1,0 +1,85 @@
+"""A geom stands twice in its body.
+
+Copied and not changed: the body weighs twice as much, and nothing of it can be seen.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="palm" pos="0 0 1">
+          <joint axis="0 1 0"/>
+          <geom type="box" size="0.05 0.02 0.04"/>
+          <geom type="box" size="0.05 0.02 0.04"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="palm" pos="0 0 1">
+          <joint axis="0 1 0"/>
+          <geom type="box" size="0.05 0.02 0.04"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the body's mass, and without the copy. Geoms count as the same when type, size, place, mesh, masks and
+color are.
+
+When it is wrong: two layers that are meant; more than two copies in a model are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import delete
+from clinic.diagnosis.engine import CompileError
+from clinic.diagnosis.probes.matter import mass_of
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "A geom stands twice"
+FAMILIES = ("too-heavy", "sags", "drifts")
+SINCE = "0.2"
+
+MORE = 1.05
+FIELDS = {"type": 1, "size": 3, "pos": 3, "quat": 4, "dataid": 1, "contype": 1, "conaffinity": 1, "group": 1, "rgba": 4}
+MANY = 2  # so many are no slip
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Bodies that a second copy of a geom makes heavier."""
+    of = model.simulation
+    copies = [(body, *pair) for body in of.moving_bodies for pair in _copies(of, body)]
+    for body, geom, first in copies if len(copies) <= MANY else ():
+        element = model.element("geom", geom)
+        edits = (delete(element),) if element is not None else ()
+        without = model.with_edits(edits)
+        if isinstance(without, CompileError):
+            continue
+        rest = without.model("body_mass")[body]
+        yield Suspect(
+            (of.name("geom", geom), of.name("body", body)),
+            "",
+            "",
+            f"without {of.name('geom', geom)}",
+            edits,
+            mass_of((body,)),
+            MORE * rest if edits else 0.0,
+            f"It has the type, the size and the place of {of.name('geom', first)}.",
+            "one geom in one place",
+            share=0.95,
+        )
+
+
+def _copies(of: Simulation, body: int) -> Iterator[tuple[int, int]]:
+    """Colliding geoms of a body that are like one before them, and that one."""
+    first: dict[tuple[float, ...], int] = {}
+    for geom in of.geoms_of(body):
+        key = tuple(round(x, 6) for name, width in FIELDS.items() for x in of.row(f"geom_{name}", geom, width))
+        if of.model("geom_contype")[geom] and first.setdefault(key, geom) != geom:
+            yield geom, first[key]

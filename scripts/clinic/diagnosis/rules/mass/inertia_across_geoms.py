@@ -1,0 +1,72 @@
+"""The principal axes of the inertia lie across those of the geoms.
+
+`diaginertia` without the `quat` that turns it, or its numbers in another order: a long link is then heavy to spin about
+its own axis and light to swing.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="link" pos="0 0 1">
+          <joint axis="0 1 0"/>
+          <inertial pos="0 0 0.2" mass="1" diaginertia="0.0002 0.0135 0.0135"/>
+          <geom type="capsule" fromto="0 0 0 0 0 0.4" size="0.02"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="link" pos="0 0 1">
+          <joint axis="0 1 0"/>
+          <inertial pos="0 0 0.2" mass="1" diaginertia="0.0135 0.0135 0.0002"/>
+          <geom type="capsule" fromto="0 0 0 0 0 0.4" size="0.02"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the inertia about the longest axis of the geoms, where the mean of the three is 1. A thin rod has 0 about
+its axis and 1.5 across. Of 249 long bodies of healthy robots, whose geoms have at most 0.3, none has more than 0.9.
+
+When it is wrong: a long cover around a flat motor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.inertia import set_inertial
+from clinic.diagnosis.probes.matter import across, explicit
+from clinic.diagnosis.probes.vector import norm
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "The inertia lies across the body"
+FAMILIES = ("drifts", "oscillates", "tips-over")
+SINCE = "0.2"
+
+LONG, LIMIT = 0.3, 1.0
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Long bodies that are heavy to spin about their long axis."""
+    for body, found in explicit(model):
+        moments = model.simulation.row("body_inertia", body, 3)
+        geoms, own = found.along
+        if geoms > LONG or own <= LIMIT or min(moments) > 0.6 * max(moments):
+            continue
+        scale = norm(found.about) / norm(found.solid)
+        yield Suspect(
+            (model.simulation.name("body", body),),
+            "inertial",
+            "quat " + (model.value("body", body, "quat") or "left out"),
+            "axes of the geoms",
+            set_inertial(model, body, found.mass, found.centre, tuple(scale * x for x in found.solid)),
+            across(body),
+            LIMIT,
+            f"Its geoms are long: their inertia about the long axis is {geoms:.2g} of the mean, its own {own:.2g}.",
+            "below 1: at most 0.9 in 249 long bodies of healthy robots",
+            excess=own,
+        )

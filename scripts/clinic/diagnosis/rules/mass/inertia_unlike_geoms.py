@@ -1,0 +1,91 @@
+"""The inertia of a body is not that of its geoms.
+
+A placeholder (`diaginertia="0.001 0.001 0.001"` on a finger of 10 g, or on a base of 60 kg), a tensor in g mm2, one
+that belongs to another mass. The joint then turns far too easily, and explodes under a servo that the real one bears;
+or it is far too sluggish.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="base" pos="0 0 1">
+          <freejoint/>
+          <inertial pos="0 0 0" mass="60" diaginertia="0.001 0.001 0.001"/>
+          <geom type="box" size="0.2 0.2 0.1"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="base" pos="0 0 1">
+          <freejoint/>
+          <inertial pos="0 0 0" mass="60" diaginertia="1 1 1.6"/>
+          <geom type="box" size="0.2 0.2 0.1"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the radius of gyration over that of the geoms, filled evenly: 0.53 to 1.7 for 90 % of 1475 bodies in healthy
+models. Suspected are bodies beyond 0.4 or 2.5 whose inertia is the same about all axes, and others beyond 0.15 or 6.
+Those that change nothing, massless frames and tips, are told by the inertia at the joint that turns the body: it must
+differ 2.5 times; 1.5 times where several bodies have the same, and 5 times where it is not equal about all axes.
+
+When it is wrong: a body whose geoms are a small part of it, such as the feet of an unseen leg.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.inertia import set_inertial
+from clinic.diagnosis.probes.matter import explicit, joint_inertia
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "The inertia is not that of the geoms"
+FAMILIES = ("explodes", "oscillates", "stuck", "drifts")
+SINCE = "0.2"
+
+USUAL = (0.4, 2.5)  # radius of gyration over that of the geoms
+FAR = (0.15, 6.0)  # the same, for an inertia that is not equal about all axes, which nobody types in
+LIMIT, ALIKE = 2.5, 1.5  # times the inertia at the joint; where several bodies have the same inertia
+FEW = 0.25  # of the bodies: where more are so, the geoms show little of them
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Bodies with a radius of gyration beyond their geoms', those with equal inertia together."""
+    groups: dict[tuple[float, ...], list[int]] = {}
+    found = dict(explicit(model))
+    for body, each in found.items():
+        if not USUAL[0] < each.radius < USUAL[1]:
+            groups.setdefault(model.simulation.row("body_inertia", body, 3), []).append(body)
+    unusual = sum(map(len, groups.values()))
+    for inertia, bodies in groups.items():
+        placeholder = max(inertia) < 1.03 * min(inertia)
+        worst = max((found[body] for body in bodies), key=lambda each: max(each.radius, 1 / each.radius))
+        if not placeholder and (FAR[0] < worst.radius < FAR[1] or unusual > FEW * len(found)):
+            continue
+        probe, limit = joint_inertia(tuple(bodies)), 2 * LIMIT
+        if placeholder:
+            limit = ALIKE if len(bodies) > 1 else LIMIT
+        edits = tuple(
+            edit
+            for body in bodies
+            for edit in set_inertial(model, body, found[body].mass, found[body].centre, found[body].solid)
+        )
+        yield Suspect(
+            tuple(model.simulation.name("body", body) for body in bodies),
+            "inertial",
+            "diaginertia " + " ".join(f"{x:.3g}" for x in inertia),
+            "that of the geoms",
+            edits,
+            probe,
+            limit,
+            f"The radius of gyration is {worst.radius:.3g} times that of its geoms, filled with {worst.mass:.3g} kg.",
+            "0.4 to 2.5 times: 90 % of 1475 bodies in healthy models lie between 0.53 and 1.7",
+            excess=max(worst.radius, 1 / worst.radius),
+            level="cause" if model.measured(probe) > LIMIT else "hint",
+        )

@@ -1,0 +1,99 @@
+"""Something that moves and collides weighs less than the air in its place.
+
+A density of 1e-5, or a mass in the wrong unit: a contact throws it away, or goes through it, whatever the solver does.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="puck" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="cylinder" size="0.05 0.05" density="0.00001"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="puck" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="cylinder" size="0.05 0.05" density="500"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the mass of the air that its geoms displace (1.2 kg/m3) over its own, for everything that moves together,
+and for single links with a joint. More than 300 tells a cause: Gymnasium's second pusher pushes a puck of 120, its
+first one of 120,000. A model in centimetres has 10.
+
+When it is wrong: a balloon.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.inertia import inertial, set_inertial
+from clinic.diagnosis.probes.matter import matter
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "Lighter than air"
+FAMILIES = ("passes-through", "explodes", "falls-through", "stuck")
+SINCE = "0.2"
+
+AIR, LIMIT = 1.2, 300.0
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Trees of moving bodies that collide and weigh next to nothing."""
+    of = model.simulation
+    parents, masses = of.model("body_parentid"), of.model("body_mass")
+    moving = set(of.moving_bodies)
+    trees: dict[int, list[int]] = {}
+    for body in sorted(moving):
+        root = body
+        while int(parents[root]) in moving:
+            root = int(parents[root])
+        trees.setdefault(root, []).append(body)
+    light = [body for body in moving if of.joints_of(body) and _air(of, body) > LIMIT]
+    groups = list(trees.items())
+    if len(light) <= 2:  # a link of a tree that is heavy enough
+        groups += [(body, [body]) for body in light if trees.get(body) != [body]]
+    for root, bodies in groups:
+        geoms = [geom for body in bodies for geom in of.geoms_of(body)]
+        if not any(of.model("geom_contype")[geom] or of.model("geom_conaffinity")[geom] for geom in geoms):
+            continue
+        probe = Probe("mass of the air in its place over its own", "", _air, tuple(bodies), dynamic=False)
+        if model.measured(probe) <= LIMIT:
+            continue
+        edits = list(model.set("geom", geoms, "density", "500"))
+        edits += model.remove("geom", geoms, "mass")
+        for body in bodies:
+            if inertial(model, body) is not None and (found := matter(of, body)):
+                scale = 500 / found.density
+                edits += set_inertial(
+                    model, body, 500 * found.volume, found.centre, tuple(scale * x for x in found.solid)
+                )
+        mass = sum(masses[body] for body in bodies)
+        yield Suspect(
+            (of.name("body", root),),
+            "density",
+            f"{mass:.3g} kg",
+            "500",
+            tuple(edits),
+            probe,
+            LIMIT,
+            f"All that moves with it weighs {mass:.3g} kg: 1 mN accelerates it by {1e-3 / max(mass, 1e-30):.3g} m/s2.",
+            "wood has 500 kg/m3, air 1.2",
+        )
+
+
+def _air(simulation: Simulation, *bodies: int) -> float:
+    found = [each for body in bodies if (each := matter(simulation, body)) is not None]
+    return AIR * sum(each.volume for each in found) / max(1e-30, sum(each.mass for each in found))

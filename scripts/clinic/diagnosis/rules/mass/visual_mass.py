@@ -1,0 +1,102 @@
+"""Geoms that are only seen have mass beside those that collide.
+
+A geom with `contype="0" conaffinity="0"` still counts into the inertia of its body, at 1000 kg/m3 where nothing else
+is written. Beside a colliding geom of the same shape the body weighs twice what it should. Geoms of the same group
+that are larger or smaller than what collides are taken for parts, not for a skin.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="drill" pos="0 0 1">
+          <freejoint/>
+          <geom type="sphere" size="0.05" contype="0" conaffinity="0"/>
+          <geom type="sphere" size="0.05" mass="0.2"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="drill" pos="0 0 1">
+          <freejoint/>
+          <geom type="sphere" size="0.05" contype="0" conaffinity="0" mass="0"/>
+          <geom type="sphere" size="0.05" mass="0.2"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the body's mass, and without that of geoms for which no mass and no density is written. Half as much again
+tells a cause.
+
+When it is wrong: where the visible geoms are meant to be the mass; a mass or density that is written says so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import MESH, CompileError
+from clinic.diagnosis.probes.inertia import inertial
+from clinic.diagnosis.probes.matter import mass_of
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "Geoms that are only seen have mass"
+FAMILIES = ("sags", "too-heavy", "tips-over", "drifts")
+SINCE = "0.2"
+
+MORE = 1.5
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """All seen geoms at the default density, beside colliding ones of the same body."""
+    of = model.simulation
+    seen: list[int] = []
+    for body in of.moving_bodies:
+        if inertial(model, body) is not None:
+            continue
+        mine = [geom for geom in of.geoms_of(body) if not _collides(of, geom) and not _written(model, geom)]
+        others = [geom for geom in of.geoms_of(body) if _collides(of, geom)]
+        if others:
+            seen += [geom for geom in mine if _is_skin(of, geom, others)]
+    edits = model.set("geom", seen, "mass", "0")
+    without = model.with_edits(edits) if edits else None
+    if without is None or isinstance(without, CompileError):
+        return
+    mass, other = of.model("body_mass"), without.model("body_mass")
+    bodies = tuple(body for body in of.moving_bodies if mass[body] > MORE * other[body] > 0)
+    if bodies:
+        now, rest = sum(mass[body] for body in bodies), sum(other[body] for body in bodies)
+        yield Suspect(
+            tuple(of.name("body", body) for body in bodies),
+            "mass",
+            "left out",
+            "0",
+            edits,
+            mass_of(bodies),
+            MORE * rest,
+            f"Geoms that touch nothing add {now - rest:.3g} kg to the {rest:.3g} kg of those that collide.",
+            'mass="0" for geoms that are only seen',
+            share=0.95,
+            excess=now / rest,
+        )
+
+
+def _collides(of: Simulation, geom: int) -> bool:
+    return bool(of.model("geom_contype")[geom] or of.model("geom_conaffinity")[geom])
+
+
+def _is_skin(of: Simulation, geom: int, others: list[int]) -> bool:
+    """Whether a geom shows what others collide as: a mesh, of another group, or about as large."""
+    group, sizes = of.model("geom_group"), of.model("geom_rbound")
+    if int(of.model("geom_type")[geom]) == MESH or all(group[geom] != group[other] for other in others):
+        return True
+    return any(0.8 < sizes[geom] / sizes[other] < 1.25 for other in others if sizes[other] > 0)
+
+
+def _written(model: ReaderModel, geom: int) -> bool:
+    return model.element("geom", geom) is None or any(model.value("geom", geom, name) for name in ("mass", "density"))

@@ -1,0 +1,106 @@
+"""Nothing in the model can move.
+
+A body without a joint is welded to its parent, and one below `<worldbody>` to the world; so is every geom of
+`<worldbody>` itself. Gravity does nothing to it.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <body name="box" pos="0 0 0.5">
+          <geom type="box" size="0.1 0.1 0.1"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <body name="box" pos="0 0 0.5">
+          <freejoint/>
+          <geom type="box" size="0.1 0.1 0.1"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the share of the bodies and geoms in the air that nothing can move. All of them, above a plane and with
+gravity, is a cause; geoms of the world itself count where they are meshes.
+
+When it is wrong: a model that is meant to be looked at only; one with a camera is left alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit, insert, replace
+from clinic.diagnosis.engine import MESH, PLANE
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.source import Element
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "Nothing can move"
+FAMILIES = ("floats", "stuck", "falls-through")
+SINCE = "0.2"
+
+FREE_JOINT = "<freejoint/>"
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Everything that stands in the world, where the model has no degree of freedom."""
+    of = model.simulation
+    planes = [geom for geom in of.geoms_of(0) if int(of.model("geom_type")[geom]) == PLANE]
+    if (
+        of.count("dof")
+        or of.count("camera")
+        or not planes
+        or model.source is None
+        or model.source.urdf
+        or not any(of.model("opt.gravity"))
+    ):
+        return
+    parents, counts = of.model("body_parentid"), of.model("body_geomnum")
+    in_air = _in_air(of)
+    bodies = [body for body in range(1, of.count("body")) if parents[body] == 0 and counts[body] and body in in_air]
+    geoms = [geom for geom in of.geoms_of(0) if int(of.model("geom_type")[geom]) == MESH]
+    if bodies:
+        edits = tuple(insert(element, FREE_JOINT) for body in bodies if (element := model.element("body", body)))
+    else:
+        edits = tuple(
+            edit for geom in geoms if (element := model.element("geom", geom)) for edit in _own_body(model, element)
+        )
+    names = [of.name("body", body) for body in bodies] or [of.name("geom", geom) for geom in geoms]
+    if names:
+        says = f"The model has no joint: {len(names)} of its parts hang in the air and gravity does nothing to them."
+        probe = Probe("parts that nothing can move", "", _still, dynamic=False)
+        yield Suspect(tuple(names), "freejoint", "left out", FREE_JOINT, edits, probe, 0.5, says, "a free joint each")
+
+
+def _own_body(model: ReaderModel, geom: Element) -> tuple[Edit, ...]:
+    """A body with a free joint around a geom, at its place."""
+    attributes = {name: value for name, value in geom.attributes.items() if name != "pos"}
+    inner = "<geom " + " ".join(f'{name}="{value}"' for name, value in attributes.items()) + "/>"
+    place = f' pos="{geom.get("pos")}"' if geom.get("pos") else ""
+    return (replace(geom, f"<body{place}>{FREE_JOINT}{inner}</body>"),)
+
+
+def _in_air(of: Simulation) -> set[int]:
+    """Bodies of which all geoms are above every plane, and not tall enough to stand on it."""
+    of.begin()
+    kinds = of.model("geom_type")
+    floors = [of.data("geom_xpos")[3 * geom + 2] for geom, kind in enumerate(kinds) if int(kind) == PLANE]
+    floor = max(floors, default=float("-inf"))
+    made = set()
+    for body in range(1, of.count("body")):
+        low = [of.data("geom_xpos")[3 * geom + 2] - of.model("geom_rbound")[geom] for geom in of.geoms_of(body)]
+        if low and min(low) > floor + 1e-3:
+            made.add(body)
+    return made
+
+
+def _still(simulation: Simulation) -> float:
+    return 0.0 if simulation.count("dof") else 1.0

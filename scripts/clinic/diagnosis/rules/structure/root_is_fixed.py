@@ -1,0 +1,138 @@
+"""The wheels turn, or the legs move, and the robot stays.
+
+The body that carries the wheels has no joint, so it is part of the world. A URDF has no floating base either.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <body name="cart" pos="0 0 0.1">
+          <geom type="box" size="0.2 0.1 0.03"/>
+          <body name="left_wheel" pos="0 0.15 0">
+            <joint name="left_wheel" axis="0 1 0"/>
+            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
+          </body>
+          <body name="right_wheel" pos="0 -0.15 0">
+            <joint name="right_wheel" axis="0 1 0"/>
+            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <body name="cart" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.03"/>
+          <body name="left_wheel" pos="0 0.15 0">
+            <joint name="left_wheel" axis="0 1 0"/>
+            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
+          </body>
+          <body name="right_wheel" pos="0 -0.15 0">
+            <joint name="right_wheel" axis="0 1 0"/>
+            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: wheels that touch the floor, below a body that nothing can move. A wheel is a hinge without limits whose
+round geom has its middle on the axis. Legs are two limbs and more of a body in the air whose ends are within 15 % of
+its height of the floor.
+
+When it is wrong: a test bench with rollers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import insert
+from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, HINGE, PLANE, SPHERE
+from clinic.diagnosis.probes.vector import dot, norm, sub
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "The robot is fixed to the world"
+FAMILIES = ("stuck",)
+SINCE = "0.2"
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The body without a joint that carries wheels on the floor."""
+    wheels = _wheels(model.simulation) or _feet(model.simulation)
+    of, parents = model.simulation, model.simulation.model("body_parentid")
+    roots = set()
+    for body in wheels:
+        root = body
+        while parents[root]:
+            root = int(parents[root])
+        roots.add(root)
+    if len(wheels) < 2 or len(roots) != 1:
+        return
+    root = roots.pop()
+    element = model.element("body", root)
+    urdf = model.source is not None and model.source.urdf
+    edits = (insert(element, "<freejoint/>"),) if element is not None and not urdf else ()
+    says = f"{len(wheels)} wheels or legs reach the floor, and no joint lets the body that carries them move."
+    probe = Probe("wheels and legs on the floor below a fixed body", "", _count, dynamic=False)
+    yield Suspect((of.name("body", root),), "freejoint", "left out", "<freejoint/>", edits, probe, 1.5, says, "none")
+
+
+def _feet(of: Simulation) -> list[int]:
+    """Bodies that are the first to move on their way from the world, of limbs that reach down to the floor."""
+    of.begin()
+    kinds, parents = of.model("geom_type"), of.model("body_parentid")
+    moving, heights = set(of.moving_bodies), of.data("xpos")[2::3]
+    floors = [of.data("geom_xpos")[3 * geom + 2] for geom, kind in enumerate(kinds) if int(kind) == PLANE]
+    lowest: dict[int, float] = {}
+    for body in moving if len(floors) == 1 else ():
+        first = body
+        while int(parents[first]) in moving:
+            first = int(parents[first])
+        low = min((of.data("geom_xpos")[3 * geom + 2] for geom in of.geoms_of(body)), default=float("inf"))
+        lowest[first] = min(low, lowest.get(first, float("inf")))
+    made = []
+    for first, low in lowest.items():
+        root = int(parents[first])
+        height = heights[root] - max(floors)
+        own = [of.data("geom_xpos")[3 * geom + 2] for geom in of.geoms_of(root) if of.model("geom_contype")[geom]]
+        in_air = bool(own) and root > 0 and min(own) - max(floors) > 0.4 * height
+        if in_air and parents[root] == 0 and 0 <= low - max(floors) < 0.15 * height:
+            made.append(first)
+    return made
+
+
+def _count(simulation: Simulation) -> float:
+    return float(len(_wheels(simulation) or _feet(simulation)))
+
+
+def _wheels(of: Simulation) -> list[int]:
+    """Bodies of wheels that are the first to move on their way from the world, and reach the floor."""
+    of.begin()
+    kinds, moving = of.model("geom_type"), set(of.moving_bodies)
+    floors = [of.data("geom_xpos")[3 * geom + 2] for geom, kind in enumerate(kinds) if int(kind) == PLANE]
+    made = []
+    for joint in range(of.count("joint")) if floors else ():
+        body = int(of.model("jnt_bodyid")[joint])
+        if of.joint_type(joint) != HINGE or of.model("jnt_limited")[joint]:
+            continue
+        if int(of.model("body_parentid")[body]) in moving or len(of.joints_of(body)) > 1:
+            continue
+        axis, anchor = of.data_row("xaxis", joint, 3), of.data_row("xanchor", joint, 3)
+        for geom in of.geoms_of(body):
+            off = sub(of.data_row("geom_xpos", geom, 3), anchor)
+            radius = of.row("geom_size", geom, 3)[0]
+            beside = norm(tuple(x - dot(off, axis) * a for x, a in zip(off, axis, strict=True)))
+            low = of.data_row("geom_xpos", geom, 3)[2] - radius - max(floors)
+            round_ = int(kinds[geom]) in (SPHERE, CYLINDER, ELLIPSOID)
+            if round_ and abs(axis[2]) < 0.3 and beside < 0.05 * radius and -0.3 * radius < low < 0.1 * radius:
+                made.append(body)
+                break
+    return made

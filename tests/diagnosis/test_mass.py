@@ -1,0 +1,63 @@
+"""Mass and inertia against the geoms, keyframes and structure: near misses."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.probes.matter import matter
+from clinic.diagnosis.simulation import Simulation, Start
+
+
+def causes(text: str) -> list[str]:
+    return [each.rule for each in examine(NativeEngine(), {"model.xml": text}).causes]
+
+
+def link(inertial: str, joint: str = '<joint axis="0 1 0"/>') -> str:
+    return (
+        f'<mujoco><worldbody><body pos="0 0 1">{joint}{inertial}'
+        '<geom type="capsule" fromto="0 0 0 0 0 0.4" size="0.02"/></body></worldbody></mujoco>'
+    )
+
+
+def test_a_body_that_its_geoms_make_has_their_inertia():
+    simulation = Simulation(NativeEngine().compile(link(""), {}), Start())
+    found = matter(simulation, 1)
+    assert found is not None
+    assert found.radius == pytest.approx(1, abs=0.05)
+    assert found.outside == 0
+    assert found.density == pytest.approx(1000, rel=0.1)
+
+
+@pytest.mark.parametrize("inertia", ["0.0135 0.0135 0.0002", "0.03 0.03 0.0005", "0.005 0.005 0.0001"])
+def test_an_inertia_of_a_hollow_or_a_heavy_ended_link_is_well(inertia):
+    assert not causes(link(f'<inertial pos="0 0 0.2" mass="1" diaginertia="{inertia}"/>'))
+
+
+def test_a_placeholder_that_no_joint_feels_is_no_cause():
+    placeholder = '<inertial pos="0 0 0.2" mass="1" diaginertia="1e-6 1e-6 1e-6"/>'
+    assert causes(link(placeholder, "<freejoint/>")) == ["inertia-unlike-geoms"]
+    assert not causes(link(placeholder, '<joint type="slide" axis="0 1 0"/>'))
+
+
+@pytest.mark.parametrize("attributes", ['mass="0"', 'mass="0.1"', 'density="50"'])
+def test_visual_geoms_with_a_written_mass_are_meant(attributes):
+    body = f'<geom size="0.05" contype="0" conaffinity="0" group="2" {attributes}/><geom size="0.05" mass="0.2"/>'
+    assert not causes(f'<mujoco><worldbody><body pos="0 0 1"><freejoint/>{body}</body></worldbody></mujoco>')
+
+
+def test_an_arm_on_the_wall_is_not_a_robot_without_its_free_joint():
+    arm = '<body pos="0.2 0 0"><joint axis="0 1 0"/><geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/></body>'
+    base = f'<body name="base" pos="0 0 1"><geom size="0.1"/>{arm}</body>'
+    assert not causes(f'<mujoco><worldbody><geom type="plane" size="2 2 1"/>{base}</worldbody></mujoco>')
+
+
+def test_a_keyframe_with_one_servo_that_opens_a_gripper_is_meant():
+    joints = "".join(
+        f'<body pos="{i} 0 1"><joint name="j{i}" axis="0 1 0" damping="1" armature="0.1"/><geom size="0.05"/></body>'
+        for i in range(3)
+    )
+    servos = "".join(f'<position joint="j{i}" kp="20" kv="2"/>' for i in range(3))
+    model = "<mujoco><worldbody>{}</worldbody><actuator>{}</actuator><keyframe>{}</keyframe></mujoco>"
+    assert not causes(model.format(joints, servos, '<key qpos="1 1 0" ctrl="1 1 0.5"/>'))
+    assert causes(model.format(joints, servos, '<key qpos="1 0 0.5" ctrl="0 0.5 1"/>')) == ["key-targets-elsewhere"]

@@ -1,0 +1,109 @@
+"""What comes in pairs, beyond the laws: near misses, and healthy models that look ill."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import Diagnosis, examine
+from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.probes.pairs import right_of
+from clinic.diagnosis.probes.siblings import odd_ones
+from clinic.diagnosis.probes.twins import twins
+from clinic.diagnosis.simulation import Simulation, Start
+
+PARTS = ("front", "middle", "rear")
+
+
+def robot(change: dict[str, str] | None = None, **of_side: str) -> str:
+    """Six legs in pairs; `change` replaces text of one body, by its name."""
+    legs = ""
+    for place, part in enumerate(PARTS):
+        for side, y in (("left", 0.1), ("right", -0.1)):
+            name = f"{side}_{part}"
+            leg = (
+                f'<body name="{name}" pos="{0.2 - 0.2 * place} {y} 0"><inertial pos="0 {y / 2} 0" mass="0.2" '
+                f'diaginertia="1e-4 2e-4 3e-4"/><joint name="{name}" axis="1 0 0" damping="0.1" '
+                f'range="{of_side.get(side, "-30 60")}"/><geom size="0.04" pos="0.0 {y / 2} 0"/></body>'
+            )
+            for found, other in (change or {}).items():
+                who, _, text = found.partition(":")
+                if who == name:
+                    assert text in leg
+                    leg = leg.replace(text, other)
+            legs += leg
+    return f'<mujoco><worldbody><body pos="0 0 1"><freejoint/><geom size="0.1"/>{legs}</body></worldbody></mujoco>'
+
+
+def diagnosed(text: str) -> Diagnosis:
+    return examine(NativeEngine(), {"model.xml": text})
+
+
+def simulated(text: str) -> Simulation:
+    return Simulation(NativeEngine().compile(text, {}), Start())
+
+
+@pytest.mark.parametrize(
+    ("left", "right"),
+    [
+        ("left_knee", "right_knee"),
+        ("LHipPitch", "RHipPitch"),
+        ("thigh_L", "thigh_R"),
+        ("FL_calf_joint", "FR_calf_joint"),
+        ("RL_calf", "RR_calf"),
+        ("l_finger", "r_finger"),
+        ("kneeLeft", "kneeRight"),
+    ],
+)
+def test_the_right_twin_of_a_name(left, right):
+    assert right in right_of(left)
+
+
+def test_a_name_without_a_side_has_no_twin():
+    assert not list(right_of("pelvis"))
+
+
+def test_mirrored_ranges_are_alike():
+    """Axes that are parallel turn mirror images by opposite angles: then -30 60 belongs to -60 30."""
+    mirrored = twins(simulated(robot(left="-30 60", right="-60 30")))
+    assert not [each for each in mirrored.comparisons if each.odd]
+    copied = twins(simulated(robot(left="-30 60", right="-30 60")))
+    assert [each.quantity for each in copied.comparisons if each.odd] == ["range"] * 3
+
+
+def test_a_robot_in_which_all_pairs_differ_has_no_cause():
+    assert not diagnosed(robot(left="-30 60", right="-30 60")).causes
+
+
+@pytest.mark.parametrize(
+    ("found", "other", "attribute"),
+    [
+        ('right_rear:range="-60 30"', 'range="-30 60"', "range"),
+        ('left_front:damping="0.1"', 'damping="1"', "damping"),
+        ('right_middle:pos="0 -0.05 0"', 'pos="0 -0.01 0"', "center of mass"),
+        ('left_rear:mass="0.2"', 'mass="0.6"', "mass"),
+        ('left_rear:axis="1 0 0"', 'axis="0 1 0"', "axis"),
+    ],
+)
+def test_the_odd_one_is_named_and_its_twins_value_mends_it(found, other, attribute):
+    change = {found: other}
+    (cause,) = diagnosed(robot(change, right="-60 30")).causes
+    assert cause.attribute == attribute
+    assert cause.after == pytest.approx(0, abs=1e-6)
+    assert found.partition(":")[0].partition("_")[2] in cause.elements[0]
+
+
+def test_a_third_copy_tells_which_one_is_odd():
+    """Damping that only one element of all has is the odd one's, whichever side it is on."""
+    for side in ("left", "right"):
+        (cause,) = diagnosed(robot({f'{side}_front:damping="0.1"': 'damping="1"'}, right="-60 30")).causes
+        assert cause.elements == (f'joint "{side}_front"',)
+
+
+def test_one_finger_of_three_is_odd_and_links_of_a_chain_are_no_siblings():
+    finger = '<body pos="{i} 0 1"><joint name="finger_{i}" axis="0 1 0" damping="{d}"/><geom size="0.1"/>{inner}</body>'
+    hand = "".join(finger.format(i=i, d=0.1 if i != 2 else 3, inner="") for i in range(4))
+    (odd,) = odd_ones(simulated(f"<mujoco><worldbody>{hand}</worldbody></mujoco>"), "joint")
+    assert (odd.index, odd.attribute) == (2, "damping")
+    chain = ""
+    for i in (3, 2, 1, 0):
+        chain = finger.format(i=i, d=0.1 if i != 2 else 3, inner=chain)
+    assert not list(odd_ones(simulated(f"<mujoco><worldbody>{chain}</worldbody></mujoco>"), "joint"))

@@ -11,6 +11,7 @@ from clinic.diagnosis.rules import rules
 from clinic.engine.variant import variants
 from clinic.record.case import Case, load_case
 from clinic.record.checkout import project_root
+from clinic.record.families import families
 
 CASES = [load_case(folder) for folder in sorted((project_root() / "cases").iterdir())]
 MODELS = [case for case in CASES if case.record.run is not None]
@@ -43,3 +44,9 @@ def test_it_names_the_cause_in_the_broken_model_of_its_case(rule, tmp_path, monk
     (case,) = (case for case in CASES if case.slug == rule.case)
     found = diagnosed(case.text, tmp_path, monkeypatch)
     assert rule.id in {each.rule for each in found.causes[:3]}, found.text()
+
+
+@pytest.mark.parametrize("rule", rules().values(), ids=rules().keys())
+def test_its_families_are_known(rule):
+    assert rule.families
+    assert set(rule.families) <= families().keys()

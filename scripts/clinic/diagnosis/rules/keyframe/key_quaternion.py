@@ -51,7 +51,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A keyframe's quaternion has w last"
-FAMILIES = ("tips-over", "jumps-at-start")
+FAMILIES = ("drifts", "jumps-at-start")
 SINCE = "0.2"
 
 LIMIT, TILTED, UPRIGHT = 60.0, 60.0, 15.0  # degrees

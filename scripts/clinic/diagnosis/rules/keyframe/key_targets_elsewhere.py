@@ -64,7 +64,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A keyframe's targets are not its pose"
-FAMILIES = ("drifts", "jumps-at-start", "tips-over", "sags")
+FAMILIES = ("drifts", "jumps-at-start", "sags")
 SINCE = "0.2"
 
 LIMIT = 0.1  # rad or m

@@ -45,7 +45,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The centre of mass is outside of the body"
-FAMILIES = ("tips-over", "drifts", "sags")
+FAMILIES = ("drifts", "sags")
 SINCE = "0.2"
 
 LIMIT, LIGHT = 0.5, 0.01

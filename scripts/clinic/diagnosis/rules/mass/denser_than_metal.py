@@ -43,7 +43,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Denser than metal"
-FAMILIES = ("sags", "too-heavy", "explodes", "stuck")
+FAMILIES = ("sags", "wrong-mass", "explodes", "stuck")
 SINCE = "0.2"
 
 METAL, LIGHT = 150000.0, 0.05

@@ -43,7 +43,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A geom stands twice"
-FAMILIES = ("too-heavy", "sags", "drifts")
+FAMILIES = ("wrong-mass", "sags", "drifts")
 SINCE = "0.2"
 
 MORE = 1.05

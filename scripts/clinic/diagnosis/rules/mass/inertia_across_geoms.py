@@ -44,7 +44,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The inertia lies across the body"
-FAMILIES = ("drifts", "oscillates", "tips-over")
+FAMILIES = ("drifts", "oscillates")
 SINCE = "0.2"
 
 LONG, LIMIT = 0.3, 1.0

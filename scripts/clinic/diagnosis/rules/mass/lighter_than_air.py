@@ -44,7 +44,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Lighter than air"
-FAMILIES = ("passes-through", "explodes", "falls-through", "stuck")
+FAMILIES = ("falls-through", "explodes", "stuck")
 SINCE = "0.2"
 
 AIR, LIMIT = 1.2, 300.0

@@ -46,7 +46,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Geoms that are only seen have mass"
-FAMILIES = ("sags", "too-heavy", "tips-over", "drifts")
+FAMILIES = ("sags", "wrong-mass", "drifts")
 SINCE = "0.2"
 
 MORE = 1.5

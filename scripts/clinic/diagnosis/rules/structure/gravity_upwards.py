@@ -44,7 +44,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Gravity points upwards"
-FAMILIES = ("floats", "drifts")
+FAMILIES = ("stuck", "drifts")
 SINCE = "0.2"
 
 

@@ -44,7 +44,7 @@ from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Nothing can move"
-FAMILIES = ("floats", "stuck", "falls-through")
+FAMILIES = ("stuck", "falls-through")
 SINCE = "0.2"
 
 FREE_JOINT = "<freejoint/>"

@@ -85,7 +85,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "The actuators are in another order than the joints"
-FAMILIES = ("moves-the-wrong-way", "drifts", "tips-over")
+FAMILIES = ("drifts",)
 SINCE = "0.2"
 
 

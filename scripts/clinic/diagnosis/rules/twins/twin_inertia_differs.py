@@ -102,7 +102,7 @@ from clinic.diagnosis.rules.twins._pair import odd, suspect
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The mass of a body is unlike its twin's"
-FAMILIES = ("drifts", "tips-over", "oscillates")
+FAMILIES = ("drifts", "oscillates")
 SINCE = "0.2"
 
 

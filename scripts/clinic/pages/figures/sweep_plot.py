@@ -46,7 +46,13 @@ def write_numbers(axis: Axis) -> None:
 
 def legend(prediction: Prediction) -> str:
     """What a prediction's line is called: its label, and its formula where that is short and no mere name."""
-    formula = prediction.expr.replace(" ** ", "^").replace("*", "·").replace("sqrt", "√").replace("pi", "π").replace("omega", "ω")
+    formula = (
+        prediction.expr.replace(" ** ", "^")
+        .replace("*", "·")
+        .replace("sqrt", "√")
+        .replace("pi", "π")
+        .replace("omega", "ω")
+    )
     return f"{prediction.label}: {formula}" if len(formula) <= SHORT and OPERATOR.search(formula) else prediction.label
 
 
@@ -83,13 +89,29 @@ def _map(axes: Axes, sweep: Sweep, outcome: str, unit: str, swept: SweepEvidence
     down, across = sweep.vary
     x, y = (np.array([point.at[parameter.name] for point in swept.points]) for parameter in (across, down))
     if sweep.holds is None:
-        dots = axes.scatter(x, y, c=numbers([p.outcome for p in swept.points]), cmap="cividis", s=26, marker="s", edgecolors=INK, linewidths=0.4)
+        dots = axes.scatter(
+            x,
+            y,
+            c=numbers([p.outcome for p in swept.points]),
+            cmap="cividis",
+            s=26,
+            marker="s",
+            edgecolors=INK,
+            linewidths=0.4,
+        )
         axes.figure.colorbar(dots, ax=axes).set_label(axis_label(outcome, unit), fontsize=8.5)
     else:
         holds = np.array([point.holds is True for point in swept.points])
         fails = np.array([point.holds is False for point in swept.points])
         size: dict[str, Any] = {"linestyle": "", "markersize": 3.2}
-        axes.plot(x[holds], y[holds], marker="o", color=FIXED[0], label=f"{outcome} {expected(sweep.holds)} {unit}".strip(), **size)
+        axes.plot(
+            x[holds],
+            y[holds],
+            marker="o",
+            color=FIXED[0],
+            label=f"{outcome} {expected(sweep.holds)} {unit}".strip(),
+            **size,
+        )
         axes.plot(x[fails], y[fails], marker="x", color=BROKEN, label="otherwise", **size)
         for key, style in _styles(sweep).items():
             predicted = numbers([point.predicted[key] for point in swept.points])

@@ -149,11 +149,11 @@ def _smaller_steps(case: Case, evidence: Evidence) -> str:
     words = {"broken": "the symptom is the same", "well": "it is gone", "neither": "it is neither the same nor gone"}
     shrunk, step = evidence.robustness["broken"].shrunk, 1e3 * (evidence.variants["broken"].timestep or 0.0)
     half, twentieth = shrunk.values()
-    at_half, at_twentieth = (f"of it ({quantity(step * float(share), 'ms')})" for share in shrunk)
+    at_half, at_twentieth = (f"({plain(step * float(share))}\u00a0ms)" for share in shrunk)
     answer = "No" if half == twentieth == "broken" else "Yes" if "well" in (half, twentieth) else "In part"
     if half == twentieth:
-        return f"{answer}: at half {at_half} and at a twentieth {at_twentieth} {words[half]}."
-    return f"{answer}: at half {at_half} {words[half]}, at a twentieth {at_twentieth} {words[twentieth]}."
+        return f"{answer}: at half of it {at_half} and at a twentieth {at_twentieth} {words[half]}."
+    return f"{answer}: at half of it {at_half} {words[half]}, at a twentieth {at_twentieth} {words[twentieth]}."
 
 
 def _releases(case: Case, evidence: Evidence) -> str:

@@ -50,8 +50,9 @@ def plots(case: Case, evidence: Evidence) -> Files:
     for name, swept in evidence.sweep.items():
         sweep = case.record.sweep[name]
         signal = case.record.signals[sweep.outcome.signal]
-        outcome = {"outcome": signal.label or sweep.outcome.signal, "unit": signal.unit}
-        made[f"sweep-{name}.svg"] = _svg(case, partial(sweep_plot, sweep=sweep, swept=swept, **outcome))
+        outcome = signal.label or sweep.outcome.signal
+        draw_sweep = partial(sweep_plot, sweep=sweep, outcome=outcome, unit=signal.unit, swept=swept)
+        made[f"sweep-{name}.svg"] = _svg(case, draw_sweep)
     return made
 
 

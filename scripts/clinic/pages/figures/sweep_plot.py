@@ -62,8 +62,9 @@ def sweep_plot(axes: Axes, sweep: Sweep, outcome: str, unit: str, swept: SweepEv
     draw(axes, sweep, outcome, unit, swept)
     axes.grid(visible=True, linewidth=0.6)
     lengths = sorted(len(label) for label in axes.get_legend_handles_labels()[1])
-    look = {"frameon": False, "loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "handlelength": 2.4, "fontsize": 8.5}
-    axes.legend(ncols=2 if sum(lengths[-2:]) < WIDE else 1, **look)
+    columns = 2 if sum(lengths[-2:]) < WIDE else 1
+    above: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0)}
+    axes.legend(frameon=False, ncols=columns, handlelength=2.4, fontsize=8.5, **above)
 
 
 def _curve(axes: Axes, sweep: Sweep, outcome: str, unit: str, swept: SweepEvidence) -> None:

@@ -263,7 +263,7 @@ def test_judge_of_a_repair_of_none_and_of_what_cannot_be_run(tmp_path: Path) -> 
     assert (repaired.exit_code, repaired.stdout) == (0, "Repaired.\n")
 
     path.write_text('print("error = 2")\n', encoding="utf-8")
-    said = "error (final) is 2 m; expected 0 m exactly."
+    said = "error (final) is 2 m; expected exactly 0 m."
     plain, data = run("judge", "odd-script", str(path)), run("judge", "odd-script", str(path), "--json")
     assert (plain.exit_code, data.exit_code) == (1, 1)
     assert plain.stdout == f"{said}\nNot repaired.\n"

@@ -87,7 +87,7 @@ def test_judge_takes_from_the_named_signal() -> None:
         ({"above": 0.5}, "above 0.5"),
         ({"below": -3}, "below -3"),
         ({"between": (0.505, 0.52)}, "between 0.505 and 0.52"),
-        ({"equals": 4}, "4 exactly"),
+        ({"equals": 4}, "exactly 4"),
         ({"equals": 0.05, "within": 0.001}, "0.05 ± 0.001"),
     ],
 )

@@ -71,11 +71,11 @@ def test_nothing_is_loaded_from_elsewhere_and_no_date_is_written(case: Case) -> 
 
 
 def test_axes_and_curves_are_named_and_curves_differ_by_their_dash(case: Case) -> None:
-    svg = drawn(case, heights(RAMP, RAMP, RAMP, RAMP))
-    assert {"time [s]", "height of the box [m]", "broken", "fix-1", "fix-3"} <= set(texts(svg))
+    svg = drawn(case, heights(RAMP, RAMP, RAMP, RAMP, RAMP))
+    assert {"time [s]", "height of the box [m]", "broken", "fix-1", "fix-4"} <= set(texts(svg))
     dashes = [dash for dash, _ in curves(svg)]
     assert dashes[0] == ""
-    assert len(set(dashes)) == 4
+    assert len(set(dashes)) == 5
 
 
 def test_refuted_remedies_are_not_drawn(case: Case) -> None:
@@ -148,9 +148,9 @@ def test_what_never_changes_is_shown_as_its_final_values(case: Case) -> None:
     assert "time [s]" not in said
 
 
-def test_samples_of_a_script_are_lines_of_output(case: Case) -> None:
+def test_samples_of_a_script_are_its_printed_values(case: Case) -> None:
     evidence = heights(RAMP, RAMP)
     variants = {key: v.model_copy(update={"timestep": None, "steps": None}) for key, v in evidence.variants.items()}
     said = texts(drawn(case, evidence.model_copy(update={"variants": variants})))
-    assert "line of output" in said
-    assert not [text for text in said if text.endswith(".5")], "there is no line between two lines"
+    assert "printed values, in turn" in said
+    assert not [text for text in said if text.endswith(".5")], "there is no value between two values"

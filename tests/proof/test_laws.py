@@ -270,7 +270,7 @@ def test_a_check_of_what_was_not_measured(tmp_path: Path) -> None:
     case = script_case(tmp_path, ("'0.5', replace: '0.0'", "other, replace: error"), script='print("other = 0.5")\n')
     assert told(case, "verdicts") == [
         f"checks.broken[0]: broken: error (final) = nothing; expected above 0.1 m; {WRONG}",
-        f"checks.fixed[0]: no-error: error (final) = N{SPACE}m; expected 0 exactly m; {WRONG}",
+        f"checks.fixed[0]: no-error: error (final) = N{SPACE}m; expected exactly 0 m; {WRONG}",
         LAX_FIX.replace("share-a-bit", "no-error"),
     ]
 

@@ -78,8 +78,8 @@ export function expected(check, show = shown) {
   if (check.above !== undefined) return `above ${show(check.above)}`;
   if (check.below !== undefined) return `below ${show(check.below)}`;
   if (check.between !== undefined) return `between ${show(check.between[0])} and ${show(check.between[1])}`;
-  const tolerance = check.within ? ` ± ${show(check.within)}` : " exactly";
-  return show(Number(check.equals)) + tolerance;
+  const wanted = show(Number(check.equals));
+  return check.within ? `${wanted} ± ${show(check.within)}` : `exactly ${wanted}`;
 }
 
 /**

@@ -85,4 +85,4 @@ def expected(check: Comparison, show: Callable[[float], str] = "{:g}".format) ->
     if check.between is not None:
         return f"between {show(check.between[0])} and {show(check.between[1])}"
     assert check.equals is not None
-    return show(check.equals) + (f" ± {show(check.within)}" if check.within else " exactly")
+    return f"{show(check.equals)} ± {show(check.within)}" if check.within else f"exactly {show(check.equals)}"

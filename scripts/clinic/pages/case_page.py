@@ -28,6 +28,7 @@ from clinic.record.prose import plain, quantity
 from clinic.work.cache import Files
 
 STILL = 1e-3  # of a signal; less is no motion
+NOTHING = 1e-9  # of what a check allows; less is what rounding left of zero
 Column = tuple[str, str, Interval | None]  # a number taken from a signal: the signal, which number, over which window
 
 
@@ -112,6 +113,8 @@ def _cell(variant: VariantEvidence, column: Column, wanted: list[Check]) -> str:
     results = (result for kind in variant.checks.values() for result in kind)
     measured = next(result.measured for result in results if (result.signal, result.take, result.window) == column)
     unit = "s" if take == "onset" else variant.traces[signal].unit
+    if measured is not None and any(abs(measured) < NOTHING * (check.within or 0.0) for check in wanted):
+        measured = 0.0
     value = "not measured" if measured is None else quantity(measured, unit, 4)
     if not wanted:
         return value
@@ -144,11 +147,13 @@ def _smaller_steps(case: Case, evidence: Evidence) -> str:
     if "broken" not in evidence.robustness or max(spans) < STILL:
         return ""
     words = {"broken": "the symptom is the same", "well": "it is gone", "neither": "it is neither the same nor gone"}
-    half, twentieth = evidence.robustness["broken"].shrunk.values()
+    shrunk, step = evidence.robustness["broken"].shrunk, 1e3 * (evidence.variants["broken"].timestep or 0.0)
+    half, twentieth = shrunk.values()
+    at_half, at_twentieth = (f"({plain(step * float(share))}\u00a0ms)" for share in shrunk)
     answer = "No" if half == twentieth == "broken" else "Yes" if "well" in (half, twentieth) else "In part"
     if half == twentieth:
-        return f"{answer}: at half of it and at a twentieth {words[half]}."
-    return f"{answer}: at half of it {words[half]}, at a twentieth {words[twentieth]}."
+        return f"{answer}: at half of it {at_half} and at a twentieth {at_twentieth} {words[half]}."
+    return f"{answer}: at half of it {at_half} {words[half]}, at a twentieth {at_twentieth} {words[twentieth]}."
 
 
 def _releases(case: Case, evidence: Evidence) -> str:

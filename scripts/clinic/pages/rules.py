@@ -75,7 +75,8 @@ def _told() -> Files:
     """What a diagnosis of each rule's examples prints, by rule."""
     made, before = {}, os.getcwd()
     with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
+        os.mkdir(own := os.path.join(folder, "model"))  # a rule looks into the folder around it, too
+        os.chdir(own)
         try:
             for rule in rules().values():
                 made[rule.id] = {which: _diagnosed(rule.example(which)) for which in ("Bad", "Good")}

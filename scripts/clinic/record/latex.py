@@ -31,7 +31,9 @@ def _set(tree: ast.expr) -> tuple[str, int]:
             return rf"\frac{{{latex(left)}}}{{{latex(right)}}}", POWER
         case ast.BinOp(left=left, op=ast.Mult(), right=right):
             sign = r"\cdot" if isinstance(right, ast.Constant) or _begins_with_number(right) else r"\,"
-            return rf"{_within(left, PRODUCT)} {sign} {_within(right, PRODUCT)}", PRODUCT
+            minus = isinstance(left, ast.UnaryOp)
+            first = latex(left) if minus else _within(left, PRODUCT)
+            return rf"{first} {sign} {_within(right, PRODUCT)}", SUM if minus else PRODUCT
         case ast.BinOp(left=left, op=op, right=right):
             inner = PRODUCT if isinstance(op, ast.Sub) else SUM
             return f"{latex(left)} {SIGNS[type(op)]} {_within(right, inner)}", SUM
@@ -41,6 +43,10 @@ def _set(tree: ast.expr) -> tuple[str, int]:
 
 
 def _call(name: str, args: list[ast.expr]) -> tuple[str, int]:
+    match args:
+        case [ast.BinOp(left=left, op=ast.Div(), right=right)] if name == "exp":
+            several = isinstance(left, ast.BinOp) and isinstance(left.op, ast.Add | ast.Sub)
+            return f"e^{{{f'({latex(left)})' if several else latex(left)} / {_within(right, ATOM)}}}", POWER
     if name in BRACKETS:
         return BRACKETS[name].format(latex(args[0])), POWER if name == "exp" else ATOM
     if name == "bits":

@@ -50,8 +50,9 @@ def plots(case: Case, evidence: Evidence) -> Files:
     for name, swept in evidence.sweep.items():
         sweep = case.record.sweep[name]
         signal = case.record.signals[sweep.outcome.signal]
-        outcome = axis_label(signal.label or sweep.outcome.signal, signal.unit)
-        made[f"sweep-{name}.svg"] = _svg(case, partial(sweep_plot, sweep=sweep, outcome=outcome, swept=swept))
+        outcome = signal.label or sweep.outcome.signal
+        draw_sweep = partial(sweep_plot, sweep=sweep, outcome=outcome, unit=signal.unit, swept=swept)
+        made[f"sweep-{name}.svg"] = _svg(case, draw_sweep)
     return made
 
 
@@ -73,7 +74,7 @@ def _traces(axes: Axes, shown: dict[str, VariantEvidence], name: str, label: str
     for key, variant in shown.items():
         look = fix_style(fixes.index(key)) if key in fixes else {"color": BROKEN}
         axes.plot(variant.traces[name].time, values[key], linewidth=1.8, label=key, marker=marker, **look)
-    axes.set_xlabel("time [s]" if over_time else "line of output")
+    axes.set_xlabel("time [s]" if over_time else "printed values, in turn")
     if not over_time:
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.set_ylabel(label)

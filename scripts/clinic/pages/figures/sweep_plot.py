@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Any, Literal
 
 import numpy as np
@@ -17,8 +18,10 @@ from clinic.proof.sweep import SweepEvidence
 from clinic.record.prose import plain
 from clinic.record.sweep import Parameter, Prediction, Sweep
 
-MANY = 1e4  # of the last number to the first, from which on an axis names powers of ten alone
-SHORT = 36  # characters of a formula that a legend has room for
+MANY = 1e4  # the last number, or its ratio to the first, from which on an axis names powers of ten alone
+SHORT = 24  # characters of a formula that a legend has room for
+OPERATOR = re.compile(r" [-+·/] |\^")
+WIDE = 60  # characters of the two longest labels, from which on a legend has one column
 
 
 def axis_label(name: str, unit: str) -> str:
@@ -42,20 +45,29 @@ def write_numbers(axis: Axis) -> None:
 
 
 def legend(prediction: Prediction) -> str:
-    """What a prediction's line is called: its label, and its formula where that is short."""
-    formula = prediction.expr.replace(" ** ", "^").replace("*", "·").replace("sqrt", "√").replace("pi", "π")
-    return f"{prediction.label}: {formula}" if len(formula) <= SHORT else prediction.label
+    """What a prediction's line is called: its label, and its formula where that is short and no mere name."""
+    formula = (
+        prediction.expr.replace(" ** ", "^")
+        .replace("*", "·")
+        .replace("sqrt", "√")
+        .replace("pi", "π")
+        .replace("omega", "ω")
+    )
+    return f"{prediction.label}: {formula}" if len(formula) <= SHORT and OPERATOR.search(formula) else prediction.label
 
 
-def sweep_plot(axes: Axes, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
-    """Draws a sweep's outcome, whose label is given, over its one parameter, or as a map of its two."""
+def sweep_plot(axes: Axes, sweep: Sweep, outcome: str, unit: str, swept: SweepEvidence) -> None:
+    """Draws a sweep's outcome, whose name is given, over its one parameter, or as a map of its two."""
     draw = _curve if len(sweep.vary) == 1 else _map
-    draw(axes, sweep, outcome, swept)
+    draw(axes, sweep, outcome, unit, swept)
     axes.grid(visible=True, linewidth=0.6)
-    axes.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, handlelength=2.4, fontsize=8.5)
+    lengths = sorted(len(label) for label in axes.get_legend_handles_labels()[1])
+    columns = 2 if sum(lengths[-2:]) < WIDE else 1
+    above: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0)}
+    axes.legend(frameon=False, ncols=columns, handlelength=2.4, fontsize=8.5, **above)
 
 
-def _curve(axes: Axes, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
+def _curve(axes: Axes, sweep: Sweep, outcome: str, unit: str, swept: SweepEvidence) -> None:
     (parameter,) = sweep.vary
     x = [point.at[parameter.name] for point in swept.points]
     y = numbers([point.outcome for point in swept.points])
@@ -71,20 +83,36 @@ def _curve(axes: Axes, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None
         write_numbers(axes.yaxis)
     elif max(map(largest, predicted.values())) > 3 * most > 0:
         axes.set_ylim(top=1.6 * most, bottom=min(0.0, np.nanmin(y)))
-    axes.set_ylabel(outcome)
+    axes.set_ylabel(axis_label(outcome, unit))
 
 
-def _map(axes: Axes, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
+def _map(axes: Axes, sweep: Sweep, outcome: str, unit: str, swept: SweepEvidence) -> None:
     down, across = sweep.vary
     x, y = (np.array([point.at[parameter.name] for point in swept.points]) for parameter in (across, down))
     if sweep.holds is None:
-        dots = axes.scatter(x, y, c=numbers([p.outcome for p in swept.points]), cmap="cividis", s=26, marker="s")
-        axes.figure.colorbar(dots, ax=axes).set_label(outcome, fontsize=8.5)
+        dots = axes.scatter(
+            x,
+            y,
+            c=numbers([p.outcome for p in swept.points]),
+            cmap="cividis",
+            s=26,
+            marker="s",
+            edgecolors=INK,
+            linewidths=0.4,
+        )
+        axes.figure.colorbar(dots, ax=axes).set_label(axis_label(outcome, unit), fontsize=8.5)
     else:
         holds = np.array([point.holds is True for point in swept.points])
         fails = np.array([point.holds is False for point in swept.points])
         size: dict[str, Any] = {"linestyle": "", "markersize": 3.2}
-        axes.plot(x[holds], y[holds], marker="o", color=FIXED[0], label=f"{outcome}: {expected(sweep.holds)}", **size)
+        axes.plot(
+            x[holds],
+            y[holds],
+            marker="o",
+            color=FIXED[0],
+            label=f"{outcome} {expected(sweep.holds)} {unit}".strip(),
+            **size,
+        )
         axes.plot(x[fails], y[fails], marker="x", color=BROKEN, label="otherwise", **size)
         for key, style in _styles(sweep).items():
             predicted = numbers([point.predicted[key] for point in swept.points])
@@ -93,8 +121,9 @@ def _map(axes: Axes, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
     _mark(axes, {name: (at[across.name], at[down.name]) for name, at in swept.marks.items()})
     _scale(axes, "x", across)
     _scale(axes, "y", down)
-    edge = max(1.07, (y.max() / y.min()) ** 0.03) if down.scale == "log" else 1.07
-    axes.set_ylim(y.min() / edge, y.max() * edge)
+    if down.scale == "log":
+        edge = max(1.07, (y.max() / y.min()) ** 0.03)
+        axes.set_ylim(y.min() / edge, y.max() * edge)
 
 
 def _styles(sweep: Sweep) -> dict[str, dict[str, Any]]:
@@ -123,6 +152,6 @@ def _scale(axes: Axes, side: Literal["x", "y"], parameter: Parameter) -> None:
         axes.set(**{f"{side}scale": "log"})
         axis: Axis = getattr(axes, f"{side}axis")
         low, high = axis.get_view_interval()
-        axis.set_major_locator(LogLocator(subs=(1.0,) if high > MANY * low else (1.0, 2.0, 5.0)))
+        axis.set_major_locator(LogLocator(subs=(1.0,) if high > MANY * min(low, 1.0) else (1.0, 2.0, 5.0)))
         write_numbers(axis)
         axis.set_minor_formatter(NullFormatter())

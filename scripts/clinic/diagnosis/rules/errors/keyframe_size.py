@@ -1,7 +1,7 @@
 """A keyframe has more numbers than the model has positions, speeds, controls or activations.
 
 A free object in front of the robot takes the first seven places of `qpos`; a joint more or fewer changes them all.
-Since MuJoCo 4.0 a `qpos` that is too short is filled up in silence, and one that is too long is refused.
+A `qpos` that is too short is filled up in silence, and one that is too long is refused.
 
 Bad:
 
@@ -70,6 +70,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         fitted = (numbers + ["0"] * int(size))[: int(size)]
         edits.append(set_attribute(key, attribute, " ".join(fitted)))
     count = len(named[0].get(attribute).split())
-    says = f"The model has {size} numbers in {attribute}, the key {count}: {sentence(model)}."
+    says = f"Numbers in {attribute}: {size} in the model, {count} in the key: {sentence(model)}."
     edits.sort(key=lambda each: each.line != named[0].line)
-    yield mends(named[0], edits, says, attribute=attribute, now=f"{count} numbers", value=f"{size} numbers")
+    wanted = f"{size} number{'s' * (size != '1')}"
+    yield mends(named[0], edits, says, attribute=attribute, now=f"{count} numbers", value=wanted)

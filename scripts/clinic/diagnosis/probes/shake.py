@@ -12,7 +12,7 @@ from clinic.diagnosis.suspect import Probe
 NUDGE = 0.01  # rad or m
 SECONDS = 0.5
 LOOKED_AT = 40  # steps
-SHAKES = 0.5  # rad/s a step, above which a joint rattles
+SHAKES = 5.0  # rad/s a step, above which a joint rattles
 
 
 def _shake(simulation: Simulation) -> float:

@@ -26,6 +26,8 @@ Good:
 
 The number: the joint is put a tenth of its range beyond a limit; 1 where nothing pushes it back.
 
+A hinge whose range is a turn and more is left alone.
+
 When it is wrong: a range that is kept for reference.
 """
 
@@ -50,7 +52,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = []
     for joint, limited in enumerate(simulation.model("jnt_limited")):
         low, high = simulation.row("jnt_range", joint, 2)
-        if not limited and low < high and simulation.joint_type(joint) in (HINGE, SLIDE):
+        if not limited and low < high and high - low < 6.2 and simulation.joint_type(joint) in (HINGE, SLIDE):
             found.append(joint)
     if not found:
         return

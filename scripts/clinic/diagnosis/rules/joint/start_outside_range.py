@@ -27,7 +27,8 @@ Good:
 
 The number: how fast the limit makes the joint in the first 20 ms, without gravity and contacts; more than 1 rad/s (m/s).
 
-When it is wrong: a start that a program sets before the first step. Then a keyframe tells others too.
+When it is wrong: a start that a program sets before the first step, as for most robots whose elbows are bent at 0; so it
+is a hint, but where a keyframe gives the start. A model that has keyframes is not judged by its start without them.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.servo import alone, hold
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Level, Probe, Suspect
 
 TITLE = "A joint starts outside of its range"
 FAMILIES = ("jumps-at-start", "explodes")
@@ -55,6 +56,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     simulation = model.simulation
     if simulation.begin_with.key < 0 and simulation.count("key"):
         return  # a model that has keyframes begins with one
+    level: Level = "cause" if simulation.begin_with.key >= 0 else "hint"
     found = []
     for joint, (low, high, begin) in _limited(simulation).items():
         if max(low - begin, begin - high) > OUTSIDE * (high - low):
@@ -80,6 +82,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         KICK,
         f"{simulation.name('joint', joint)} starts at {begin:.3g}, and its range is {low:.3g} to {high:.3g}.",
         "inside of the range",
+        level=level,
     )
 
 

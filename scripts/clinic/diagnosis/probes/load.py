@@ -69,7 +69,9 @@ def sags(simulation: Simulation) -> dict[int, float]:
     for servo in servos(simulation):
         held[servo.dof] = held.get(servo.dof, simulation.model("jnt_stiffness")[servo.joint]) + servo.stiffness
     friction, load = simulation.model("dof_frictionloss"), loads(simulation)
-    return {each.actuator: max(0.0, load[each.dof] - friction[each.dof]) / held[each.dof] for each in servos(simulation)}
+    return {
+        each.actuator: max(0.0, load[each.dof] - friction[each.dof]) / held[each.dof] for each in servos(simulation)
+    }
 
 
 def sag(actuators: Sequence[int]) -> Probe:

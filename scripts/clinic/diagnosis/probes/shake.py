@@ -53,5 +53,7 @@ def _shaken(simulation: Simulation) -> float:
 
 def shake() -> Probe:
     """How much the speed of a joint jumps to and fro from one step to the next, after a nudge."""
-    title = "to and fro of a joint's speed from step to step, 0.5 s after a nudge of 0.01 rad without contacts and gravity"
+    title = (
+        "to and fro of a joint's speed from step to step, 0.5 s after a nudge of 0.01 rad without contacts and gravity"
+    )
     return Probe(title, "rad/s", _shake)

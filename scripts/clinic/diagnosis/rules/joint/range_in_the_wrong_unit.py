@@ -102,7 +102,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "degree" if unit == "radian" else "radian",
             unit,
             edits,
-            Probe("times a range is narrower than 0.3 rad or wider than 6.5 rad", "", _off, (tuple(meant),), dynamic=False),
+            Probe(
+                "times a range is narrower than 0.3 rad or wider than 6.5 rad", "", _off, (tuple(meant),), dynamic=False
+            ),
             2.0,
             f"The range of {simulation.name('joint', meant[0])} is {low:.3g} to {high:.3g} rad"
             + (f", as of {len(meant) - 1} more" if len(meant) > 1 else "")

@@ -63,7 +63,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         "false",
         "true",
         model.set("joint", found, "limited", "true"),
-        Probe("1 where nothing pushes a joint back from beyond its range", "", _unstopped, (tuple(found),), dynamic=False),
+        Probe(
+            "1 where nothing pushes a joint back from beyond its range", "", _unstopped, (tuple(found),), dynamic=False
+        ),
         0.5,
         f"The range of {simulation.name('joint', found[0])}, {low:.3g} to {high:.3g}, has no effect.",
         'limited="auto", with autolimits',

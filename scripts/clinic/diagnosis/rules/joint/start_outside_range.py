@@ -64,9 +64,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not found:
         return
     edits: tuple[Edit, ...] = ()
-    unit = 1.0 if _radian(model) else math.pi / 180
     for joint, low, high, begin in found:
-        scale = unit if simulation.joint_type(joint) == HINGE else 1.0
+        scale = model.angle_unit if simulation.joint_type(joint) == HINGE else 1.0
         margin = 0.02 * (high - low)
         ends = min(low, begin - margin) / scale, max(high, begin + margin) / scale
         edits += model.set("joint", [joint], "range", f"{ends[0]:.4g} {ends[1]:.4g}")
@@ -78,19 +77,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         f"{low:.3g} {high:.3g}",
         next((each.value for each in edits), ""),
         edits,
-        Probe("highest speed of these joints in the first 20 ms, without gravity and contacts", "rad/s", _kick, (joints,)),
+        Probe(
+            "highest speed of these joints in the first 20 ms, without gravity and contacts", "rad/s", _kick, (joints,)
+        ),
         KICK,
         f"{simulation.name('joint', joint)} starts at {begin:.3g}, and its range is {low:.3g} to {high:.3g}.",
         "inside of the range",
         level=level,
     )
-
-
-def _radian(model: ReaderModel) -> bool:
-    if model.source is None or model.source.urdf:
-        return True
-    written = [each.get("angle") for each in model.source.elements("compiler") if each.get("angle")]
-    return bool(written) and written[-1] == "radian"
 
 
 def _limited(simulation: Simulation) -> dict[int, tuple[float, float, float]]:

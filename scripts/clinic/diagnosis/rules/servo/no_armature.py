@@ -97,7 +97,10 @@ def _gains(simulation: Simulation) -> dict[int, tuple[float, float, float]]:
         joint = simulation.driven_joint(actuator)
         if joint is None or int(simulation.model("actuator_biastype")[actuator]) != 1:
             continue
-        bias, gear = simulation.row("actuator_biasprm", actuator, width), simulation.model("actuator_gear")[6 * actuator]
+        bias, gear = (
+            simulation.row("actuator_biasprm", actuator, width),
+            simulation.model("actuator_gear")[6 * actuator],
+        )
         kp, kv = max(0.0, -bias[1] * gear**2), max(0.0, -bias[2] * gear**2) * (not implicit)
         old = made.get(joint, (0.0, 0.0))
         made[joint] = (kp + old[0], kv + old[1], max(simulation.mass_diagonal[simulation.dof(joint)], 1e-12))

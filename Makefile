@@ -4,7 +4,7 @@
 # make site    builds site/ strictly
 # make bench   how long a build takes, cold and warm, and its parts; the table goes into *Work on the code*
 # make growth  how the site grows to 1,000 cases; the table goes into *Work on the code*
-# make releases   what every release of MuJoCo does with every case; releases.lock.json is written anew
+# make releases   what every release of MuJoCo does with every case, and which messages read otherwise; writes the two locks
 # make lint    style, types, order of the storeys
 # make lock    renews requirements.txt and requirements-parity.txt
 # make audit   asks the registries for known holes in what is locked

@@ -16,9 +16,13 @@ const options = /** @type {const} */ ({
   metafile: true,
 });
 const made = [
-  await build({ ...options, entryPoints: ["docs/playground/start.js"], splitting: true, chunkNames: "[name]-[hash]" }),
+  await build({ ...options, entryPoints: ["docs/playground/start.js", "docs/playground/diagnose.js"], splitting: true, chunkNames: "[name]-[hash]" }),
   await build({ ...options, entryPoints: ["docs/playground/loader.js"], format: "iife" }),
-  await build({ ...options, entryPoints: ["docs/playground/worker.js"], external: ["module", "worker_threads", "node:*"] }),
+  await build({
+    ...options,
+    entryPoints: ["docs/playground/worker.js", "docs/playground/diagnosis-worker.js"],
+    external: ["module", "worker_threads", "node:*"],
+  }),
 ];
 
 // What the packages that went in ask to be said with them.

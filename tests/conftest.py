@@ -11,7 +11,7 @@ from pathlib import Path
 import growth
 import pytest
 from clinic.proof.evidence import Evidence
-from clinic.proof.experiments import measure_case
+from clinic.proof.experiments import ALL, measure_case
 from clinic.record.case import Case, load_case
 from clinic.record.checkout import cache_folder
 from clinic.work.cache import Cache
@@ -56,7 +56,7 @@ def proven() -> Proven:
     def get(slug: str) -> tuple[Case, Evidence]:
         if slug not in made:
             case = load_case(ROOT / "cases" / slug)
-            made[slug] = case, measure_case(case, Cache(cache_folder(ROOT)))
+            made[slug] = case, measure_case(case, Cache(cache_folder(ROOT)), ALL)
         return made[slug]
 
     return get

@@ -49,10 +49,34 @@ function offer(root) {
   if (location.hash.startsWith("#model=")) button.click();
 }
 
+/** @param {HTMLElement} root where a reader's own model is taken */
+function take(root) {
+  const [note, place] = /** @type {HTMLElement[]} */ ([...root.children]);
+  if (!self.WebAssembly || !self.DecompressionStream || location.protocol === "file:") return;
+  const input = Object.assign(document.createElement("input"), { type: "file", multiple: true, accept: ".xml,.mjcf,.urdf,.zip,.stl,.obj,.msh,.png" });
+  const label = Object.assign(document.createElement("label"), { className: "dg-drop" });
+  label.append("Drop your model here, an XML, or a folder or zip with its meshes; or choose it: ", input);
+  note.textContent = "Nothing leaves your machine: MuJoCo and the rules run in this page, 5 MB that are loaded when you drop.";
+  note.before(label);
+  const given = async (/** @type {FileSystemEntry[] | FileList} */ what) => {
+    const { start } = await import(base + "diagnose.js");
+    await start(place, base, new URL(root.dataset.rules ?? "", location.href).href, what);
+  };
+  input.onchange = () => input.files && given(input.files);
+  label.ondragover = (event) => event.preventDefault();
+  label.ondrop = (event) => {
+    event.preventDefault();
+    const entries = [...(event.dataTransfer?.items ?? [])].map((item) => item.webkitGetAsEntry()); // gone in a moment
+    void given(entries.filter((entry) => entry !== null));
+  };
+}
+
 document$.subscribe(() => {
   leave();
   leave = () => {};
   tick();
   const root = document.querySelector(".playground");
   if (root) offer(root);
+  const reader = /** @type {HTMLElement | null} */ (document.querySelector(".diagnose"));
+  if (reader && !reader.querySelector("input")) take(reader);
 });

@@ -76,7 +76,7 @@ export class Playground {
       case "grabbed":
         return this.player.grabbed(message.held);
       case "judging":
-        return this.showResult(null, `Checking${".".repeat(1 + (message.turn % 3))}`);
+        return this.showResult(null, `Checking ${message.where}${".".repeat(1 + (message.turn % 3))}`);
       case "judged":
         return this.showJudgement(message.judgement);
       case "unjudged":
@@ -91,11 +91,12 @@ export class Playground {
     const { engine } = this.record;
     const differs = version === engine ? "as was the evidence on this page" : `the evidence on this page was made with ${engine}`;
     this.setStatus(`This runs in MuJoCo ${version}; ${differs}.`);
+    this.draft.controls.tellNeeds(version);
   }
 
   /**
    * Tells why a text does not compile, and goes on with the last one that did.
-   * @param {{message: string, line: number | null}} error
+   * @param {{message: string, line: number | null, newer: string}} error
    */
   refused(error) {
     const running = this.player.assets !== null;
@@ -149,9 +150,9 @@ export class Playground {
   /** @param {Judgement} judgement */
   showJudgement(judgement) {
     if (this.judged !== this.draft.text) return this.showResult("", EDITED);
-    const { summary, table } = verdict(this.record, judgement, this.draft.isOurs(this.judged));
-    if (judgement.well) markSolved(this.record.case);
-    this.showResult(judgement.well ? "yes" : "no", summary, table);
+    const { summary, parts } = verdict(this.record, judgement, this.draft.isOurs(this.judged));
+    if (judgement.repaired) markSolved(this.record.case);
+    this.showResult(judgement.repaired ? "yes" : "no", summary, ...parts);
   }
 
   /**

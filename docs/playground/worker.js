@@ -3,7 +3,9 @@
 import loadMujoco from "@mujoco/mujoco";
 import { assets } from "./engine/assets.js";
 import { InteractiveSimulation } from "./engine/interactive.js";
-import { judgeModel } from "./judge/judgement.js";
+import { newer } from "./engine/mjcf.js";
+import { judgeText } from "./judge/judgement.js";
+import { fetchBytes } from "./page/fetch.js";
 
 /** @import {MainModule} from "@mujoco/mujoco" */
 /** @import {CaseRecord} from "./record/types.js" */
@@ -27,10 +29,13 @@ const HANDLERS = {
 
   /** Compiles a text; the model before it stays if that fails. */
   open: (mujoco, { text }) => {
-    const made = compiled(() => new InteractiveSimulation(mujoco, text, record));
-    if ("message" in made) return { type: "refused", ...made };
-    simulation?.delete();
-    simulation = made;
+    try {
+      const made = new InteractiveSimulation(mujoco, text, record);
+      simulation?.delete();
+      simulation = made;
+    } catch (error) {
+      return refusal(mujoco, error);
+    }
     return { type: "opened", assets: assets(mujoco, simulation.model, simulation.scene), missing: simulation.missing };
   },
 
@@ -59,29 +64,29 @@ const HANDLERS = {
     return null;
   },
 
-  /** Judges a text with a fresh model and fresh data, in turns. */
+  /** Judges a text with fresh models and fresh data, in turns. */
   check: async (mujoco, { text, generation }) => {
     const id = ++judging;
-    const model = compiled(() => mujoco.MjModel.from_xml_string(text));
-    if ("message" in model) return { type: "refused", checking: true, ...model };
-    const work = judgeModel(mujoco, model, record);
+    const work = judgeText(mujoco, text, record);
+    let where = ""; // nowhere until the text has compiled
     try {
       for (let turn = 1; ; turn++) {
         const end = performance.now() + TURN;
         for (let i = 0; i < MAX_STEPS_A_TURN && performance.now() < end; i++) {
           const { done, value } = work.next();
           if (done) return { type: "judged", judgement: value };
+          where = value ?? where;
         }
-        postMessage({ type: "judging", generation, turn });
+        postMessage({ type: "judging", generation, turn, where });
         await new Promise((resolve) => setTimeout(resolve));
         if (id !== judging) return { type: "stopped" };
       }
     } catch (error) {
+      if (where === "") return { ...refusal(mujoco, error), checking: true };
       if (fatal(error)) throw error;
       return { type: "unjudged", message: said(error) };
     } finally {
       work.return(/** @type {any} */ (undefined));
-      model.delete();
     }
   },
 
@@ -108,31 +113,20 @@ self.onmessage = async ({ data: message }) => {
 
 /** @param {string} url of the gzipped module; some servers inflate it on the way */
 async function boot(url) {
-  const response = await fetch(url);
-  if (!response.ok) throw new Error(`the engine could not be loaded (${response.status})`);
-  let bytes = await response.arrayBuffer();
-  const [first, second] = new Uint8Array(bytes, 0, 2);
-  if (first === 0x1f && second === 0x8b) {
-    bytes = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-  }
-  return loadMujoco({ wasmBinary: bytes, print: () => {}, printErr: () => {} });
+  return loadMujoco({ wasmBinary: await fetchBytes(url), print: () => {}, printErr: () => {} });
 }
 
 /**
- * @template T
- * @param {() => T} compile
- * @returns {T | {message: string, line: number | null}}
+ * Why a text does not compile.
+ * @param {MainModule} mujoco
+ * @param {unknown} error
  */
-function compiled(compile) {
-  try {
-    return compile();
-  } catch (error) {
-    failures += 1;
-    if (fatal(error)) throw error;
-    const message = said(error);
-    const line = /line(?: number)?[ =](\d+)/i.exec(message);
-    return { message, line: line && Number(line[1]) };
-  }
+function refusal(mujoco, error) {
+  failures += 1;
+  if (fatal(error)) throw error;
+  const message = said(error);
+  const line = /line(?: number)?[ =](\d+)/i.exec(message);
+  return { type: "refused", message, line: line && Number(line[1]), newer: newer(message, mujoco.mj_versionString()) };
 }
 
 /** Whether the module cannot be trusted any longer. @param {unknown} error */

@@ -28,7 +28,21 @@ def test_sound_case(checkout: Path) -> None:
     write_script_case(checkout, FOUND)
     report = checked(checkout)
     assert report.sound
+    assert report.grade == "B"
     assert report_data(report)["variants"].keys() == {"broken", "no-error"}
+
+
+def test_a_case_with_all_that_grade_a_asks_for(checkout: Path) -> None:
+    trial = "{id: more, title: More, edits: [{find: first, replace: '2 * first'}]}"
+    write_script_case(checkout, FOUND, ("picture:", f"trials: [{trial}]\nloose: {{'error = 0.5': any}}\npicture:"))
+    assert checked(checkout).grade == "A"
+
+
+def test_numbers_that_no_check_notices_are_told(checkout: Path) -> None:
+    write_script_case(checkout, FOUND, ("picture:", "loose: {}\npicture:"))
+    report = checked(checkout)
+    assert [said.where for said in report.breaches] == ["loose", "loose"]
+    assert "0.5 is halved" in report.breaches[1].found
 
 
 def test_a_broken_neighbour_leaves_a_sound_case_sound(checkout: Path) -> None:

@@ -88,6 +88,15 @@ def test_files_and_command_at_the_foot(page: str) -> None:
     assert set(re.findall(r"\]\((.*?)\)", foot)) >= {"model.xml", "case.yaml", "evidence.json"}
 
 
+def test_a_first_version_tells_what_is_not_known(tmp_path: Path, page: str) -> None:
+    assert re.search(
+        r"^Grade B: the record does not say whether a repair .*, nor whether a check .*`loose`\)\.$", page, re.M
+    )
+    trial = 'trials: [{id: high, title: High, start: {"joint(free).qpos[2]": 0.2}}]'
+    case = tiny_case(tmp_path, ("film: {}", f"film: {{}}\nloose: {{}}\n{trial}"))
+    assert "Grade" not in page_of(case, collect(case))
+
+
 def test_related_cases_are_linked(tmp_path: Path) -> None:
     write_case(tmp_path, ("number: 1", "number: 1\nsee: [sliding-box]"))
     write_case(tmp_path, ("number: 1", "number: 2"), ("A box falls", "A box slides"), slug="sliding-box")

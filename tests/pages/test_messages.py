@@ -7,7 +7,17 @@ from pathlib import Path
 
 import pytest
 from clinic.engine.signals import WARNINGS
-from clinic.pages.messages import Message, load_messages, messages_page, provoke_messages
+from clinic.pages.messages import (
+    LOCK,
+    Heard,
+    Message,
+    codes_of,
+    listen,
+    load_messages,
+    messages_page,
+    provoke_messages,
+    read_heard,
+)
 from clinic.record.problem import CaseError
 from clinic.work.cache import Cache
 from helpers import tiny_case
@@ -55,12 +65,44 @@ def test_every_case_named_exists(root: Path) -> None:
 def test_the_page_says_what_was_heard(tmp_path: Path, said: dict[str, str]) -> None:
     case = tiny_case(tmp_path)
     named = MESSAGES[0].model_copy(update={"case": case.slug})
-    page = messages_page([named, *MESSAGES[1:]], {**said, named.id: "WARNING: said today"}, {case.slug: case})
+    page = messages_page(
+        [named, *MESSAGES[1:]],
+        {**said, named.id: "WARNING: said today"},
+        {case.slug: case},
+        Heard(said={named.id: {"3.9.0": "once", "3.10.0": "once", "3.11.0": ""}}),
+    )
     assert "WARNING: said today" in page
     assert f"[1. A box falls through the floor](cases/{case.slug}/index.md)" in page
     assert page.count("\n### ") == len(MESSAGES)
     assert "mjWARN_BADQACC" in page
     assert "Not provoked here." in page
+    assert "- 3.9.0 to 3.10.0: `` once ``\n" in page
+    assert "- 3.11.0: no message\n" in page
+
+
+def test_what_releases_say_otherwise_is_kept() -> None:
+    first, second, *_ = codes_of(MESSAGES)
+    newest = dict.fromkeys(codes_of(MESSAGES), "line 3")
+    heard = listen(MESSAGES, {"3.9.0": {**newest, first: "gone\nin two lines", second: "line 45"}, "4.0.0": newest})
+    assert heard.said == {first: {"3.9.0": "gone"}}
+
+
+def test_a_lock_of_other_codes_tells_nothing(tmp_path: Path) -> None:
+    heard = listen(MESSAGES, {"4.0.0": dict.fromkeys(codes_of(MESSAGES), "")})
+    assert read_heard(tmp_path, MESSAGES) == Heard()
+    (tmp_path / LOCK).write_text(heard.model_dump_json(), encoding="utf-8")
+    assert read_heard(tmp_path, MESSAGES) == heard
+    changed = MESSAGES[0].model_copy(update={"python": "load('<mujoco>')"})
+    assert read_heard(tmp_path, [changed, *MESSAGES[1:]]) == Heard()
+
+
+def test_no_older_text_is_one_that_a_measured_release_says(root: Path, said: dict[str, str]) -> None:
+    heard = read_heard(root, MESSAGES)
+    assert heard.codes, f"{LOCK} is stale: run `make releases` and commit it"
+    for message in MESSAGES:
+        texts = [said.get(message.id, ""), *heard.said.get(message.id, {}).values()]
+        provoked = [older for older in message.older if any(older in text for text in texts)]
+        assert not provoked, f"messages.yaml: {message.id}: remove from `older` what is provoked: {provoked}"
 
 
 @pytest.mark.parametrize(

@@ -31,6 +31,29 @@ def test_the_file_holds_what_the_browser_needs(tmp_path: Path) -> None:
     assert measure["text"] == "after every step, height of the box, body(box).xpos[2]; contacts, ncon."
 
 
+def test_the_file_holds_trials_and_what_a_remedy_needs(tmp_path: Path) -> None:
+    trials = (
+        "trials: [{id: far, title: Far, start: {'joint(box).qpos[2]': 2}, set: {'model.body_mass[1]': 3},"
+        " checks: {fixed: [{signal: contacts, above: 0.5}]}}]"
+    )
+    case = tiny_case(tmp_path, ("picture: {camera: side}", f"picture: {{camera: side}}\n{trials}"))
+
+    made = json.loads(playground(case, [case]))
+
+    assert made["trials"] == [
+        {
+            "title": "Far",
+            "start": [{"path": "joint(box).qpos[2]", "columns": [], "value": 2}],
+            "set": [{"path": "model.body_mass[1]", "columns": [], "value": 3}],
+            "ctrl": {},
+            "duration": None,
+            "checks": {"fixed": [{"signal": "contacts", "take": "final", "above": 0.5}]},
+        }
+    ]
+    assert made["task"] == {"may": []}
+    assert [remedy["needs"] for remedy in made["fixes"]] == [""]
+
+
 def test_a_late_picture_gets_coarser_and_an_early_one_finer_again() -> None:
     code = """
       const { Resolution } = await import("./docs/playground/view/resolution.js");

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from clinic.proof import experiments
-from clinic.proof.experiments import evidence_task, measure_case, measure_cases, measuring_tasks
+from clinic.proof.experiments import ALL, evidence_task, measure_case, measure_cases, measuring_tasks
 from clinic.record.problem import CaseError
 from clinic.work.cache import Cache
 from helpers import MODEL, script_case, tiny_case
@@ -35,6 +35,18 @@ def test_nothing_is_run_again_when_only_words_change(
     monkeypatch.setattr(experiments, "collect", lambda case: pytest.fail(f"{case.slug} was run again"))
     words = ("Look at the masks.", "Look twice."), ("A box falls", "The box falls")
     assert measure_case(tiny_case(tmp_path / "after", *words), cache) == before
+
+
+def test_numbers_are_changed_where_that_is_asked_and_once(
+    tmp_path: Path, cache: Cache, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = tiny_case(tmp_path / "first", ("film: {}", "loose: {}\nfilm: {}"))
+    assert measure_case(first, cache).loose is None
+    before = measure_case(first, cache, ALL).loose
+    assert before
+    monkeypatch.setattr(experiments, "loose_numbers", lambda case, asked: pytest.fail("they were changed again"))
+    reason = ("film: {}", "loose: {contype: any other bit}\nfilm: {}")
+    assert measure_case(tiny_case(tmp_path / "reason", reason), cache, ALL).loose == before
 
 
 @pytest.mark.parametrize(

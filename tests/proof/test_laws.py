@@ -30,6 +30,17 @@ CHAIN = (
 REASON = ("title: Remove", "redundant: It looks better.\n    title: Remove")
 SWEPT = ("no_sweep: The masks are not a number.\n", SWEEP)
 STRICT = ("within: 0.005", "within: 0.001")
+LINE = [
+    SWEPT,
+    ("outcome: {signal: height}", "outcome: {signal: height}\n    holds: {above: -0.2583}"),
+    ("0.06 - g * 0.4 * 0.398 / 2, within: 1.0e-9, relative: false", "'4', within: 0.01"),
+    ("0.06 - g * 0.4 ** 2 / 2, within: 0.005, relative: false", "'1.5', within: 0.01"),
+]
+"""The box falls beyond a height from 4 m/s² on."""
+NEAR = ("[1, 2, 4, 8]", "[1, 2, 3.94, 4.06, 8]")
+FAR = ("[1, 2, 4, 8]", "[1, 2, 3.9, 4.1, 8]")
+APART = ("title: Gravity and the fall", "title: Gravity and the fall\n    apart: It is slow.")
+JUDGED_NEAR = "expected points judged near the line on both sides, by their end"
 NO_FILM = ("film: {}\n", "")
 SPACE = "\u00a0"
 EXPLOSIVE = (
@@ -192,6 +203,38 @@ def test_a_breach_tells_file_and_line(tmp_path: Path) -> None:
                 "choose points that can tell"
             ],
             id="a-rival-that-never-misses",
+        ),
+        pytest.param("swept", [*LINE, NEAR], [], id="a-line-with-points-near-to-it"),
+        pytest.param(
+            "swept",
+            [*LINE, ("[1, 2, 4, 8]", "[1, 2, 3.94, 4.1, 8]")],
+            [
+                "sweep.fall: no point above it within 0.02 of the line, relative, that is judged; "
+                f"{JUDGED_NEAR}; add points there, or say in `apart` why not"
+            ],
+            id="a-line-with-points-near-to-it-on-one-side",
+        ),
+        pytest.param(
+            "swept",
+            [*LINE, ("[1, 2, 4, 8]", "[1, 2, 3.9, 4.06, 8]")],
+            [
+                "sweep.fall: no point below it within 0.02 of the line, relative, that is judged; "
+                f"{JUDGED_NEAR}; add points there, or say in `apart` why not"
+            ],
+            id="a-line-with-points-near-to-it-on-the-other-side",
+        ),
+        pytest.param("swept", [*LINE, FAR, APART], [], id="a-reason-for-points-apart-from-the-line"),
+        pytest.param(
+            "swept",
+            [*LINE, NEAR, ("{signal: height}\n    holds", "{signal: height, take: min}\n    holds")],
+            [f"sweep.fall: the outcome is taken as min; {JUDGED_NEAR}; take `final`, or say in `apart` why not"],
+            id="a-line-by-what-is-seen-on-the-way",
+        ),
+        pytest.param(
+            "swept",
+            [*LINE, NEAR, APART],
+            ["sweep.fall.apart: a reason, though none is needed; expected nothing to excuse; remove it"],
+            id="a-reason-for-points-that-are-there",
         ),
         pytest.param(
             "lasting",

@@ -12,6 +12,7 @@ from clinic.proof.releases import (
     Locked,
     behaviour,
     differences,
+    differing,
     files_digest,
     lock_text,
     release_problems,
@@ -50,6 +51,13 @@ def test_what_a_case_does_here_is_what_its_evidence_shows(tmp_path: Path) -> Non
     assert seen["share-a-bit"].fixed
     shown = evidence_of_variants(broken=variant_evidence(height=[0.123456789])).variants["broken"]
     assert seen_in(shown).warnings == {}
+
+
+def test_differences_are_those_of_the_releases_in_the_evidence() -> None:
+    evidence = evidence_of_variants(broken=variant_evidence(height=[0.1]))
+    seen = {"broken": seen_in(evidence.variants["broken"])}
+    shown = evidence.model_copy(update={"releases": {"3.9.0": {"broken": {"error": "no such flag"}}, "4.0.0": seen}})
+    assert differing(shown) == {"3.9.0": ["broken does not run (no such flag)"], "4.0.0": []}
 
 
 def test_a_difference_needs_a_reason_and_a_reason_a_difference(tmp_path: Path) -> None:

@@ -23,8 +23,9 @@ def copied(root: Path, to: Path) -> Path:
     """The playground's sources, with the packages that are installed."""
     for name in ("docs/playground", "docs/stylesheets"):
         shutil.copytree(root / name, to / name)
-    (to / "scripts").mkdir()
-    shutil.copy(root / bundle.BUNDLER, to / bundle.BUNDLER)
+    for name in (bundle.BUNDLER, *bundle.TABLES):
+        (to / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(root / name, to / name)
     (to / "node_modules").symlink_to(root / "node_modules")
     return to
 

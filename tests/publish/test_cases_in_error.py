@@ -29,7 +29,7 @@ MISTAKES = {
     "look-alike": (
         RECORD,
         "no_sweep:",
-        "alike: {cases: [odd-script], says: x, path: ncon, above: 1}\nno_sweep:",
+        "alike: {cases: [odd-script], path: ncon, above: 1}\nno_sweep:",
         "model",
     ),
 }

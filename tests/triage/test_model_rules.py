@@ -10,6 +10,7 @@ from subjects import arm, subject
 FREE = '<body name="box" pos="0 0 1" {0}><freejoint/><geom name="box" size=".1 .1 .1" type="box" {1}/></body>'
 FLOOR = '<geom name="floor" type="plane" size="1 1 1" {0}/>'
 SEEN = {
+    "still": ('<mujoco><worldbody><geom size="1"/></worldbody></mujoco>', "model", "nothing can fall or move"),
     "ranges": (arm('range="0 3"'), "joint elbow", "range 0 to 0.0524"),
     "ranges wide": (arm('range="-2000 2000"'), "joint elbow", "range −34.9 to 34.9"),
     "unused_ranges": (arm('range="90 -90"'), "joint elbow", "given and not in force"),

@@ -125,3 +125,13 @@ def test_a_report_lists_each_kind_of_finding_briefly() -> None:
         *(f"   - body {i}: mass {i} kg" for i in range(3)),
         "   - ... and 2 more of the same kind",
     ]
+
+
+def test_a_keyframe_of_the_wrong_size_is_told_at_its_own_line(tmp_path):
+    keys = '<keyframe>\n<key name="home" qpos="0"/>\n<key name="far" qpos="0 0 1"/>\n</keyframe>'
+    path = tmp_path / "model.xml"
+    body = '<worldbody><body><joint name="hinge"/><geom size="0.1"/></body></worldbody>'
+    path.write_text(f"<mujoco>\n{body}\n{keys}\n</mujoco>")
+    with pytest.raises(CaseError) as raised:
+        subject_of(path)
+    assert raised.value.problems[0].line == 5

@@ -1,5 +1,6 @@
 // The editor's place on the page, its buttons, and the places of what is said about the text.
 
+import { isNewer } from "../engine/mjcf.js";
 import { button, choice, el, group } from "../page/elements.js";
 
 /** @import {CaseRecord} from "../record/types.js" */
@@ -27,6 +28,13 @@ export function editorControls(record, draft, { check: startCheck, stop: stopChe
     ...record.refuted.map(({ id, title }) => [id, `does not help: ${title}`]),
   ]);
   const fix = choice("Show the fix", remedies, "", (id) => id && draft.showRemedy(id));
+  /** Marks the remedies that a version of MuJoCo is too old for. @param {string} version */
+  const tellNeeds = (version) => {
+    for (const { id, title, needs } of [...record.fixes, ...record.refuted]) {
+      const option = [...fix.select.options].find(({ value }) => value === id);
+      if (option && needs && isNewer(needs, version)) option.textContent = `${title} (needs MuJoCo ${needs})`;
+    }
+  };
   const parts = [
     el("p", { class: "pg-file" }, el("strong", {}, record.name), el("span", { id: help }, " Edit it; Tab leaves the editor, as does Escape and then Tab.")),
     editor,
@@ -37,7 +45,7 @@ export function editorControls(record, draft, { check: startCheck, stop: stopChe
     address,
     linked,
   ];
-  return { parts, editor, error, check, stop, result, address, linked, fix, help };
+  return { parts, tellNeeds, editor, error, check, stop, result, address, linked, fix, help };
 }
 
 /**

@@ -40,10 +40,9 @@ export class Draft {
     return this.editor.text;
   }
 
-  /** Whether the text is one of the record's fixes, or with `all` one of its remedies. */
-  isOurs(text = this.text, all = false) {
-    const { fixes, refuted } = this.record;
-    return (all ? [...fixes, ...refuted] : fixes).some(({ edits }) => applyEdits(this.record.text, edits) === text);
+  /** Whether a text is one of the record's fixes. @param {string} text */
+  isOurs(text) {
+    return this.record.fixes.some(({ edits }) => applyEdits(this.record.text, edits) === text);
   }
 
   edited() {
@@ -75,16 +74,13 @@ export class Draft {
   }
 
   /**
-   * @param {{message: string, line: number | null}} error
+   * @param {{message: string, line: number | null, newer: string}} error
    * @param {boolean} running whether a model that compiled goes on
    */
   refused(error, running) {
-    const text = this.compiled();
+    this.compiled();
     this.editor.showError(error.message, error.line);
-    const newer = this.isOurs(text, true)
-      ? ` MuJoCo ${this.record.engine}, which made the evidence, knows this; the engine of this page does not.`
-      : "";
-    this.showError(compileError(error) + (running ? " (The last model that compiled goes on.)" : "") + newer);
+    this.showError(compileError(error) + (running ? " (The last model that compiled goes on.)" : ""));
   }
 
   /** Ends the compilation, starts that of what was typed since, and gives the text that was compiled. @returns {string} */
@@ -155,10 +151,10 @@ export class Draft {
 }
 
 /**
- * An error of the compiler in a line.
- * @param {{message: string, line: number | null}} error
+ * An error of the compiler in a line, after the release that the text needs, if that is known.
+ * @param {{message: string, line: number | null, newer: string}} error
  */
-export function compileError({ message, line }) {
+export function compileError({ message, line, newer }) {
   const said = message.replaceAll("\n", " ").trim();
-  return line ? `Line ${line}: ${said}` : said;
+  return `${newer && `${newer} `}${line ? `Line ${line}: ` : ""}${said}`;
 }

@@ -1,5 +1,7 @@
 // What drawing needs of a model once: shapes, textures, materials, lights, names.
 
+import { nameOf } from "./signals.js";
+
 /** @import {MainModule, MjModel, MjvScene} from "@mujoco/mujoco" */
 
 const MAX_SIDE = 200; // of a height field, in drawn points
@@ -34,7 +36,7 @@ const MAX_SIDE = 200; // of a height field, in drawn points
  * @returns {Assets}
  */
 export function assets(mujoco, model, scene) {
-  const name = (/** @type {{value: number}} */ kind, /** @type {number} */ id) => mujoco.mj_id2name(model, kind.value, id);
+  const name = (/** @type {{value: number}} */ kind, /** @type {number} */ id) => nameOf(mujoco, model, kind.value, id);
   const { mjOBJ_BODY, mjOBJ_CAMERA } = mujoco.mjtObj;
   const textures = range(model.ntex).map((i) => texture(model, i));
   const sky = range(model.ntex).find((i) => model.tex_type[i] === mujoco.mjtTexture.mjTEXTURE_SKYBOX.value);

@@ -70,15 +70,29 @@ export function satisfies(check, measured) {
 }
 
 /**
- * The comparison in words, without the unit: `between 0.505 and 0.52`.
+ * The comparison in words: `between 0.505 and 0.52`.
  * @param {Comparison} check
+ * @param {(value: number) => string} [show]
  */
-export function expected(check) {
-  if (check.above !== undefined) return `above ${shown(check.above)}`;
-  if (check.below !== undefined) return `below ${shown(check.below)}`;
-  if (check.between !== undefined) return `between ${shown(check.between[0])} and ${shown(check.between[1])}`;
-  const tolerance = check.within ? ` ± ${shown(check.within)}` : " exactly";
-  return shown(Number(check.equals)) + tolerance;
+export function expected(check, show = shown) {
+  if (check.above !== undefined) return `above ${show(check.above)}`;
+  if (check.below !== undefined) return `below ${show(check.below)}`;
+  if (check.between !== undefined) return `between ${show(check.between[0])} and ${show(check.between[1])}`;
+  const tolerance = check.within ? ` ± ${show(check.within)}` : " exactly";
+  return show(Number(check.equals)) + tolerance;
+}
+
+/**
+ * A number as Python's format `g` writes it, which the judge's sentences use.
+ * @param {number} value
+ * @param {number} [digits]
+ */
+export function general(value, digits = 6) {
+  if (!Number.isFinite(value)) return String(value).replace("Infinity", "inf").replace("NaN", "nan");
+  const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
+  const power = Number(exponent);
+  if (value === 0 || (power >= -4 && power < digits)) return (Object.is(value, -0) ? "-" : "") + Number(value.toPrecision(digits));
+  return `${Number(mantissa)}e${power < 0 ? "-" : "+"}${String(Math.abs(power)).padStart(2, "0")}`;
 }
 
 /**

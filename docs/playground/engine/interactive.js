@@ -2,7 +2,7 @@
 
 import { evaluate, parse } from "../record/expression.js";
 import { pathSignals } from "./measure.js";
-import { bind } from "./signals.js";
+import { bind, nameOf } from "./signals.js";
 import { controls, raised, start, step } from "./simulate.js";
 
 /** @import {MainModule, MjData, MjModel, MjvCamera, MjvOption, MjvPerturb, MjvScene} from "@mujoco/mujoco" */
@@ -205,7 +205,7 @@ export class InteractiveSimulation {
     mujoco.mjv_initPerturb(model, data, this.scene, perturb);
     perturb.active = mujoco.mjtPertBit.mjPERT_TRANSLATE.value;
     this.drag(point);
-    return { name: mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY.value, body) || `body ${body}`, point };
+    return { name: nameOf(mujoco, model, mujoco.mjtObj.mjOBJ_BODY.value, body) || `body ${body}`, point };
   }
 
   /**

@@ -19,10 +19,11 @@ const [COLUMNS, ROWS] = [160, 120];
  * @param {MjModel} model
  * @param {CaseRecord} record
  * @param {Set<string>} wanted
+ * @param {Nudge} [nudge] applied to the start
  * @returns {Generator<undefined, {run: Run, traces: Record<string, Trace>}>}
  */
-export function* measure(mujoco, model, record, wanted) {
-  const run = yield* simulate(mujoco, model, record.run, pathSignals(record, wanted));
+export function* measure(mujoco, model, record, wanted, nudge) {
+  const run = yield* simulate(mujoco, model, record.run, pathSignals(record, wanted), nudge);
   const traces = { ...run.traces };
   for (const name of wanted) {
     const signal = record.signals[name];

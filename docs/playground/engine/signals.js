@@ -71,9 +71,7 @@ export function bind(signal, mujoco, model, data, held) {
   /** @type {any} */
   const owner = path.model ? model : data;
   if (path.kind === "") return bindField(path, owner, signal.columns);
-  const kind = /** @type {Kind} */ (path.kind);
-  requireId(mujoco, model, kind, path.name);
-  const element = owner[KINDS[kind][0]](path.name);
+  const element = named(path, mujoco, model, owner);
   held.push(element);
   return bindField(path, element, []);
 }
@@ -94,20 +92,79 @@ export function requireId(mujoco, model, kind, name) {
 }
 
 /**
+ * An element's name; empty if it has none, for which the binding gives whatever text stands at address 0.
+ * @param {MainModule} mujoco
+ * @param {MjModel} model
+ * @param {number} type of object
+ * @param {number} id
+ */
+export function nameOf(mujoco, model, type, id) {
+  const name = mujoco.mj_id2name(model, type, id);
+  return mujoco.mj_name2id(model, type, name) === id ? name : "";
+}
+
+/**
  * @param {Path} path
  * @param {any} owner
  * @param {number[]} columns
  * @returns {() => number}
  */
 function bindField(path, owner, columns) {
+  const [holder, last, at] = place(path, owner, columns);
+  return at === null ? () => holder[last] : () => holder[last][at] ?? NaN;
+}
+
+/**
+ * Where a field's number is: what holds the field, the field's name, and the place in its array; null if it is a number.
+ * @param {Path} path
+ * @param {any} owner
+ * @param {number[]} columns
+ * @returns {[any, string, number | null]}
+ */
+function place(path, owner, columns) {
   const parents = path.field.split(".");
   const last = /** @type {string} */ (parents.pop());
   for (const parent of parents) owner = present(owner, parent, path);
-  if (typeof present(owner, last, path) === "number") return () => owner[last];
+  if (typeof present(owner, last, path) === "number") return [owner, last, null];
   const at = flatIndex(path, columns);
   const grows = path.kind === "" && !path.model && last.startsWith("efc_");
   if (!grows && !(at < owner[last].length)) throw new SignalError(`${path.field} has no entry ${at}`);
-  return () => owner[last][at] ?? NaN;
+  return [owner, last, at];
+}
+
+/**
+ * Writes one number to where a signal's path reads it.
+ * @param {{path: string, columns: number[]}} number
+ * @param {number} value
+ * @param {MainModule} mujoco
+ * @param {MjModel} model
+ * @param {MjData} data
+ * @throws {SignalError} if the model has no such number
+ */
+export function write(number, value, mujoco, model, data) {
+  const path = parsePath(number.path);
+  /** @type {any} */
+  const owner = path.model ? model : data;
+  const element = path.kind ? named(path, mujoco, model, owner) : null;
+  try {
+    const [holder, last, at] = place(path, element ?? owner, number.columns);
+    if (at === null) holder[last] = value;
+    else holder[last][at] = value;
+  } finally {
+    element?.delete();
+  }
+}
+
+/**
+ * @param {Path} path
+ * @param {MainModule} mujoco
+ * @param {MjModel} model
+ * @param {any} owner
+ */
+function named(path, mujoco, model, owner) {
+  const kind = /** @type {Kind} */ (path.kind);
+  requireId(mujoco, model, kind, path.name);
+  return owner[KINDS[kind][0]](path.name);
 }
 
 /**

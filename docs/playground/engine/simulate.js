@@ -177,7 +177,7 @@ function interpolate(points, moment) {
 /**
  * Runs a generator to its end at once.
  * @template T
- * @param {Generator<undefined, T>} work
+ * @param {Generator<unknown, T>} work
  * @returns {T}
  */
 export function finish(work) {

@@ -1,35 +1,116 @@
-// Whether a model is well: its run, judged by the record's checks.
+// Whether a text repairs a case: judged by the checks in the record's run and in every trial, if the task is the same.
 
-import { judge } from "../engine/checks.js";
+import { expected, general, judge } from "../engine/checks.js";
 import { measure } from "../engine/measure.js";
+import { SignalError } from "../engine/signals.js";
+import { RunError } from "../engine/simulate.js";
+import { changes } from "./task.js";
+import { inTrial, prepare } from "./trials.js";
 
 /** @import {MainModule, MjModel} from "@mujoco/mujoco" */
 /** @import {Verdict} from "../engine/checks.js" */
-/** @import {CaseRecord} from "../record/types.js" */
+/** @import {CaseRecord, Trial} from "../record/types.js" */
 
 /**
+ * What was seen in the record's run or in a trial.
+ * @typedef {object} Situation
+ * @property {string} title of the trial; empty for the record's run
+ * @property {Verdict[]} fixed
+ * @property {string[]} warnings that MuJoCo raised
+ * @property {string[]} failed what does not hold, a sentence each
+ *
  * What `Check my fix` finds.
  * @typedef {object} Judgement
- * @property {Verdict[]} broken
- * @property {Verdict[]} fixed
- * @property {Record<string, number>} warnings what MuJoCo raised during the run
- * @property {boolean} well every `fixed` check holds, some `broken` check does not, and MuJoCo raised no warning
- * @property {number} steps of the run
+ * @property {string[]} changes what was changed of the task, a sentence each
+ * @property {Situation[]} situations the record's run, then every trial
+ * @property {boolean} repaired nothing was changed of the task, and nothing failed
  */
 
 /**
- * Runs a model and judges it by the record's checks; yields now and then, so that the caller can do other work, or stop.
+ * Judges a text. It yields now and then, so that the caller can do other work, or stop: what it is about to do, in words,
+ * or nothing.
+ * @param {MainModule} mujoco
+ * @param {string} text
+ * @param {CaseRecord} record
+ * @returns {Generator<string | undefined, Judgement>}
+ * @throws {Error} before the first yield with MuJoCo's message, if the text does not compile
+ * @throws {RunError | SignalError} if it cannot be run, though the task is the same
+ */
+export function* judgeText(mujoco, text, record) {
+  const model = mujoco.MjModel.from_xml_string(text);
+  /** @type {string[]} */
+  let changed = [];
+  /** @type {Situation[]} */
+  const situations = [];
+  try {
+    yield "the case's own run";
+    const broken = mujoco.MjModel.from_xml_string(record.text);
+    try {
+      changed = changes(mujoco, broken, model, record.task.may);
+    } finally {
+      broken.delete();
+    }
+    try {
+      situations.push(yield* situation(mujoco, model, record, null));
+    } catch (error) {
+      if (changed.length === 0 || !cannotRun(error)) throw error;
+    }
+  } finally {
+    model.delete();
+  }
+  for (const [k, trial] of record.trials.entries()) {
+    yield `the trial '${trial.title}' (${k + 1} of ${record.trials.length})`;
+    const other = mujoco.MjModel.from_xml_string(text);
+    try {
+      situations.push(yield* situation(mujoco, other, record, trial));
+    } catch (error) {
+      if (!cannotRun(error)) throw error;
+      const failed = [`In the trial '${trial.title}' it cannot be run: ${error.message}.`];
+      situations.push({ title: trial.title, fixed: [], warnings: [], failed });
+    } finally {
+      other.delete();
+    }
+  }
+  const repaired = changed.length === 0 && situations.every(({ failed }) => failed.length === 0);
+  return { changes: changed, situations, repaired };
+}
+
+/** @param {unknown} error @returns {error is RunError | SignalError} */
+function cannotRun(error) {
+  return error instanceof RunError || error instanceof SignalError;
+}
+
+/**
  * @param {MainModule} mujoco
  * @param {MjModel} model
  * @param {CaseRecord} record
- * @returns {Generator<undefined, Judgement>}
+ * @param {Trial | null} trial
+ * @returns {Generator<undefined, Situation>}
  */
-export function* judgeModel(mujoco, model, record) {
-  const { broken, fixed } = record.checks;
+function* situation(mujoco, model, record, trial) {
+  const here = trial ? inTrial(record, trial) : record;
+  const { broken, fixed } = here.checks;
   const wanted = new Set([...broken, ...fixed].map((check) => check.signal));
-  const { run, traces } = yield* measure(mujoco, model, record, wanted);
-  const verdicts = { broken: broken.map((check) => judge(check, traces)), fixed: fixed.map((check) => judge(check, traces)) };
-  const repaired = verdicts.fixed.every(({ holds }) => holds) && !verdicts.broken.every(({ holds }) => holds);
-  const { warnings, steps } = run;
-  return { ...verdicts, warnings, steps, well: repaired && Object.keys(warnings).length === 0 };
+  const nudge = trial ? prepare(mujoco, model, trial) : undefined;
+  const { run, traces } = yield* measure(mujoco, model, here, wanted, nudge);
+  const verdicts = fixed.map((check) => judge(check, traces));
+  const warnings = Object.keys(run.warnings);
+  const where = trial ? `In the trial '${trial.title}': ` : "";
+  const told = warnings.map((name) => `MuJoCo warns of ${name}.`);
+  for (const verdict of verdicts) if (!verdict.holds) told.push(missed(record, verdict));
+  return { title: trial?.title ?? "", fixed: verdicts, warnings, failed: told.map((said) => where + said) };
+}
+
+/**
+ * A check that does not hold, in a sentence.
+ * @param {CaseRecord} record
+ * @param {Verdict} verdict
+ */
+function missed(record, { check, measured }) {
+  const { label, unit: its } = record.signals[check.signal];
+  const unit = check.take === "onset" ? "s" : its;
+  const span = check.window ? `, ${general(check.window[0])} to ${general(check.window[1])} s` : "";
+  const seen = Number.isNaN(measured) ? "nothing" : `${general(measured, 4)} ${unit}`.trimEnd();
+  const bound = expected(check, (value) => `${general(value)} ${unit}`.trimEnd());
+  return `${label} (${check.take}${span}) is ${seen}; expected ${bound}.`;
 }

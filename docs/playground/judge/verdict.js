@@ -1,10 +1,11 @@
-// The answer to `Check my fix`: a sentence and a table of measured and expected values.
+// The answer to `Check my fix`: what holds and what does not in sentences, and a table of all that was measured.
 
 import { expected, shown } from "../engine/checks.js";
 import { el } from "../page/elements.js";
 
+/** @import {Verdict} from "../engine/checks.js" */
 /** @import {Check, CaseRecord} from "../record/types.js" */
-/** @import {Judgement} from "./judgement.js" */
+/** @import {Judgement, Situation} from "./judgement.js" */
 
 const TAKES = {
   final: "at the end",
@@ -20,44 +21,64 @@ const TAKES = {
  * @param {CaseRecord} record
  * @param {Judgement} judgement
  * @param {boolean} ours whether the text is a fix of the record
- * @returns {{summary: string, table: HTMLElement}}
+ * @returns {{summary: string, parts: HTMLElement[]}}
  */
 export function verdict(record, judgement, ours) {
-  const { fixed, warnings, well } = judgement;
-  const names = Object.keys(warnings);
-  const rows = fixed.map((made) => {
-    const unit = made.check.take === "onset" ? "s" : record.signals[made.check.signal].unit;
-    return row(what(record, made.check), `${shown(made.measured, 4)} ${unit}`, `${expected(made.check)} ${unit}`, made.holds);
-  });
-  rows.push(row("warnings of MuJoCo", names.join(", ") || "none", "none", names.length === 0));
-  if (fixed.every(({ holds }) => holds) && judgement.broken.every(({ holds }) => holds)) {
-    rows.push(row("what the broken model shows", "all of it", "not all of it", false));
-  }
-  const heads = ["Measured", "Value", "Expected", "Holds"].map((head) => el("th", { scope: "col" }, head));
+  const { changes, situations, repaired } = judgement;
+  const told = [...changes, ...situations.flatMap(({ failed }) => failed)];
+  const list = el("ul", { class: "pg-told" }, ...told.map((sentence) => el("li", {}, sentence)));
+  const measured = el("details", { class: "pg-fold" }, el("summary", {}, "All that was measured"), table(record, situations));
   return {
-    summary: well ? repaired(ours) : missed(rows.length, rows.filter((made) => made.dataset.holds === "no").length),
-    table: scroll(el("table", { class: "pg-table" }, el("thead", {}, el("tr", {}, ...heads)), el("tbody", {}, ...rows))),
+    summary: repaired ? accepted(record, ours) : refused(judgement),
+    parts: [...(told.length > 0 ? [list] : []), ...(situations.length > 0 ? [measured] : [])],
   };
 }
 
-/** @param {HTMLTableElement} table which may be wider than the page */
-function scroll(table) {
-  return el("div", { class: "pg-scroll", tabindex: "0", role: "region", "aria-label": "What was measured" }, table);
+/**
+ * @param {CaseRecord} record
+ * @param {boolean} ours
+ */
+function accepted({ trials }, ours) {
+  const where = trials.length > 0 ? ` in the case's own run and in ${trials.length === 1 ? "its trial" : `its ${trials.length} trials`}` : "";
+  const other = ours ? "" : " Your repair is not one of those on this page; whatever passes is right.";
+  return `Repaired: every check holds${where}.${other}`;
 }
 
-/** @param {boolean} ours */
-function repaired(ours) {
-  return ours
-    ? "Repaired: every check holds."
-    : "Repaired: every check holds. Your repair is not one of those on this page; whatever passes is right.";
+/** @param {Judgement} judgement */
+function refused({ changes, situations }) {
+  const number = situations.flatMap(({ failed }) => failed).length;
+  const fails = number === 1 ? "one check fails" : `${number} checks fail`;
+  if (changes.length > 0) {
+    return `Not repaired: the task was changed${number > 0 ? `, and ${fails}` : "; a repair leaves it as it is"}.`;
+  }
+  const lucky = situations[0].failed.length === 0;
+  return lucky ? `Not repaired: every check holds in the case's own run, but ${fails} in its trials.` : `Not repaired: ${fails}.`;
 }
 
 /**
- * @param {number} all
- * @param {number} failed
+ * @param {CaseRecord} record
+ * @param {Situation[]} situations
  */
-function missed(all, failed) {
-  return `Not repaired: ${failed} of ${all} checks ${failed === 1 ? "fails" : "fail"}.`;
+function table(record, situations) {
+  const heads = ["Measured", "Value", "Expected", "Holds"].map((head) => el("th", { scope: "col" }, head));
+  const bodies = situations.map(({ title, fixed, warnings }) => {
+    const name = el("th", { scope: "rowgroup", colspan: "4" }, title ? `Trial: ${title}` : "The case's own run");
+    const rows = fixed.map((made) => measuredRow(record, made));
+    const raised = row("warnings of MuJoCo", warnings.join(", ") || "none", "none", warnings.length === 0);
+    return el("tbody", {}, el("tr", { class: "pg-situation" }, name), ...(fixed.length > 0 ? [...rows, raised] : []));
+  });
+  // the table may be wider than the page
+  const attributes = { class: "pg-scroll", tabindex: "0", role: "region", "aria-label": "What was measured" };
+  return el("div", attributes, el("table", { class: "pg-table" }, el("thead", {}, el("tr", {}, ...heads)), ...bodies));
+}
+
+/**
+ * @param {CaseRecord} record
+ * @param {Verdict} made
+ */
+function measuredRow(record, { check, measured, holds }) {
+  const unit = check.take === "onset" ? "s" : record.signals[check.signal].unit;
+  return row(what(record, check), `${shown(measured, 4)} ${unit}`, `${expected(check)} ${unit}`, holds);
 }
 
 /**

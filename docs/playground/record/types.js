@@ -2,7 +2,7 @@
 
 /**
  * @typedef {{find: string, replace: string}} Edit
- * @typedef {{id: string, title: string, edits: Edit[]}} Remedy
+ * @typedef {{id: string, title: string, edits: Edit[], needs: string}} Remedy needs: the release of MuJoCo, if not every one will do
  * @typedef {"final" | "first" | "min" | "max" | "mean" | "span" | "onset"} Take
  *
  * @typedef {object} Comparison
@@ -32,6 +32,16 @@
  * @property {Record<string, number>} qvel
  * @property {Record<string, number | [number, number][]>} ctrl
  *
+ * @typedef {{path: string, columns: number[], value: number}} Written a number written to a path
+ *
+ * @typedef {object} Trial
+ * @property {string} title
+ * @property {Written[]} start
+ * @property {Written[]} set
+ * @property {Record<string, number | [number, number][]>} ctrl
+ * @property {number | null} duration in s
+ * @property {{broken?: Check[], fixed?: Check[]}} checks
+ *
  * @typedef {object} CaseRecord
  * @property {string} case
  * @property {number} number
@@ -42,6 +52,8 @@
  * @property {RunSpec} run
  * @property {Record<string, Signal>} signals
  * @property {{broken: Check[], fixed: Check[]}} checks
+ * @property {Trial[]} trials
+ * @property {{may: string[]}} task
  * @property {Remedy[]} fixes
  * @property {Remedy[]} refuted
  * @property {string} camera

@@ -12,7 +12,7 @@ from clinic.pages.case_page import case_page
 from clinic.pages.symptoms import symptom_problems
 from clinic.pages.text.manual import manual_problems
 from clinic.proof.evidence import Evidence
-from clinic.proof.experiments import compare_alike, evidence_of
+from clinic.proof.experiments import ALL, compare_alike, measure_case
 from clinic.proof.laws import LAWS, breaches
 from clinic.proof.lookalike import alike_problems
 from clinic.record.case import Case, read_cases
@@ -42,6 +42,11 @@ class Report:
         """Whether nothing was found."""
         return not (self.problems or self.breaches)
 
+    @property
+    def grade(self) -> str | None:
+        """A, or B where the record is without something that A asks for; None if it could not be read."""
+        return None if self.case is None else "B" if self.case.record.lacking else "A"
+
 
 def check_cases(root: Path, slugs: Iterable[str], cache: Cache) -> Iterator[Report]:
     """Reads, runs and judges the cases of a checkout, one after the other."""
@@ -60,6 +65,7 @@ def report_data(report: Report) -> dict[str, Any]:
         "number": report.case.record.number if report.case else None,
         "title": report.case.record.title if report.case else None,
         "sound": report.sound,
+        "grade": report.grade,
         "problems": [asdict(problem) for problem in report.problems],
         "breaches": [asdict(problem) for problem in report.breaches],
         "variants": {
@@ -78,7 +84,7 @@ def _check(slug: str, known: Mapping[str, Case], problems: list[Problem], cache:
         files = files_of_case(case, cache)
     except CaseError as error:
         return Report(slug, case, None, tuple(sorted({*problems, *error.problems})))
-    evidence = evidence_of(files)
+    evidence = measure_case(case, cache, ALL)
     alike, unclear = (None, []) if problems else compare_alike(case, known, cache)
     broken = [*breaches(case, evidence, *LAWS), *unclear]
     if set(case.record.see) <= known.keys():

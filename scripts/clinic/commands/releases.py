@@ -13,6 +13,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from clinic.engine import node
+from clinic.pages.messages import LOCK as HEARD
+from clinic.pages.messages import Heard, Message, codes_of, listen, load_messages, read_heard
 from clinic.proof.experiments import measure_case
 from clinic.proof.releases import (
     LOCK,
@@ -68,7 +70,7 @@ def compare(root: Path, slugs: Sequence[str], releases: Sequence[str]) -> Iterat
     for slug, locked in measure(root, cases, releases).items():
         case = next(case for case in cases if case.slug == slug)
         evidence = measure_case(case, Cache(cache_folder(root)), ())
-        yield from release_problems(case, differing(evidence, locked.releases))
+        yield from release_problems(case, differing(evidence.model_copy(update={"releases": locked.releases})))
 
 
 def write_lock(root: Path, measured: Lock, slugs: Iterable[str]) -> None:
@@ -105,6 +107,23 @@ def npm_environment(root: Path, release: str) -> tuple[list[str], Path]:
     return [sys.executable], folder
 
 
+def listen_to(root: Path, messages: Sequence[Message], releases: Iterable[str] = PYTHON) -> Heard:
+    """What the releases say otherwise, when the messages are provoked there.
+
+    Raises:
+        RuntimeError: If an environment cannot be made or nothing can be provoked in it.
+    """
+    wanted, codes = list(releases), json.dumps(codes_of(messages))
+
+    def ask(release: str) -> dict[str, str]:
+        command, folder = python_environment(root, release)
+        answer: dict[str, str] = json.loads(_run([*command, "-m", "clinic.engine.provoke"], folder, codes))
+        return answer
+
+    with ThreadPoolExecutor(jobs()) as pool:
+        return listen(messages, dict(zip(wanted, pool.map(ask, wanted), strict=True)))
+
+
 def _ask(root: Path, environment: tuple[list[str], Path], slugs: list[str]) -> dict[str, tuple[str, dict[str, object]]]:
     command, folder = environment
     said = _run([*command, "-m", "clinic.proof.releases", str(root / "cases"), *slugs], folder)
@@ -116,8 +135,8 @@ def _uv() -> str:
     return shutil.which("uv", path=os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])) or "uv"
 
 
-def _run(command: list[str], folder: Path) -> str:
-    done = subprocess.run(command, cwd=folder, check=False, capture_output=True, text=True)
+def _run(command: list[str], folder: Path, given: str = "") -> str:
+    done = subprocess.run(command, cwd=folder, check=False, capture_output=True, text=True, input=given)
     if done.returncode:
         raise RuntimeError(f"{Path(command[0]).name} {command[1]} failed: {done.stderr.strip()[-500:]}")
     return done.stdout
@@ -132,14 +151,18 @@ def stale(lock: Lock, measured: Lock) -> Iterator[str]:
 
 
 def main() -> None:
-    """Writes the lock file; with `--check` says instead where it is stale, and ends with 1 if it is."""
-    root = project_root()
+    """Writes the lock files; with `--check` says instead where they are stale, and ends with 1 if they are."""
+    root, messages = project_root(), load_messages()
     cases, _ = read_cases(root / "cases")
-    measured = measure(root, cases)
+    measured, heard = measure(root, cases), listen_to(root, messages)
     if "--check" not in sys.argv:
         write_lock(root, measured, [case.slug for case in cases])
-    elif told := list(stale(read_lock(root), measured)):
-        sys.exit("\n".join([*told, f"{LOCK} is stale: run `make releases` and commit it"]))
+        (root / HEARD).write_text(f"{heard.model_dump_json(indent=1)}\n", encoding="utf-8")
+        return
+    told = list(stale(read_lock(root), measured))
+    told += [f"{HEARD} says otherwise"] if read_heard(root, messages) != heard else []
+    if told:
+        sys.exit("\n".join([*told, "a lock is stale: run `make releases` and commit it"]))
 
 
 if __name__ == "__main__":

@@ -51,7 +51,8 @@ def reports_table(reports: Iterable[Report]) -> Table:
         number = str(report.case.record.number) if report.case else ""
         counts = {"mistake": len(report.problems), "broken law": len(report.breaches)}
         wrong = ", ".join(f"{count} {noun}{'s' * (count > 1)}" for noun, count in counts.items() if count)
-        result = Text(wrong, "red") if wrong else Text("sound", "green")
+        lacking = f": no {' and no '.join(report.case.record.lacking)}" if report.grade == "B" and report.case else ""
+        result = Text(wrong, "red") if wrong else Text(f"sound, grade {report.grade}{lacking}", "green")
         table.add_row(number, report.slug, str(len(made) or ""), str(checks or ""), result)
     return table
 
@@ -89,7 +90,9 @@ def case_text(case: Case, evidence: Evidence, answer: bool) -> Markdown:
         if fold == "diagnosis" and data["snippet"]:
             parts += [fence(data["snippet"], case.record.language), "It prints:", fence(data["printed"])]
         if fold == "cause":
-            parts += [f"**{line(sweep.title)}.** {fill(sweep.text, evidence)}" for sweep in case.record.sweep.values()]
+            parts += [
+                f"**{line(sweep.title)}.** {fill(sweep.text, evidence, case)}" for sweep in case.record.sweep.values()
+            ]
         if fold == "fix":
             for remedy in data["fixes"] + data["refuted"]:
                 sign = "✗ does not work:" if remedy in data["refuted"] else "✓"
@@ -101,16 +104,16 @@ def case_text(case: Case, evidence: Evidence, answer: bool) -> Markdown:
 def case_data(case: Case, evidence: Evidence, answer: bool) -> dict[str, Any]:
     """The case as data: the public form of `clinic show --json`. Without `answer` the folds are left out."""
     record = case.record
-    made: dict[str, Any] = {**row_data(case), "symptom": fill(record.symptom, evidence)}
+    made: dict[str, Any] = {**row_data(case), "symptom": fill(record.symptom, evidence, case)}
     if not answer:
         return made
-    made |= {fold: fill(getattr(record, fold), evidence) for fold in FOLDS}
+    made |= {fold: fill(getattr(record, fold), evidence, case) for fold in FOLDS}
     made |= {"snippet": record.snippet, "printed": evidence.snippet, "see": record.see}
     diffs = {variant.id: diff(case.text, variant.text, record.source) for variant in variants(case)}
     for kind, remedies in (("fixes", record.fixes), ("refuted", record.refuted)):
         made[kind] = [{"id": remedy.id, "title": remedy.title, "diff": diffs[remedy.id]} for remedy in remedies]
     for told, remedy in zip(made["refuted"], record.refuted, strict=True):
-        told["why"] = fill(remedy.why, evidence)
+        told["why"] = fill(remedy.why, evidence, case)
     return made
 
 

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Collection, Iterable
+import time
+from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
 
-from clinic.diagnosis.engine import Engine
-from clinic.diagnosis.finding import Diagnosis, Finding
+from clinic.diagnosis.edit import Edit, apply
+from clinic.diagnosis.engine import CompileError, Engine
+from clinic.diagnosis.errors import mended
+from clinic.diagnosis.finding import Diagnosis, finding_of
 from clinic.diagnosis.judge import Judged, judge, order, suspects_of, without_rivals
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import Rule, rules
 from clinic.diagnosis.simulation import Start
-from clinic.diagnosis.source import Source, SourceError
+from clinic.diagnosis.source import read_source, read_texts
+
+LIMIT = 30.0  # s, after which no further rule is tried
 
 
 def examine(
@@ -34,93 +39,78 @@ def examine(
         start: Keyframe and controls; where left out, the model's start, and then its first keyframe.
         select: Rules to try; all where empty.
         ignore: Rules not to try.
-        tell: Is called with what is being done, in a few words.
+        tell: Is called with the id of each rule before it is tried.
     """
-    try:
-        source = Source(texts)
-    except SourceError:
-        source = None
-    found: list[Judged] = []
-    tried: list[Rule] = []
-    for begin in [start] if start else [Start(), Start(key=0)]:
-        model = ReaderModel(engine, texts, source, begin)
-        if begin.key >= 0 and not model.error and model.simulation.count("key") <= begin.key:
-            break
-        tried = [rule for rule in _wanted(select, ignore) if rule.of_errors == bool(model.error)]
-        found = _judged(model, tried, tell)
-        if model.error or any(each.level == "cause" for each in found):
-            break
-    found = order(found, (symptom,) if symptom else ())
+    model = ReaderModel(engine, texts, read_source(texts), start or Start())
+    wanted = [rule for name, rule in rules().items() if name not in ignore and (not select or name in select)]
+    tried = [rule for rule in wanted if rule.of_errors == bool(model.error)]
+    if model.error:
+        found, fixed = mended(model, tried, tell)
+    else:
+        found, fixed = _found(model, tried, tell)
+        if start is None and model.simulation.count("key") and not any(each.level == "cause" for each in found):
+            model = ReaderModel(engine, texts, model.source, Start(key=0))
+            found, fixed = _found(model, tried, tell)
+        found = order(found, (symptom,) if symptom else ())
     named = {each.rule.id for each in found}
-    file = next(iter(texts))
-    findings = [_finding(each, file) for each in found]
+    file = model.source.main if model.source else next(iter(texts))
+    findings = [finding_of(each, file) for each in found]
     return Diagnosis(
         engine.version,
         file,
         tuple(each for each in findings if each.level == "cause"),
         tuple(each for each in findings if each.level == "hint"),
         tuple(rule.id for rule in tried if rule.id not in named),
+        model.error,
+        texts,
+        fixed,
     )
 
 
-def _judged(model: ReaderModel, tried: Iterable[Rule], tell: Callable[[str], None]) -> list[Judged]:
+def _found(
+    model: ReaderModel, tried: Iterable[Rule], tell: Callable[[str], None]
+) -> tuple[list[Judged], Mapping[str, str]]:
+    """What is found in a model that compiles, and its texts with the edits of all causes that go together."""
     found: list[Judged] = []
+    until = time.monotonic() + LIMIT
     for rule in tried:
-        tell(rule.title)
-        for suspect in suspects_of(model, rule, tell):
-            judged = judge(model, rule, suspect)
-            if judged is not None:
-                found.append(judged)
-    return without_rivals(found)
-
-
-def _wanted(select: Collection[str], ignore: Collection[str]) -> Iterable[Rule]:
-    return [rule for name, rule in rules().items() if name not in ignore and (not select or name in select)]
-
-
-def _finding(judged: Judged, file: str) -> Finding:
-    suspect = judged.suspect
-    first = suspect.edits[0] if suspect.edits else None
-    return Finding(
-        rule=judged.rule.id,
-        title=judged.rule.title,
-        level=judged.level,
-        elements=suspect.elements,
-        file=first.file if first else file,
-        line=first.line if first else None,
-        attribute=suspect.attribute,
-        now=suspect.now,
-        value=suspect.value,
-        edit=suspect.edits,
-        probe=suspect.probe.title,
-        unit=suspect.probe.unit,
-        before=judged.before,
-        after=judged.after,
-        says=suspect.says,
-        healthy=suspect.healthy,
-    )
+        if time.monotonic() > until:
+            break
+        tell(rule.id)
+        judged = (judge(model, rule, suspect) for suspect in suspects_of(model, rule, tell))
+        found += [each for each in judged if each is not None]
+    found = without_rivals(found)
+    edits: list[Edit] = []
+    for each in found:
+        if each.level == "cause" and not isinstance(model.with_edits([*edits, *each.suspect.edits]), CompileError):
+            edits += each.suspect.edits
+    return found, apply(model.texts, edits)
 
 
 def diagnose_here(path: Path | str, **options: object) -> Diagnosis:
-    """Diagnoses a model file in this process.
+    """Diagnoses a model file in this process, whose current folder is the model's meanwhile.
+
+    Args:
+        path: An MJCF or URDF file.
+        options: See `examine`.
 
     Raises:
         OSError: If the file cannot be read.
     """
     from clinic.diagnosis.native import NativeEngine
-    from clinic.diagnosis.source import read_texts
 
     path = Path(path).absolute()
     before = Path.cwd()
     os.chdir(path.parent)
     try:
-        texts = read_texts(path.read_text(encoding="utf-8"), path.name, _read)
+        texts = read_texts(path.read_text(encoding="utf-8"), path.name, read_file)
         return examine(NativeEngine(), texts, **options)  # type: ignore[arg-type]
     finally:
         os.chdir(before)
 
 
-def _read(name: str) -> str | None:
+def read_file(name: str) -> str | None:
+    """The text of a file; None where there is none that is text."""
     try:
         return Path(name).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError):

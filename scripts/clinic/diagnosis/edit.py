@@ -50,22 +50,27 @@ def edit(element: Element, action: Action, attribute: str = "", value: str = "")
 
 
 def set_attribute(element: Element, attribute: str, value: str) -> Edit:
+    """Gives an attribute a value, new or not."""
     return edit(element, "set", attribute, value)
 
 
 def remove_attribute(element: Element, attribute: str) -> Edit:
+    """Takes an attribute off."""
     return edit(element, "remove", attribute)
 
 
 def delete(element: Element) -> Edit:
+    """Takes an element out, with all inside."""
     return edit(element, "delete")
 
 
 def insert(element: Element, xml: str) -> Edit:
+    """Adds XML as the last child."""
     return edit(element, "insert", value=xml)
 
 
 def replace(element: Element, xml: str) -> Edit:
+    """Puts XML in the element's place."""
     return edit(element, "replace", value=xml)
 
 

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.edit import Edit, diff
+from clinic.diagnosis.judge import Judged
 from clinic.diagnosis.suspect import Level
 
 CAUSES_SHOWN = 3
+SITE = "CLINIC_SITE"  # the environment variable with the address of the site
 
 
 @dataclass(frozen=True)
@@ -59,7 +62,9 @@ class Diagnosis:
         causes: Proved by an edit, the most telling first.
         hints: What intent decides, or what no edit here mends.
         ruled_out: Rules that found nothing.
-        tried: What was done to the model.
+        error: Why it does not compile; empty where it does.
+        texts: The model's texts by file.
+        fixed: The same with the edits of all causes that go together.
     """
 
     engine: str
@@ -67,6 +72,9 @@ class Diagnosis:
     causes: tuple[Finding, ...]
     hints: tuple[Finding, ...]
     ruled_out: tuple[str, ...]
+    error: str = ""
+    texts: Mapping[str, str] = field(default_factory=dict)
+    fixed: Mapping[str, str] = field(default_factory=dict)
 
     def data(self) -> dict[str, Any]:
         """The public contract, as JSON has it."""
@@ -78,8 +86,14 @@ class Diagnosis:
             "ruled_out": list(self.ruled_out),
         }
 
+    def diff(self) -> str:
+        """The edits of all causes as a unified diff."""
+        return diff(self.texts, self.fixed)
+
     def text(self, every: bool = False) -> str:
         """The diagnosis for a terminal: three causes, then hints in a line each, then what was ruled out."""
+        if self.error and not self.causes and not self.hints:
+            return f"It does not compile, and no rule knows why: {self.error.strip()}"
         shown = self.causes if every else self.causes[:CAUSES_SHOWN]
         lines = [line for number, each in enumerate(shown, 1) for line in _cause(number, each)]
         if len(shown) < len(self.causes):
@@ -94,16 +108,44 @@ class Diagnosis:
         return "\n".join(lines)
 
 
+def finding_of(judged: Judged, file: str) -> Finding:
+    """What is said of a judged suspect of a model file."""
+    rule, suspect = judged.rule, judged.suspect
+    first = suspect.edits[0] if suspect.edits else None
+    site = os.environ.get(SITE, "").rstrip("/")
+    page = f"{site}/cases/{rule.case}/" if rule.case else f"{site}/rules/{rule.id}/"
+    return Finding(
+        rule=rule.id,
+        title=rule.title,
+        level=judged.level,
+        elements=suspect.elements,
+        file=first.file if first else file,
+        line=first.line if first else None,
+        attribute=suspect.attribute,
+        now=suspect.now,
+        value=suspect.value,
+        edit=suspect.edits,
+        probe=suspect.probe.title,
+        unit=suspect.probe.unit,
+        before=judged.before,
+        after=judged.after,
+        says=suspect.says,
+        healthy=suspect.healthy,
+        page=page if site else None,
+    )
+
+
 def _cause(number: int, found: Finding) -> list[str]:
     where = f"{found.file}:{found.line}  " if found.line else ""
     change = f"{found.attribute} {found.now} -> {found.value}" if found.attribute else found.value
     after = "" if found.after is None else f" With the edit: {shown(found.after, found.unit)}."
     indent = "   "
-    return [
-        f"{number}  cause   {found.rule}  {where}{_elements(found.elements)}  {change}",
-        f"{indent}{found.says}",
-        f"{indent}{found.probe}: {shown(found.before, found.unit)}.{after}",
-    ]
+    lines = [f"{number}  cause   {found.rule}  {where}{_elements(found.elements)}  {change}", f"{indent}{found.says}"]
+    if found.probe and found.unit != "errors":
+        lines.append(f"{indent}{found.probe}: {shown(found.before, found.unit)}.{after}")
+    if found.page:
+        lines.append(f"{indent}{found.page}")
+    return lines
 
 
 def _elements(elements: Sequence[str]) -> str:

@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.probes.run import resets
 from clinic.diagnosis.reader_model import ReaderModel
@@ -50,17 +49,10 @@ def judge(model: ReaderModel, rule: Rule, suspect: Suspect) -> Judged | None:
 
 def _calm(model: ReaderModel, suspect: Suspect) -> bool:
     """Whether the model runs with the edit: where it exploded before, a symptom that takes steps says nothing."""
-    if rule_of_errors(model):
-        return True
     was, now = model.measured(resets()), model.measured(resets(), suspect.edits)
     if was > 0 and suspect.probe.dynamic:
         return now == 0
     return now <= was
-
-
-def rule_of_errors(model: ReaderModel) -> bool:
-    """Whether the model does not compile."""
-    return bool(model.error)
 
 
 def without_rivals(found: Sequence[Judged]) -> list[Judged]:
@@ -106,8 +98,3 @@ def suspects_of(model: ReaderModel, rule: Rule, tell: Callable[[str], None]) -> 
         yield from rule.suspects(model)
     except (ArithmeticError, LookupError, ValueError, CompileError) as error:
         tell(f"{rule.id}: {type(error).__name__}: {error}")
-
-
-def edits_of(found: Sequence[Judged]) -> tuple[Edit, ...]:
-    """All edits of the causes."""
-    return tuple(dict.fromkeys(each for one in found if one.level == "cause" for each in one.suspect.edits))

@@ -77,16 +77,17 @@ class NativeModel:
 
 
 class NativeEngine:
-    """The MuJoCo that is installed. Files are found as from the current folder."""
+    """The MuJoCo that is installed. Files are found among `assets`, and as from the current folder."""
 
     version = mujoco.__version__
 
-    def __init__(self) -> None:
+    def __init__(self, assets: Mapping[str, bytes] | None = None) -> None:
+        self.assets = dict(assets or {})
         mujoco.set_mju_user_warning(lambda _: None)
 
     def compile(self, main: str, files: Mapping[str, str]) -> Compiled:
         try:
-            assets = {name: text.encode() for name, text in files.items()}
+            assets = self.assets | {name: text.encode() for name, text in files.items()}
             return NativeModel(mujoco.MjModel.from_xml_string(main, assets))
         except (ValueError, mujoco.FatalError) as error:
             raise CompileError(str(error)) from None

@@ -45,6 +45,7 @@ class ReaderModel:
 
     @property
     def simulation(self) -> Simulation:
+        """The compiled model as it is."""
         found = self.with_edits(())
         assert isinstance(found, Simulation)
         return found
@@ -127,7 +128,7 @@ class ReaderModel:
             if (
                 holder
                 and holder[0] is not element
-                and self._users(kind, holder[0], attribute) <= set(map(id, elements))
+                and self._users(kind, holder[0], attribute) <= frozenset(map(id, elements))
             ):
                 target = holder[0]
             made[set_attribute(target, attribute, value)] = None
@@ -164,8 +165,9 @@ class ReaderModel:
         there = self.source.root.first(section)
         return (insert(there, xml) if there else insert(self.source.root, f"<{section}>{xml}</{section}>"),)
 
-    def _users(self, kind: str, holder: Element, attribute: str) -> set[int]:
+    def _users(self, kind: str, holder: Element, attribute: str) -> frozenset[int]:
         assert self.source is not None
         written = [self.element(kind, index) for index in range(self.simulation.count(kind))]
         users = [each for each in written if each is not None and self.source.written(each, attribute)]
-        return {id(each) for each in users if (self.source.written(each, attribute) or (None,))[0] is holder}
+        held = (each for each in users if (self.source.written(each, attribute) or (None,))[0] is holder)
+        return frozenset(map(id, held))

@@ -16,10 +16,21 @@ UNSTABLE = ("BADQPOS", "BADQVEL", "BADQACC")
 
 @dataclass(frozen=True)
 class Start:
-    """How a run begins: a keyframe, positions, and controls by actuator."""
+    """How a run begins and is driven.
+
+    Attributes:
+        key: A keyframe; -1 for the model's own start.
+        ctrl: Controls by actuator, in place of the keyframe's.
+        series: Controls by time in s, increasing, each from its time on.
+        duration: How long the model is let go, in s.
+        seed: Of whatever is drawn.
+    """
 
     key: int = -1
     ctrl: Mapping[str, float] = field(default_factory=dict)
+    series: Sequence[tuple[float, Mapping[str, float]]] = ()
+    duration: float = 2.0
+    seed: int = 0
 
 
 class Simulation:
@@ -32,11 +43,13 @@ class Simulation:
         self.kept: dict[object, object] = {}  # what probes share: a run that several of them look at
 
     def count(self, kind: str) -> int:
+        """How many elements of a kind there are."""
         if kind not in self._counts:
             self._counts[kind] = self.engine.count(kind)
         return self._counts[kind]
 
     def names(self, kind: str) -> list[str]:
+        """The names of a kind's elements, empty for unnamed ones."""
         return [self.engine.name(kind, i) for i in range(self.count(kind))]
 
     def name(self, kind: str, index: int) -> str:
@@ -66,20 +79,20 @@ class Simulation:
         return self.engine.data(field)
 
     def data_row(self, field: str, index: int, width: int) -> tuple[float, ...]:
+        """Row `index` of a field of mjData, as it is now."""
         return tuple(self.data(field)[width * index : width * (index + 1)])
 
     @property
     def timestep(self) -> float:
+        """In s."""
         return self.model("opt.timestep")[0]
 
     def begin(self, *, ctrl: bool = True, forward: bool = True) -> None:
         """Back to the start that the reader chose; controls are the keyframe's and the reader's."""
         self.engine.reset(self.begin_with.key)
         if ctrl:
-            names = self.names("actuator") if self.begin_with.ctrl else []
-            for name, value in self.begin_with.ctrl.items():
-                if name in names:
-                    self.engine.write("ctrl", [value], names.index(name))
+            self._drive(self.begin_with.ctrl)
+            self._drive(next((controls for _, controls in self.begin_with.series), {}))
         if forward:
             self.engine.forward()
 
@@ -93,8 +106,16 @@ class Simulation:
         total = self.steps(seconds)
         each = max(1, total // samples)
         for done in range(each, total + 1, each):
+            for _, controls in [row for row in self.begin_with.series if row[0] <= (done - each) * self.timestep][-1:]:
+                self._drive(controls)
             self.engine.step(each)
             yield done * self.timestep
+
+    def _drive(self, controls: Mapping[str, float]) -> None:
+        names = self.names("actuator") if controls else []
+        for name, value in controls.items():
+            if name in names:
+                self.engine.write("ctrl", [value], names.index(name))
 
     @cached_property
     def mass_diagonal(self) -> list[float]:
@@ -123,14 +144,17 @@ class Simulation:
         return [int(bodies[joint]) for joint, kind in enumerate(kinds) if int(kind) == FREE]
 
     def joints_of(self, body: int) -> list[int]:
+        """The joints of a body."""
         first, count = int(self.model("body_jntadr")[body]), int(self.model("body_jntnum")[body])
         return list(range(first, first + count))
 
     def geoms_of(self, body: int) -> list[int]:
+        """The geoms of a body."""
         first, count = int(self.model("body_geomadr")[body]), int(self.model("body_geomnum")[body])
         return list(range(first, first + count))
 
     def joint_type(self, joint: int) -> int:
+        """FREE, BALL, SLIDE or HINGE."""
         return int(self.model("jnt_type")[joint])
 
     def position(self, joint: int) -> float:

@@ -43,6 +43,7 @@ class Element:
         return self.head_end == self.end
 
     def get(self, attribute: str, otherwise: str = "") -> str:
+        """What is written for an attribute here."""
         return self.attributes.get(attribute, otherwise)
 
     def walk(self) -> Iterator[Element]:
@@ -148,7 +149,7 @@ class Source:
         name = element.get("class")
         if not name and element.tag not in SECTIONS:
             name = next((outer.get("childclass") for outer in element.around() if outer.get("childclass")), "")
-        classes = [each for each in self.elements("default")]
+        classes = list(self.elements("default"))
         if not name:
             return next((each for each in classes if each.parent is self.root), None)
         return next((each for each in classes if each.get("class") == name), None)
@@ -197,6 +198,14 @@ class Source:
                 self._includes(child, depth)
                 made.append(child)
         element.children = made
+
+
+def read_source(texts: Mapping[str, str]) -> Source | None:
+    """The elements of texts; None where one is not well-formed XML."""
+    try:
+        return Source(texts)
+    except SourceError:
+        return None
 
 
 def read_texts(main: str, name: str, read: Callable[[str], str | None]) -> dict[str, str]:

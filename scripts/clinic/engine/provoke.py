@@ -1,7 +1,11 @@
-"""Makes MuJoCo say what it warns of and complains about, each time in a process of its own, which may crash or hang."""
+"""Makes MuJoCo say what it warns of and complains about, each time in a process of its own, which may crash or hang.
+
+`python -m clinic.engine.provoke`, run by the Python that has a release installed, answers stdin's codes with its texts.
+"""
 
 from __future__ import annotations
 
+import json
 import re
 import sys
 from collections.abc import Mapping
@@ -24,7 +28,7 @@ with open("code.py", encoding="utf-8") as file:
 try:
     exec(compile(code, "code.py", "exec"), {"mujoco": mujoco, "np": np, "load": load})
 except BaseException as error:
-    print(f"{type(error).__name__}: {error}")
+    print(f"{type(error).__name__}: {error}", flush=True)  # before what destructors say
 """
 
 
@@ -46,3 +50,7 @@ def tidied(text: str) -> str:
     """The first LINES lines that are not empty, without addresses in memory."""
     lines = [line.rstrip() for line in re.sub(r"0x[0-9a-f]{6,}", "0x…", text).splitlines() if line.strip()]
     return "\n".join(lines[:LINES])
+
+
+if __name__ == "__main__":
+    print(json.dumps(provoke(json.load(sys.stdin))))

@@ -18,7 +18,7 @@ from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence, VariantEvidence
 from clinic.proof.lookalike import LookalikeMatrix
 from clinic.proof.prose_laws import PROSE
-from clinic.proof.releases import differing, on_releases
+from clinic.proof.releases import differing
 from clinic.proof.robustness import NUDGE, STARTS
 from clinic.record.case import Case
 from clinic.record.fields import Check
@@ -50,8 +50,8 @@ def case_page(
         broken=evidence.variants["broken"],
         description=json.dumps(html.escape(opening(case, evidence)), ensure_ascii=False),
         title=json.dumps(html.escape(record.title, quote=False), ensure_ascii=False),
-        prose={name: markdown(getattr(record, name), evidence) for name in PROSE},
-        whys={remedy.id: markdown(remedy.why, evidence) for remedy in record.refuted},
+        prose={name: markdown(getattr(record, name), evidence, case) for name in PROSE},
+        whys={remedy.id: markdown(remedy.why, evidence, case) for remedy in record.refuted},
         diffs={variant.id: diff(case.text, variant.text, record.source) for variant in variants(case)},
         files=files,
         summary=_summary(case, evidence),
@@ -133,7 +133,7 @@ def _sweep(case: Case, evidence: Evidence, name: str) -> dict[str, str]:
     return {
         "name": name,
         "title": sweep.title,
-        "text": markdown(sweep.text, evidence),
+        "text": markdown(sweep.text, evidence, case),
         "alt": f"{sweep.title}: {len(found.points)} points. {result}{''.join(rivals)}.",
     }
 
@@ -153,14 +153,14 @@ def _smaller_steps(case: Case, evidence: Evidence) -> str:
 
 def _releases(case: Case, evidence: Evidence) -> str:
     """On which releases of MuJoCo the case is the same, and why not on the others; empty if that was not measured."""
-    told = differing(evidence, on_releases(case))
+    told = differing(evidence)
     if not told:
         return ""
     releases = sorted(told, key=lambda release: [int(part) for part in release.split(".")])
     last = max((k for k, release in enumerate(releases) if told[release]), default=-1)
     said = "the same on every release measured" if last < 0 else "the same"
     reasons = [
-        f"{spec.replace('<', 'Before ')}: {markdown(reason, evidence).strip()}"
+        f"{spec.replace('<', 'Before ')}: {markdown(reason, evidence, case).strip()}"
         for spec, reason in case.record.older.items()
     ]
     return " ".join([f"{said} from {releases[last + 1]} on.", *reasons] if last + 1 < len(releases) else reasons)
@@ -180,7 +180,9 @@ def _steady(case: Case, evidence: Evidence) -> str:
     if all(robust.longer is not False for robust in evidence.robustness.values()):
         said += " Every fix still holds after ten times the duration."
     shaken = [f"`{key}` {one.same} of {one.runs}" for key, one in evidence.robustness.items() if one.same < one.runs]
-    reasons = [markdown(reason, evidence) for law, reason in case.record.exempt.items() if law in ("steady", "lasting")]
+    reasons = [
+        markdown(reason, evidence, case) for law, reason in case.record.exempt.items() if law in ("steady", "lasting")
+    ]
     return " ".join([said, *([f"({', '.join(shaken)}.)"] if shaken else []), *reasons])
 
 
@@ -197,5 +199,5 @@ def _matrix(made: LookalikeMatrix, cases: Mapping[str, Case]) -> dict[str, Any]:
             for value, hold in zip(values, holds, strict=True)
         ]
         measured = f"{code(alike.path)} {TAKE_WORDS[alike.take]} is {expected(alike, plain)}"
-        rows.append([f"{line(alike.says)}: {measured}", *cells])
+        rows.append([measured, *cells])
     return {"heads": heads, "rows": rows}

@@ -1,8 +1,13 @@
-"""What MuJoCo says: warnings and errors, each provoked while the site is built, so that the text is its own."""
+"""What MuJoCo says: warnings and errors, each provoked while the site is built, so that the text is its own.
+
+What other releases say instead was provoked too, by `make releases`, and stands in LOCK.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import json
+import re
 from collections.abc import Iterable, Mapping
 from itertools import groupby
 from pathlib import Path
@@ -20,6 +25,7 @@ from clinic.work.cache import Cache, key_of
 
 FILE = Path(__file__).with_name("messages.yaml")
 SAID = "messages.json"
+LOCK = "messages.lock.json"
 
 
 class Message(Strict):
@@ -50,6 +56,18 @@ class Message(Strict):
         return f"load({self.xml.strip()!r})" if self.xml is not None else self.python
 
 
+class Heard(Strict):
+    """What other releases of MuJoCo say, where the first line differs in more than its numbers.
+
+    Attributes:
+        codes: A digest of what provoked it.
+        said: The first lines by message and release, oldest first.
+    """
+
+    codes: str = ""
+    said: dict[Identifier, dict[str, str]] = Field(default={})
+
+
 CHAPTERS = TypeAdapter(dict[str, dict[Identifier, Message]])
 
 
@@ -73,14 +91,52 @@ def load_messages(file: Path = FILE) -> list[Message]:
 
 def provoke_messages(messages: Iterable[Message], cache: Cache) -> dict[str, str]:
     """What the installed engine says, by the messages' ids; those that no build can provoke are left out."""
-    codes = {message.id: message.code for message in messages if message.code is not None}
+    codes = codes_of(messages)
     key = key_of("messages", codes, of="engine")
     files = cache.remember(key, lambda: {SAID: json.dumps(provoke(codes)).encode()})
     made: dict[str, str] = json.loads(files[SAID])
     return made
 
 
-def messages_page(messages: list[Message], said: Mapping[str, str], cases: Mapping[str, Case]) -> str:
+def codes_of(messages: Iterable[Message]) -> dict[str, str]:
+    """The Python that provokes each message, by id; those that no build can provoke are left out."""
+    return {message.id: message.code for message in messages if message.code is not None}
+
+
+def listen(messages: Iterable[Message], releases: Mapping[str, Mapping[str, str]]) -> Heard:
+    """What differs from the last release in all that each of them said, oldest first, by the messages' ids."""
+    codes, made = codes_of(messages), dict[str, dict[str, str]]()
+    for release, texts in releases.items():
+        for key in codes:
+            first, newest = (next(iter(text.splitlines()), "") for text in (texts[key], [*releases.values()][-1][key]))
+            if _words(first) != _words(newest):
+                made.setdefault(key, {})[release] = first
+    return Heard(codes=_digest(codes), said=made)
+
+
+def read_heard(root: Path, messages: Iterable[Message]) -> Heard:
+    """The lock file of a checkout; empty where there is none, or what provokes the messages has changed since."""
+    path = root / LOCK
+    heard = Heard.model_validate_json(path.read_bytes()) if path.is_file() else Heard()
+    return heard if heard.codes == _digest(codes_of(messages)) else Heard()
+
+
+def messages_page(messages: list[Message], said: Mapping[str, str], cases: Mapping[str, Case], heard: Heard) -> str:
     """The Markdown of the page; `said` is what `provoke_messages` gave."""
     chapters = {name: list(part) for name, part in groupby(messages, lambda message: message.chapter)}
-    return render("messages", chapters=chapters, said=said, cases=cases, engine=mujoco.__version__)
+    others = {key: _spans(texts) for key, texts in heard.said.items()}
+    return render("messages", chapters=chapters, said=said, others=others, cases=cases, engine=mujoco.__version__)
+
+
+def _spans(texts: Mapping[str, str]) -> list[tuple[str, str]]:
+    """Each text once, after the releases that say it, with numbers of the first: `3.3.7 to 3.11.0`."""
+    spans = [list(part) for _, part in groupby(texts.items(), lambda each: _words(each[1]))]
+    return [(" to ".join(dict.fromkeys([span[0][0], span[-1][0]])), span[0][1]) for span in spans]
+
+
+def _words(text: str) -> str:
+    return re.sub(r"\d+", "", text)
+
+
+def _digest(codes: Mapping[str, str]) -> str:
+    return hashlib.sha256(json.dumps(codes, sort_keys=True).encode()).hexdigest()[:16]

@@ -11,8 +11,9 @@ import mujoco
 from clinic.pages.cases import CasePage
 from clinic.pages.code_fences import NAMED, run_fences
 from clinic.pages.error_page import error_page
-from clinic.pages.messages import load_messages, messages_page, provoke_messages
+from clinic.pages.messages import load_messages, messages_page, provoke_messages, read_heard
 from clinic.pages.reference import reference
+from clinic.pages.rules import rule_pages
 from clinic.pages.storeys import storeys
 from clinic.pages.symptoms import symptoms_page
 from clinic.pages.text.template import render
@@ -42,6 +43,7 @@ def overviews(
     screenings, problems = run_tasks(list(screening_tasks(cases)), cache)
     made = {f"cases/{slug}/{name}": text for slug, files in screenings.items() for name, text in files.items()}
     made["index.md"] = render("home", shown=shown, engine=mujoco.__version__).encode()
+    made |= rule_pages(known, cache)
     made["symptoms.md"] = symptoms_page(shown).encode()
     screened = [case for case in cases if case.record.run is None or case.slug in screenings]
     parts = {
@@ -50,7 +52,7 @@ def overviews(
         STOREYS_MARK: lambda: storeys("clinic", STOREYS),
     }
     pages: dict[str, tuple[str, Callable[[], str]]] = {
-        "messages.md": ("What MuJoCo says", partial(_messages, known, cache)),
+        "messages.md": ("What MuJoCo says", partial(_messages, root, known, cache)),
     }
     for page in sorted((root / "docs").rglob("*.md")):
         name, text = page.relative_to(root / "docs").as_posix(), page.read_text(encoding="utf-8")
@@ -65,9 +67,10 @@ def overviews(
     return made, problems
 
 
-def _messages(known: Mapping[str, Case], cache: Cache) -> str:
+def _messages(root: Path, known: Mapping[str, Case], cache: Cache) -> str:
     messages = load_messages()
-    return messages_page(messages, provoke_messages(messages, cache), known)
+    heard = read_heard(root, messages)
+    return messages_page(messages, provoke_messages(messages, cache), known, heard)
 
 
 def _completed(

@@ -12,15 +12,16 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from clinic.engine.mjcf import release_needed
 from clinic.engine.signals import Path, parse_path
 from clinic.engine.simulate import compile_model
+from clinic.engine.variant import apply_edits
 from clinic.pages.text.claim import claim
 from clinic.record.case import Case
 from clinic.record.expression import names, parse
-from clinic.record.fields import ExpressionSignal, PathSignal, Signal
+from clinic.record.fields import ExpressionSignal, PathSignal, Remedy, Signal, Trial
 
 FILE = "playground.json"
-REMEDIES = {"__all__": {"id", "title", "edits"}}
 
 
 def playground(case: Case, cases: Iterable[Case]) -> bytes:
@@ -38,7 +39,10 @@ def playground(case: Case, cases: Iterable[Case]) -> bytes:
         "run": record.run.model_dump(mode="json"),
         "signals": {name: _signal(case, name, signal) for name, signal in record.signals.items()},
         "checks": record.checks.model_dump(mode="json", exclude_none=True),
-        **record.model_dump(mode="json", include={"fixes": REMEDIES, "refuted": REMEDIES}),
+        "trials": [_trial(case, trial) for trial in record.trials],
+        "task": record.task.model_dump(mode="json"),
+        "fixes": [_remedy(case, remedy) for remedy in record.fixes],
+        "refuted": [_remedy(case, remedy) for remedy in record.refuted],
         "camera": record.picture.camera,
         "speed": record.film.speed if record.film else 1.0,
         "telling": record.film.overlays if record.film else [],
@@ -54,6 +58,21 @@ def _signal(case: Case, name: str, signal: Signal) -> dict[str, Any]:
     if isinstance(signal, PathSignal):
         made["columns"] = _columns(parse_path(signal.path), case.text)
     return made
+
+
+def _remedy(case: Case, remedy: Remedy) -> dict[str, Any]:
+    made = remedy.model_dump(mode="json", include={"id", "title", "edits"})
+    return {**made, "needs": release_needed(apply_edits(case.text, remedy.edits))}
+
+
+def _trial(case: Case, trial: Trial) -> dict[str, Any]:
+    made = trial.model_dump(mode="json", include={"title", "ctrl", "duration"})
+    for name, numbers in (("start", trial.start), ("set", trial.set)):
+        made[name] = [
+            {"path": path, "columns": _columns(parse_path(path), case.text), "value": value}
+            for path, value in numbers.items()
+        ]
+    return {**made, "checks": trial.checks.model_dump(mode="json", exclude_none=True) if trial.checks else {}}
 
 
 def _columns(path: Path, xml: str) -> list[int]:

@@ -20,6 +20,7 @@ from clinic.engine.variant import Variant, variants
 from clinic.proof.model_problems import check_against_model
 from clinic.proof.robustness import Robustness
 from clinic.proof.sweep import SweepEvidence, names_read
+from clinic.proof.tightness import Loose
 from clinic.proof.trials import checks_in, run_trial, trial_problems
 from clinic.record.case import Case
 from clinic.record.fields import Check, PathSignal, RowSignal, Trial
@@ -94,6 +95,7 @@ class Evidence(Strict):
         sweep: The points of every sweep and how its predictions fared.
         robustness: How firmly each variant's verdict stands; empty for a code case.
         releases: What each variant does on other releases of MuJoCo; empty if the case has changed since.
+        loose: The numbers that no check notices when they are halved or doubled; None where it was not asked.
     """
 
     case: str
@@ -105,6 +107,7 @@ class Evidence(Strict):
     sweep: dict[str, SweepEvidence] = Field(default={})
     robustness: dict[str, Robustness] = Field(default={})
     releases: dict[str, Any] = Field(default={})
+    loose: list[Loose] | None = None
 
 
 def collect(case: Case) -> Evidence:

@@ -19,19 +19,23 @@ from clinic.proof.lookalike import LookalikeMatrix, matrix, matrix_problems
 from clinic.proof.releases import on_releases
 from clinic.proof.robustness import Robustness, robustness
 from clinic.proof.sweep import SweepEvidence, measure_sweep
+from clinic.proof.tightness import Loose, loose_numbers, numbers
 from clinic.record.case import Case
 from clinic.record.problem import CaseError, Problem
 from clinic.work.cache import Cache, Files, key_of
 from clinic.work.task import Task, run_tasks
 
 EVIDENCE = "evidence.json"
-WORDS = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "no_sweep"}
-WORDS |= {"tags", "phrases", "looks", "manual", "see", "alike", "exempt"}
+WORDS = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "no_sweep", "formulas"}
+WORDS |= {"tags", "phrases", "looks", "manual", "see", "alike", "exempt", "loose"}
 ROBUST = TypeAdapter(dict[str, Robustness])
+LOOSE = TypeAdapter(list[Loose] | None)
+SHOWN = ("sweeps", "robustness")  # what a page shows, beside the variants
+ALL = (*SHOWN, "tightness")
 
 
 def measure_cases(
-    cases: Iterable[Case], cache: Cache, kinds: Container[str] = ("sweeps", "robustness")
+    cases: Iterable[Case], cache: Cache, kinds: Container[str] = SHOWN
 ) -> tuple[dict[str, Files], list[Problem]]:
     """The file EVIDENCE of every case that can be run, by slug, and the problems of the others.
 
@@ -40,14 +44,14 @@ def measure_cases(
     cases = sorted(cases, key=lambda case: case.record.run is not None)  # what takes long goes first, not last
     first, problems = run_tasks([evidence_task(case) for case in cases], cache)
     cases = [case for case in cases if EVIDENCE in first.get(case.slug, {})]
-    measuring = [task for case in cases for task in measuring_tasks(case) if task.kind in kinds]
+    measuring = [task for case in cases for task in measuring_tasks(case, kinds)]
     rest, more = run_tasks(sorted(measuring, key=lambda task: task.kind), cache)
     failed = {task.slug for task in measuring} - rest.keys()
     sound = [case for case in cases if case.slug not in failed]
     return {c.slug: whole_evidence(c, first[c.slug], rest.get(c.slug, {})) for c in sound}, problems + more
 
 
-def measure_case(case: Case, cache: Cache, kinds: Container[str] = ("sweeps", "robustness")) -> Evidence:
+def measure_case(case: Case, cache: Cache, kinds: Container[str] = SHOWN) -> Evidence:
     """What the runs of one case show; of those beside its variants, the kinds asked for.
 
     Raises:
@@ -77,12 +81,16 @@ def evidence_task(case: Case) -> Task:
     return case_task(case, "evidence", partial(_json_file, EVIDENCE, collect, case))
 
 
-def measuring_tasks(case: Case) -> Iterator[Task]:
-    """Tasks that run what needs the variants to be sound: the sweeps, and the variants from other starts."""
-    for name in case.record.sweep:
+def measuring_tasks(case: Case, kinds: Container[str] = SHOWN) -> Iterator[Task]:
+    """Tasks that run what needs the variants to be sound: sweeps, other starts, and numbers halved and doubled."""
+    for name in case.record.sweep if "sweeps" in kinds else ():
         yield case_task(case, "sweeps", partial(_json_file, f"sweep-{name}.json", measure_sweep, case, name), name)
-    if case.record.run is not None:
+    if case.record.run is not None and "robustness" in kinds:
         yield case_task(case, "robustness", partial(_json_file, "robustness.json", robustness, case))
+    if case.record.loose is not None and "tightness" in kinds:
+        asked = numbers(case)
+        make = partial(_json_file, "loose.json", loose_numbers, case, asked)
+        yield case_task(case, "tightness", make, [number.model_dump() for number in asked])
 
 
 def whole_evidence(case: Case, first: Files, rest: Files) -> Files:
@@ -90,7 +98,9 @@ def whole_evidence(case: Case, first: Files, rest: Files) -> Files:
     files = {name: f"sweep-{name}.json" for name in case.record.sweep}
     sweeps = {key: SweepEvidence.model_validate_json(rest[name]) for key, name in files.items() if name in rest}
     robust = ROBUST.validate_json(rest.get("robustness.json", "{}"))
-    whole = evidence_of(first).model_copy(update={"sweep": sweeps, "robustness": robust, "releases": on_releases(case)})
+    loose = LOOSE.validate_json(rest.get("loose.json", "null"))
+    made = {"sweep": sweeps, "robustness": robust, "releases": on_releases(case), "loose": loose}
+    whole = evidence_of(first).model_copy(update=made)
     return {EVIDENCE: f"{whole.model_dump_json()}\n".encode()}
 
 

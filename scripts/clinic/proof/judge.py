@@ -13,7 +13,10 @@ from dataclasses import asdict, dataclass
 from math import isnan
 from pathlib import Path
 
+import mujoco
+
 from clinic.engine.checks import expected, judge
+from clinic.engine.mjcf import newer_release
 from clinic.engine.simulate import compile_model
 from clinic.engine.variant import EditError
 from clinic.proof.task import changes
@@ -75,21 +78,22 @@ def judge_text(case: Case, text: str) -> Judgement:
                     raise
                 failed += [_stopped(trial, error)] if trial else []
     except (ValueError, KeyError) as error:
-        return Judgement(case.slug, " ".join(str(error).split()) or type(error).__name__)
+        said = f"{newer_release(str(error), mujoco.__version__)} {error}"
+        return Judgement(case.slug, " ".join(said.split()) or type(error).__name__)
     return Judgement(case.slug, failed=tuple(failed), changes=tuple(changed))
 
 
 def _stopped(trial: Trial, error: Exception) -> str:
     """Why a text that runs cannot be run in a trial."""
     if isinstance(error, EditError):
-        return f"The trial {trial.title!r} changes {trial.edits[error.index].find!r}: leave that in the script, once."
-    return f"In the trial {trial.title!r}: {' '.join(str(error).split())}"
+        return f"The trial '{trial.title}' changes {trial.edits[error.index].find!r}: leave that in the script, once."
+    return f"In the trial '{trial.title}' it cannot be run: {' '.join(str(error).split())}"
 
 
 def _failed(case: Case, text: str, trial: Trial | None) -> list[str]:
     """What does not hold in a trial, or in the record's run."""
     warnings, traces = run_trial(case, text, trial)
-    where = f"In the trial {trial.title!r}: " if trial else ""
+    where = f"In the trial '{trial.title}': " if trial else ""
     told = [f"{where}MuJoCo warns of {name}." for name in warnings]
     for check in checks_in(case.record, trial).fixed:
         verdict = judge(check, traces)

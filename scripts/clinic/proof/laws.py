@@ -14,10 +14,13 @@ from clinic.engine.checks import expected
 from clinic.engine.simulate import compile_model
 from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
-from clinic.proof.prose_laws import quoted, typed
-from clinic.proof.releases import differing, on_releases, release_problems
-from clinic.proof.sweep import errors_at, format_values
+from clinic.proof.prose.formulas import formulas
+from clinic.proof.prose.numbers import titled, typed
+from clinic.proof.prose_laws import owned, quoted, stated, taken
+from clinic.proof.releases import differing, release_problems
+from clinic.proof.sweep import errors_at, format_values, unjudged_sides
 from clinic.proof.task import changes
+from clinic.proof.tightness import covers, value_of, words_of
 from clinic.proof.trials import checks_in
 from clinic.record.case import Case
 from clinic.record.fields import Check
@@ -131,10 +134,27 @@ def swept(case: Case, evidence: Evidence) -> Iterator[Problem]:
             if all(error <= sweep.prediction.within for _, error in errors):
                 said = f"agrees when multiplied by {factor} too"
                 yield case.problem(where, said, "a prediction that then misses", telling)
+        if sweep.holds is not None:
+            yield from _far_from_line(case, name, evidence)
         for rival in sweep.rivals:
             if not found.agreement[rival.id].wrong:
                 said, repair = f"{rival.id}: never misses", f"remove it, or {telling}"
                 yield case.problem(("sweep", name, "rivals"), said, "a rival that misses somewhere", repair)
+
+
+def tightness(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 7, second half. A check notices when a number that matters is halved or doubled, or `loose` says why not."""
+    reasons, found = case.record.loose or {}, evidence.loose or []
+    for number in found:
+        if not any(covers(case, words, number) for words in reasons):
+            words = words_of(case, number)
+            said = f"{words} of {number.variant}: no check notices when {value_of(case, number)} is {number.change}"
+            repair = f"add a check of what it decides, or say in `loose: {{{words!r}: ...}}` why none need notice"
+            yield case.problem(("loose",), said, "checks that pin each number down", repair)
+    for words in reasons if evidence.loose is not None else ():
+        if not any(covers(case, words, number) for number in found):
+            wanted = "text that holds a number of which a change goes unnoticed"
+            yield case.problem(("loose", words), words, wanted, "remove it, or copy the text character by character")
 
 
 def filmed(case: Case, evidence: Evidence) -> Iterator[Problem]:
@@ -159,7 +179,7 @@ def same_task(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 def released(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 9. Every release of MuJoCo that was measured does the same, or `older` says why not."""
-    yield from release_problems(case, differing(evidence, on_releases(case)))
+    yield from release_problems(case, differing(evidence))
 
 
 LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
@@ -172,9 +192,15 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         warned,
         quoted,
         typed,
+        taken,
+        stated,
+        formulas,
+        owned,
+        titled,
         lasting,
         steady,
         swept,
+        tightness,
         filmed,
         same_task,
         released,
@@ -218,6 +244,23 @@ def _failing(case: Case, name: str, variant: VariantEvidence, kind: Literal["bro
             found = f"{name}{inside}: {result.signal} ({result.take}) = {value}"
             wanted = f"{expected(check)} {unit}".rstrip()
             yield case.problem(where, found, wanted, "correct the bound, the edits, or the model")
+
+
+def _far_from_line(case: Case, name: str, evidence: Evidence) -> Iterator[Problem]:
+    """A line must be shown to separate near to it and in the end, or `apart` says why not."""
+    sweep, where = case.record.sweep[name], ("sweep", name)
+    told = []
+    if sides := unjudged_sides(sweep, evidence.sweep[name].points):
+        reach = f"{2 * sweep.prediction.within:g} of the line, relative, that is judged"
+        told.append((f"no point {' and none '.join(sides)} it within {reach}", "add points there"))
+    if case.record.run is not None and sweep.outcome.take != "final":
+        told.append((f"the outcome is taken as {sweep.outcome.take}", "take `final`"))
+    if sweep.apart is None:
+        for found, repair in told:
+            wanted = "points judged near the line on both sides, by their end"
+            yield case.problem(where, found, wanted, f"{repair}, or say in `apart` why not")
+    elif not told:
+        yield case.problem((*where, "apart"), "a reason, though none is needed", "nothing to excuse", "remove it")
 
 
 def _place(case: Case, name: str) -> Where:

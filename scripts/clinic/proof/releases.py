@@ -51,6 +51,7 @@ class Behaviour(Strict):
 
 
 Behaviours = dict[str, Behaviour]
+RELEASES = TypeAdapter(dict[str, Behaviours])
 
 
 class Locked(Strict):
@@ -136,10 +137,11 @@ def on_releases(case: Case) -> dict[str, Behaviours]:
     return locked.releases if locked is not None and locked.files == files_digest(case) else {}
 
 
-def differing(evidence: Evidence, releases: Mapping[str, Behaviours]) -> dict[str, list[str]]:
-    """What differs on each release from what was measured now."""
+def differing(evidence: Evidence) -> dict[str, list[str]]:
+    """What differs on each release of the evidence from what was measured now."""
     here = {name: seen_in(variant) for name, variant in evidence.variants.items()}
-    return {release: list(differences(here, seen)) for release, seen in releases.items()}
+    there = RELEASES.validate_python(evidence.releases)
+    return {release: list(differences(here, seen)) for release, seen in there.items()}
 
 
 def release_problems(case: Case, found: Mapping[str, Sequence[str]]) -> Iterator[Problem]:

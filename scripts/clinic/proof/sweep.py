@@ -145,6 +145,18 @@ def errors_at(sweep: Sweep, key: str, points: Sequence[Point], factor: float = 1
             yield point, 0.0 if yes == point.holds else math.inf
 
 
+def unjudged_sides(sweep: Sweep, points: Sequence[Point]) -> list[str]:
+    """The sides of the line, `below` and `above`, on which no point within twice `within` of it is judged."""
+    first, reach = sweep.vary[0].name, 2 * sweep.prediction.within
+    judged = (point for point, _ in errors_at(sweep, "prediction", points))
+    shares = [point.at[first] / predicted - 1 for point in judged if (predicted := point.predicted["prediction"])]
+    sides = {
+        "below": any(-reach <= share < 0 for share in shares),
+        "above": any(0 < share <= reach for share in shares),
+    }
+    return [side for side, there in sides.items() if not there]
+
+
 def marks(case: Case, sweep: Sweep) -> dict[str, dict[str, float]]:
     """Where the broken variant and the fixes stand: where the record says so, or the sweep has the variant's text."""
     texts, made = {variant.id: variant.text for variant in variants(case)}, {}

@@ -1,14 +1,16 @@
 """The same task: what a reader's model changes besides what a repair may, told in sentences.
 
 Every repair may change how the model is simulated and how things touch: a smaller timestep, integrator, solver, contact
-parameters, masks, pairs and excludes, damping, armature, friction and an actuator's gains, up to MOST; colours, lights,
-further cameras, sites, sensors and keyframes. A record's `task.may` names more. Elements are compared by name, unnamed
-ones by their order.
+parameters, masks, pairs and excludes, damping, armature, friction and an actuator's gains, up to a bound; colours,
+lights, further cameras, sites, sensors and keyframes. A record's `task.may` names more. Elements are compared by name,
+unnamed ones by their order.
 """
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
 import mujoco
@@ -16,53 +18,23 @@ import numpy as np
 
 from clinic.record.fields import Task
 
-FIELDS = {  # what belongs to the task, by kind: fields of MjModel, without the kind's prefix
-    "body": "parentid mass pos quat ipos inertia gravcomp mocapid",
-    "joint": "bodyid type pos axis range qpos0 qpos_spring stiffness stiffnesspoly springyield actfrcrange actgravcomp",
-    "geom": "bodyid type size pos quat adhesion surfacevel fluid",
-    "site": "bodyid type size pos quat",
-    "camera": "bodyid pos quat mode targetbodyid fovy projection intrinsic sensorsize",
-    "actuator": "trntype trnid gear ctrlrange forcerange actrange dyntype dynprm gaintype biastype bias delay",
-    "sensor": "type objtype objid reftype refid cutoff noise intprm delay interval",
-    "key": "time qpos qvel act ctrl mpos mquat",
-}
-WORDS = {
-    "parentid": "parent",
-    "bodyid": "body",
-    "pos": "position",
-    "quat": "orientation",
-    "ipos": "centre of mass",
-    "qpos0": "ref",
-    "qpos_spring": "springref",
-    "fovy": "field of view",
-    "targetbodyid": "target",
-    "trntype": "kind of transmission",
-    "trnid": "target",
-    "bias": "constant force",
-    "surfacevel": "velocity of the surface",
-}
-UNITS = {"mass": "kg", "pos": "m", "ipos": "m", "size": "m", "inertia": "kg m²", "gravity": "m/s²", "fovy": "°"}
-PREFIX = {"joint": "jnt", "camera": "cam"}
-COUNT = {"joint": "njnt", "camera": "ncam", "actuator": "nu", "equality": "neq"}
-REFERENCES = {"parentid": "BODY", "bodyid": "BODY", "targetbodyid": "BODY"}
-FURTHER = ("camera", "site", "sensor", "key")  # may be added
-COUNTED = ("equality", "tendon", "flex", "plugin")
-LIMITED = {"range": "limited", "ctrlrange": "ctrllimited", "forcerange": "forcelimited", "actrange": "actlimited"}
-FLAGS = "CONSTRAINT EQUALITY FRICTIONLOSS LIMIT CONTACT SPRING DAMPER GRAVITY CLAMPCTRL ACTUATION SENSOR"
-OPTIONS = ("gravity", "wind", "magnetic", "density", "viscosity")
-MOST = {  # beyond it nothing is repaired, but frozen; SI units
-    "dof_damping": 1e3,
-    "dof_dampingpoly": 1e3,
-    "dof_frictionloss": 1e1,
-    "actuator_damping": 1e3,
-    "actuator_gainprm": 1e6,
-    "actuator_biasprm": 1e6,
-    "geom_friction": 1e2,
-    "pair_friction": 1e2,
-    "geom_margin": 0.05,
-    "pair_adhesion": 0.0,
-}
-HEAVIEST = 100  # times the inertia of the model, which an armature may be
+TABLES: dict[str, Any] = json.loads(Path(__file__).with_name("task.json").read_text(encoding="utf-8"))
+"""What is compared and how it is told; docs/playground/judge/task.js reads the same tables.
+
+Args:
+    fields: What belongs to the task, by kind: fields of MjModel, without the kind's prefix.
+    words, units: How a field is called and what it is measured in.
+    prefix, count: What MjModel calls a kind's fields and its number, where that is not the kind's own name.
+    bodies, transmissions: Fields that refer to a body, and what the kinds of an actuator's transmission refer to.
+    further: Kinds of which a repair may add some.
+    counted: Kinds of which only the number is compared.
+    limited: The field that says whether a range applies.
+    flags, options: Flags and numbers of `<option>`.
+    most: Beyond it nothing is repaired, but frozen; SI units.
+    heaviest: How many times the inertia of the model an armature may be.
+"""
+FIELDS: dict[str, str] = TABLES["fields"]
+WORDS: dict[str, str] = TABLES["words"]
 
 
 def changes(broken: mujoco.MjModel, model: mujoco.MjModel, task: Task) -> list[str]:
@@ -82,12 +54,13 @@ def _of_kind(broken: mujoco.MjModel, model: mujoco.MjModel, kind: str, may: Sequ
             allowed = {f"{kind}({name}).{word}" for word in (field, WORDS.get(field, field))} & set(may)
             if not allowed and not _same(before, after, field):
                 yield _changed(field, f" of {kind} {name}", before, after)
-    for name in there.keys() - here.keys() if kind not in (*FURTHER, *may) else ():
-        yield f"You added {kind} {name}."
+    for name in there if kind not in (*TABLES["further"], *may) else ():
+        if name not in here:
+            yield f"You added {kind} {name}."
 
 
 def _counted(broken: mujoco.MjModel, model: mujoco.MjModel) -> Iterator[str]:
-    for kind in COUNTED:
+    for kind in TABLES["counted"]:
         before, after = (_count(each, kind) for each in (broken, model))
         if before != after:
             yield f"You {'added' if after > before else 'removed'} {'an' if kind[0] in 'aeiou' else 'a'} {kind}."
@@ -96,12 +69,12 @@ def _counted(broken: mujoco.MjModel, model: mujoco.MjModel) -> Iterator[str]:
 def _options(broken: mujoco.MjModel, model: mujoco.MjModel) -> Iterator[str]:
     if model.opt.timestep > broken.opt.timestep:
         yield f"The timestep is {model.opt.timestep:g} s, longer than the model's {broken.opt.timestep:g} s."
-    for field in OPTIONS:
+    for field in TABLES["options"]:
         before, after = (np.atleast_1d(getattr(each.opt, field)) for each in (broken, model))
         if not _same(before, after, field):
             yield _changed(field, "", before, after)
     changed = broken.opt.disableflags ^ model.opt.disableflags
-    for flag in FLAGS.split():
+    for flag in TABLES["flags"].split():
         bit = int(getattr(mujoco.mjtDisableBit, f"mjDSBL_{flag}", 0))
         if changed & bit:
             yield f"You switched {flag.lower()} {'off' if model.opt.disableflags & bit else 'on'}."
@@ -112,14 +85,15 @@ def _options(broken: mujoco.MjModel, model: mujoco.MjModel) -> Iterator[str]:
 
 
 def _excessive(broken: mujoco.MjModel, model: mujoco.MjModel) -> Iterator[str]:
-    for field, most in MOST.items():
+    for field, most in TABLES["most"].items():
         before, after = (np.max(np.abs(getattr(each, field, 0.0)), initial=0.0) for each in (broken, model))
         if after > max(most, before):
             yield f"{field} is {after:g}: that holds what should move; at most {most:g} is accepted."
     inertia = np.max(broken.dof_M0, initial=0.0)
+    times = TABLES["heaviest"]
     for field in ("dof_armature", "actuator_armature"):
-        if (after := np.max(getattr(model, field, 0.0), initial=0.0)) > HEAVIEST * inertia:
-            yield f"{field} is {after:g}, more than {HEAVIEST} times the inertia {inertia:.3g} of the model itself."
+        if (after := np.max(getattr(model, field, 0.0), initial=0.0)) > times * inertia:
+            yield f"{field} is {after:g}, more than {times} times the inertia {inertia:.3g} of the model itself."
 
 
 def _elements(model: mujoco.MjModel, kind: str) -> dict[str, int]:
@@ -130,7 +104,7 @@ def _elements(model: mujoco.MjModel, kind: str) -> dict[str, int]:
 
 
 def _count(model: mujoco.MjModel, kind: str) -> int:
-    return int(getattr(model, COUNT.get(kind, f"n{kind}"), 0))
+    return int(getattr(model, TABLES["count"].get(kind, f"n{kind}"), 0))
 
 
 def _name(model: mujoco.MjModel, kind: str, index: int) -> str:
@@ -139,12 +113,12 @@ def _name(model: mujoco.MjModel, kind: str, index: int) -> str:
 
 def _value(model: mujoco.MjModel, kind: str, field: str, i: int) -> Any:
     """A field of an element: an array, or the name of what it refers to; None where this MuJoCo has no such field."""
-    prefix = PREFIX.get(kind, kind)
-    if field in REFERENCES:
+    prefix = TABLES["prefix"].get(kind, kind)
+    if field in TABLES["bodies"]:
         other = int(getattr(model, f"{prefix}_{field}")[i])
-        return _name(model, REFERENCES[field], other) if other >= 0 else "none"
+        return _name(model, "BODY", other) if other >= 0 else "none"
     if field == "trnid":
-        kinds = ("JOINT", "JOINT", "SITE", "TENDON", "SITE", "BODY")
+        kinds = TABLES["transmissions"]
         type_, ids = int(model.actuator_trntype[i]), model.actuator_trnid[i]
         return _name(model, kinds[type_], int(ids[0])) if type_ < len(kinds) else ids
     if field in ("objid", "refid"):
@@ -155,7 +129,7 @@ def _value(model: mujoco.MjModel, kind: str, field: str, i: int) -> Any:
     if field in ("qpos0", "qpos_spring"):
         scalar = int(model.jnt_type[i]) >= int(mujoco.mjtJoint.mjJNT_SLIDE)
         return np.atleast_1d(getattr(model, field)[model.jnt_qposadr[i]]) if scalar else np.zeros(1)
-    if field in LIMITED and not getattr(model, f"{prefix}_{LIMITED[field]}")[i]:
+    if field in TABLES["limited"] and not getattr(model, f"{prefix}_{TABLES['limited'][field]}")[i]:
         return np.array([-np.inf, np.inf])
     whole = getattr(model, f"{prefix}_{field}", None)
     return None if whole is None else np.atleast_1d(whole[i])
@@ -177,7 +151,8 @@ def _changed(field: str, of: str, before: Any, after: Any) -> str:
     if field == "gravity" and not np.any(after):
         return "You turned gravity off."
     here, there = (value if isinstance(value, str) else _numbers(value) for value in (before, after))
-    return f"You changed the {WORDS.get(field, field)}{of} from {here} to {there} {UNITS.get(field, '')}".rstrip() + "."
+    unit = TABLES["units"].get(field, "")
+    return f"You changed the {WORDS.get(field, field)}{of} from {here} to {there} {unit}".rstrip() + "."
 
 
 def _numbers(value: Any) -> str:

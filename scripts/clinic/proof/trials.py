@@ -50,7 +50,7 @@ def trial_problems(case: Case) -> Iterator[Problem]:
             return
         for variant in variants(case):
             try:
-                telling |= any(far(*pair) for pair in _changed(case, variant.text, trial))
+                telling |= any(far(*pair) for pair in changed_numbers(case, variant.text, trial))
             except ValueError as error:
                 found = f"in the text of {variant.id}: {' '.join(str(error).split())}"
                 yield case.problem(where, found, "what every variant has", "correct the path, the name or the text")
@@ -124,7 +124,7 @@ def write(model: mujoco.MjModel, data: mujoco.MjData, text: str, value: float) -
         setattr(owner, last, value)
 
 
-def _changed(case: Case, text: str, trial: Trial) -> Iterator[tuple[float, float]]:
+def changed_numbers(case: Case, text: str, trial: Trial) -> Iterator[tuple[float, float]]:
     """Each number that a trial changes: as the case has it, and as the trial does."""
     if case.record.run is None:
         apply_edits(case.texts[trial.file] if trial.file else text, trial.edits)

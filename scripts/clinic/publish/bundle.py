@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import gzip
+import io
 import subprocess
 import tempfile
+import zipfile
 from pathlib import Path
 
 from clinic.engine import node
@@ -17,7 +19,11 @@ LOADER = "docs/playground/loader.js"
 STYLE = "docs/stylesheets/playground.css"
 BUNDLER = "scripts/bundle.mjs"
 ENGINE = "node_modules/@mujoco/mujoco/mujoco.wasm"
+PYODIDE = "node_modules/pyodide"
+PYTHON = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json")
+DIAGNOSIS = "javascripts/diagnosis"
 INSTALLED = "node_modules/.package-lock.json"
+TABLES = ("scripts/clinic/engine/since.json", "scripts/clinic/proof/task.json")  # which the modules import
 CUSTOM_SECTION = 0
 HEADER = 8  # bytes: WebAssembly's mark and version
 
@@ -30,13 +36,28 @@ def playground_files(root: Path, cache: Cache) -> Files:
     """
     if node.launcher() and (root / ENGINE).is_file():
         modules = sorted((root / "docs/playground").rglob("*.js"))
-        sources = [*modules, root / STYLE, root / BUNDLER, root / INSTALLED, Path(__file__)]
+        sources = [*modules, *(root / path for path in (STYLE, BUNDLER, INSTALLED, *TABLES)), Path(__file__)]
         key = key_of("playground", [[path.name, path.read_text(encoding="utf-8")] for path in sources], of="record")
         made = cache.remember(key, lambda: _bundle(root))
         return {f"{FOLDER}/{name}": content for name, content in made.items()}
     cache.incomplete = True
     log_missing_once("no playground: Node or its packages are not installed; run `make setup`")
     return {f"{FOLDER}/loader.js": (root / LOADER).read_bytes()} if (root / LOADER).is_file() else {}
+
+
+def diagnosis_files(root: Path) -> Files:
+    """Python for the page, its standard library and the rules, by their path in the site; none without the packages."""
+    folder = root / PYODIDE
+    if not folder.is_dir():
+        return {}
+    made = {f"{DIAGNOSIS}/{name}": (folder / name).read_bytes() for name in PYTHON}
+    package, packed = Path(__file__).parents[1], io.BytesIO()
+    rules = [path for path in sorted((package / "diagnosis").rglob("*.py")) if "bench" not in path.parts]
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+        for path in [package / "__init__.py", *rules]:
+            entry = zipfile.ZipInfo(f"clinic/{path.relative_to(package).as_posix()}")  # with the same date always
+            archive.writestr(entry, path.read_bytes(), zipfile.ZIP_DEFLATED)
+    return {**made, f"{DIAGNOSIS}/clinic.zip": packed.getvalue()}
 
 
 def strip_custom_sections(wasm: bytes) -> bytes:

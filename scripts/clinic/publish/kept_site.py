@@ -14,7 +14,14 @@ from pathlib import Path
 from clinic.publish.site_files import Site
 from clinic.work.cache import Cache, key_of
 
-INPUTS = ("cases", "docs", "scripts/bundle.mjs", "releases.lock.json", "node_modules/.package-lock.json")
+INPUTS = (
+    "cases",
+    "docs",
+    "scripts/bundle.mjs",
+    "releases.lock.json",
+    "messages.lock.json",
+    "node_modules/.package-lock.json",
+)
 ABOUT = "site.json"
 
 

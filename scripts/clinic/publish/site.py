@@ -36,6 +36,7 @@ def make_site(root: Path, cache: Cache) -> Site:
     files, others = overviews(root, shown, known, cache)
     problems += [*wrong, *others]
     made |= files
+    made |= bundle.diagnosis_files(root)
     made[SCHEMA] = schema_text().encode()
     made |= {path: (root / part).read_bytes() for path, part in BROWSER_PARTS.items() if (root / part).is_file()}
     for one in shown:
@@ -82,6 +83,7 @@ def navigation(headings: Mapping[str, str]) -> Navigation:
         {"Home": "index.md"},
         {"Find your symptom": "symptoms.md"},
         {"What MuJoCo says": "messages.md"},
+        {"Diagnose your model": "rules/index.md"},
         {"Triage": "triage.md"},
         {"Cases": divided if len(sections) > 1 else cases},
         {"By thing": "tags.md"},

@@ -38,7 +38,6 @@ class Alike(Comparison):
     cases: list[Identifier] = Field(min_length=1, description="Model cases with the same symptom; each names this one.")
     path: Text = Field(description="A signal path that the models of all of them have.")
     take: Take = Field(default="final", description="As in a check.")
-    says: Text = Field(description="What it means when it holds, as a short sentence.")
 
 
 class Described(Strict):
@@ -151,6 +150,23 @@ class TrialChecks(Strict):
     fixed: list[Check] | None = Field(default=None, min_length=1, description="In place of the record's `fixed`.")
 
 
+class Formula(Strict):
+    """An equation for the page, held against the runs."""
+
+    says: Text = Field(description="Its sides, of symbols: `k_p * q = m * g * L / 2 * cos(q)`; `~` for nearly equal.")
+    where: dict[str, Text] = Field(
+        default={},
+        description="What the symbols are: arithmetic over signals (their final values; `speed_max` is another take), "
+        "`timestep` and `duration`; for a sweep also its parameters, `outcome`, `prediction` and its rivals.",
+    )
+    of: Text = Field(
+        default="broken", description="Where the sides must agree: a variant, or every point of `sweep.ID`."
+    )
+    within: float = Field(
+        default=0.01, gt=0, le=0.1, description="The largest difference, as a share of the largest side."
+    )
+
+
 class Trial(Strict):
     """Another situation in which every fix must hold and the broken variant be broken: a load, a start, a command."""
 
@@ -218,6 +234,11 @@ class Record(Strict):
     see: list[Identifier] = Field(default=[], description="Related cases, by folder name.")
     alike: Alike | None = Field(default=None, description="What tells this case from those that look like it.")
     exempt: dict[Law, Text] = Field(default={}, description="Laws that this case need not obey, each with the reason.")
+    loose: dict[Text, Text] | None = Field(
+        default=None,
+        description="Why no check need notice when a number that matters is halved or doubled, by the attribute or the "
+        "part of a line that holds it: `{'axis=\"0 0 1\"': reason}`; `{}` if checks notice each.",
+    )
     run: RunSpec | None = Field(default=None, description="How to start and drive a model; none for a script.")
     signals: dict[Name, Signal] = Field(min_length=1, description="Named measurements; the first one is plotted.")
     checks: Checks = Field(description="The pair of predicates for every variant.")
@@ -230,6 +251,7 @@ class Record(Strict):
         default={}, description='What older releases of MuJoCo do otherwise, and why: `{"<3.13": reason}`.'
     )
     sweep: dict[Identifier, Sweep] = Field(default={}, description="Sweeps by name.")
+    formulas: dict[Name, Formula] = Field(default={}, description="Equations for prose: `{{ formula.NAME }}`, by name.")
     no_sweep: str | None = Field(default=None, description="Why no sweep would tell anything; without one, required.")
     film: Film | None = Field(default=None, description="Required for a model.")
     picture: Picture = Field(description="The still image on the page and on the home page's card.")
@@ -247,6 +269,15 @@ class Record(Strict):
         if self.script is not None and not self.script.endswith((".py", ".mjs")):
             raise ValueError(f"{self.script}||a script in Python, .py, or for Node, .mjs||rename the script")
         return self
+
+    @property
+    def lacking(self) -> dict[str, str]:
+        """Fields that grade A asks for and the record is without, with what is not known for want of each."""
+        wanted = {
+            "trials": (self.trials, "whether a repair holds in another situation"),
+            "loose": (self.loose is not None, "whether a check notices when a number is halved or doubled"),
+        }
+        return {name: unknown for name, (given, unknown) in wanted.items() if not given}
 
     @property
     def language(self) -> Literal["python", "javascript"]:

@@ -42,7 +42,7 @@ class Parameter(Strict):
 class Prediction(Strict):
     """A closed form for the outcome of a sweep."""
 
-    label: Text = Field(description="What the legend calls it.")
+    label: Text = Field(description="What the legend calls it, in words; the formula stands beside them.")
     expr: Text = Field(
         description="Arithmetic over the parameters, the signals (their final values) and the named model numbers. "
         "For a sweep with `holds`: the value of the first parameter at which the outcome changes."
@@ -73,8 +73,11 @@ class Sweep(Strict):
     duration: float | None = Field(default=None, gt=0, le=60, description="In s, in place of the run's.")
     outcome: Taken = Field(description="The number measured at every point.")
     holds: Comparison | None = Field(default=None, description="Makes of the outcome a yes or no, as a check does.")
-    yes: str = Field(default="", description="What a yes means, for the legend.")
-    no: str = Field(default="", description="What a no means.")
     side: Literal["below", "above"] = Field(default="below", description="With `holds`: where, of the line, it is yes.")
+    apart: Text | None = Field(
+        default=None,
+        description="With `holds`: why no point within twice `within` of the line is judged on each side, or why a "
+        "model's outcome is not taken at the end of the run.",
+    )
     prediction: Prediction = Field(description="The closed form that a law holds to its word.")
     rivals: list[Rival] = Field(default=[], description="Closed forms that are popular and wrong.")

@@ -56,6 +56,12 @@ def start_outside(s: Subject) -> Seen:
             yield s.called("actuator", i), f"control {format_number(d.ctrl[control])} is clamped to {_pair(limits)}"
 
 
+def still(s: Subject) -> Seen:
+    """Nothing can move: there are geoms and gravity, and no degree of freedom."""
+    if s.model.nv == 0 and s.model.ngeom and np.any(s.model.opt.gravity):
+        yield "model", "has no degree of freedom: nothing can fall or move"
+
+
 def gains(s: Subject) -> Seen:
     """An actuator's gain or gear is 0."""
     m = s.model
@@ -209,7 +215,7 @@ def keyframes(s: Subject) -> Seen:
 
 
 RULES: tuple[Rule, ...] = (
-    ranges, unused_ranges, start_outside, gains, weak_servos, undamped, masses, lengths, gravity, switches, time_steps,
+    still, ranges, unused_ranges, start_outside, gains, weak_servos, undamped, masses, lengths, gravity, switches, time_steps,
     time_constants, lonely, priorities, quaternions, visual_mass, keyframes,
 )  # fmt: skip
 

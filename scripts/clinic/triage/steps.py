@@ -100,8 +100,19 @@ def subject_of(path: Path) -> Subject:
     except ENGINE_ERRORS as error:
         said = " ".join(str(error).split())
         lines = re.findall(r"(?:Element\b.*\bline |Line number=)(\d+)", said)
-        line, expected = max([1, *map(int, lines)]), "XML that MuJoCo compiles"
+        line, expected = max([1, *map(int, lines), _line_of_key(path, said)]), "XML that MuJoCo compiles"
         raise CaseError([Problem(str(path), line, "", said, expected, "see *What MuJoCo says*")]) from None
+
+
+def _line_of_key(path: Path, said: str) -> int:
+    """The line of the keyframe that MuJoCo's message names, as it does not say it; 1 where there is none."""
+    found = re.match(r"Error: key(?:frame)? '?([^':]*)'?:", said)
+    lines = path.read_text(encoding="utf-8", errors="replace").splitlines() if found else []
+    keys = [number for number, line in enumerate(lines, 1) if re.search(r"<key[\s/>]", line)]
+    named = [number for number in keys if found and f'name="{found[1]}"' in lines[number - 1]]
+    if named or not found or not found[1].isdigit():
+        return (named or [1])[0]
+    return keys[int(found[1])] if int(found[1]) < len(keys) else 1
 
 
 def report(observation: Observation) -> str:

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe
 
-SECONDS = 2.0
-
 
 @dataclass
 class LetGo:
@@ -21,21 +19,21 @@ class LetGo:
     warnings: dict[str, int]
 
 
-def let_go(simulation: Simulation, seconds: float = SECONDS) -> LetGo:
+def let_go(simulation: Simulation) -> LetGo:
     """Runs the model from its start with the controls of the start; the run is kept with the simulation."""
     kept = simulation.kept
-    if ("let go", seconds) not in kept:
-        kept["let go", seconds] = _let_go(simulation, seconds)
-    found = kept["let go", seconds]
+    if "let go" not in kept:
+        kept["let go"] = _let_go(simulation)
+    found = kept["let go"]
     assert isinstance(found, LetGo)
     return found
 
 
-def _let_go(simulation: Simulation, seconds: float) -> LetGo:
+def _let_go(simulation: Simulation) -> LetGo:
     simulation.begin()
     made = LetGo(0, 0.0, None, 0.0, {})
     owners = simulation.dof_joints
-    for _ in simulation.run(seconds):
+    for _ in simulation.run(simulation.begin_with.duration):
         if simulation.unstable():
             made.resets += 1
             made.warnings = simulation.engine.warnings()
@@ -49,19 +47,19 @@ def _let_go(simulation: Simulation, seconds: float) -> LetGo:
     return made
 
 
-def _resets(simulation: Simulation, seconds: float) -> float:
-    return float(let_go(simulation, seconds).resets)
+def _resets(simulation: Simulation) -> float:
+    return float(let_go(simulation).resets)
 
 
-def resets(seconds: float = SECONDS) -> Probe:
+def resets() -> Probe:
     """Whether the simulation goes to infinity: 0 or 1."""
-    return Probe(f"goes to infinity within {seconds:g} s after letting go", "", _resets, (seconds,))
+    return Probe("goes to infinity after letting go", "", _resets)
 
 
-def _fastest(simulation: Simulation, seconds: float) -> float:
-    return let_go(simulation, seconds).fastest
+def _fastest(simulation: Simulation) -> float:
+    return let_go(simulation).fastest
 
 
-def fastest(seconds: float = SECONDS) -> Probe:
+def fastest() -> Probe:
     """The highest speed of a degree of freedom."""
-    return Probe(f"fastest joint within {seconds:g} s after letting go", "rad/s", _fastest, (seconds,))
+    return Probe("fastest joint after letting go", "rad/s", _fastest)

@@ -11,12 +11,14 @@ from matplotlib.axis import Axis
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
+from clinic.engine.checks import expected
 from clinic.pages.figures.palette import BROKEN, DASHES, FIXED, INK, RIVAL
 from clinic.proof.sweep import SweepEvidence
 from clinic.record.prose import plain
-from clinic.record.sweep import Parameter, Sweep
+from clinic.record.sweep import Parameter, Prediction, Sweep
 
 MANY = 1e4  # of the last number to the first, from which on an axis names powers of ten alone
+SHORT = 36  # characters of a formula that a legend has room for
 
 
 def axis_label(name: str, unit: str) -> str:
@@ -37,6 +39,12 @@ def largest(values: NDArray[np.float64]) -> float:
 def write_numbers(axis: Axis) -> None:
     """Labels a logarithmic axis with numbers as prose has them; by itself it writes TeX, which figures do not read."""
     axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
+
+
+def legend(prediction: Prediction) -> str:
+    """What a prediction's line is called: its label, and its formula where that is short."""
+    formula = prediction.expr.replace(" ** ", "^").replace("*", "·").replace("sqrt", "√").replace("pi", "π")
+    return f"{prediction.label}: {formula}" if len(formula) <= SHORT else prediction.label
 
 
 def sweep_plot(axes: Axes, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
@@ -76,8 +84,8 @@ def _map(axes: Axes, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
         holds = np.array([point.holds is True for point in swept.points])
         fails = np.array([point.holds is False for point in swept.points])
         size: dict[str, Any] = {"linestyle": "", "markersize": 3.2}
-        axes.plot(x[holds], y[holds], marker="o", color=FIXED[0], label=sweep.yes, **size)
-        axes.plot(x[fails], y[fails], marker="x", color=BROKEN, label=sweep.no, **size)
+        axes.plot(x[holds], y[holds], marker="o", color=FIXED[0], label=f"{outcome}: {expected(sweep.holds)}", **size)
+        axes.plot(x[fails], y[fails], marker="x", color=BROKEN, label="otherwise", **size)
         for key, style in _styles(sweep).items():
             predicted = numbers([point.predicted[key] for point in swept.points])
             known = [value for value in np.unique(x) if np.isfinite(predicted[x == value]).any()]
@@ -91,9 +99,9 @@ def _map(axes: Axes, sweep: Sweep, outcome: str, swept: SweepEvidence) -> None:
 
 def _styles(sweep: Sweep) -> dict[str, dict[str, Any]]:
     """How the line of each prediction is drawn."""
-    made = {"prediction": {"label": sweep.prediction.label, "color": FIXED[1], "linewidth": 1.8}}
+    made = {"prediction": {"label": legend(sweep.prediction), "color": FIXED[1], "linewidth": 1.8}}
     for k, rival in enumerate(sweep.rivals):
-        made[rival.id] = {"label": rival.label, "color": RIVAL, "linewidth": 1.6, "linestyle": DASHES[k % 3]}
+        made[rival.id] = {"label": legend(rival), "color": RIVAL, "linewidth": 1.6, "linestyle": DASHES[k % 3]}
     return made
 
 

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import latex2mathml.converter
 
+from clinic.engine.quotation import QUOTATION, QuotationError, engine_default, quotation
 from clinic.pages.text.markup import escaped
 from clinic.proof.evidence import Evidence
+from clinic.proof.prose.formulas import sides_as_latex
 from clinic.proof.prose_laws import prose_of
+from clinic.proof.sweep import predictions
 from clinic.record.case import Case
+from clinic.record.expression import ExpressionError, parse
+from clinic.record.latex import latex
 from clinic.record.problem import Problem, closest, listed
 from clinic.record.prose import CODE, CONVERSIONS, FIELD, FORMULA, quantity
 
@@ -31,13 +36,13 @@ class ProseError(ValueError):
         return f"{self.found}; expected {self.expected}; {self.repair}"
 
 
-def markdown(text: str, evidence: Evidence) -> str:
+def markdown(text: str, evidence: Evidence, case: Case | None = None) -> str:
     """The prose with its fields filled and its formulas as MathML; a `<` outside code is shown.
 
     Raises:
         ProseError: For the first field that resolves to nothing, or formula that cannot be set.
     """
-    return PARTS.sub(_part, fill(text, evidence))
+    return PARTS.sub(_part, fill(text, evidence, case))
 
 
 def _part(match: re.Match[str]) -> str:
@@ -58,18 +63,18 @@ def _mathml(formula: str, display: str) -> str:
         raise ProseError(f"${formula}$: {str(error) or type(error).__name__}", "a LaTeX formula", repair) from None
 
 
-def fill(text: str, evidence: Evidence) -> str:
+def fill(text: str, evidence: Evidence, case: Case | None = None) -> str:
     """The text with every `{{ field | filter }}` replaced.
 
     Raises:
         ProseError: For the first field that resolves to nothing.
     """
-    return FIELD.sub(lambda match: resolve(match[1], evidence), text)
+    return FIELD.sub(lambda match: resolve(match[1], evidence, case), text)
 
 
 def opening(case: Case, evidence: Evidence) -> str:
     """The first sentences of the symptom, until they are long enough to say something."""
-    words = " ".join(fill(case.record.symptom, evidence).replace("`", "").split())
+    words = " ".join(fill(case.record.symptom, evidence, case).replace("`", "").split())
     kept = ""
     for sentence in re.split(r"(?<=[.?!]) ", words):
         kept = f"{kept} {sentence}".strip()
@@ -82,16 +87,16 @@ def prose_problems(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Every field and formula of the prose that cannot be shown."""
     reasons = [(("exempt", law), reason) for law, reason in case.record.exempt.items()]
     for where, text in [*prose_of(case), *reasons]:
-        for error in mistakes(text, evidence):
+        for error in mistakes(text, evidence, case):
             quoted = error.found.partition(": ")[0]
             yield case.problem(where, error.found, error.expected, error.repair, quoted)
 
 
-def mistakes(text: str, evidence: Evidence) -> Iterator[ProseError]:
+def mistakes(text: str, evidence: Evidence, case: Case | None = None) -> Iterator[ProseError]:
     """Every field of the text that is not closed or resolves to nothing, and every formula that cannot be set."""
     for match in FIELD.finditer(text):
         try:
-            resolve(match[1], evidence)
+            resolve(match[1], evidence, case)
         except ProseError as error:
             yield error
     filled = FIELD.sub("1", text)
@@ -105,17 +110,49 @@ def mistakes(text: str, evidence: Evidence) -> Iterator[ProseError]:
             yield error
 
 
-def resolve(field: str, evidence: Evidence) -> str:
-    """The text for one field, such as `broken.height.final | mm`.
+def resolve(field: str, evidence: Evidence, case: Case | None = None) -> str:
+    """The text for one field: `broken.height.final | mm`, or what `case` has, such as `broken.geom(cube).priority`.
 
     Raises:
         ProseError: If it resolves to nothing.
     """
     name, *filters = (part.strip() for part in field.split("|"))
-    value, unit = _measured(name, evidence)
+    value, unit = (None if case is None else _written(name, case)) or _measured(name, evidence)
     if value is None:
         raise ProseError(f"{{{{ {name} }}}}", "what the run measured", "name something else, or remove the field")
     return value if isinstance(value, str) else _shown(name, value, unit, filters)
+
+
+def _written(name: str, case: Case) -> tuple[float | str, str] | None:
+    """What is not measured: `VARIANT.TAG(NAME).ATTRIBUTE`, `default.PATH`, `formula.NAME`, `record.PATH`; else None."""
+    first, _, rest = name.partition(".")
+    try:
+        if match := QUOTATION.fullmatch(name):
+            return f"`{quotation(case, match)}`", ""
+        if first == "default":
+            return engine_default(rest), ""
+    except QuotationError as error:
+        raise ProseError(f"{{{{ {name} }}}}: {error.found}", error.expected, error.repair) from None
+    if first == "formula":
+        formula, _, side = rest.partition(".")
+        known = _known(name, formula, case.record.formulas, "formula")
+        try:
+            return _known(name, side or "whole", sides_as_latex(known.says), "side"), ""
+        except ExpressionError as error:
+            raise ProseError(f"{{{{ {name} }}}}: {known.says}", str(error), "correct the equation") from None
+    if first == "sweep" and rest.endswith(".formula"):
+        sweep, *rival = rest.removesuffix(".formula").split(".")
+        forms = predictions(_known(name, sweep, case.record.sweep, "sweep"))
+        return latex(parse(_known(name, ".".join(rival) or "prediction", forms, "prediction of the sweep").expr)), ""
+    if first == "record":
+        value: Any = case.record.model_dump()
+        for part in rest.split("."):
+            fields = value if isinstance(value, dict) else {str(k): each for k, each in enumerate(value)}
+            value = _known(name, part, fields, "field")
+            if not isinstance(value, dict | list | tuple | int | float):
+                break
+        return (value, "") if isinstance(value, int | float) else None
+    return None
 
 
 def _measured(name: str, evidence: Evidence) -> tuple[float | str | None, str]:
@@ -133,6 +170,8 @@ def _measured(name: str, evidence: Evidence) -> tuple[float | str | None, str]:
         number: float = _known(name, field, {"points": 0, **numbers}, "field of the sweep")
         return number, agreement.unit if field == "worst" else ""
     variant = _known(name, first, evidence.variants, "variant")
+    if rest == "title":
+        return variant.title, ""
     own: dict[str, tuple[float | str | None, str]] = {}
     if variant.timestep is not None and variant.steps is not None:
         own = {"timestep": (variant.timestep, "s"), "duration": (variant.timestep * variant.steps, "s")}

@@ -1,0 +1,172 @@
+"""A diagnosis in a process of its own, bounded in time and memory; begun anew where the engine dies of the model."""
+
+from __future__ import annotations
+
+import base64
+import os
+import pickle
+import subprocess
+import sys
+import threading
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from clinic.diagnosis.diagnose import examine, read_file
+from clinic.diagnosis.finding import Diagnosis, Finding
+from clinic.diagnosis.simulation import Start
+from clinic.diagnosis.source import read_texts
+
+LIMIT = 60.0  # s, for one process
+MEMORY = 4 * 2**30  # bytes
+DEATHS = 5  # of the engine, after which the diagnosis ends
+DIES = "engine-dies"
+CHILD = (sys.executable, "-m", "clinic.diagnosis.process")
+
+
+class DiagnosisError(ValueError):
+    """A model that cannot be diagnosed, in a sentence."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the process is asked: a model's text, what to call it, the folder that its files are found from."""
+
+    text: str
+    name: str
+    folder: str
+    assets: Mapping[str, bytes]
+    symptom: str
+    start: Start | None
+    select: tuple[str, ...]
+    ignore: tuple[str, ...]
+
+
+def diagnose(
+    source: Any,
+    *,
+    assets: Mapping[str, bytes] | None = None,
+    symptom: str = "",
+    start: Start | None = None,
+    select: Collection[str] = (),
+    ignore: Collection[str] = (),
+    tell: Callable[[str], None] = lambda _: None,
+) -> Diagnosis:
+    """Diagnoses a reader's model.
+
+    Args:
+        source: The path of an MJCF or URDF file; a text, which begins with `<`; an `mujoco.MjSpec`; or a pair of an
+            `mujoco.MjModel` and the path or text that it was compiled from.
+        assets: Files that the model names, by name, where they lie on no disk.
+        symptom: The family of symptoms that is seen (`clinic/record/families.toml`).
+        start: Keyframe, controls, duration and seed; where left out, the model's start, and then its first keyframe.
+        select: Rules to try; all where empty.
+        ignore: Rules not to try.
+        tell: Is called with the id of each rule before it is tried.
+
+    Raises:
+        DiagnosisError: If the model cannot be read, or is given in another form.
+    """
+    text, name, folder = _read(source)
+    given = {key: value if isinstance(value, bytes) else str(value).encode() for key, value in (assets or {}).items()}
+    request = Request(text, name, folder, given, symptom, start, tuple(select), tuple(ignore))
+    died: list[str] = []
+    while True:
+        made, trying = _asked(replace(request, ignore=(*request.ignore, *died)), tell)
+        if made is not None:
+            deaths = [_death(rule, name) for rule in died]
+            return replace(made, causes=(*deaths, *made.causes))
+        died.append(trying or "")
+        if not trying or len(died) > DEATHS:
+            doing = f"while trying {trying}" if trying else "while compiling the model"
+            raise DiagnosisError(f"{name}: MuJoCo ended the process, or gave no answer in {LIMIT:g} s, {doing}")
+
+
+def _read(source: Any) -> tuple[str, str, str]:
+    if isinstance(source, tuple) and len(source) == 2:
+        return _read(source[1])
+    if hasattr(source, "to_xml"):
+        return source.to_xml(), "MjSpec", str(getattr(source, "modelfiledir", "") or os.getcwd())
+    if isinstance(source, str) and source.lstrip("\ufeff \t\r\n").startswith("<"):
+        return source, "model.xml", os.getcwd()
+    if not isinstance(source, (str, Path)):
+        raise DiagnosisError(f"{type(source).__name__}: expected a path, a text, an MjSpec, or a pair (model, xml)")
+    path = Path(source).absolute()
+    try:
+        return path.read_text(encoding="utf-8-sig"), path.name, str(path.parent)
+    except (OSError, UnicodeDecodeError) as error:
+        raise DiagnosisError(f"{source}: {getattr(error, 'strerror', None) or 'not a text in UTF-8'}") from None
+
+
+def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | None, str]:
+    """The answer of a process; or None and the rule that was being tried when it ended."""
+    found = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}  # what this process can import
+    pipe = subprocess.PIPE
+    child = subprocess.Popen(CHILD, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, env=found)
+    timer = threading.Timer(LIMIT, child.kill)
+    timer.start()
+    trying = ""
+    try:
+        assert child.stdin is not None
+        assert child.stdout is not None
+        child.stdin.write(base64.b64encode(pickle.dumps(request)) + b"\n")
+        child.stdin.flush()
+        for line in child.stdout:
+            kind, _, rest = line.strip().partition(b" ")
+            if kind == b"trying":
+                trying = rest.decode()
+                tell(trying)
+            if kind == b"made":
+                return pickle.loads(base64.b64decode(rest)), trying
+            if kind == b"wrong":
+                raise DiagnosisError(rest.decode())
+    except BrokenPipeError:
+        pass
+    finally:
+        timer.cancel()
+        child.kill()
+        child.communicate()
+    return None, trying
+
+
+def _death(rule: str, name: str) -> Finding:
+    says = f"MuJoCo ended its process, or gave no answer, while {rule} was tried on this model."
+    title = "The engine does not survive the model"
+    return Finding(DIES, title, "cause", (), name, None, "", "", "", (), "", "", 1.0, None, says, "")
+
+
+def main() -> None:
+    """Answers one request."""
+    if sys.platform == "linux":
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    from clinic.diagnosis.native import NativeEngine
+
+    request: Request = pickle.loads(base64.b64decode(sys.stdin.buffer.readline()))
+    os.chdir(request.folder)
+
+    def read(name: str) -> str | None:
+        there = request.assets.get(name)
+        return there.decode(errors="replace") if there is not None else read_file(name)
+
+    try:
+        made = examine(
+            NativeEngine(request.assets),
+            read_texts(request.text, request.name, read),
+            symptom=request.symptom,
+            start=request.start,
+            select=request.select,
+            ignore=request.ignore,
+            tell=lambda rule: print(f"trying {rule}", flush=True),
+        )
+    except (MemoryError, RecursionError) as error:
+        print(f"wrong {request.name}: {type(error).__name__}: the model is too large", flush=True)
+        return
+    sys.stdout.buffer.write(b"made " + base64.b64encode(pickle.dumps(made)) + b"\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,113 @@
+"""An inertia that no body can have.
+
+The three principal moments of a real body satisfy A + B >= C; a full inertia is positive definite; and an inertia is
+given once, by `diaginertia` or by `fullinertia`. Values that were rounded, typed or exported wrongly break this.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="arm" pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" damping="1"/>
+          <inertial pos="0.1 0 0" mass="1" diaginertia="0.01 0.01 0.1"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="arm" pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" damping="1"/>
+          <inertial pos="0.1 0 0" mass="1" diaginertia="0.01 0.01 0.01"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: A + B >= C is checked by MuJoCo. The edit takes off a sign, fills in a zero, or shortens the largest moment
+until it fits.
+
+When it is wrong: this is a stopgap; the right numbers stand in the CAD model.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import remove_attribute, set_attribute
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.errors._message import meant, mends, sentence
+from clinic.diagnosis.source import Element
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "An impossible inertia"
+FAMILIES = ("will-not-compile",)
+SINCE = "0.2"
+
+DIAGONAL = ("ixx", "iyy", "izz")
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Moments that a body can have, or one of two inertias that is taken off."""
+    said = sentence(model)
+    if model.source is None or not re.search("A \\+ B|inertia|eigenvalue", said) or "mjMINVAL" in said:
+        return
+    for element in meant(model):
+        inertial = element if element.tag == "inertial" else element.first("inertial") or element
+        if model.source.urdf:
+            yield from _in_urdf(inertial, said)
+        elif "fullinertia" in inertial.attributes:
+            for attribute in ("diaginertia", "quat", "euler", "axisangle", "xyaxes", "zaxis"):
+                if attribute in inertial.attributes:
+                    taken = (remove_attribute(inertial, attribute),)
+                    now = inertial.get(attribute)
+                    yield mends(inertial, taken, f"{said}.", attribute=attribute, now=now, value="none")
+            yield from _put(inertial, "fullinertia", said)
+        elif "diaginertia" in inertial.attributes:
+            yield from _put(inertial, "diaginertia", said)
+        elif "A + B" in said:
+            balanced = model.option("balanceinertia", "true", "compiler")
+            yield mends(inertial, balanced, f"{said}.", attribute="balanceinertia", now="false", value="true")
+
+
+def _put(inertial: Element, attribute: str, said: str) -> Iterator[Suspect]:
+    now = inertial.get(attribute)
+    numbers = [float(number) for number in now.split()]
+    value = " ".join(f"{number:.4g}" for number in [*possible(numbers[:3]), *[0.0] * (len(numbers) - 3)])
+    edits = (set_attribute(inertial, attribute, value),)
+    yield mends(inertial, edits, f"{said}.", attribute=attribute, now=now, value=value)
+
+
+def _in_urdf(link: Element, said: str) -> Iterator[Suspect]:
+    for inertia in (each for each in link.walk() if each.tag == "inertia"):
+        before = [float(inertia.get(name, "0")) for name in DIAGONAL]
+        edits = [set_attribute(inertia, name, f"{v:.4g}") for name, v in zip(DIAGONAL, possible(before), strict=True)]
+        edits += [set_attribute(inertia, name, "0") for name in ("ixy", "ixz", "iyz") if float(inertia.get(name, "0"))]
+        wrong = max(range(3), key=lambda k: abs(float(edits[k].value) - before[k]))
+        now = inertia.get(DIAGONAL[wrong])
+        link_name = (
+            f'link "{inertia.parent.parent.get("name")}"' if inertia.parent and inertia.parent.parent else "link"
+        )
+        says = f"{link_name}: {said}."
+        yield mends(inertia, edits, says, attribute=DIAGONAL[wrong], now=now, value=edits[wrong].value)
+
+
+def possible(moments: list[float]) -> list[float]:
+    """Three moments that a body can have, with as few changed as may be.
+
+    A negative one loses its sign, one of zero is the mean of the others, and one above the sum of the others loses
+    decimal places until it fits, or becomes that sum.
+    """
+    made = [abs(each) for each in moments]
+    for index, each in enumerate(made):
+        rest = [other for k, other in enumerate(made) if k != index]
+        if each == 0:
+            made[index] = sum(rest) / 2 or 1e-6
+    largest = max(range(3), key=lambda index: made[index])
+    rest_sum = sum(made) - made[largest]
+    while made[largest] > 3 * rest_sum:
+        made[largest] /= 10
+    made[largest] = min(made[largest], 0.999 * rest_sum)
+    return made

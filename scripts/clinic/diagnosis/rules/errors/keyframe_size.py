@@ -1,0 +1,75 @@
+"""A keyframe has more numbers than the model has positions, speeds, controls or activations.
+
+A free object in front of the robot takes the first seven places of `qpos`; a joint more or fewer changes them all.
+Since MuJoCo 4.0 a `qpos` that is too short is filled up in silence, and one that is too long is refused.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="arm" pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" damping="1"/>
+          <geom name="link" type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
+        </body>
+      </worldbody>
+      <keyframe>
+        <key name="home" qpos="0.5 0 0"/>
+      </keyframe>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="arm" pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" damping="1"/>
+          <geom name="link" type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
+        </body>
+      </worldbody>
+      <keyframe>
+        <key name="home" qpos="0.5"/>
+      </keyframe>
+    </mujoco>
+
+The number: MuJoCo's message has both counts. The numbers that are left over are cut.
+
+When it is wrong: which numbers are superfluous only the author knows; look at what was removed from the model.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.errors._message import mends, sentence
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "A keyframe of the wrong size"
+FAMILIES = ("will-not-compile",)
+SINCE = "0.2"
+
+MESSAGE = re.compile(r"key(?:frame)? '?([^':]*)'?: invalid (\w+) size, expected (?:length )?(\d+)")
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """All keys that have more numbers than fit, cut; those that have fewer, filled with zeros."""
+    found = MESSAGE.match(sentence(model))
+    if not found or model.source is None:
+        return
+    which, attribute, size = found.groups()
+    keys = [key for key in model.source.section("keyframe") if len(key.get(attribute).split()) != int(size)]
+    keys = [key for key in keys if attribute in key.attributes]
+    named = [key for key in keys if key.get("name") == which] or keys
+    if not named:
+        return
+    edits: list[Edit] = []
+    for key in keys:
+        numbers = key.get(attribute).split()
+        fitted = (numbers + ["0"] * int(size))[: int(size)]
+        edits.append(set_attribute(key, attribute, " ".join(fitted)))
+    count = len(named[0].get(attribute).split())
+    says = f"The model has {size} numbers in {attribute}, the key {count}: {sentence(model)}."
+    edits.sort(key=lambda each: each.line != named[0].line)
+    yield mends(named[0], edits, says, attribute=attribute, now=f"{count} numbers", value=f"{size} numbers")

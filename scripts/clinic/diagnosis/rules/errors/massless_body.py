@@ -1,0 +1,88 @@
+"""A moving body has no mass, or no inertia.
+
+A body that a joint moves, with no geom and no `<inertial>`, or with geoms without mass, cannot be accelerated: `mass
+and inertia of moving bodies must be larger than mjMINVAL`. Empty frames of a URDF and helper links are the usual
+ones.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="wrist" pos="0 0 1">
+          <joint name="turn" axis="0 0 1"/>
+          <site name="tip" pos="0.1 0 0"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="wrist" pos="0 0 1">
+          <joint name="turn" axis="0 0 1"/>
+          <inertial pos="0 0 0" mass="0.01" diaginertia="1e-5 1e-5 1e-5"/>
+          <site name="tip" pos="0.1 0 0"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: mjMINVAL is 1e-15. The edit gives a body without mass 10 g, and a body without
+inertia that of a ball of 50 mm radius.
+
+When it is wrong: the body may not be meant to move: then its joint is too much.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import delete, insert, replace
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.errors._message import meant, mends, sentence
+from clinic.diagnosis.source import Element
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "A moving body without mass"
+FAMILIES = ("will-not-compile",)
+SINCE = "0.2"
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The body that is too light, with a little mass; one that has mass, with the inertia of a ball."""
+    if "must be larger than mjMINVAL" not in model.error or model.source is None:
+        return
+    for element in meant(model, "body", "link")[:1]:
+        inertial = element.first("inertial")
+        mass = _mass(inertial) if inertial else 0.0
+        named, said = f'{element.tag} "{element.get("name")}"', sentence(model)
+        if inertial is None or mass <= 0:
+            says = f"{named} moves and has no mass: {said}."
+            edits = (*((delete(inertial),) if inertial else ()), insert(element, _inertial(0.01, model.source.urdf)))
+            yield mends(element, edits, says, attribute="mass", now="0", value="0.01")
+        else:
+            says = f"{named} moves and has a mass of {mass:g} kg without inertia: {said}."
+            edits = (replace(inertial, _inertial(mass, model.source.urdf, inertial)),)
+            yield mends(element, edits, says, attribute="inertia", now="0", value=f"{_ball(mass):.2g}")
+
+
+def _mass(inertial: Element) -> float:
+    holder = inertial.first("mass") if "mass" not in inertial.attributes else None
+    return float(holder.get("value", "0") if holder else inertial.get("mass", "0"))
+
+
+def _ball(mass: float) -> float:
+    """The inertia of a ball of 50 mm radius, in kg m2."""
+    return 0.4 * mass * 0.05**2
+
+
+def _inertial(mass: float, urdf: bool, before: Element | None = None) -> str:
+    """An `<inertial>` of a ball, where the one before had its centre."""
+    own = f"{_ball(mass):.2g}"
+    if urdf:
+        origin = before.first("origin") if before else None
+        place = f'<origin xyz="{origin.get("xyz", "0 0 0")}"/>' if origin else ""
+        moments = f'<inertia ixx="{own}" iyy="{own}" izz="{own}" ixy="0" ixz="0" iyz="0"/>'
+        return f'<inertial>{place}<mass value="{mass:g}"/>{moments}</inertial>'
+    pos = before.get("pos", "0 0 0") if before else "0 0 0"
+    return f'<inertial pos="{pos}" mass="{mass:g}" diaginertia="{own} {own} {own}"/>'

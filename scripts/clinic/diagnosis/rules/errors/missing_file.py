@@ -1,0 +1,134 @@
+"""A file that the model names is not where it says.
+
+`Error opening file` names what was looked for. The folder is put together from `meshdir` (or `texturedir`, `assetdir`)
+and `file`, from the folder of the main model on. Upper and lower case, an ending, a folder too much or too few, and
+`package://` addresses of a URDF are the usual mistakes.
+
+Bad:
+
+    <mujoco>
+      <asset>
+        <texture name="wood" type="2d" file="textures/wood.png"/>
+      </asset>
+      <worldbody>
+        <geom name="box" type="box" size="0.1 0.1 0.1"/>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <asset>
+        <texture name="wood" type="2d" builtin="flat" width="8" height="8" rgb1="0.5 0.3 0.1"/>
+      </asset>
+      <worldbody>
+        <geom name="box" type="box" size="0.1 0.1 0.1"/>
+      </worldbody>
+    </mujoco>
+
+The number: none; a file of that name is looked for below the model's folder and the one around it. Where there is none,
+this is a hint that says which file is missing.
+
+When it is wrong: several files may have the same name; the one with the most folders in common is taken.
+"""
+
+from __future__ import annotations
+
+import os
+import posixpath
+import re
+from collections.abc import Iterator
+from functools import cache
+
+from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.probes.compiled import COMPILES
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.errors._message import mends, nearest, sentence, told
+from clinic.diagnosis.source import Element
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "A file that is not there"
+FAMILIES = ("will-not-compile",)
+SINCE = "0.2"
+
+MESSAGE = re.compile(r".*(?:opening file|resource not found[^']*|file not found[^']*|could not open[^']*) ?'([^']+)'")
+MOST = 20_000  # files that are looked at
+DEPTH = 4  # folders
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Every file of the model that is elsewhere below its folder; the first that is nowhere."""
+    found = MESSAGE.match(sentence(model))
+    if not found or model.source is None:
+        return
+    named = [each for each in model.source.root.walk() if "file" in each.attributes or "filename" in each.attributes]
+    base = posixpath.basename(found.group(1))
+    ill = [each for each in named if posixpath.basename(_file(each)) == base]
+    if not ill:
+        return
+    edits: list[Edit] = []
+    for element in named:
+        edits += _moved(model, element)
+    first = ill[0]
+    if any(each.start == first.start for each in edits) or _directory(model, first) in {each.start for each in edits}:
+        edits.sort(key=lambda each: each.start != first.start)
+        says = f"{found.group(1)} is not there; {edits[0].value} is."
+        edits = list(dict.fromkeys(edits))
+        yield mends(first, edits, says, attribute=edits[0].attribute, now=_file(first), value=edits[0].value)
+    else:
+        says = f"{found.group(1)} is not there, and no file called {base} below the model's folder."
+        yield Suspect((told(first),), "file", _file(first), "", (), COMPILES, 0.0, says, level="hint")
+
+
+def _file(element: Element) -> str:
+    return element.get("file") or element.get("filename")
+
+
+def _directory(model: ReaderModel, element: Element) -> int:
+    assert model.source is not None
+    compiler = model.source.root.first("compiler")
+    return compiler.start if compiler else -1
+
+
+def _moved(model: ReaderModel, element: Element) -> list[Edit]:
+    """The edit that points at a file that exists; none where it does already, or nowhere."""
+    file = _file(element)
+    folder = _folder(model, element)
+    if os.path.exists(posixpath.join(folder, file)):
+        return []
+    base = posixpath.basename(file.replace("\\", "/"))
+    files = _files(os.getcwd())
+    alike = [name for name in nearest(base, files) if name.lower() == base.lower()]
+    there = files.get(base) or [path for name in alike for path in files[name]]
+    if not there:
+        return []
+    parts = set(file.split("/"))
+    best = max(there, key=lambda path: (len(parts & set(path.split("/"))), -len(path)))
+    attribute = "file" if "file" in element.attributes else "filename"
+    return [set_attribute(element, attribute, posixpath.relpath(best, folder or "."))]
+
+
+def _folder(model: ReaderModel, element: Element) -> str:
+    """Where files of this kind are looked for."""
+    assert model.source is not None
+    name = {"mesh": "meshdir", "texture": "texturedir"}.get(element.tag, "assetdir")
+    written = {key: value for each in model.source.elements("compiler") for key, value in each.attributes.items()}
+    return "" if element.tag == "include" else written.get(name, written.get("assetdir", ""))
+
+
+@cache
+def _files(around: str) -> dict[str, list[str]]:
+    """The files below the current folder, `around`, and below the one around that, by their names."""
+    made: dict[str, list[str]] = {}
+    seen = 0
+    for top in (".", ".."):
+        for folder, inner, names in os.walk(top):
+            inner[:] = [name for name in inner if not name.startswith(".")]
+            if folder.count("/") > DEPTH:
+                inner.clear()
+            for name in names:
+                made.setdefault(name, []).append(posixpath.normpath(posixpath.join(folder, name)))
+            seen += len(names)
+            if seen > MOST:
+                return made
+    return made

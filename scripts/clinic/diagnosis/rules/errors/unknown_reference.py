@@ -1,0 +1,98 @@
+"""Something refers to a name that no element has.
+
+An actuator, sensor, equality, exclude, material or class names a joint, site, body, mesh or texture that is misspelt,
+was renamed, or has a prefix since it was attached.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="arm" pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" damping="1"/>
+          <geom name="link" type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor name="motor" joint="elbo"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="arm" pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" damping="1"/>
+          <geom name="link" type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor name="motor" joint="elbow"/>
+      </actuator>
+    </mujoco>
+
+The number: none; the text compiles with the edit. The nearest name that stands in the model is tried.
+
+When it is wrong: where several names are equally near.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import delete, remove_attribute, set_attribute
+from clinic.diagnosis.engine import CompileError
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.errors._message import meant, mends, nearest, sentence
+from clinic.diagnosis.source import Element
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "A reference to a name that does not exist"
+FAMILIES = ("will-not-compile",)
+SINCE = "0.2"
+
+NAME = re.compile(r"'([^']+)'")
+SAID = re.compile(r"unknown|unrecognized name|not found|could not find|does not exist|invalid name|missing")
+OPTIONAL = {"class", "childclass", "material", "texture"}  # without them the element still is what it was
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The reference with the nearest name; a class or material also without it; an element without its target gone."""
+    said = sentence(model)
+    if not SAID.search(said) or model.source is None or "attribute" in said or "element" in said or "keyword" in said:
+        return
+    names = NAME.findall(said)
+    every = list(model.source.root.walk())
+    known = [each.get("name") or each.get("class" if each.tag == "default" else "name") for each in every]
+    for element in meant(model) or [each for each in every if set(each.attributes.values()) & set(names)]:
+        for attribute, now in element.attributes.items():
+            wrong = now in names or (not names and attribute in OPTIONAL)
+            if attribute == "name" or not wrong or (now in known and attribute in ("name", "file")):
+                continue
+            if (found := _nearest(model, element, attribute, now, known)) is not None:
+                yield found
+                return
+        if names and set(element.attributes.values()) & set(names):
+            says = f"Nothing is called {names[0]!r}, nor nearly so."
+            yield mends(element, (delete(element),), says, value="removed")
+            return
+
+
+def _nearest(model: ReaderModel, element: Element, attribute: str, now: str, known: list[str]) -> Suspect | None:
+    ends = [name for name in known if name.endswith(now) or now.endswith(name)]
+    for name in [*nearest(now, known), *nearest(now, ends)]:
+        edits = (set_attribute(element, attribute, name),)
+        if not _says(model, edits, name):
+            says = f"Nothing of that kind is called {now!r}; {name!r} is there."
+            return mends(element, edits, says, attribute=attribute, now=now, value=name)
+    if attribute in OPTIONAL:
+        edits = (remove_attribute(element, attribute),)
+        says = f"Nothing of that kind is called {now!r}."
+        return mends(element, edits, says, attribute=attribute, now=now, value="none")
+    return None
+
+
+def _says(model: ReaderModel, edits: tuple[object, ...], name: str) -> bool:
+    made = model.with_edits(edits)  # type: ignore[arg-type]
+    return isinstance(made, CompileError) and (name in str(made) or str(made) == model.error)

@@ -1,0 +1,75 @@
+"""The equations of a record, set for the page and held against what its runs measured."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+
+from clinic.proof.evidence import Evidence
+from clinic.record.case import Case
+from clinic.record.expression import ExpressionError, evaluate, parse
+from clinic.record.fields import Formula
+from clinic.record.latex import latex
+from clinic.record.problem import Problem
+from clinic.record.sweep import Sweep
+
+RELATION = re.compile(r"[=~]")
+SIGNS = {"=": "=", "~": r"\approx"}
+
+
+def sides_as_latex(says: str) -> dict[str, str]:
+    """The `left` and the `right` side of an equation, and the `whole` of it, as LaTeX."""
+    sides = [latex(parse(side)) for side in RELATION.split(says)]
+    signs = [SIGNS[sign] for sign in RELATION.findall(says)]
+    whole = sides[0] + "".join(f" {sign} {side}" for sign, side in zip(signs, sides[1:], strict=True))
+    return {"left": sides[0], "right": sides[-1], "whole": whole}
+
+
+def formulas(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, equations. The sides of each agree with what was measured, within what the record says."""
+    for name, formula in case.record.formulas.items():
+        where, repair = ("formulas", name, "says"), "correct the equation or its `where`"
+        try:
+            apart = largest_difference(case, evidence, formula)
+        except (ExpressionError, KeyError, TypeError) as error:
+            found = f"{formula.says}: {error.args[0] if error.args else error}"
+            yield case.problem(where, found, f"sides that can be computed for {formula.of}", repair)
+            continue
+        if not apart <= formula.within:
+            found = f"{formula.says}: its sides differ by {100 * apart:.3g} % of the largest"
+            yield case.problem(where, found, f"at most {100 * formula.within:g} % for {formula.of}", repair)
+
+
+def largest_difference(case: Case, evidence: Evidence, formula: Formula) -> float:
+    """The largest difference between sides over the situations of a formula, as a share of the largest side.
+
+    Raises:
+        ExpressionError, KeyError: If a side reads a name that there is not, or cannot be computed.
+    """
+    symbols = {symbol: parse(text) for symbol, text in formula.where.items()}
+    rows = []
+    for known in _situations(case, evidence, formula.of):
+        values = {symbol: evaluate(tree, known) for symbol, tree in symbols.items()}
+        rows.append([float(evaluate(parse(side), values)) for side in RELATION.split(formula.says)])
+    largest = max((abs(side) for row in rows for side in row), default=0.0)
+    apart = max((max(row) - min(row) for row in rows), default=float("nan"))
+    return apart / largest if largest else apart
+
+
+def _situations(case: Case, evidence: Evidence, of: str) -> Iterator[Mapping[str, float]]:
+    """The numbers that an equation may read: those of a variant, or of each point of a sweep."""
+    kind, _, name = of.partition(".")
+    sweep: Sweep | None = case.record.sweep[name] if kind == "sweep" else None
+    variant = evidence.variants[of if sweep is None else sweep.base]
+    known: dict[str, float] = {}
+    for signal, takes in variant.values.items():
+        known |= {f"{signal}_{take}": value for take, value in takes.items() if value is not None}
+        known |= {signal: takes["final"]} if takes["final"] is not None else {}
+    if variant.timestep is not None and variant.steps is not None:
+        known |= {"timestep": variant.timestep, "duration": variant.timestep * variant.steps}
+    if sweep is None:
+        yield known
+        return
+    for point in evidence.sweep[name].points:
+        told = {key.replace("-", "_"): value for key, value in point.predicted.items() if value is not None}
+        yield {**known, **point.at, **told, **({} if point.outcome is None else {"outcome": point.outcome})}

@@ -1,0 +1,112 @@
+"""Law 5, numbers: none is typed in prose, and those of a title agree with what is changed."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Iterator
+
+from clinic.engine.variant import Variant, variants
+from clinic.proof.evidence import Evidence
+from clinic.proof.prose_laws import prose_of
+from clinic.proof.trials import changed_numbers
+from clinic.record.case import Case
+from clinic.record.problem import Problem, listed
+from clinic.record.prose import CODE, FIELD, FORMULA
+from clinic.record.yaml_lines import Where
+
+WRITTEN = re.compile(r"(?<![\w.])\d[\d_]*\.?\d*(?:e-?\d+)?")
+SMALL = "three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen twenty thirty forty"
+SMALL += " fifty sixty seventy eighty ninety hundred thousand million dozen"
+COUNT = "|".join(f"{word}s?" for word in SMALL.split())
+SHARE = "fourth|fifth|sixth|seventh|eighth|ninth|tenth|twelfth|twentieth|fiftieth|hundredth|thousandth|millionth"
+SIZE = r"(?:metres?|centimetres?|millimetres?|seconds?|milliseconds?|radians?|degrees?|kilograms?|newtons?|percent)"
+NUMBER = re.compile(
+    rf"(?<![\w.])[-\u2212]?\d[\d_,.]*(?:(?<=\d))(?:[\s\u00a0]?(?:°|%))?|\b(?:{COUNT})(?:-(?:\w+))?\b|\b(?:{SHARE})s?\b|"
+    rf"\btwice\b|\bthrice\b|\bdoubl(?:es|ed|ing)\b|\bhal(?:ve[sd]?|ving)\b|\ba third\b|\bhalf (?:an?|of a) {SIZE}\b|"
+    rf"\b(?:one|two|zero) {SIZE}\b",
+    re.IGNORECASE,
+)
+OPERATOR = re.compile(r"[\d/*=^√()+·]")
+
+
+def typed(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, numbers. None is typed, in digits or in words; a run, the record or the engine has it."""
+    labels: list[tuple[Where, str]] = [
+        (("signals", name, "label"), signal.label) for name, signal in case.record.signals.items()
+    ]
+    releases = [spec.lstrip("<") for spec in case.record.older]
+    for key, sweep in case.record.sweep.items():
+        labels.append((("sweep", key, "title"), sweep.title))
+        labels += [(("sweep", key, "vary", k, "label"), parameter.label) for k, parameter in enumerate(sweep.vary)]
+    reasons: list[tuple[Where, str]] = [(("older", spec), reason) for spec, reason in case.record.older.items()]
+    reasons += [(("exempt", law), reason) for law, reason in case.record.exempt.items()]
+    reasons.append((("no_sweep",), case.record.no_sweep or ""))
+    for where, text in [*prose_of(case), *reasons, *labels]:
+        for found in NUMBER.finditer(FORMULA.sub("", FIELD.sub("x", CODE.sub("", text)))):
+            number = found[0].strip().rstrip(".,")
+            if number not in releases:
+                repair = "write a field such as {{ broken.signal.final }}, or say it without a number"
+                yield case.problem(where, f"{number!r}, typed by hand", "what a run gave", repair, quoted=number)
+    for key, sweep in case.record.sweep.items():
+        for place, form in [("prediction", sweep.prediction), *((f"rivals.{r.id}", r) for r in sweep.rivals)]:
+            if OPERATOR.search(form.label) or NUMBER.search(form.label):
+                wanted, repair = "words alone: the formula stands beside them", "leave the formula out"
+                yield case.problem(("sweep", key, *place.split(".")[:1]), form.label, wanted, repair, form.label)
+
+
+def titled(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, titles. A number in the title of a remedy or trial is one that it writes, or the ratio to that before."""
+    titles: list[tuple[Where, str, set[float]]] = [
+        ((*variant.where, "title"), variant.title, _numbers_of(variant, evidence)) for variant in variants(case)[1:]
+    ]
+    for index, trial in enumerate(case.record.trials):
+        changed = list(changed_numbers(case, case.text, trial))
+        if trial.duration and case.record.run is not None:
+            changed.append((case.record.run.duration, trial.duration))
+        changed += [(math.nan, float(n)) for edit in trial.edits for n in WRITTEN.findall(edit.replace)]
+        titles.append((("trials", index, "title"), trial.title, _and_ratios(changed)))
+    for where, title, allowed in titles:
+        for number in NUMBER.finditer(title):
+            values = _values(number[0])
+            if not any(abs(value - known) <= 1e-6 * abs(value) for value in values for known in allowed):
+                wanted = (
+                    f"a number or a ratio of what it changes: {listed(sorted(f'{value:g}' for value in allowed), 12)}"
+                )
+                yield case.problem(where, number[0], wanted, "correct the title", quoted=number[0])
+
+
+def _numbers_of(variant: Variant, evidence: Evidence) -> set[float]:
+    """The numbers that a remedy writes, and its ratios to those that it replaces."""
+    changed: list[tuple[float, float]] = []
+    for edit in variant.edits:
+        before, after = ([float(n) for n in WRITTEN.findall(text)] for text in (edit.find, edit.replace))
+        changed += [(a, b) for a in [*before, math.nan] for b in after]
+    steps = [evidence.variants[key].timestep for key in ("broken", variant.id)]
+    if steps[0] and steps[1]:
+        changed.append((steps[0], steps[1]))
+    return _and_ratios(changed)
+
+
+def _and_ratios(changed: Iterable[tuple[float, float]]) -> set[float]:
+    """The new numbers, and how many times larger or smaller they are than the old ones."""
+    made = {abs(after) for _, after in changed}
+    ratios = {abs(a / b) for pair in changed for a, b in (pair, pair[::-1]) if b}
+    return made | {float(f"{ratio:.9g}") for ratio in ratios if math.isfinite(ratio)}
+
+
+def _values(number: str) -> list[float]:
+    """What a number in a title may stand for: itself, in thousandths, or the factor that it names."""
+    words = {"twice": 2.0, "double": 2.0, "halve": 2.0, "halving": 2.0, "doubling": 2.0, "dozen": 12.0}
+    words |= {word: float(n) for n, word in enumerate(SMALL.split()[:12], 3)} | {"hundred": 100.0, "thousand": 1000.0}
+    words |= {"fourth": 4.0, "fifth": 5.0, "tenth": 10.0, "hundredth": 100.0, "thousandth": 1000.0, "half": 2.0}
+    if number.lower().startswith("half a"):
+        return [0.5]
+    word = number.lower().split("-")[0]
+    if word in words:
+        return [words[word]]
+    try:
+        value = float(re.sub(r"[^\d.]", "", number))
+    except ValueError:
+        return [float("nan")]
+    return [value, value / 1000]

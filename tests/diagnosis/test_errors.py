@@ -1,0 +1,65 @@
+"""Models that do not compile: the repair, not the message."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import Diagnosis, examine
+from clinic.diagnosis.native import NativeEngine
+from clinic.pages.messages import load_messages
+
+MENDED = {  # messages that no rule mends, with the reason
+    "missing-target": "what the actuator should drive is not in the text",
+    "lengthrange": "a muscle's geometry",
+    "mesh-coplanar": "a mesh that is flat",
+    "mesh-vertices": "a mesh of three points",
+    "cable-plugin": "a plugin that is gone",
+    "unrecognized-root": "no model",
+    "file-not-found": "a file that is nowhere",
+    "include-not-found": "a file that is nowhere",
+}
+COMPILED = [message for message in load_messages() if message.xml is not None]
+
+
+def diagnosed(text: str, tmp_path, monkeypatch) -> Diagnosis:
+    monkeypatch.chdir(tmp_path)
+    return examine(NativeEngine(), {"model.xml": text})
+
+
+@pytest.mark.parametrize("message", COMPILED, ids=lambda message: message.id)
+def test_what_mujoco_refuses_is_mended(message, tmp_path, monkeypatch):
+    found = diagnosed(message.xml, tmp_path, monkeypatch)
+    assert bool(found.causes) == (message.id not in MENDED), found.text()
+    if found.causes:
+        assert not examine(NativeEngine(), dict(found.fixed)).error
+
+
+def test_three_mistakes_are_named_in_turn_and_mended_together(tmp_path, monkeypatch):
+    text = """<mujoco>
+  <worldbody>
+    <body name="arm" pos="0 0, 1">
+      <joint name="elbow" axis="0 1 0"/>
+      <geom name="link" typ="sphere" size="0.1"/>
+    </body>
+  </worldbody>
+  <actuator><motor name="motor" joint="elbo"/></actuator>
+</mujoco>
+"""
+    found = diagnosed(text, tmp_path, monkeypatch)
+    assert [each.rule for each in found.causes] == ["unknown-attribute", "malformed-number", "unknown-reference"]
+    assert [each.line for each in found.causes] == [5, 3, 8]
+    assert found.diff().count("\n+") == 4  # three lines and the head
+
+
+def test_a_file_elsewhere_below_the_folder_is_found(tmp_path, monkeypatch):
+    (tmp_path / "meshes").mkdir()
+    corner = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+    (tmp_path / "meshes" / "part.obj").write_text(corner)
+    text = '<mujoco><asset><mesh name="part" file="Part.obj"/></asset><worldbody/></mujoco>'
+    (found,) = diagnosed(text, tmp_path, monkeypatch).causes
+    assert (found.rule, found.value) == ("missing-file", "meshes/part.obj")
+
+
+def test_a_file_that_is_nowhere_is_a_hint(tmp_path, monkeypatch):
+    found = diagnosed('<mujoco><asset><mesh file="nowhere.obj"/></asset></mujoco>', tmp_path, monkeypatch)
+    assert not found.causes
+    assert [each.rule for each in found.hints] == ["missing-file"]

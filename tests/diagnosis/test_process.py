@@ -1,0 +1,85 @@
+"""A diagnosis in a process of its own, whatever the model does to it."""
+
+from __future__ import annotations
+
+import sys
+
+import clinic
+import mujoco
+import pytest
+from clinic.diagnosis import process
+from clinic.diagnosis.process import DiagnosisError, diagnose
+
+TALL = """<mujoco>
+  <option timestep="0.01"/>
+  <worldbody>
+    <body pos="0 0 1">
+      <joint name="hinge" axis="0 1 0" stiffness="2000" springref="2"/>
+      <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.01" mass="0.05"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+DIES_ON_A_RULE = """
+import base64, os, pickle, sys
+from clinic.diagnosis import process
+line = sys.stdin.buffer.readline()
+if {rule!r} not in pickle.loads(base64.b64decode(line)).ignore:
+    print("trying {rule}", flush=True)
+    os.abort()
+sys.stdin = type("Again", (), {{"buffer": __import__("io").BytesIO(line)}})
+process.main()
+"""
+
+
+def test_a_path_a_text_a_spec_and_a_pair_give_the_same(tmp_path):
+    path = tmp_path / "model.xml"
+    path.write_text(TALL)
+    spec = mujoco.MjSpec.from_string(TALL)
+    given = [path, str(path), TALL, spec, (spec.compile(), TALL), (spec.compile(), str(path))]
+    found = [[each.rule for each in clinic.diagnose(source).causes] for source in given]
+    assert found[0]
+    assert all(each == found[0] for each in found)
+
+
+def test_the_reader_s_file_is_left_as_it_is_and_the_folder_too(tmp_path):
+    path = tmp_path / "model.xml"
+    path.write_text(TALL)
+    diagnose(path)
+    assert [each.name for each in tmp_path.iterdir()] == ["model.xml"]
+    assert path.read_text() == TALL
+
+
+def test_files_that_lie_on_no_disk_are_given_beside_the_text():
+    corner = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+    asset = '<asset><mesh name="part" file="part.obj"/></asset>'
+    text = f'<mujoco>{asset}<worldbody><geom type="mesh" mesh="part"/></worldbody></mujoco>'
+    assert "missing-file" in {each.rule for each in diagnose(text).hints}
+    assert not diagnose(text, assets={"part.obj": corner}).error
+
+
+def test_where_the_engine_dies_that_is_a_finding_and_the_other_rules_are_tried(monkeypatch):
+    rule = "malformed-number"
+    monkeypatch.setattr(process, "CHILD", (sys.executable, "-c", DIES_ON_A_RULE.format(rule=rule)))
+    found = diagnose("<mujoco><worldbody><geom size='0.1' colour='1 0 0 1'/></worldbody></mujoco>")
+    assert [each.rule for each in found.causes] == [process.DIES, "unknown-attribute"]
+    assert rule in found.causes[0].says
+    assert rule not in found.ruled_out
+
+
+def test_a_process_that_dies_before_any_rule_is_a_sentence(monkeypatch):
+    monkeypatch.setattr(process, "CHILD", (sys.executable, "-c", "import os; os.abort()"))
+    with pytest.raises(DiagnosisError, match="MuJoCo ended the process"):
+        diagnose(TALL)
+
+
+@pytest.mark.parametrize("wrong", [3, None, ("a", "b", "c")])
+def test_another_kind_of_source_is_a_sentence(wrong):
+    with pytest.raises(DiagnosisError, match="expected a path, a text, an MjSpec"):
+        diagnose(wrong)
+
+
+def test_a_file_that_is_no_text_is_a_sentence(tmp_path):
+    (tmp_path / "model.xml").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(DiagnosisError, match="not a text in UTF-8"):
+        diagnose(tmp_path / "model.xml")

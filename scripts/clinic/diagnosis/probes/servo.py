@@ -41,6 +41,7 @@ class Servo:
 
     @property
     def unit(self) -> str:
+        """Of the joint's position."""
         return "rad" if self.hinge else "m"
 
     @property

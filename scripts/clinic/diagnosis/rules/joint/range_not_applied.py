@@ -45,6 +45,8 @@ TITLE = "A range that is not applied"
 FAMILIES = ("passes-limit",)
 SINCE = "0.2"
 
+TURN = 6.2  # rad
+
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Hinges and slides with a range and without a limit, all together."""
@@ -52,7 +54,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = []
     for joint, limited in enumerate(simulation.model("jnt_limited")):
         low, high = simulation.row("jnt_range", joint, 2)
-        if not limited and low < high and high - low < 6.2 and simulation.joint_type(joint) in (HINGE, SLIDE):
+        kind = simulation.joint_type(joint)
+        span = (high - low) * (
+            model.angle_unit if kind == HINGE else 0.0
+        )  # of an unused range the numbers stay as written
+        if not limited and low < high and span < TURN and kind in (HINGE, SLIDE):
             found.append(joint)
     if not found:
         return

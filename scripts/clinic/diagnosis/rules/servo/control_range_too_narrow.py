@@ -98,7 +98,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             ),
             MISSED,
             f"Targets from {worst.targets[0]:.3g} to {worst.targets[1]:.3g} {worst.unit} for "
-            f"{simulation.name('joint', worst.joint)}, whose range is {worst.range[0]:.3g} to {worst.range[1]:.3g}{why}.",
+            f"{simulation.name('joint', worst.joint)}, whose range is {worst.range[0]:.3g} to "
+            f"{worst.range[1]:.3g}{why}.",
             'the joint\'s range (inheritrange="1")',
         )
 

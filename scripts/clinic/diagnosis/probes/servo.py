@@ -159,8 +159,8 @@ def _rings(simulation: Simulation, actuator: int) -> float:
     return simulation.kept[key]  # type: ignore[return-value]
 
 
-def _stepped(simulation: Simulation, servo: Servo) -> float:
-    """The overshoot as a share of the step where the joint swings through the target four times, else 0."""
+def _begun(simulation: Simulation, servo: Servo) -> tuple[float, float]:
+    """Begins a step of a servo, the others holding: where it is told to go, and how far that is."""
     simulation.begin()
     hold(simulation)
     begin = simulation.position(servo.joint)
@@ -171,8 +171,13 @@ def _stepped(simulation: Simulation, servo: Servo) -> float:
         step = step if high - begin > begin - low else -step
     command(simulation, servo, begin + step)
     goal = servo.offset + servo.scale * simulation.data("ctrl")[servo.actuator]
-    way = goal - begin
-    if abs(way) < 0.3 * abs(step):
+    return goal, goal - begin
+
+
+def _stepped(simulation: Simulation, servo: Servo) -> float:
+    """The overshoot as a share of the step where the joint swings through the target four times, else 0."""
+    goal, way = _begun(simulation, servo)
+    if abs(way) < 0.03 * STEP[servo.hinge]:
         return 0.0
     period = 2 * math.pi * math.sqrt(servo.inertia / servo.stiffness)
     swings, farthest, side = [], 0.0, -1.0
@@ -185,6 +190,30 @@ def _stepped(simulation: Simulation, servo: Servo) -> float:
             farthest, side = 0.0, -side
         farthest = max(farthest, abs(beyond))
     return swings[1] if len(swings) > 4 else 0.0
+
+
+def _remaining(simulation: Simulation, actuators: Sequence[int]) -> float:
+    return max((_late(simulation, actuator) for actuator in actuators), default=0.0)
+
+
+def _late(simulation: Simulation, actuator: int) -> float:
+    """The share of a step that is left after 1 s."""
+    key = ("late", actuator)
+    servo = _of(simulation, actuator)
+    if key not in simulation.kept and servo:
+        with alone(simulation):
+            goal, way = _begun(simulation, servo)
+            for _ in simulation.run(1.0, samples=5):
+                pass
+            left = abs(goal - simulation.position(servo.joint)) / max(abs(way), 1e-9)
+            simulation.kept[key] = math.inf if simulation.unstable() else left
+    return simulation.kept.get(key, 0.0)  # type: ignore[return-value]
+
+
+def remaining(actuators: Sequence[int]) -> Probe:
+    """How late servos are."""
+    title = "share of a step of 0.1 rad (0.01 m) that is left after 1 s, without gravity"
+    return Probe(title, "", _remaining, (tuple(actuators),))
 
 
 def overshoot(actuators: Sequence[int]) -> Probe:

@@ -31,7 +31,7 @@ Good:
       </actuator>
     </mujoco>
 
-The number: driven for 2 s with all that its actuators give, without gravity and contacts, more than 90 % of the way to
+The number: driven for 2 s with all that its actuators give, without gravity and contacts, more than 80 % of the way to
 1 rad (0.1 m), or to the far limit, is left.
 
 When it is wrong: a brake, or a worm gear that is meant to hold.
@@ -52,8 +52,8 @@ TITLE = "Damping or friction holds a joint"
 FAMILIES = ("stuck", "sags")
 SINCE = "0.2"
 
-SLOW = 0.1  # rad/s or m/s that full force reaches
-LEFT = 0.9
+SLOW = 0.5  # rad/s or m/s that full force reaches
+LEFT = 0.8
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -33,7 +33,7 @@ Good:
 
 The number: with the timestep h and the inertia M a velocity gain is stable below h kv / M = 2, a position gain below
 h^2 kp / M = 4 (explicit integration of a spring and a damper). A model that keeps these at 2 ms, and not at its own
-timestep, has a timestep that is too long.
+timestep, has a timestep that is too long, but where one joint is ten times as far beyond as the others.
 
 When it is wrong: a gain that is a hundred times too high shakes as well; then the gain is the fault.
 """
@@ -41,6 +41,7 @@ When it is wrong: a gain that is a hundred times too high shakes as well; then t
 from __future__ import annotations
 
 from collections.abc import Iterator
+from statistics import median
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.run import fastest
@@ -62,7 +63,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Joints whose gains are beyond what the inertia allows, all together."""
     simulation = model.simulation
     step = simulation.timestep
-    found = {joint: each for joint, each in _gains(simulation).items() if _excess(each, min(step, USUAL)) > 1}
+    gains = _gains(simulation)
+    found = {joint: each for joint, each in gains.items() if _excess(each, min(step, USUAL)) > 1}
+    if not found and len(gains) > 2 and step <= 5 * USUAL:
+        usual = median(_excess(each, step) for each in gains.values())
+        found = {joint: each for joint, each in gains.items() if _excess(each, step) > max(1, 10 * usual)}
     if not found:
         return
     edits: list[Edit] = []

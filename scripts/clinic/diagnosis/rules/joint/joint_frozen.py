@@ -82,7 +82,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             edits,
             way_left(tuple(found)),
             LEFT,
-            f"The actuators of {simulation.name('joint', found[0])} give {force:.3g} N m (N), which moves it with {can}.",
+            f"The actuators of {simulation.name('joint', found[0])} give {force:.3g} N m (N), "
+            f"which moves it with {can}.",
             "full force that reaches 1 rad/s and more",
         )
 

@@ -32,7 +32,8 @@ Good:
     </mujoco>
 
 The number: a step of 0.1 rad (0.01 m for a slide), without gravity and contacts, overshoots by more than 60 % and
-crosses its target four times (more than 15 % with a damping ratio under 0.08, where neighbours take up the swing); with a damping ratio z the overshoot is exp(-pi z / sqrt(1 - z^2)), 0.53 for 0.2.
+crosses its target four times (more than 15 % with a damping ratio under 0.08, where neighbours take up the swing).
+With a damping ratio z the overshoot is exp(-pi z / sqrt(1 - z^2)), 0.53 for 0.2.
 
 When it is wrong: friction that the model leaves to contacts, or a controller that adds the damping.
 """

@@ -110,7 +110,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             + (f", as of {len(meant) - 1} more" if len(meant) > 1 else "")
             + f"; read in {unit}s it is {low * factor:.3g} to {high * factor:.3g} rad.",
             "0.3 to 6.5 rad",
-            level="cause" if simulation.geoms_of(0) else "hint",
+            level="hint" if most and not simulation.geoms_of(0) else "cause",
         )
 
 

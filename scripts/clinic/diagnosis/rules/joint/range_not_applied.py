@@ -58,7 +58,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         span = (high - low) * (
             model.angle_unit if kind == HINGE else 0.0
         )  # of an unused range the numbers stay as written
-        if not limited and low < high and span < TURN and kind in (HINGE, SLIDE):
+        turns = TURN <= high - low <= 2.1 * TURN  # one or two, in rad whatever the unit
+        if not limited and low < high and span < TURN and not turns and kind in (HINGE, SLIDE):
             found.append(joint)
     if not found:
         return

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from clinic.diagnosis.edit import Edit, apply, insert, remove_attribute, set_attribute
@@ -16,6 +17,11 @@ TAGS = {  # how the elements of a kind are written
     "site": ("site",),
     "camera": ("camera",),
     "light": ("light",),
+}
+URDF = {
+    "range": ("limit", "lower", "upper"),
+    "damping": ("dynamics", "damping"),
+    "frictionloss": ("dynamics", "friction"),
 }
 SECTION = {"actuator": "actuator", "sensor": "sensor", "equality": "equality", "tendon": "tendon", "key": "keyframe"}
 
@@ -65,6 +71,14 @@ class ReaderModel:
             self._measured[key] = float("inf") if isinstance(found, CompileError) else probe.run(found)
         return self._measured[key]
 
+    @property
+    def angle_unit(self) -> float:
+        """The unit in which the text has angles, in rad: 1, or pi/180 where MJCF does not say otherwise."""
+        if self.source is None or self.source.urdf:
+            return 1.0
+        written = [each.get("angle") for each in self.source.elements("compiler") if each.get("angle")]
+        return 1.0 if written and written[-1] == "radian" else math.pi / 180
+
     def element(self, kind: str, index: int) -> Element | None:
         """Where an element of the compiled model is written; None for one that a macro made."""
         if kind not in self._elements:
@@ -106,6 +120,8 @@ class ReaderModel:
         if self.source is None or not found or any(each is None for each in found):
             return ()
         elements = [each for each in found if each is not None]
+        if self.source.urdf:
+            return self._set_urdf(elements, attribute, value)
         made: dict[Edit, None] = {}
         for element in elements:
             target = element
@@ -118,6 +134,15 @@ class ReaderModel:
                 target = holder[0]
             made[set_attribute(target, attribute, value)] = None
         return tuple(made)
+
+    def _set_urdf(self, elements: Sequence[Element], attribute: str, value: str) -> tuple[Edit, ...]:
+        """The same where the text is URDF, which has ranges, damping and friction of a joint in elements inside it."""
+        tag, *names = URDF.get(attribute, ("",))
+        inner = [each.first(tag) for each in elements]
+        if not tag or any(each is None for each in inner):
+            return ()
+        values = value.split()
+        return tuple(set_attribute(each, *pair) for each in inner if each for pair in zip(names, values, strict=True))
 
     def remove(self, kind: str, indices: Sequence[int], attribute: str) -> tuple[Edit, ...]:
         """Edits that take an attribute off elements that have it themselves."""

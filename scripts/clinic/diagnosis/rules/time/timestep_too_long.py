@@ -27,10 +27,11 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: the fastest joint within 2 s after letting go; 100 rad/s are 16 turns a second. Of the steps that are
-tried (a half, a quarter, an eighth, a sixteenth) the longest that brings it to a tenth is told.
+The number: the fastest joint within 2 s after letting go (100 rad/s are 16 turns a second), or, where that is calm, how
+much a joint's speed jumps to and fro from step to step after a nudge. Of the steps that are tried (a half, a quarter,
+an eighth, a sixteenth) the longest that brings it to a tenth is told.
 
-When it is wrong: something that is meant to spin fast.
+When it is wrong: something that is meant to spin fast. A gain or a spring that shakes at 2 ms too is the fault itself.
 """
 
 from __future__ import annotations
@@ -38,6 +39,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.run import fastest
+from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -49,15 +51,16 @@ FAST = 100.0  # rad/s
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """The timestep, where letting go makes something fast."""
-    step, probe = model.simulation.timestep, fastest()
-    if model.measured(probe) <= FAST:
-        return
-    for divisor in (2, 4, 8, 16):
-        edits = model.option("timestep", f"{step / divisor:g}")
-        if model.measured(probe, edits) <= min(FAST, 0.1 * model.measured(probe)):
-            says = f"At {step / divisor:g} s the same motion stays calm."
-            yield Suspect(
-                ("the timestep",), "timestep", f"{step:g}", f"{step / divisor:g}", edits, probe, FAST, says, share=0.1
-            )
-            return
+    """The timestep, where letting go makes something fast, or a nudge makes it rattle."""
+    step = model.simulation.timestep
+    for probe, limit in ((fastest(), FAST), (shake(), SHAKES)):
+        before = model.measured(probe)
+        if before <= limit:
+            continue
+        for divisor in (2, 4, 8, 16):
+            edits = model.option("timestep", f"{step / divisor:g}")
+            if model.measured(probe, edits) <= min(limit, 0.1 * before):
+                says = f"At {step / divisor:g} s the same motion stays calm."
+                now, value = f"{step:g}", f"{step / divisor:g}"
+                yield Suspect(("the timestep",), "timestep", now, value, edits, probe, limit, says, share=0.1)
+                return

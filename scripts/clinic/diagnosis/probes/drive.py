@@ -1,0 +1,56 @@
+"""Joints driven with all that their actuators may give: how much of the way they go."""
+
+from __future__ import annotations
+
+import math
+
+from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.probes.servo import alone, command, hold, servos
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe
+
+SECONDS = 2.0
+
+
+def _left(simulation: Simulation, joints: tuple[int, ...]) -> float:
+    return max((_left_of(simulation, joint) for joint in joints), default=0.0)
+
+
+def _left_of(simulation: Simulation, joint: int) -> float:
+    key = ("driven", joint)
+    if key not in simulation.kept:
+        with alone(simulation):
+            simulation.kept[key] = _driven(simulation, joint)
+    return simulation.kept[key]  # type: ignore[return-value]
+
+
+def _driven(simulation: Simulation, joint: int) -> float:
+    simulation.begin()
+    hold(simulation)
+    begin = simulation.position(joint)
+    way = 1.0 if simulation.joint_type(joint) == HINGE else 0.1
+    side = 1.0
+    if simulation.model("jnt_limited")[joint]:
+        low, high = simulation.row("jnt_range", joint, 2)
+        side = 1.0 if high - begin >= begin - low else -1.0
+        way = min(way, max(high - begin, begin - low))
+    own = {each.actuator: each for each in servos(simulation) if each.joint == joint}
+    for actuator in range(simulation.count("actuator")):
+        if actuator in own:
+            command(simulation, own[actuator], begin + side * way)
+        elif simulation.driven_joint(actuator) == joint and simulation.model("actuator_ctrllimited")[actuator]:
+            ends = simulation.row("actuator_ctrlrange", actuator, 2)
+            turned = side * simulation.model("actuator_gear")[6 * actuator] > 0
+            simulation.engine.write("ctrl", [ends[1] if turned else ends[0]], actuator)
+    farthest = 0.0
+    for _ in simulation.run(SECONDS, samples=20):
+        if simulation.unstable():
+            return math.inf
+        farthest = max(farthest, side * (simulation.position(joint) - begin))
+    return 1 - min(1.0, farthest / way)
+
+
+def way_left(joints: tuple[int, ...]) -> Probe:
+    """How much is left of 1 rad (0.1 m), or of the way to the far limit, after driving a joint there for 2 s."""
+    title = "share of the way to 1 rad (0.1 m) or the far limit that is left after 2 s of all that the actuators give"
+    return Probe(title, "", _left, (joints,))

@@ -1,0 +1,45 @@
+"""Servos pressed to the ends of their control ranges: how far their joints go beyond their limits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from clinic.diagnosis.probes.servo import alone, hold, servos
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe
+
+SECONDS = 1.0
+
+
+def _past(simulation: Simulation, actuators: Sequence[int]) -> float:
+    key = ("past", actuators)
+    if key not in simulation.kept:
+        with alone(simulation):
+            simulation.kept[key] = max(_pressed(simulation, actuators, end) for end in (0, 1))
+    return simulation.kept[key]  # type: ignore[return-value]
+
+
+def _pressed(simulation: Simulation, actuators: Sequence[int], end: int) -> float:
+    simulation.begin()
+    hold(simulation)
+    pressed = [each for each in servos(simulation) if each.actuator in actuators and each.ctrl and each.range]
+    for servo in pressed:
+        assert servo.ctrl is not None
+        simulation.engine.write("ctrl", [servo.ctrl[end]], servo.actuator)
+    for _ in simulation.run(SECONDS, samples=5):
+        if simulation.unstable():
+            return math.inf
+    farthest = 0.0
+    for servo in pressed:
+        assert servo.range is not None
+        low, high = servo.range
+        place = simulation.position(servo.joint)
+        farthest = max(farthest, (low - place) / (high - low), (place - high) / (high - low))
+    return farthest
+
+
+def past_limit(actuators: Sequence[int]) -> Probe:
+    """How far beyond their limits servos push their joints."""
+    title = "farthest beyond a limit after 1 s at an end of the control range, as a share of the joint's range"
+    return Probe(title, "", _past, (tuple(actuators),))

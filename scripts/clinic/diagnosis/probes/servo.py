@@ -1,0 +1,222 @@
+"""Position servos: what they are told to do, and how the joint follows."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe
+
+FIXED, AFFINE = 0, 1  # mjtGain; mjtBias: none, affine
+INTEGRATOR, USER = 1, 4  # first mjtDyn that integrates its control
+CONTACTS_OFF = 1 << 4  # mjtDisableBit
+STEP = {True: 0.1, False: 0.01}  # of a hinge in rad, of a slide in m
+
+
+@dataclass(frozen=True)
+class Servo:
+    """A position servo of a hinge or slide: at the joint, in N m, rad and s, or N, m and s.
+
+    It pulls towards `offset + scale * ctrl` with `stiffness`; `damping` has the joint's in it. `force` is the most
+    that it can give.
+    """
+
+    actuator: int
+    joint: int
+    dof: int
+    hinge: bool
+    stiffness: float
+    damping: float
+    own_damping: float
+    scale: float
+    offset: float
+    force: float
+    inertia: float
+    ctrl: tuple[float, float] | None
+    range: tuple[float, float] | None
+
+    @property
+    def unit(self) -> str:
+        """Of the joint's position."""
+        return "rad" if self.hinge else "m"
+
+    @property
+    def ratio(self) -> float:
+        """The damping ratio; 1 is critical."""
+        return self.damping / (2 * math.sqrt(self.stiffness * self.inertia))
+
+    @property
+    def targets(self) -> tuple[float, float] | None:
+        """Where its control range can send the joint."""
+        if self.ctrl is None:
+            return None
+        ends = [self.offset + self.scale * each for each in self.ctrl]
+        return min(ends), max(ends)
+
+    def command(self, position: float) -> float:
+        """The control that calls for a position, within the control range."""
+        wanted = (position - self.offset) / self.scale
+        return min(max(wanted, self.ctrl[0]), self.ctrl[1]) if self.ctrl else wanted
+
+
+def servos(simulation: Simulation) -> list[Servo]:
+    """The position servos of hinges and slides that the model has, however they are written."""
+    if "servos" not in simulation.kept:
+        simulation.kept["servos"] = [
+            found for i in range(simulation.count("actuator")) if (found := _servo(simulation, i)) is not None
+        ]
+    return simulation.kept["servos"]  # type: ignore[return-value]
+
+
+def _servo(simulation: Simulation, actuator: int) -> Servo | None:
+    joint = simulation.driven_joint(actuator)
+    kinds = [int(simulation.model(f"actuator_{kind}")[actuator]) for kind in ("gaintype", "biastype", "dyntype")]
+    if joint is None or kinds[0] != FIXED or kinds[1] != AFFINE or kinds[2] in (INTEGRATOR, USER):
+        return None
+    gain = simulation.row(
+        "actuator_gainprm", actuator, len(simulation.model("actuator_gainprm")) // simulation.count("actuator")
+    )[0]
+    bias = simulation.row(
+        "actuator_biasprm", actuator, len(simulation.model("actuator_biasprm")) // simulation.count("actuator")
+    )
+    gear = simulation.row("actuator_gear", actuator, 6)[0]
+    if not gain or not gear or bias[1] >= 0:
+        return None
+    dof = simulation.dof(joint)
+    damping = simulation.model("dof_damping")[dof]
+    limits = [math.inf]
+    if simulation.model("actuator_forcelimited")[actuator]:
+        limits.append(max(map(abs, simulation.row("actuator_forcerange", actuator, 2))) * abs(gear))
+    if simulation.model("jnt_actfrclimited")[joint]:
+        limits.append(max(map(abs, simulation.row("jnt_actfrcrange", joint, 2))))
+    limited = simulation.model("actuator_ctrllimited")[actuator]
+    ranged = simulation.model("jnt_limited")[joint]
+    return Servo(
+        actuator,
+        joint,
+        dof,
+        simulation.joint_type(joint) == HINGE,
+        -bias[1] * gear**2,
+        -bias[2] * gear**2 + damping,
+        -bias[2] * gear**2,
+        gain / (-bias[1] * gear),
+        bias[0] / (-bias[1] * gear),
+        min(limits),
+        max(simulation.mass_diagonal[dof], 1e-12),
+        simulation.row("actuator_ctrlrange", actuator, 2) if limited else None,  # type: ignore[arg-type]
+        simulation.row("jnt_range", joint, 2) if ranged else None,  # type: ignore[arg-type]
+    )
+
+
+def hold(simulation: Simulation) -> None:
+    """Tells every position servo to stay where its joint is."""
+    for servo in servos(simulation):
+        command(simulation, servo, simulation.position(servo.joint))
+
+
+def command(simulation: Simulation, servo: Servo, position: float) -> None:
+    """Tells a servo where to go; one with a filter begins there."""
+    ctrl = servo.command(position)
+    simulation.engine.write("ctrl", [ctrl], servo.actuator)
+    state = int(simulation.model("actuator_actadr")[servo.actuator])
+    if state >= 0:
+        simulation.engine.write("act", [ctrl], state)
+
+
+@contextmanager
+def alone(simulation: Simulation, *, gravity: bool = False) -> Iterator[None]:
+    """Without contacts, and without gravity, for as long as the block takes."""
+    engine = simulation.engine
+    flags, pull = simulation.model("opt.disableflags")[0], list(simulation.model("opt.gravity"))
+    engine.write_model("opt.disableflags", [int(flags) | CONTACTS_OFF])
+    if not gravity:
+        engine.write_model("opt.gravity", [0.0, 0.0, 0.0])
+    try:
+        yield
+    finally:
+        engine.write_model("opt.disableflags", [int(flags)])
+        engine.write_model("opt.gravity", pull)
+
+
+def _of(simulation: Simulation, actuator: int) -> Servo | None:
+    return next((each for each in servos(simulation) if each.actuator == actuator), None)
+
+
+def _overshoot(simulation: Simulation, actuators: Sequence[int]) -> float:
+    return max((_rings(simulation, actuator) for actuator in actuators), default=0.0)
+
+
+def _rings(simulation: Simulation, actuator: int) -> float:
+    key = ("rings", actuator)
+    if key not in simulation.kept:
+        servo = _of(simulation, actuator)
+        with alone(simulation):
+            simulation.kept[key] = _stepped(simulation, servo) if servo else 0.0
+    return simulation.kept[key]  # type: ignore[return-value]
+
+
+def _begun(simulation: Simulation, servo: Servo) -> tuple[float, float]:
+    """Begins a step of a servo, the others holding: where it is told to go, and how far that is."""
+    simulation.begin()
+    hold(simulation)
+    begin = simulation.position(servo.joint)
+    step = STEP[servo.hinge]
+    if servo.range:
+        low, high = servo.range
+        step = min(step, 0.1 * (high - low))
+        step = step if high - begin > begin - low else -step
+    command(simulation, servo, begin + step)
+    goal = servo.offset + servo.scale * simulation.data("ctrl")[servo.actuator]
+    return goal, goal - begin
+
+
+def _stepped(simulation: Simulation, servo: Servo) -> float:
+    """The overshoot as a share of the step where the joint swings through the target four times, else 0."""
+    goal, way = _begun(simulation, servo)
+    if abs(way) < 0.03 * STEP[servo.hinge]:
+        return 0.0
+    period = 2 * math.pi * math.sqrt(servo.inertia / servo.stiffness)
+    swings, farthest, side = [], 0.0, -1.0
+    for _ in simulation.run(min(4.5 * period, 5.0), samples=250):
+        if simulation.unstable():
+            return math.inf
+        beyond = (simulation.position(servo.joint) - goal) / way
+        if beyond * side < 0:
+            swings.append(farthest)
+            farthest, side = 0.0, -side
+        farthest = max(farthest, abs(beyond))
+    return swings[1] if len(swings) > 4 else 0.0
+
+
+def _remaining(simulation: Simulation, actuators: Sequence[int]) -> float:
+    return max((_late(simulation, actuator) for actuator in actuators), default=0.0)
+
+
+def _late(simulation: Simulation, actuator: int) -> float:
+    """The share of a step that is left after 1 s."""
+    key = ("late", actuator)
+    servo = _of(simulation, actuator)
+    if key not in simulation.kept and servo:
+        with alone(simulation):
+            goal, way = _begun(simulation, servo)
+            for _ in simulation.run(1.0, samples=5):
+                pass
+            left = abs(goal - simulation.position(servo.joint)) / max(abs(way), 1e-9)
+            simulation.kept[key] = math.inf if simulation.unstable() else left
+    return simulation.kept.get(key, 0.0)  # type: ignore[return-value]
+
+
+def remaining(actuators: Sequence[int]) -> Probe:
+    """How late servos are."""
+    title = "share of a step of 0.1 rad (0.01 m) that is left after 1 s, without gravity"
+    return Probe(title, "", _remaining, (tuple(actuators),))
+
+
+def overshoot(actuators: Sequence[int]) -> Probe:
+    """How much a step of a servo rings: its overshoot as a share of the step, 0 where it soon comes to rest."""
+    title = "overshoot of a step of 0.1 rad (0.01 m) without gravity that rings four times, as a share of the step"
+    return Probe(title, "", _overshoot, (tuple(actuators),))

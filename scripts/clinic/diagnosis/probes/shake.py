@@ -1,0 +1,59 @@
+"""A nudge: whether the model comes to rest, or rattles from step to step."""
+
+from __future__ import annotations
+
+import math
+
+from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.probes.servo import alone, hold
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe
+
+NUDGE = 0.01  # rad or m
+SECONDS = 0.5
+LOOKED_AT = 40  # steps
+SHAKES = 5.0  # rad/s a step, above which a joint rattles
+
+
+def _shake(simulation: Simulation) -> float:
+    if "shake" not in simulation.kept:
+        with alone(simulation):
+            simulation.kept["shake"] = _shaken(simulation)
+    return simulation.kept["shake"]  # type: ignore[return-value]
+
+
+def _shaken(simulation: Simulation) -> float:
+    simulation.begin()
+    hold(simulation)
+    for joint in range(simulation.count("joint")):
+        if simulation.joint_type(joint) in (HINGE, SLIDE):
+            low, high = simulation.row("jnt_range", joint, 2)
+            begin = simulation.position(joint)
+            free = not simulation.model("jnt_limited")[joint] or begin + NUDGE < high
+            moved = begin + NUDGE if free else max(low, begin - NUDGE)
+            simulation.engine.write("qpos", [moved], int(simulation.model("jnt_qposadr")[joint]))
+    for _ in simulation.run(SECONDS, samples=20):
+        if simulation.unstable():
+            return math.inf
+    speeds, changes = list(simulation.data("qvel")), [0.0] * simulation.count("dof")
+    turned, turns = [0.0] * len(changes), [0] * len(changes)
+    for _ in range(LOOKED_AT):
+        simulation.engine.step()
+        now = list(simulation.data("qvel"))
+        for dof, (old, new) in enumerate(zip(speeds, now, strict=True)):
+            if (new - old) * changes[dof] < 0:
+                turned[dof] += abs(new - old) / LOOKED_AT
+                turns[dof] += 1
+            changes[dof] = new - old
+        speeds = now
+    if simulation.unstable():
+        return math.inf
+    return max((each for each, often in zip(turned, turns, strict=True) if often > LOOKED_AT / 2), default=0.0)
+
+
+def shake() -> Probe:
+    """How much the speed of a joint jumps to and fro from one step to the next, after a nudge."""
+    title = (
+        "to and fro of a joint's speed from step to step, 0.5 s after a nudge of 0.01 rad without contacts and gravity"
+    )
+    return Probe(title, "rad/s", _shake)

@@ -1,0 +1,123 @@
+"""A joint that follows another may not go where it is led.
+
+`<equality><joint joint1=".." joint2=".."/>` (in URDF `<mimic>`) makes joint1 follow joint2. Where the follower's range
+leaves out what the leader's range asks for, limit and equality fight, and the leader is held.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="knuckle" axis="0 1 0" range="0 50"/>
+          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
+        </body>
+        <body pos="0 0.1 1">
+          <joint name="tip" axis="0 1 0" range="0 50"/>
+          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
+        </body>
+      </worldbody>
+      <equality>
+        <joint joint1="tip" joint2="knuckle" polycoef="0 -1 0 0 0"/>
+      </equality>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="knuckle" axis="0 1 0" range="0 50"/>
+          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
+        </body>
+        <body pos="0 0.1 1">
+          <joint name="tip" axis="0 1 0" range="-50 0"/>
+          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
+        </body>
+      </worldbody>
+      <equality>
+        <joint joint1="tip" joint2="knuckle" polycoef="0 -1 0 0 0"/>
+      </equality>
+    </mujoco>
+
+The number: the share of the leader's range that leads the follower out of its own; more than a half.
+
+When it is wrong: a leader that something else keeps to a part of its range.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A joint may not go where it is led"
+FAMILIES = ("stuck", "jumps-at-start")
+SINCE = "0.2"
+
+JOINT = 2  # mjtEq
+POINTS = 41
+LOST = 0.5
+SLACK = 0.02  # of the follower's range
+
+
+Coupling = tuple[int, int, tuple[float, ...]]  # follower, leader, factors of the powers of the leader's way
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Followers whose range leaves out most of what they are led to, all together."""
+    simulation = model.simulation
+    found = [each for each in _equalities(simulation) if _lost(simulation, (each,)) > LOST]
+    if not found:
+        return
+    edits: tuple[Edit, ...] = ()
+    for each in found:
+        scale = 1 / model.angle_unit if simulation.joint_type(each[0]) == HINGE else 1.0
+        led = _led(simulation, each)
+        edits += model.set("joint", [each[0]], "range", f"{min(led) * scale:.4g} {max(led) * scale:.4g}")
+    follower, leader, _ = found[0]
+    low, high = simulation.row("jnt_range", follower, 2)
+    led = _led(simulation, found[0])
+    yield Suspect(
+        tuple(simulation.name("joint", each[0]) for each in found),
+        "range",
+        f"{low:.3g} {high:.3g}",
+        f"{min(led):.3g} {max(led):.3g}",
+        edits,
+        Probe("share of a leader's range that leads a joint out of its own", "", _lost, (tuple(found),), dynamic=False),
+        LOST,
+        f"{simulation.name('joint', leader)} leads {simulation.name('joint', follower)} to {min(led):.3g} to "
+        f"{max(led):.3g}, and its range is {low:.3g} to {high:.3g}.",
+        "a range that holds all that the leader asks for",
+    )
+
+
+def _equalities(simulation: Simulation) -> Iterator[Coupling]:
+    count = simulation.count("equality")
+    for each in range(count):
+        follower, leader = (int(simulation.model(f"eq_obj{side}id")[each]) for side in (1, 2))
+        if int(simulation.model("eq_type")[each]) == JOINT and leader >= 0 and simulation.model("eq_active0")[each]:
+            yield follower, leader, simulation.row("eq_data", each, len(simulation.model("eq_data")) // count)[:5]
+
+
+def _led(simulation: Simulation, coupling: Coupling) -> list[float]:
+    """Where the follower is led over the leader's range."""
+    follower, leader, factors = coupling
+    begins = [simulation.model("qpos0")[int(simulation.model("jnt_qposadr")[joint])] for joint in (follower, leader)]
+    low, high = simulation.row("jnt_range", leader, 2)
+    ways = [low + (high - low) * point / (POINTS - 1) - begins[1] for point in range(POINTS)]
+    return [begins[0] + sum(factor * way**power for power, factor in enumerate(factors)) for way in ways]
+
+
+def _lost(simulation: Simulation, couplings: tuple[Coupling, ...]) -> float:
+    most = 0.0
+    for coupling in couplings:
+        if all(simulation.model("jnt_limited")[joint] for joint in coupling[:2]):
+            low, high = simulation.row("jnt_range", coupling[0], 2)
+            slack = SLACK * (high - low)
+            outside = [not low - slack <= place <= high + slack for place in _led(simulation, coupling)]
+            most = max(most, sum(outside) / POINTS)
+    return most

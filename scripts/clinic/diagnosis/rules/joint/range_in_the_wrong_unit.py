@@ -1,0 +1,120 @@
+"""Joint ranges in degrees are read as radians, or the other way.
+
+MJCF takes angles in degrees unless `<compiler angle="radian"/>` says otherwise. A range of 2.5 becomes 0.04 rad, and
+the joint is stuck; or a range of 90 becomes 14 turns, and the joint has no limit.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" range="0 2.5" damping="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor joint="elbow"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <compiler angle="radian"/>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" range="0 2.5" damping="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor joint="elbow"/>
+      </actuator>
+    </mujoco>
+
+The number: ranges under 0.12 rad (7 degrees) or over 25 rad (4 turns), of at least half of the hinges that have a
+range; or of a few, where the number as it is written is a usual angle in the other unit. Between 0.3 and 6.5 rad lie
+the ranges of 95 % of the hinges of 81 healthy models.
+
+When it is wrong: flexures, and screws of many turns. A model without anything fixed, not even a floor, is a part for
+another model, which says in what unit angles are: then it is a hint.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "Ranges in degrees read as radians, or the other way"
+FAMILIES = ("stuck", "passes-limit", "jumps-at-start")
+SINCE = "0.2"
+CASE = "elbow-will-not-bend"
+
+NARROW, WIDE = 0.12, 25.0  # rad
+DEGREE = math.pi / 180
+
+
+def _spans(simulation: Simulation) -> dict[int, float]:
+    """The widths of the ranges of the hinges that have one, in rad."""
+    made = {}
+    for joint, limited in enumerate(simulation.model("jnt_limited")):
+        low, high = simulation.row("jnt_range", joint, 2)
+        if limited and high > low and simulation.joint_type(joint) == HINGE:
+            made[joint] = high - low
+    return made
+
+
+def _off(simulation: Simulation, joints: tuple[int, ...]) -> float:
+    """How many times the narrowest or widest of the ranges is beyond a usual one."""
+    spans = _spans(simulation)
+    return max((max(0.3 / spans[each], spans[each] / 6.5) for each in joints if each in spans), default=0.0)
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The unit of all angles where it is most ranges, else that of the few."""
+    simulation, spans = model.simulation, _spans(model.simulation)
+    for few, factor, unit in (
+        ([joint for joint, span in spans.items() if span < NARROW], 1 / DEGREE, "radian"),
+        ([joint for joint, span in spans.items() if span > WIDE], DEGREE, "degree"),
+    ):
+        meant = [joint for joint in few if 0.3 <= spans[joint] * factor <= 12.7]
+        if not meant:
+            continue
+        most = 2 * len(few) >= len(spans) and len(meant) == len(few)
+        if not most and (unit == "radian" or not all(_round(model, each) for each in meant)):
+            continue
+        edits: tuple[Edit, ...] = model.option("angle", unit, "compiler") if most else ()
+        for joint in () if most else meant:
+            now = [each * factor for each in simulation.row("jnt_range", joint, 2)]
+            edits += model.set("joint", [joint], "range", " ".join(f"{each:.4g}" for each in now))
+        low, high = simulation.row("jnt_range", meant[0], 2)
+        yield Suspect(
+            tuple(simulation.name("joint", each) for each in meant),
+            "angle" if most else "range",
+            "degree" if unit == "radian" else "radian",
+            unit,
+            edits,
+            Probe(
+                "times a range is narrower than 0.3 rad or wider than 6.5 rad", "", _off, (tuple(meant),), dynamic=False
+            ),
+            2.0,
+            f"The range of {simulation.name('joint', meant[0])} is {low:.3g} to {high:.3g} rad"
+            + (f", as of {len(meant) - 1} more" if len(meant) > 1 else "")
+            + f"; read in {unit}s it is {low * factor:.3g} to {high * factor:.3g} rad.",
+            "0.3 to 6.5 rad",
+            level="hint" if most and not simulation.geoms_of(0) else "cause",
+        )
+
+
+def _round(model: ReaderModel, joint: int) -> bool:
+    """Whether a range is written in whole degrees."""
+    written = model.value("joint", joint, "range") or ""
+    return all(each.lstrip("-").replace(".0", "").isdigit() for each in written.split())

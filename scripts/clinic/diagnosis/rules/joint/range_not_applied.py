@@ -1,0 +1,94 @@
+"""A joint has a range that is not applied.
+
+`limited="false"`, or `<compiler autolimits="false"/>` without `limited="true"`, leaves a range without effect.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" range="-30 30" limited="false"/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" range="-30 30" limited="true"/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the joint is put a tenth of its range beyond a limit; 1 where nothing pushes it back.
+
+A hinge whose range is a turn and more is left alone.
+
+When it is wrong: a range that is kept for reference.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.probes.servo import alone
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A range that is not applied"
+FAMILIES = ("passes-limit",)
+SINCE = "0.2"
+
+TURN = 6.2  # rad
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Hinges and slides with a range and without a limit, all together."""
+    simulation = model.simulation
+    found = []
+    for joint, limited in enumerate(simulation.model("jnt_limited")):
+        low, high = simulation.row("jnt_range", joint, 2)
+        kind = simulation.joint_type(joint)
+        span = (high - low) * (
+            model.angle_unit if kind == HINGE else 0.0
+        )  # of an unused range the numbers stay as written
+        turns = TURN <= high - low <= 2.1 * TURN  # one or two, in rad whatever the unit
+        if not limited and low < high and span < TURN and not turns and kind in (HINGE, SLIDE):
+            found.append(joint)
+    if not found:
+        return
+    low, high = simulation.row("jnt_range", found[0], 2)
+    yield Suspect(
+        tuple(simulation.name("joint", each) for each in found),
+        "limited",
+        "false",
+        "true",
+        model.set("joint", found, "limited", "true"),
+        Probe(
+            "1 where nothing pushes a joint back from beyond its range", "", _unstopped, (tuple(found),), dynamic=False
+        ),
+        0.5,
+        f"The range of {simulation.name('joint', found[0])}, {low:.3g} to {high:.3g}, has no effect.",
+        'limited="auto", with autolimits',
+    )
+
+
+def _unstopped(simulation: Simulation, joints: tuple[int, ...]) -> float:
+    simulation.begin()
+    free = 0.0
+    with alone(simulation):
+        for joint in joints:
+            low, high = simulation.row("jnt_range", joint, 2)
+            simulation.begin(forward=False)
+            beyond = high + 0.1 * (high - low)
+            simulation.engine.write("qpos", [beyond], int(simulation.model("jnt_qposadr")[joint]))
+            simulation.engine.forward()
+            pushed = simulation.data("qfrc_constraint")[simulation.dof(joint)] < 0
+            free = max(free, 0.0 if pushed else 1.0)
+    return free

@@ -1,0 +1,95 @@
+"""A joint's spring is at rest far outside of what the joint can reach.
+
+`springref` is an angle in the unit of the text. One that was written in degrees and is read as radians, or belongs to
+another joint, presses the joint against its limit, or winds it up.
+
+Bad:
+
+    <mujoco>
+      <compiler angle="radian"/>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" range="-1 1" stiffness="1" springref="45" damping="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <compiler angle="radian"/>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" range="-1 1" stiffness="1" springref="0.785" damping="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: how far the rest of the spring is beyond the range, or from the start where there is none; more than 2.5 rad
+(6.3 rad without a range). Springs that preload a mechanism are up to 1.8 rad beyond.
+
+When it is wrong: a preload by a long soft spring.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A spring at rest far outside of the range"
+FAMILIES = ("drifts", "stuck", "jumps-at-start", "explodes")
+SINCE = "0.2"
+
+FAR = 2.5  # rad
+TURN = 6.3
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Hinges whose springs are wound up, all together."""
+    simulation = model.simulation
+    found = [joint for joint, off in _off(simulation).items() if off > FAR]
+    if not found:
+        return
+    edits: tuple[Edit, ...] = ()
+    for joint in found:
+        edits += model.set("joint", [joint], "springref", f"{simulation.model('qpos0')[_place(simulation, joint)]:g}")
+    rest = simulation.model("qpos_spring")[_place(simulation, found[0])]
+    yield Suspect(
+        tuple(simulation.name("joint", each) for each in found),
+        "springref",
+        f"{rest / model.angle_unit:.4g}",
+        next((each.value for each in edits), ""),
+        edits,
+        Probe("how far a spring's rest is beyond the range", "rad", _farthest, dynamic=False),
+        FAR,
+        f"The spring of {simulation.name('joint', found[0])} is at rest at {rest:.3g} rad.",
+        "a rest that the joint can reach",
+    )
+
+
+def _place(simulation: Simulation, joint: int) -> int:
+    return int(simulation.model("jnt_qposadr")[joint])
+
+
+def _off(simulation: Simulation) -> dict[int, float]:
+    """How far the rest of each hinge's spring is beyond its range, in rad."""
+    made = {}
+    for joint, stiffness in enumerate(simulation.model("jnt_stiffness")):
+        if stiffness > 0 and simulation.joint_type(joint) == HINGE:
+            rest, begin = (simulation.model(field)[_place(simulation, joint)] for field in ("qpos_spring", "qpos0"))
+            low, high = begin - TURN + FAR, begin + TURN - FAR
+            if simulation.model("jnt_limited")[joint]:
+                low, high = simulation.row("jnt_range", joint, 2)
+            made[joint] = max(low - rest, rest - high, 0.0)
+    return made
+
+
+def _farthest(simulation: Simulation) -> float:
+    return max(_off(simulation).values(), default=0.0)

@@ -1,0 +1,118 @@
+"""A joint starts outside of its range.
+
+The start is 0 unless `ref` or a keyframe says otherwise. Outside of the range the limit throws the joint back in the
+first steps.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" range="45 150"/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" range="-5 150"/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: how fast the limit makes the joint in the first 20 ms, without gravity and contacts; more than 1 rad/s or
+0.1 m/s, and the start is outside by more than 5 % of the range.
+
+When it is wrong: a start that a program sets before the first step, as for robots whose knees cannot be straight; so
+it is a hint, but where a keyframe gives the start. A model that has keyframes is not judged by its start without them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.probes.servo import alone, hold
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Level, Probe, Suspect
+
+TITLE = "A joint starts outside of its range"
+FAMILIES = ("jumps-at-start", "explodes")
+SINCE = "0.2"
+
+OUTSIDE = 0.05  # of the range
+KICK = 1.0  # rad/s or m/s
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Joints that begin well outside, all together."""
+    simulation = model.simulation
+    if simulation.begin_with.key < 0 and simulation.count("key"):
+        return  # a model that has keyframes begins with one
+    level: Level = "cause" if simulation.begin_with.key >= 0 else "hint"
+    found = []
+    for joint, (low, high, begin) in _limited(simulation).items():
+        if max(low - begin, begin - high) > OUTSIDE * (high - low):
+            found.append((joint, low, high, begin))
+    if not found:
+        return
+    edits: tuple[Edit, ...] = ()
+    for joint, low, high, begin in found:
+        scale = model.angle_unit if simulation.joint_type(joint) == HINGE else 1.0
+        margin = 0.02 * (high - low)
+        ends = min(low, begin - margin) / scale, max(high, begin + margin) / scale
+        edits += model.set("joint", [joint], "range", f"{ends[0]:.4g} {ends[1]:.4g}")
+    joint, low, high, begin = max(found, key=lambda each: max(each[1] - each[3], each[3] - each[2]))
+    joints = tuple(each[0] for each in found)
+    yield Suspect(
+        tuple(simulation.name("joint", each) for each in joints),
+        "range",
+        f"{low:.3g} {high:.3g}",
+        next((each.value for each in edits), ""),
+        edits,
+        Probe(
+            "highest speed in the first 20 ms, without gravity and contacts (of a slide tenfold, in m/s)",
+            "rad/s",
+            _kick,
+            (joints,),
+        ),
+        KICK,
+        f"{simulation.name('joint', joint)} starts at {begin:.3g}, and its range is {low:.3g} to {high:.3g}.",
+        "inside of the range",
+        level=level,
+    )
+
+
+def _limited(simulation: Simulation) -> dict[int, tuple[float, float, float]]:
+    """The range and the start of each hinge and slide that has a range."""
+    simulation.begin()
+    made = {}
+    for joint, limited in enumerate(simulation.model("jnt_limited")):
+        if limited and simulation.joint_type(joint) in (HINGE, SLIDE):
+            low, high = simulation.row("jnt_range", joint, 2)
+            made[joint] = (low, high, simulation.position(joint))
+    return made
+
+
+def _kick(simulation: Simulation, joints: tuple[int, ...]) -> float:
+    with alone(simulation):
+        simulation.begin()
+        hold(simulation)
+        fastest = 0.0
+        for _ in range(max(2, round(0.02 / simulation.timestep))):
+            simulation.engine.step()
+            if simulation.unstable():
+                return math.inf
+            speeds = simulation.data("qvel")
+            for joint in joints:
+                speed = abs(speeds[simulation.dof(joint)])
+                fastest = max(fastest, speed if simulation.joint_type(joint) == HINGE else 10 * speed)
+    return fastest

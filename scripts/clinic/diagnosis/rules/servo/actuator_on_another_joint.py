@@ -1,0 +1,106 @@
+"""An actuator drives another joint than the one of its name, which no actuator drives.
+
+A name that was copied and not changed: the joint that was meant is never driven, and the other gets two commands.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="left_hip" axis="0 1 0" damping="1"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02" mass="1"/>
+        </body>
+        <body pos="0 0.3 1">
+          <joint name="right_hip" axis="0 1 0" damping="1"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02" mass="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position name="left_hip" joint="left_hip" kp="50"/>
+        <position name="right_hip" joint="left_hip" kp="50"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="left_hip" axis="0 1 0" damping="1"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02" mass="1"/>
+        </body>
+        <body pos="0 0.3 1">
+          <joint name="right_hip" axis="0 1 0" damping="1"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02" mass="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position name="left_hip" joint="left_hip" kp="50"/>
+        <position name="right_hip" joint="right_hip" kp="50"/>
+      </actuator>
+    </mujoco>
+
+The number: how many of the joints that actuators are named after are driven by none.
+
+When it is wrong: an actuator that drives another joint than the one of its name on purpose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "An actuator drives another joint than its name says"
+FAMILIES = ("stuck", "drifts", "sags")
+SINCE = "0.2"
+
+WORDS = ("actuator", "act", "motor", "servo", "joint", "ctrl", "pos", "position", "torque", "a", "m", "j", "t")
+
+
+def _key(name: str) -> tuple[str, ...]:
+    """The words of a name without those that only say what it is."""
+    words = name.lower().replace("-", "_").replace("/", "_").replace(".", "_").split("_")
+    return tuple(each for each in words if each and each not in WORDS)
+
+
+def _meant(simulation: Simulation) -> dict[int, tuple[int, int]]:
+    """For an actuator: the joint that it drives, and the undriven one of its name, where these differ."""
+    joints: dict[tuple[str, ...], list[int]] = {}
+    for joint, name in enumerate(simulation.names("joint")):
+        if name and simulation.joint_type(joint) in (HINGE, SLIDE):
+            joints.setdefault(_key(name), []).append(joint)
+    drives = {each: simulation.driven_joint(each) for each in range(simulation.count("actuator"))}
+    made = {}
+    for actuator, name in enumerate(simulation.names("actuator")):
+        found, driven = joints.get(_key(name), []), drives[actuator]
+        if name and _key(name) and len(found) == 1 and driven is not None and found[0] not in drives.values():
+            made[actuator] = (driven, found[0])
+    return made
+
+
+def _undriven(simulation: Simulation) -> float:
+    return float(len(_meant(simulation)))
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Actuators that leave the joint of their name alone, each by itself."""
+    simulation = model.simulation
+    for actuator, (driven, meant) in _meant(simulation).items():
+        name = simulation.names("joint")[meant]
+        yield Suspect(
+            (simulation.name("actuator", actuator),),
+            "joint",
+            simulation.names("joint")[driven],
+            name,
+            model.set("actuator", [actuator], "joint", name),
+            Probe("joints that no actuator drives although one has their name", "", _undriven, dynamic=False),
+            0.5,
+            f"{simulation.name('actuator', actuator)} drives {simulation.name('joint', driven)}, and "
+            f"{simulation.name('joint', meant)} is driven by none.",
+            "an actuator drives the joint of its name",
+            share=0.99,
+        )

@@ -1,0 +1,108 @@
+"""A servo's control range misses most of its joint's range.
+
+The target of a position servo is clipped to `ctrlrange`. Where that meets the joint's range in a point, or in a small
+part of it, the joint cannot be sent to the rest.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" range="-180 0" damping="1"/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="elbow" kp="20" ctrlrange="0 3.14"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" range="-180 0" damping="1"/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="elbow" kp="20" ctrlrange="-3.14 0"/>
+      </actuator>
+    </mujoco>
+
+The number: the share of the joint's range that no target reaches; more than 60 %, of at most a whole turn.
+
+When it is wrong: a servo that is kept to a small part of the range on purpose.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.servo import Servo, servos
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.servo.control_range_too_wide import inherit, inherited
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "The control range misses the joint's range"
+FAMILIES = ("stuck", "passes-limit", "sags")
+SINCE = "0.2"
+
+MISSED = 0.6
+GEARED = 1.5
+
+
+def missed(servo: Servo) -> float:
+    """The share of the joint's range that a servo cannot reach."""
+    if servo.targets is None or servo.range is None or servo.range[1] <= servo.range[0]:
+        return 0.0
+    (low, high), (least, most) = servo.targets, servo.range
+    return 1 - max(0.0, min(high, most) - max(low, least)) / min(most - least, 2 * math.pi)
+
+
+def _missed(simulation: Simulation, actuators: Sequence[int]) -> float:
+    return max((missed(each) for each in servos(simulation) if each.actuator in actuators), default=0.0)
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Servos that miss most of the range; those whose gear divides the target apart."""
+    simulation = model.simulation
+    found = [each for each in servos(simulation) if missed(each) > MISSED]
+    gears = {each.actuator: simulation.model("actuator_gear")[6 * each.actuator] for each in found}
+    for geared in (True, False):
+        some = [each for each in found if (abs(gears[each.actuator]) > GEARED) == geared]
+        if not some:
+            continue
+        worst = max(some, key=missed)
+        assert worst.targets is not None
+        assert worst.range is not None
+        assert worst.ctrl is not None
+        gear = gears[worst.actuator]
+        why = f": the gear of {gear:g} divides them" if geared else ""
+        yield Suspect(
+            tuple(simulation.name("actuator", each.actuator) for each in some),
+            "gear" if geared else "ctrlrange",
+            f"{gear:g}" if geared else " ".join(f"{each:g}" for each in worst.ctrl),
+            "1" if geared else inherited(worst),
+            tuple(edit for each in some for edit in (_ungeared if geared else inherit)(model, each)),
+            Probe(
+                "share of the joint's range that no target reaches",
+                "",
+                _missed,
+                (tuple(each.actuator for each in some),),
+                dynamic=False,
+            ),
+            MISSED,
+            f"Targets from {worst.targets[0]:.3g} to {worst.targets[1]:.3g} {worst.unit} for "
+            f"{simulation.name('joint', worst.joint)}, whose range is {worst.range[0]:.3g} to "
+            f"{worst.range[1]:.3g}{why}.",
+            'the joint\'s range (inheritrange="1")',
+        )
+
+
+def _ungeared(model: ReaderModel, servo: Servo) -> tuple[Edit, ...]:
+    return model.set("actuator", [servo.actuator], "gear", "1")

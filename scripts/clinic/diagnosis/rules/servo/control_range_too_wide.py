@@ -1,0 +1,137 @@
+"""A servo's control range goes far beyond the range of its joint.
+
+A joint's limit is soft: a servo whose target lies far beyond it presses with kp times the distance, and the joint
+passes its limit.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="finger" axis="0 1 0" range="0 90" damping="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="finger" kp="20" ctrlrange="-3 5"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="finger" axis="0 1 0" range="0 90" damping="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="finger" kp="20" inheritrange="1"/>
+      </actuator>
+    </mujoco>
+
+The number: after 1 s at each end of the control range the joint is more than 30 % of its range beyond a limit; or
+a hinge's targets lie more than 120 % of its range beyond (0.56 is the most in 55 healthy models with servos).
+
+When it is wrong: a target beyond the limit as a way to command a force, as grippers do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.press import past_limit
+from clinic.diagnosis.probes.servo import Servo, servos
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "The control range goes beyond the joint's range"
+FAMILIES = ("passes-limit", "stuck", "explodes")
+SINCE = "0.2"
+
+BEYOND = 0.25  # of the joint's range
+PAST = 0.3
+FAR = 1.2  # of the joint's range
+TITLE_OF_FAR = "how far targets lie beyond a limit, as a share of the joint's range"
+NARROW = 0.12  # rad: a range of radians that was read as degrees
+
+
+def beyond(servo: Servo) -> float:
+    """How far the targets of a servo go beyond its joint's range, as a share of it."""
+    if servo.targets is None or servo.range is None or servo.range[1] <= servo.range[0]:
+        return 0.0
+    (low, high), (least, most) = servo.targets, servo.range
+    return max(least - low, high - most) / (most - least)
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Hinges with targets far out, and servos that push their joints past a limit."""
+    simulation = model.simulation
+    wide = [each for each in servos(simulation) if beyond(each) > BEYOND and not _of_the_joint(each)]
+    far = [each for each in wide if each.hinge and beyond(each) > FAR and not _amplified(model, each)]
+    rest = [each for each in wide if each not in far]
+    if rest and model.measured(past_limit([each.actuator for each in rest])) > PAST:
+        rest = [each for each in rest if model.measured(past_limit([each.actuator])) > PAST]
+        yield from _suspect(model, rest, past_limit([each.actuator for each in rest]), PAST)
+    numbers = tuple(each.actuator for each in far)
+    yield from _suspect(model, far, Probe(TITLE_OF_FAR, "", _farthest, (numbers,), dynamic=False), FAR)
+
+
+def _farthest(simulation: Simulation, actuators: tuple[int, ...]) -> float:
+    return max((beyond(each) for each in servos(simulation) if each.actuator in actuators), default=0.0)
+
+
+def _amplified(model: ReaderModel, servo: Servo) -> bool:
+    """Whether the target is more than the control on purpose, by gain and bias that differ."""
+    return abs(abs(servo.scale * model.simulation.model("actuator_gear")[6 * servo.actuator]) - 1) > 0.05
+
+
+def _suspect(model: ReaderModel, found: list[Servo], probe: Probe, limit: float) -> Iterator[Suspect]:
+    simulation = model.simulation
+    if not found:
+        return
+    worst = max(found, key=beyond)
+    assert worst.targets is not None
+    assert worst.range is not None
+    assert worst.ctrl is not None
+    yield Suspect(
+        tuple(simulation.name("actuator", each.actuator) for each in found),
+        "ctrlrange",
+        " ".join(f"{each:g}" for each in worst.ctrl),
+        inherited(worst),
+        tuple(edit for each in found for edit in inherit(model, each)),
+        probe,
+        limit,
+        f"Targets from {worst.targets[0]:.3g} to {worst.targets[1]:.3g} {worst.unit} for "
+        f"{simulation.name('joint', worst.joint)}, whose range is {worst.range[0]:.3g} to {worst.range[1]:.3g}"
+        f"{in_degrees(worst)}.",
+        'the joint\'s range (inheritrange="1")',
+    )
+
+
+def _of_the_joint(servo: Servo) -> bool:
+    """Whether it is the joint's range that is in the wrong unit."""
+    return servo.hinge and servo.range is not None and servo.range[1] - servo.range[0] < NARROW
+
+
+def in_degrees(servo: Servo) -> str:
+    """What to say of a control range that is the joint's in degrees."""
+    assert servo.targets is not None
+    assert servo.range is not None
+    times = (servo.targets[1] - servo.targets[0]) / (servo.range[1] - servo.range[0])
+    return ": it is written in degrees, and MuJoCo takes radians" if servo.hinge and 30 < times < 90 else ""
+
+
+def inherited(servo: Servo) -> str:
+    """The control range that reaches the joint's range."""
+    assert servo.range is not None
+    return " ".join(f"{each:.4g}" for each in sorted((each - servo.offset) / servo.scale for each in servo.range))
+
+
+def inherit(model: ReaderModel, servo: Servo) -> tuple[Edit, ...]:
+    """The edit that gives a servo the control range of its joint."""
+    edits = model.set("actuator", [servo.actuator], "ctrlrange", inherited(servo))
+    return edits + model.remove("actuator", [servo.actuator], "inheritrange")

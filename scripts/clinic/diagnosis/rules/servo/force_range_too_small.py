@@ -1,0 +1,92 @@
+"""A servo's force range is smaller than the weight that it must hold.
+
+`forcerange` clips what an actuator gives, and `actuatorfrcrange` what all actuators of a joint give. Below the weight
+of what hangs on the joint no gain can lift it.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="shoulder" axis="0 1 0" damping="1"/>
+          <geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.02" mass="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="shoulder" kp="500" dampratio="1" forcerange="-1 1"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="shoulder" axis="0 1 0" damping="1"/>
+          <geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.02" mass="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="shoulder" kp="500" dampratio="1" forcerange="-10 10"/>
+      </actuator>
+    </mujoco>
+
+The number: the model's own weight at the joint over the greatest force of its servos, in the worst of 17 poses.
+
+When it is wrong: a joint that a spring or a closed chain carries, or that never takes such a pose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.load import loads, strain, strains
+from clinic.diagnosis.probes.servo import Servo, servos
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "A force range too small for the weight"
+FAMILIES = ("sags", "stuck")
+SINCE = "0.2"
+
+STRAIN = 1.2
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Servos that cannot hold the weight, all together."""
+    simulation, found, load = model.simulation, strains(model.simulation), loads(model.simulation)
+    weak = sorted(
+        (each for each in servos(simulation) if found[each.actuator] > STRAIN), key=lambda each: -found[each.actuator]
+    )
+    if not weak:
+        return
+    worst = weak[0]
+    unit = "N m" if worst.hinge else "N"
+    yield Suspect(
+        tuple(simulation.name("actuator", each.actuator) for each in weak),
+        "forcerange",
+        f"{worst.force:.3g}",
+        f"{3 * load[worst.dof]:.2g}",
+        tuple(edit for each in weak for edit in _stronger(model, each, load[each.dof] * 3)),
+        strain([each.actuator for each in weak]),
+        STRAIN,
+        f"The weight at {simulation.name('joint', worst.joint)} is up to {load[worst.dof]:.3g} {unit}, "
+        f"and its servo gives {worst.force:.3g} {unit} at most.",
+        "1 and less; motors are chosen for twice the weight and more",
+    )
+
+
+def _stronger(model: ReaderModel, servo: Servo, force: float) -> tuple[Edit, ...]:
+    """The edits of the limits that are below a force at the joint."""
+    simulation = model.simulation
+    edits: tuple[Edit, ...] = ()
+    gear = abs(simulation.model("actuator_gear")[6 * servo.actuator])
+    own = max(map(abs, simulation.row("actuator_forcerange", servo.actuator, 2))) * gear
+    if simulation.model("actuator_forcelimited")[servo.actuator] and own < force:
+        text = f"{force / gear:.2g}"
+        edits += model.set("actuator", [servo.actuator], "forcerange", f"-{text} {text}")
+    joint = max(map(abs, simulation.row("jnt_actfrcrange", servo.joint, 2)))
+    if simulation.model("jnt_actfrclimited")[servo.joint] and joint < force:
+        edits += model.set("joint", [servo.joint], "actuatorfrcrange", f"-{force:.2g} {force:.2g}")
+    return edits

@@ -1,0 +1,117 @@
+"""A gain too high for an inertia that has no armature.
+
+The rotor of a motor, seen through its gear, is most of the inertia of a small joint; `armature` is that. Without it a
+usual gain moves a light link further than its target within one step, and the joint shakes or the simulation ends.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body>
+          <joint name="wrist" axis="0 0 1"/>
+          <geom type="capsule" fromto="0 0 0 0.03 0 0" size="0.01" mass="0.02"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="wrist" kp="200" kv="20"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body>
+          <joint name="wrist" axis="0 0 1" armature="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.03 0 0" size="0.01" mass="0.02"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="wrist" kp="200" kv="20"/>
+      </actuator>
+    </mujoco>
+
+The number: with the timestep h and the inertia M a velocity gain is stable below h kv / M = 2, a position gain below
+h^2 kp / M = 4 (explicit integration of a spring and a damper). A model that keeps these at 2 ms, and not at its own
+timestep, has a timestep that is too long, but where one joint is ten times as far beyond as the others.
+
+When it is wrong: a gain that is a hundred times too high shakes as well; then the gain is the fault.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from statistics import median
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.run import fastest
+from clinic.diagnosis.probes.shake import SHAKES, shake
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "A gain too high for a joint without armature"
+FAMILIES = ("explodes", "oscillates")
+SINCE = "0.2"
+
+USUAL = 0.002  # s
+IMPLICIT = (2, 3)  # mjtIntegrator that treats an actuator's damping implicitly
+FAST = 100.0
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Joints whose gains are beyond what the inertia allows, all together."""
+    simulation = model.simulation
+    step = simulation.timestep
+    gains = _gains(simulation)
+    found = {joint: each for joint, each in gains.items() if _excess(each, min(step, USUAL)) > 1}
+    if not found and len(gains) > 2 and step <= 5 * USUAL:
+        usual = median(_excess(each, step) for each in gains.values())
+        found = {joint: each for joint, each in gains.items() if _excess(each, step) > max(1, 10 * usual)}
+    if not found:
+        return
+    edits: list[Edit] = []
+    for joint, (kp, kv, inertia) in found.items():
+        value = max(step * kv / 0.5, step**2 * kp / 0.1) - inertia
+        edits += model.set("joint", [joint], "armature", f"{value:.1g}")
+    joint, worst = max(found.items(), key=lambda each: _excess(each[1], step))
+    kp, kv, inertia = worst
+    probe = next((each for each in (fastest(), shake()) if model.measured(each) > FAST), shake())
+    yield Suspect(
+        tuple(simulation.name("joint", each) for each in found),
+        "armature",
+        f"{simulation.model('dof_armature')[simulation.dof(joint)]:.2g}",
+        next((each.value for each in edits), ""),
+        tuple(edits),
+        probe,
+        FAST if probe == fastest() else SHAKES,
+        f"At {simulation.name('joint', joint)}: kv {kv:.3g} and kp {kp:.3g} on an inertia of {inertia:.2g} are "
+        f"h kv / M = {step * kv / inertia:.3g} and h^2 kp / M = {step**2 * kp / inertia:.3g}.",
+        "h kv / M < 2, h^2 kp / M < 4 (explicit integration)",
+        share=0.1,
+        excess=_excess(worst, step),
+    )
+
+
+def _gains(simulation: Simulation) -> dict[int, tuple[float, float, float]]:
+    """Position gain, velocity gain where it is explicit, and inertia, by driven joint."""
+    made: dict[int, tuple[float, float, float]] = {}
+    implicit = int(simulation.model("opt.integrator")[0]) in IMPLICIT
+    width = len(simulation.model("actuator_biasprm")) // max(1, simulation.count("actuator"))
+    for actuator in range(simulation.count("actuator")):
+        joint = simulation.driven_joint(actuator)
+        if joint is None or int(simulation.model("actuator_biastype")[actuator]) != 1:
+            continue
+        bias, gear = (
+            simulation.row("actuator_biasprm", actuator, width),
+            simulation.model("actuator_gear")[6 * actuator],
+        )
+        kp, kv = max(0.0, -bias[1] * gear**2), max(0.0, -bias[2] * gear**2) * (not implicit)
+        old = made.get(joint, (0.0, 0.0))
+        made[joint] = (kp + old[0], kv + old[1], max(simulation.mass_diagonal[simulation.dof(joint)], 1e-12))
+    return made
+
+
+def _excess(gains: tuple[float, float, float], step: float) -> float:
+    kp, kv, inertia = gains
+    return max(step * kv / inertia / 2, step**2 * kp / inertia / 2)

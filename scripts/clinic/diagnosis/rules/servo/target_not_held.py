@@ -1,0 +1,110 @@
+"""A general actuator with affine bias and no bias is a motor, not a servo.
+
+`biastype="affine"` adds biasprm[0] + biasprm[1] length + biasprm[2] velocity to the force. With all three left at 0 the
+force does not depend on where the joint is, and a control that is meant as a position is a torque.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="finger" axis="0 1 0" range="0 90" damping="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <general joint="finger" biastype="affine" ctrlrange="0 1.57"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="finger" axis="0 1 0" range="0 90" damping="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <general joint="finger" biastype="affine" ctrlrange="0 1.57" gainprm="10" biasprm="0 -10 -0.1"/>
+      </actuator>
+    </mujoco>
+
+The number: how the force changes when the joint is moved by 0.1 rad, over what the gain asks for; 1 where it does not.
+A position gain whose sign is the gain's, so that the joint is pushed away from its target, is told as well.
+
+When it is wrong: a velocity servo, which has biasprm[2] alone, is left alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A servo that does not hold its target"
+FAMILIES = ("stuck", "explodes", "sags", "passes-limit")
+SINCE = "0.2"
+
+AFFINE = 1  # mjtBias
+
+
+def _prm(simulation: Simulation, field: str, actuator: int) -> tuple[float, ...]:
+    return simulation.row(field, actuator, len(simulation.model(field)) // simulation.count("actuator"))
+
+
+def _away(simulation: Simulation, actuators: tuple[int, ...]) -> float:
+    """1 where a position gain is missing, 2 and more where it pushes away from the target."""
+    found = 0.0
+    for actuator in actuators:
+        gain, bias = _prm(simulation, "actuator_gainprm", actuator)[0], _prm(simulation, "actuator_biasprm", actuator)
+        found = max(found, 1 + bias[1] / gain)
+    return found
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Actuators of joints with an affine bias of nothing, or of the wrong sign."""
+    simulation = model.simulation
+    found = []
+    for actuator in range(simulation.count("actuator")):
+        if int(simulation.model("actuator_biastype")[actuator]) != AFFINE or simulation.driven_joint(actuator) is None:
+            continue
+        gain, bias = _prm(simulation, "actuator_gainprm", actuator)[0], _prm(simulation, "actuator_biasprm", actuator)
+        if gain and (not any(bias[:3]) or bias[1] / gain > 0):
+            found.append((actuator, gain, bias))
+    if not found:
+        return
+    edits: tuple[Edit, ...] = ()
+    for actuator, gain, bias in found:
+        element = model.element("actuator", actuator)
+        if element is not None and element.tag == "general":
+            text = f"{bias[0]:g} {-(abs(bias[1]) or gain):g} {-(abs(bias[2]) or 0.1 * abs(gain)):g}"
+            edits += model.set("actuator", [actuator], "biasprm", text)
+            if gain < 0:
+                edits += model.set("actuator", [actuator], "gainprm", f"{-gain:g}")
+        elif element is not None and gain < 0:
+            edits += model.set("actuator", [actuator], "kp", f"{-gain:g}")
+    actuator, gain, bias = found[0]
+    now = " ".join(f"{each:g}" for each in bias[:3])
+    yield Suspect(
+        tuple(simulation.name("actuator", each[0]) for each in found),
+        "biasprm",
+        now,
+        next((each.value for each in edits), ""),
+        edits,
+        Probe(
+            "pull towards the target that is missing: 1 none, more for a push away",
+            "",
+            _away,
+            (tuple(each[0] for each in found),),
+            dynamic=False,
+        ),
+        0.9,
+        f"With gainprm {gain:g} and biasprm {now} the force "
+        + ("pushes the joint away from its target." if bias[1] else "does not depend on where the joint is."),
+        "biasprm[1] = -gainprm[0], as <position> has it",
+    )

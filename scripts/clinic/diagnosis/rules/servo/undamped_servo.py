@@ -1,0 +1,96 @@
+"""A position servo without damping rings.
+
+A position servo is a spring. Without damping, its own (`kv`, `dampratio`) or the joint's, what it drives swings about
+each target for ever.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body>
+          <joint name="hinge" axis="0 0 1"/>
+          <geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.02" mass="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="hinge" kp="100"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body>
+          <joint name="hinge" axis="0 0 1"/>
+          <geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.02" mass="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="hinge" kp="100" dampratio="1"/>
+      </actuator>
+    </mujoco>
+
+The number: a damping ratio under 0.08, and a step of 0.1 rad (0.01 m for a slide), without gravity and contacts, that
+overshoots by more than 22 % and crosses its target four times. With a damping ratio z the overshoot of one joint alone
+is exp(-pi z / sqrt(1 - z^2)), 0.78 for 0.08; neighbours take up some of it. Legs of healthy robots go down to 0.1.
+
+When it is wrong: friction that the model leaves to contacts, or a controller that adds the damping.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.servo import Servo, overshoot, servos
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "A servo without damping rings"
+FAMILIES = ("oscillates", "explodes")
+SINCE = "0.2"
+CASE = "servo-oscillates"
+
+RATIO = 0.08
+OVERSHOOT = 0.22
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Servos with a low damping ratio that ring, all together."""
+    simulation = model.simulation
+    low = sorted((each for each in servos(simulation) if each.ratio < RATIO), key=lambda each: each.ratio)
+    found = [each for each in low[:16] if model.measured(overshoot([each.actuator])) > OVERSHOOT]
+    if not found:
+        return
+    worst = found[0]
+    yield Suspect(
+        tuple(simulation.name("actuator", each.actuator) for each in found),
+        "dampratio",
+        f"{max(0, worst.ratio):.2g}",
+        "1",
+        tuple(edit for each in found for edit in _damped(model, each)),
+        overshoot(tuple(each.actuator for each in found)),
+        OVERSHOOT,
+        f"Stiffness {worst.stiffness:.3g} and damping {worst.damping:.3g} on an inertia of {worst.inertia:.2g} "
+        f"are a damping ratio of {worst.ratio:.2g}.",
+        "a damping ratio of 0.7 to 1 (MuJoCo's manual, dampratio)",
+    )
+
+
+def _damped(model: ReaderModel, servo: Servo) -> tuple[Edit, ...]:
+    """The edit that damps a servo critically, in the way in which it is written."""
+    written, kinds = model.element("actuator", servo.actuator), [servo.actuator]
+    if written is None:
+        joint = model.element("joint", servo.joint)
+        value = 2 * math.sqrt(servo.stiffness * servo.inertia)
+        return model.set("joint", [servo.joint], "damping", f"{value:.3g}") if joint is not None else ()
+    gear = model.simulation.row("actuator_gear", servo.actuator, 6)[0]
+    value = 2 * math.sqrt(servo.stiffness * servo.inertia) / gear**2
+    if written.tag == "general":
+        bias = model.simulation.row("actuator_biasprm", servo.actuator, 10)
+        return model.set("actuator", kinds, "biasprm", f"{bias[0]:g} {bias[1]:g} {-value:.3g}")
+    if model.value("actuator", servo.actuator, "kv") is not None:
+        return model.set("actuator", kinds, "kv", f"{value:.3g}")
+    return model.set("actuator", kinds, "dampratio", "1")

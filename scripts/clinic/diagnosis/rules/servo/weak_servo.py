@@ -1,0 +1,130 @@
+"""A position servo too weak for the weight it carries.
+
+A position servo is a spring: it holds a load only by being off its target, by load / kp. A gain that was left at its
+default of 1 N m/rad lets an arm hang.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="shoulder" axis="0 1 0" damping="1"/>
+          <geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.02" mass="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="shoulder"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="shoulder" axis="0 1 0" damping="1"/>
+          <geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.02" mass="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="shoulder" kp="200" dampratio="1"/>
+      </actuator>
+    </mujoco>
+
+The number: the model's own weight at the joint over the gain, in the worst of 17 poses: more than 0.3 rad (0.3 m).
+Or more than 45 % of a step of 0.1 rad is left after 1 s, without gravity.
+
+When it is wrong: a controller that adds the weight itself. `gravcomp="1"` on the bodies takes the load away as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.load import loads, sag, sags
+from clinic.diagnosis.probes.servo import Servo, remaining, servos
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "A servo too weak for the weight it carries"
+FAMILIES = ("sags", "drifts")
+SINCE = "0.2"
+CASE = "servo-sags"
+
+LATE = 0.6  # s: the time constant above which a step is tried
+SLOW = 4.0  # rad/s: the natural frequency below which it is
+LEFT = 0.45
+SAG = 0.3  # rad of a hinge, m of a slide
+GOOD = {True: 0.02, False: 0.002}
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Servos that sag, hinges and slides apart; those that are late."""
+    simulation, found = model.simulation, sags(model.simulation)
+    for hinge in (True, False):
+        weak = [each for each in servos(simulation) if each.hinge == hinge and found[each.actuator] > SAG]
+        weak.sort(key=lambda each: -found[each.actuator])
+        if not weak:
+            continue
+        worst, load = weak[0], loads(simulation)
+        yield Suspect(
+            tuple(simulation.name("actuator", each.actuator) for each in weak),
+            "kp",
+            f"{worst.stiffness:.3g}",
+            f"{load[worst.dof] / GOOD[hinge]:.2g}",
+            tuple(edit for each in weak for edit in _stronger(model, each, load[each.dof] / GOOD[hinge])),
+            sag([each.actuator for each in weak]),
+            SAG,
+            f"The weight at {simulation.name('joint', worst.joint)} is up to {load[worst.dof]:.3g} "
+            f"{'N m' if hinge else 'N'}, and its servo gives {worst.stiffness:.3g} for each {worst.unit}.",
+            f"below {SAG:g} {worst.unit}; 0.29 is the most of 55 healthy models with servos",
+        )
+    yield from _late(model, {each for each, far in found.items() if far > SAG})
+
+
+def _late(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
+    """Hinges whose servos take longer than a second for a small step, but for those that sag."""
+    simulation, late = model.simulation, []
+    for each in servos(simulation):
+        slow = each.damping > LATE * each.stiffness or each.stiffness < SLOW**2 * each.inertia
+        if each.hinge and slow and each.actuator not in sagging and model.measured(remaining([each.actuator])) > LEFT:
+            late.append(each)
+    if not late:
+        return
+    worst = max(late, key=lambda each: each.damping / each.stiffness)
+    stiffness = {each.actuator: max(20 * each.damping, 400 * each.inertia) for each in late}
+    yield Suspect(
+        tuple(simulation.name("actuator", each.actuator) for each in late),
+        "kp",
+        f"{worst.stiffness:.3g}",
+        f"{stiffness[worst.actuator]:.2g}",
+        tuple(edit for each in late for edit in _stronger(model, each, stiffness[each.actuator], damped=True)),
+        remaining([each.actuator for each in late]),
+        LEFT,
+        f"Stiffness {worst.stiffness:.3g} against damping {worst.damping:.3g} and inertia {worst.inertia:.2g}: the "
+        f"joint follows in {worst.damping / worst.stiffness:.2g} s.",
+        "0.5 s is the most of 55 healthy models with servos",
+    )
+
+
+def _stronger(model: ReaderModel, servo: Servo, stiffness: float, *, damped: bool = False) -> tuple[Edit, ...]:
+    """The edits that give a servo a stiffness at the joint, and more damping unless it has enough."""
+    times = stiffness / servo.stiffness
+    more = 1.0 if damped else times**0.5
+    element, one = model.element("actuator", servo.actuator), [servo.actuator]
+    if element is None:
+        return ()
+    gain = model.simulation.model("actuator_gainprm")
+    width = len(gain) // model.simulation.count("actuator")
+    bias = model.simulation.row("actuator_biasprm", servo.actuator, width)
+    own = gain[width * servo.actuator]
+    if element.tag == "general":
+        return (
+            *model.set("actuator", one, "gainprm", f"{own * times:.3g}"),
+            *model.set("actuator", one, "biasprm", f"{bias[0] * times:.3g} {bias[1] * times:.3g} {bias[2] * more:.3g}"),
+        )
+    edits = model.set("actuator", one, "kp", f"{own * times:.3g}")
+    if model.value("actuator", servo.actuator, "kv") is not None:
+        edits += model.set("actuator", one, "kv", f"{-bias[2] * more:.3g}")
+    return edits

@@ -1,0 +1,135 @@
+"""Servos, joints and time: near misses, healthy models that look ill, and elements without a place."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import Diagnosis, examine
+from clinic.diagnosis.native import NativeEngine
+
+ARM = """
+<mujoco>
+  {above}
+  <worldbody>
+    <geom type="plane" size="1 1 0.1"/>
+    <body pos="0 0 1">
+      <joint name="shoulder" axis="0 1 0" {joint}/>
+      <geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.02" mass="1"/>
+    </body>
+  </worldbody>
+  <actuator>
+    {actuator}
+  </actuator>
+</mujoco>
+"""
+
+
+def diagnosed(text: str) -> Diagnosis:
+    return examine(NativeEngine(), {"model.xml": text})
+
+
+def arm(actuator: str, joint: str = "", above: str = "") -> Diagnosis:
+    return diagnosed(ARM.format(actuator=actuator, joint=joint, above=above))
+
+
+def causes(found: Diagnosis) -> list[str]:
+    return [each.rule for each in found.causes]
+
+
+@pytest.mark.parametrize(
+    ("actuator", "joint"),
+    [
+        ('<position joint="shoulder" kp="200" dampratio="0.5"/>', ""),  # overshoots by 16 %
+        ('<position joint="shoulder" kp="200"/>', 'damping="10"'),  # the joint has the damping
+        ('<position joint="shoulder" kp="200" kv="10" ctrlrange="-2 2"/>', 'range="-100 100"'),  # 15 % beyond
+        ('<position joint="shoulder" kp="200" kv="10" ctrlrange="-0.8 0.8"/>', 'range="-90 90"'),  # half of the range
+        ('<position joint="shoulder" kp="20" kv="3"/>', ""),  # sags by 0.12 rad
+        ('<position joint="shoulder" kp="200" kv="10" forcerange="-4 4"/>', ""),  # the weight is 2.5 N m
+        ('<position joint="shoulder" kp="200" kv="10"/>', 'range="-720 720"'),  # two turns each way
+        ('<motor joint="shoulder" ctrlrange="-1 1" gear="5"/>', 'frictionloss="3" damping="1"'),
+        ('<general joint="shoulder" biastype="affine" gainprm="50" biasprm="0 0 -50"/>', 'damping="1"'),  # a velocity
+        ('<motor joint="shoulder"/>', 'range="-180 540" limited="false"'),  # the numbers of a turn
+    ],
+)
+def test_a_model_that_only_looks_ill_has_no_cause(actuator, joint):
+    assert causes(arm(actuator, joint)) == []
+
+
+@pytest.mark.parametrize(
+    ("rule", "actuator", "joint"),
+    [
+        ("undamped-servo", '<general joint="shoulder" biastype="affine" gainprm="200" biasprm="0 -200 0"/>', ""),
+        ("undamped-servo", '<position joint="shoulder" kp="200" kv="0.1"/>', ""),
+        ("weak-servo", '<general joint="shoulder" biastype="affine" gainprm="2" biasprm="0 -2 -1"/>', ""),
+        ("weak-servo", '<position joint="shoulder" kp="20" kv="40"/>', ""),
+        ("no-armature", '<velocity joint="shoulder" kv="2000"/>', ""),
+        ("force-range-too-small", '<position joint="shoulder" kp="200" kv="10"/>', 'actuatorfrcrange="-1 1"'),
+        (
+            "control-range-too-wide",
+            '<position joint="shoulder" kp="200" kv="10" ctrlrange="-90 90"/>',
+            'range="-90 90"',
+        ),
+        (
+            "control-range-too-narrow",
+            '<position joint="shoulder" kp="200" kv="10" ctrlrange="-1 1" gear="20"/>',
+            'range="-60 60"',
+        ),
+        ("joint-frozen", '<motor joint="shoulder" ctrlrange="-1 1" gear="5"/>', 'frictionloss="8"'),
+        ("target-not-held", '<general joint="shoulder" biastype="affine" gainprm="9" biasprm="0 9 -1"/>', ""),
+    ],
+)
+def test_a_fault_is_named_however_the_actuator_is_written(rule, actuator, joint):
+    assert rule in causes(arm(actuator, joint))
+
+
+def test_a_servo_in_a_default_class_is_mended_there():
+    text = ARM.format(
+        above='<default><position kp="200"/></default>', joint="", actuator='<position joint="shoulder"/>'
+    )
+    found = next(each for each in diagnosed(text).causes if each.rule == "undamped-servo")
+    assert found.after is not None
+    assert found.after < 0.1 < found.before
+
+
+def test_a_gain_that_only_the_timestep_cannot_follow_is_the_timesteps_fault():
+    calm = arm('<position joint="shoulder" kp="200" kv="40"/>')
+    long = arm('<position joint="shoulder" kp="200" kv="40"/>', above='<option timestep="0.02"/>')
+    assert causes(calm) == []
+    assert causes(long) == ["timestep-too-long"]
+
+
+def test_the_start_outside_of_a_range_is_a_hint_and_a_keyframes_is_a_cause():
+    joint, key = 'range="30 90"', '<keyframe><key qpos="0"/></keyframe>'
+    without, with_key = arm("", joint), arm("", joint, above=key)
+    assert (causes(without), [each.rule for each in without.hints]) == ([], ["start-outside-range"])
+    assert causes(with_key) == ["start-outside-range"]
+
+
+def test_a_part_for_another_model_is_told_of_its_units_in_a_hint():
+    text = ARM.format(above="", joint='range="-1.5 1.5"', actuator="")
+    part = diagnosed(text.replace('<geom type="plane" size="1 1 0.1"/>', ""))
+    assert causes(diagnosed(text)) == ["range-in-the-wrong-unit"]
+    assert (causes(part), [each.rule for each in part.hints]) == ([], ["range-in-the-wrong-unit"])
+
+
+def test_the_range_of_a_urdf_is_mended_in_its_limit():
+    text = """
+<robot name="gripper">
+  <link name="palm"/>
+  <link name="left"><inertial><mass value="0.1"/><inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="right"><inertial><mass value="0.1"/><inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="leader" type="revolute">
+    <parent link="palm"/><child link="left"/><axis xyz="0 0 1"/>
+    <limit lower="0" upper="0.8" effort="1" velocity="1"/>
+  </joint>
+  <joint name="follower" type="revolute">
+    <parent link="palm"/><child link="right"/><axis xyz="0 0 1"/>
+    <limit lower="0" upper="0.8" effort="1" velocity="1"/>
+    <mimic joint="leader" multiplier="-1"/>
+  </joint>
+</robot>
+"""  # noqa: E501
+    (found,) = (each for each in diagnosed(text).causes if each.rule == "follower-out-of-range")
+    assert [(each.element, each.attribute, each.value) for each in found.edit] == [
+        ("limit", "lower", "-0.8"),
+        ("limit", "upper", "0"),
+    ]

@@ -16,6 +16,7 @@ from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.proof.prose.formulas import formulas
 from clinic.proof.prose.numbers import titled, typed
+from clinic.proof.prose.signals import called, counted
 from clinic.proof.prose_laws import owned, quoted, stated, taken
 from clinic.proof.releases import differing, release_problems
 from clinic.proof.sweep import errors_at, format_values, unjudged_sides
@@ -193,6 +194,8 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         quoted,
         typed,
         taken,
+        called,
+        counted,
         stated,
         formulas,
         owned,

@@ -11,13 +11,16 @@ import yaml
 from clinic.pages.text.prose import prose_problems
 from clinic.proof.evidence import collect
 from clinic.proof.prose.formulas import formulas
+from clinic.proof.prose.labels import entitled, labelled
 from clinic.proof.prose.numbers import titled, typed
+from clinic.proof.prose.signals import called, counted, within_its_sweep
 from clinic.proof.prose_laws import owned, quotations, quoted, stated, taken
 from clinic.record.case import load_case
 from clinic.record.problem import CaseError
 from helpers import SWEEP, tiny_case
 
-LAWS = (quoted, typed, titled, taken, stated, formulas, owned, prose_problems)
+LAWS = (quoted, typed, titled, entitled, labelled, taken, called, counted, within_its_sweep, stated, formulas, owned)
+LAWS += (prose_problems,)
 PLANTS = yaml.safe_load(Path(__file__).with_name("plants.yaml").read_text(encoding="utf-8"))
 
 

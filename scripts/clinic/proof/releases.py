@@ -150,7 +150,12 @@ def release_problems(case: Case, found: Mapping[str, Sequence[str]]) -> Iterator
         if told and not any(Version(release) in SpecifierSet(text) for text in case.record.older):
             expected = "a release that agrees, or a reason in `older`"
             yield case.problem(("older",), f"on {release}, {listed(told)}", expected, "say why, from the changelog")
-    for text in case.record.older:
+    for text, reason in case.record.older.items():
+        differ = [one for release, told in found.items() if Version(release) in SpecifierSet(text) for one in told]
+        for fix in [*case.record.fixes, *case.record.refuted]:
+            if f"`{fix.id}`" in reason and differ and not any(one.startswith(f"{fix.id} ") for one in differ):
+                expected = f"what differs there: {listed(sorted({one.split()[0] for one in differ}))}"
+                yield case.problem(("older", text), f"`{fix.id}`", expected, "correct the reason", quoted=fix.id)
         if same := [release for release, told in found.items() if not told and Version(release) in SpecifierSet(text)]:
             expected = f"a difference on every release that {text} names"
             yield case.problem(("older", text), f"none on {listed(same)}", expected, "narrow it, or remove it")

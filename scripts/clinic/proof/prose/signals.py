@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from clinic.proof.prose_laws import ELSEWHERE, prose_of
@@ -17,7 +17,7 @@ from clinic.record.prose import FIELD
 if TYPE_CHECKING:
     from clinic.proof.evidence import Evidence
 
-SMALL = "the of a an in on at to and by from it is one that are as with for than through both all its".split()
+SMALL = "the of a an in on at to and by from it is one that are as with for than through both all its"
 SAME = 1e-3
 NAMED = {"max": "largest", "min": "smallest", "first": "first", "mean": "mean", "span": "range"}
 TOLD = {
@@ -27,6 +27,7 @@ TOLD = {
     "mean": r"\b(?:mean|average)",
     "span": r"\b(?:by|range|sway|swing|mov|travel)",
 }
+ALWAYS = ("first", "mean")  # numbers that words tell, whatever checks and other fields take
 WHOLE = re.compile(r".+")
 HEAD = re.compile(r"^(?:(?! of | from | along |, ).)+")  # *weight* of *weight of the cube*
 OTHER = re.compile(r"\{\{ *(?:" + "|".join(ELSEWHERE) + r")\b.*?\}\}", re.DOTALL)
@@ -76,15 +77,35 @@ def counted(case: Case, evidence: Evidence) -> Iterator[Problem]:
         signal, _, take = rest.partition(".")
         values = evidence.variants[variant].values.get(signal, {}) if variant in evidence.variants else {}
         one, last = values.get(take), values.get("final")
-        if take not in TOLD or one is None or last is None or abs(one - last) <= SAME * max(abs(one), abs(last)):
+        if take not in TOLD or one is None or (last is None and take not in ALWAYS):
+            continue
+        if last is not None and abs(one - last) <= SAME * max(abs(one), abs(last)):
             continue
         begun = max((m.end() for m in re.finditer(r"[.?!]\s|\n[ \t]*\n", text[: field.start()])), default=0)
         ended = re.search(r"[.?!](?:\s|$)", text[field.end() :])
-        sentence = text[begun : field.end() + (ended.start() if ended else 0)]
+        sentence = text[begun : field.end() + ended.start() if ended else None]
         told = re.search(TOLD[take], FIELD.sub("", sentence), re.IGNORECASE)
-        if not (told or (signal, take) in known or taken[signal, take] > 1):
+        excused = take not in ALWAYS and ((signal, take) in known or taken[signal, take] > 1)
+        if not (told or excused):
             wanted = f"its `final`, or words for its {NAMED[take]}"
             yield case.problem(where, field[0], wanted, "correct the field or the words", quoted=field[0])
+
+
+def within_its_sweep(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, which sweep. A sweep's text has its own numbers, and a rival's number stands beside the rival's words."""
+    for where, text in prose_of(case):
+        for field in FIELD.finditer(text):
+            first, *rest = field[1].partition("|")[0].strip().split(".")
+            if first != "sweep" or rest[0] not in case.record.sweep:
+                continue
+            if where[0] == "sweep" and where[1] != rest[0]:
+                yield case.problem(where, field[0], f"a number of {where[1]}", "correct the field", quoted=field[0])
+            near = words(beside(text, field, ()))
+            for rival in case.record.sweep[rest[0]].rivals:
+                named = words(f"{rival.label} {rival.id}")
+                if rest[1] in ("wrong", "judged", "worst", "good_from") and len(named & near) >= min(2, len(named)):
+                    repair = "correct the field or the words"
+                    yield case.problem(where, field[0], f"a number of {rival.id}", repair, quoted=field[0])
 
 
 def words_of(name: str, signal: Signal, part: re.Pattern[str] = WHOLE) -> set[str]:
@@ -95,12 +116,14 @@ def words_of(name: str, signal: Signal, part: re.Pattern[str] = WHOLE) -> set[st
 def words(text: str) -> set[str]:
     """The words of a text in small letters and without their endings."""
     found = re.findall(r"[^\W\d_]+", text.lower().replace("'s", ""))
-    return {ENDING.sub("", word) for word in found if word not in SMALL}
+    return {ENDING.sub("", word) for word in found if word not in SMALL.split()}
 
 
-def beside(paragraph: str, field: re.Match[str]) -> str:
+def beside(paragraph: str, field: re.Match[str], without: Sequence[str] = ELSEWHERE) -> str:
     """The words that a field belongs to: before it from the field or the stop before, after it to the next comma."""
-    before, after = (OTHER.sub("", part) for part in (paragraph[: field.start()], paragraph[field.end() :]))
+    before, after = (
+        OTHER.sub("", part) if without else part for part in (paragraph[: field.start()], paragraph[field.end() :])
+    )
     after = re.split(r"[,.?!:;](?:\s|$)|\{\{", after)[0]
     before = re.sub(r"\|[^,|.?!:;]*,", "|", FIELD.sub("|", before))
     *earlier, last = re.split(r"[.?!:;]\s|\|", before)

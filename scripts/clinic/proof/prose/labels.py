@@ -54,7 +54,7 @@ def _read(case: Case, name: str) -> set[str]:
     signal = case.record.signals.get(name)
     if isinstance(signal, ExpressionSignal):
         parts = [_read(case, each) for each in names(parse(signal.expr)) if each in case.record.signals]
-        return {word for part in parts for word in part}.union(_words(name)) if all(parts) else set()
+        return {word for part in parts for word in part}.union(_words(name)) if any(parts) else set()
     found = NAMED.findall(signal.path) if isinstance(signal, PathSignal) and case.record.run else []
     named = {one.strip() for part in found for one in part.split(",")}
     around = {word for each in named for word in _related(case.text, each)}

@@ -72,6 +72,8 @@ def titled(case: Case, evidence: Evidence) -> Iterator[Problem]:
     for where, title, changed in titles:
         code = case.record.run is None  # its number may stand for the inverse: a count of steps for a timestep
         allowed = _and_ratios(changed, up=code or not LESS.search(title), down=code or not MORE.search(title))
+        if LESS.search(title) and "times" in title:
+            allowed -= {abs(after) for _, after in changed}
         for number in TITLE.finditer(title):
             values = _values(number[0])
             if not any(abs(value - known) <= 1e-6 * abs(value) for value in values for known in allowed):

@@ -53,7 +53,7 @@ def called(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 known = {**heads, name: own[name]}
                 fits = {each: sum(1 / shared[word] for word in known[each] & near) for each in known}
                 best = max(fits, key=lambda each: fits[each])
-                if fits[best] > fits[name] + 1e-9 or not (fits[name] or case.record.lacking):
+                if fits[best] > fits[name] + 1e-9 or not (heads[name] & near or case.record.lacking):
                     told = f"beside words of {best}: {listed(sorted(known[best] & near))}" if fits[best] else "alone"
                     repair = f"correct the field, name it, or add the words that are beside it to `said` of {name}"
                     wanted = f"words of {name}: {listed(sorted(own[name]))}"

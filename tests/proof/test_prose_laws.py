@@ -11,13 +11,16 @@ import yaml
 from clinic.pages.text.prose import prose_problems
 from clinic.proof.evidence import collect
 from clinic.proof.prose.formulas import formulas
+from clinic.proof.prose.labels import entitled, labelled
 from clinic.proof.prose.numbers import titled, typed
+from clinic.proof.prose.signals import called, counted, within_its_sweep
 from clinic.proof.prose_laws import owned, quotations, quoted, stated, taken
 from clinic.record.case import load_case
 from clinic.record.problem import CaseError
-from helpers import SWEEP, tiny_case
+from helpers import SWEEP, script_case, tiny_case
 
-LAWS = (quoted, typed, titled, taken, stated, formulas, owned, prose_problems)
+LAWS = (quoted, typed, titled, entitled, labelled, taken, called, counted, within_its_sweep, stated, formulas, owned)
+LAWS += (prose_problems,)
 PLANTS = yaml.safe_load(Path(__file__).with_name("plants.yaml").read_text(encoding="utf-8"))
 
 
@@ -202,3 +205,63 @@ def test_a_legend_is_words_alone(tmp_path, label: str) -> None:
     sweep = SWEEP.replace("semi-implicit, a step behind", label)
     case = tiny_case(tmp_path, ("no_sweep: The masks are not a number.\n", sweep))
     assert [problem.where for problem in typed(case, collect(case))] == ["sweep.fall.prediction"]
+
+
+@pytest.mark.parametrize(
+    ("text", "wrong"),
+    [
+        ("It falls to {{ broken.height.final }}.", False),
+        ("At a height of {{ broken.height.final }} it goes on.", False),
+        ("The number of contacts is {{ broken.height.final }}.", True),
+        ("Its height is {{ broken.contacts.final }}.", True),
+        ("With {{ broken.contacts.max }} contacts, its height is {{ broken.height.final }}.", False),
+        ("With {{ broken.height.max }} contacts, its height is {{ broken.contacts.final }}.", True),
+    ],
+)
+def test_a_number_stands_beside_the_words_of_its_signal(tmp_path, text: str, wrong: bool) -> None:
+    assert bool(list(called(*case_with(tmp_path, text)))) == wrong
+
+
+def test_an_author_says_by_which_words_prose_speaks_of_a_signal(tmp_path) -> None:
+    text = "All touching corners make {{ broken.contacts.final }}, though the height is small."
+    said = ("label: height of the box", "label: height of the box, said: [corners, touching]")
+    assert list(called(*case_with(tmp_path / "without", text))) == []
+    (problem,) = called(*case_with(tmp_path / "with", text, said))
+    assert (problem.where, "said" in problem.repair) == ("lesson", True)
+
+
+@pytest.mark.parametrize(
+    ("text", "wrong"),
+    [
+        ("It falls to {{ broken.height.mean }}.", True),
+        ("Its height is {{ broken.height.mean }} on average.", False),
+        ("Its height is {{ broken.height.first }}.", True),
+        ("Its height is {{ broken.height.first }} at the start.", False),
+        ("Its height is {{ broken.height.max }}.", True),
+        ("Its height is {{ broken.height.max }} at most.", False),
+    ],
+)
+def test_another_sample_than_the_last_is_told(tmp_path, text: str, wrong: bool) -> None:
+    assert bool(list(counted(*case_with(tmp_path, text)))) == wrong
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "wrong"),
+    [
+        ("label: height of the box", "label: height of the floor", True),
+        ("label: height of the box", "label: height above the ground", False),
+        ("title: Remove the masks of the floor", "title: Remove the masks of the box", True),
+        ("title: Remove the masks of the floor", "title: Remove the masks", False),
+    ],
+)
+def test_labels_and_titles_name_what_is_read_and_changed(tmp_path, field: str, value: str, wrong: bool) -> None:
+    case = tiny_case(tmp_path, (field, value))
+    evidence = collect(case)
+    assert bool([*labelled(case, evidence), *entitled(case, evidence)]) == wrong
+
+
+@pytest.mark.parametrize(("unit", "wrong"), [("m", False), ("mm", True)])
+def test_a_unit_is_the_one_that_a_script_prints(tmp_path, unit: str, wrong: bool) -> None:
+    script = 'print("first error = 0.25 m")\nprint("error = 0.5 m")\n'
+    case = script_case(tmp_path, ("unit: m}", f"unit: {unit}}}"), script=script)
+    assert bool(list(labelled(case, collect(case)))) == wrong

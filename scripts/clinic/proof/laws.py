@@ -15,7 +15,9 @@ from clinic.engine.simulate import compile_model
 from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.proof.prose.formulas import formulas
+from clinic.proof.prose.labels import entitled, labelled
 from clinic.proof.prose.numbers import titled, typed
+from clinic.proof.prose.signals import called, counted, within_its_sweep
 from clinic.proof.prose_laws import owned, quoted, stated, taken
 from clinic.proof.releases import differing, release_problems
 from clinic.proof.sweep import errors_at, format_values, unjudged_sides
@@ -193,6 +195,11 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         quoted,
         typed,
         taken,
+        called,
+        counted,
+        within_its_sweep,
+        labelled,
+        entitled,
         stated,
         formulas,
         owned,

@@ -33,6 +33,7 @@ TAKES = (
         "max",
     ),
     (r"\b(?:lowest|smallest|at least|never below)\b", "min"),
+    (r"\b(?:at first|at the first|in the first|in real time|at the start)\b", "first"),
     (r"\b(?:ends? at|rests? at|comes to rest|at the end)\b", "final"),
 )
 WORD = re.compile(r"[^\W\d_]+")
@@ -81,7 +82,7 @@ def taken(case: Case, evidence: Evidence) -> Iterator[Problem]:
                     (m.end(), take) for pattern, take in TAKES for m in re.finditer(pattern, before, re.IGNORECASE)
                 ]
                 said, take = max(words)[1] if words else "", name.rpartition(".")[2]
-                if said and case.record.run is not None and take in set(TAKEN) - {said}:
+                if said and (case.record.run is not None or said == "first") and take in set(TAKEN) - {said}:
                     repair = "correct the field or the words"
                     yield case.problem(where, field[0], f"its `{said}`: so the words say", repair, quoted=field[0])
                 if name.startswith("default.") and take not in paragraph.replace(field[0], ""):

@@ -86,7 +86,8 @@ def lock_text(lock: Lock) -> str:
 
 def files_digest(case: Case) -> str:
     """A digest of what the runs of a case's variants depend on."""
-    experiment = case.record.model_dump(mode="json", include={"run", "signals", "checks", "fixes", "refuted", "trials"})
+    kept = {"run", "signals", "checks", "fixes", "refuted", "trials"}
+    experiment = case.record.model_dump(mode="json", include=kept, exclude={"signals": {"__all__": {"said"}}})
     return hashlib.sha256(json.dumps([experiment, case.texts], sort_keys=True).encode()).hexdigest()[:16]
 
 
@@ -150,7 +151,12 @@ def release_problems(case: Case, found: Mapping[str, Sequence[str]]) -> Iterator
         if told and not any(Version(release) in SpecifierSet(text) for text in case.record.older):
             expected = "a release that agrees, or a reason in `older`"
             yield case.problem(("older",), f"on {release}, {listed(told)}", expected, "say why, from the changelog")
-    for text in case.record.older:
+    for text, reason in case.record.older.items():
+        differ = [one for release, told in found.items() if Version(release) in SpecifierSet(text) for one in told]
+        for fix in [*case.record.fixes, *case.record.refuted]:
+            if f"`{fix.id}`" in reason and differ and not any(one.startswith(f"{fix.id} ") for one in differ):
+                expected = f"what differs there: {listed(sorted({one.split()[0] for one in differ}))}"
+                yield case.problem(("older", text), f"`{fix.id}`", expected, "correct the reason", quoted=fix.id)
         if same := [release for release, told in found.items() if not told and Version(release) in SpecifierSet(text)]:
             expected = f"a difference on every release that {text} names"
             yield case.problem(("older", text), f"none on {listed(same)}", expected, "narrow it, or remove it")

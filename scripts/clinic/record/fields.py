@@ -45,6 +45,7 @@ class Described(Strict):
 
     unit: str = Field(default="", description="Unit as it is printed: m, rad, N, N m, s; empty for a pure number.")
     label: str = Field(default="", description="What a plot's axis and the table call it; the name when absent.")
+    said: list[Text] = Field(default=[], description="Further words by which prose speaks of it; see Prose.")
 
 
 class PathSignal(Described):

@@ -27,6 +27,9 @@ NUMBER = re.compile(
     rf"\b(?:one|two|zero) {SIZE}\b",
     re.IGNORECASE,
 )
+TITLE = re.compile(rf"{NUMBER.pattern}|\bdouble the\b|\bhalf the\b", re.IGNORECASE)
+LESS = re.compile(r"\b(?:half the|hal(?:ve|ving)|divide|lighter|thinner|softer|lower)\b", re.IGNORECASE)
+MORE = re.compile(r"\b(?:twice the|doubl(?:e|ing)|heavier|thicker|harder|raise)\b", re.IGNORECASE)
 OPERATOR = re.compile(r"[\d/*=^√()+·]")
 
 
@@ -57,7 +60,7 @@ def typed(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 def titled(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 5, titles. A number in the title of a remedy or trial is one that it writes, or the ratio to that before."""
-    titles: list[tuple[Where, str, set[float]]] = [
+    titles: list[tuple[Where, str, list[tuple[float, float]]]] = [
         ((*variant.where, "title"), variant.title, _numbers_of(variant, evidence)) for variant in variants(case)[1:]
     ]
     for index, trial in enumerate(case.record.trials):
@@ -65,9 +68,13 @@ def titled(case: Case, evidence: Evidence) -> Iterator[Problem]:
         if trial.duration and case.record.run is not None:
             changed.append((case.record.run.duration, trial.duration))
         changed += [(math.nan, float(n)) for edit in trial.edits for n in WRITTEN.findall(edit.replace)]
-        titles.append((("trials", index, "title"), trial.title, _and_ratios(changed)))
-    for where, title, allowed in titles:
-        for number in NUMBER.finditer(title):
+        titles.append((("trials", index, "title"), trial.title, changed))
+    for where, title, changed in titles:
+        code = case.record.run is None  # its number may stand for the inverse: a count of steps for a timestep
+        allowed = _and_ratios(changed, up=code or not LESS.search(title), down=code or not MORE.search(title))
+        if LESS.search(title) and "times" in title:
+            allowed -= {abs(after) for _, after in changed}
+        for number in TITLE.finditer(title):
             values = _values(number[0])
             if not any(abs(value - known) <= 1e-6 * abs(value) for value in values for known in allowed):
                 wanted = (
@@ -76,8 +83,8 @@ def titled(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 yield case.problem(where, number[0], wanted, "correct the title", quoted=number[0])
 
 
-def _numbers_of(variant: Variant, evidence: Evidence) -> set[float]:
-    """The numbers that a remedy writes, and its ratios to those that it replaces."""
+def _numbers_of(variant: Variant, evidence: Evidence) -> list[tuple[float, float]]:
+    """The numbers that a remedy replaces, each with one that it writes."""
     changed: list[tuple[float, float]] = []
     for edit in variant.edits:
         before, after = ([float(n) for n in WRITTEN.findall(text)] for text in (edit.find, edit.replace))
@@ -85,13 +92,14 @@ def _numbers_of(variant: Variant, evidence: Evidence) -> set[float]:
     steps = [evidence.variants[key].timestep for key in ("broken", variant.id)]
     if steps[0] and steps[1]:
         changed.append((steps[0], steps[1]))
-    return _and_ratios(changed)
+    return changed
 
 
-def _and_ratios(changed: Iterable[tuple[float, float]]) -> set[float]:
-    """The new numbers, and how many times larger or smaller they are than the old ones."""
+def _and_ratios(changed: Iterable[tuple[float, float]], up: bool, down: bool) -> set[float]:
+    """The new numbers, and how many times larger (`up`) or smaller (`down`) they are than the old ones."""
     made = {abs(after) for _, after in changed}
-    ratios = {abs(a / b) for pair in changed for a, b in (pair, pair[::-1]) if b}
+    ratios = {abs(after / before) for before, after in changed if up and before}
+    ratios |= {abs(before / after) for before, after in changed if down and after}
     return made | {float(f"{ratio:.9g}") for ratio in ratios if math.isfinite(ratio)}
 
 
@@ -102,7 +110,7 @@ def _values(number: str) -> list[float]:
     words |= {"fourth": 4.0, "fifth": 5.0, "tenth": 10.0, "hundredth": 100.0, "thousandth": 1000.0, "half": 2.0}
     if number.lower().startswith("half a"):
         return [0.5]
-    word = number.lower().split("-")[0]
+    word = re.split(r"[- ]", number.lower())[0]
     if word in words:
         return [words[word]]
     try:

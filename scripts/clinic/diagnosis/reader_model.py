@@ -81,6 +81,8 @@ class ReaderModel:
             written = self.source.of_bodies(*TAGS[kind])
         else:
             written = list(self.source.section(SECTION.get(kind, kind)))
+        if kind in ("pair", "exclude"):
+            written = [each for each in self.source.section("contact") if each.tag == kind]
         if self.source.urdf and kind == "joint":
             written = list(self.source.elements("joint"))
         by_name = {element.get("name"): element for element in written if element.get("name")}

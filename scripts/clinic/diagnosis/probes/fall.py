@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import BOX, HFIELD, PLANE
 from clinic.diagnosis.probes.run import State, let_go
-from clinic.diagnosis.probes.shape import at, box, dot, minus, root_of, roots, size, solid, travels
+from clinic.diagnosis.probes.shape import at, box, dot, falling, minus, root_of, size, solid
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe
 
@@ -35,7 +35,7 @@ def _fallen(simulation: Simulation) -> Iterator[tuple[int, int]]:
     if run.end is None:
         return
     kinds, bodies, owner = simulation.model("geom_type"), simulation.model("geom_bodyid"), root_of(simulation)
-    for root in [root for root in roots(simulation) if travels(simulation, root)]:
+    for root in falling(simulation):
         for geom, body in enumerate(bodies):
             kind = int(kinds[geom])
             if owner[int(body)] == root or kind == HFIELD or not (solid(simulation, geom) or kind in (PLANE, BOX)):

@@ -6,7 +6,7 @@ import math
 
 from clinic.diagnosis.engine import FREE, SLIDE
 from clinic.diagnosis.probes.run import State, let_go, state
-from clinic.diagnosis.probes.shape import Vector, at, cross, dot, minus, root_of, roots, size, travels
+from clinic.diagnosis.probes.shape import Vector, at, cross, dot, falling, minus, root_of, size
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe
 
@@ -18,7 +18,7 @@ def _slides_on(simulation: Simulation) -> float:
     run = let_go(simulation)
     if run.end is None:
         return float("inf")
-    pushed = [root for root in roots(simulation) if travels(simulation, root)]
+    pushed = list(falling(simulation))
     return max((_pushed(simulation, run.end, pushed, axis) for axis in (0, 1)), default=0.0) if pushed else 0.0
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from clinic.diagnosis.engine import BALL, FREE, PLANE, SLIDE
+from clinic.diagnosis.engine import FREE, PLANE, SLIDE
 from clinic.diagnosis.simulation import Simulation
 
 Vector = tuple[float, float, float]
@@ -56,10 +56,17 @@ def geoms_of_tree(simulation: Simulation, root: int) -> list[int]:
     return [geom for geom, body in enumerate(simulation.model("geom_bodyid")) if owner[int(body)] == root]
 
 
-def travels(simulation: Simulation, root: int) -> bool:
-    """Whether a root can leave its place."""
-    kinds = [simulation.joint_type(joint) for joint in simulation.joints_of(root)]
-    return any(kind in (FREE, SLIDE) for kind in kinds) and BALL not in kinds
+def falling(simulation: Simulation) -> dict[int, int]:
+    """The roots that can fall, and the degree of freedom in which they do."""
+    made = {}
+    for root in roots(simulation):
+        for joint in simulation.joints_of(root):
+            kind, axis = simulation.joint_type(joint), simulation.row("jnt_axis", joint, 3)
+            if kind == FREE:
+                made[root] = simulation.dof(joint) + 2
+            elif kind == SLIDE and abs(axis[2]) > 0.9:
+                made[root] = simulation.dof(joint)
+    return made
 
 
 def collides(simulation: Simulation, one: int, other: int) -> bool:
@@ -87,7 +94,9 @@ def size(simulation: Simulation, body: int) -> float:
     return max([*own, 0.0]) or max([radii[geom] for geom in geoms_of_tree(simulation, body)], default=0.0)
 
 
-def box(simulation: Simulation, positions: tuple[float, ...], axes: tuple[float, ...], geom: int) -> tuple[Vector, Vector]:
+def box(
+    simulation: Simulation, positions: tuple[float, ...], axes: tuple[float, ...], geom: int
+) -> tuple[Vector, Vector]:
     """The box around a geom along the world's axes: its centre and half sizes in m."""
     cx, cy, cz, hx, hy, hz = simulation.row("geom_aabb", geom, 6)
     matrix, place = axes[9 * geom : 9 * geom + 9], at(positions, geom)

@@ -81,7 +81,20 @@ def depth() -> Probe:
 
 def all_alike(simulation: Simulation, field: str, value: float) -> bool:
     """Whether all geoms that collide have that value."""
-    return all(simulation.model(field)[geom] == value for geom in range(simulation.count("geom")) if solid(simulation, geom))
+    return all(
+        simulation.model(field)[geom] == value for geom in range(simulation.count("geom")) if solid(simulation, geom)
+    )
 
 
-__all__ = ["Deciding", "all_alike", "deciding", "depth", "edits_of", "geoms_of_tree", "names_of", "resting", "root_of", "roots"]
+__all__ = [
+    "Deciding",
+    "all_alike",
+    "deciding",
+    "depth",
+    "edits_of",
+    "geoms_of_tree",
+    "names_of",
+    "resting",
+    "root_of",
+    "roots",
+]

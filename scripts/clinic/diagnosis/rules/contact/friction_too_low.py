@@ -68,7 +68,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if edits and model.measured(slides_on(), edits) <= MOST:
             top = max(priority[geom] for each in first for geom in each.elements)
             yield Suspect(
-                names, "priority", f"{int(top)}", "0", edits, slides_on(), MOST, says, healthy, excess=LOW / max(least, 1e-6)
+                names,
+                "priority",
+                f"{int(top)}",
+                "0",
+                edits,
+                slides_on(),
+                MOST,
+                says,
+                healthy,
+                excess=LOW / max(least, 1e-6),
             )
             return
     says = f"Friction {least:g} holds nothing on a slope of {100 * least:.2g} %."

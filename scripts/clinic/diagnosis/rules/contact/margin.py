@@ -28,7 +28,7 @@ Good:
     </mujoco>
 
 The number: the widest gap of a contact that carries something, 2 s after letting go, as a share of the thinner geom's
-thickness; below 0.1 is well. MuJoCo's manual, Computation, Margin and gap.
+thickness; below 0.2 is well. MuJoCo's manual, Computation, Margin and gap.
 
 When it is wrong: an air bearing.
 """
@@ -37,8 +37,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import Contact
 from clinic.diagnosis.probes.run import let_go
-from clinic.diagnosis.probes.shape import thickness
+from clinic.diagnosis.probes.shape import falling, root_of, thickness
 from clinic.diagnosis.probes.touch import resting
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -48,28 +49,37 @@ TITLE = "Contacts that push before anything touches"
 FAMILIES = ("stuck", "sinks", "jumps-at-start")
 SINCE = "0.2"
 
-MOST = 0.1  # of the thinner geom's thickness
+MOST = 0.2  # of the thinner geom's thickness
 
 
 def _hovers(simulation: Simulation) -> float:
     made = 0.0
-    for contact, _ in resting(simulation):
+    for contact in _floating(simulation):
         thick = min(thickness(simulation, geom) for geom in contact.geoms)
         if 0 < thick < float("inf"):
             made = max(made, contact.distance / thick)
     return made if let_go(simulation).end else float("inf")
 
 
+def _floating(simulation: Simulation) -> list[Contact]:
+    """The contacts that carry something that can fall and touch nothing."""
+    falls, owner, bodies = falling(simulation), root_of(simulation), simulation.model("geom_bodyid")
+    apart = [contact for contact, _ in resting(simulation) if contact.distance > 0]
+    return [each for each in apart if any(owner[int(bodies[geom])] in falls for geom in each.geoms)]
+
+
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The margins of the geoms that hover."""
     simulation = model.simulation
     margins = simulation.model("geom_margin")
-    geoms = {geom for contact, _ in resting(simulation) for geom in contact.geoms if contact.distance > 0}
+    geoms = {geom for contact in _floating(simulation) for geom in contact.geoms}
     wide = sorted(geom for geom in geoms if margins[geom] > 0)
     pairs = [i for i, each in enumerate(simulation.model("pair_margin")) if each > 0]
     if not wide and not pairs:
         return
-    edits = (model.set("geom", wide, "margin", "0") if wide else ()) + (model.set("pair", pairs, "margin", "0") if pairs else ())
+    edits = (model.set("geom", wide, "margin", "0") if wide else ()) + (
+        model.set("pair", pairs, "margin", "0") if pairs else ()
+    )
     most = max([margins[geom] for geom in wide] + [simulation.model("pair_margin")[i] for i in pairs])
     names = tuple(simulation.name("geom", geom) for geom in wide)
     probe = Probe("widest gap of a contact that carries, at rest", "of the geom's thickness", _hovers)

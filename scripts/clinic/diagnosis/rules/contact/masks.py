@@ -36,6 +36,7 @@ marks as a place is not told: only planes, boxes and what collides at all are ta
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
@@ -50,6 +51,8 @@ FAMILIES = ("falls-through", "stuck")
 SINCE = "0.2"
 CASE = "box-falls-through-floor"
 
+GHOST = "target|goal|ghost|marker|mocap|visual|reference|hint"
+
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The masks of a surface that nothing touches, else those of what falls through it."""
@@ -63,6 +66,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         others = [geom for geom in range(simulation.count("geom")) if geom != surface and geom not in tree]
         lonely = not any(collides(simulation, surface, geom) for geom in others if solid(simulation, geom))
         solids = any(solid(simulation, geom) for geom in tree)
+        if not solids and _ghost(model, root, tree):
+            continue
         ghost = not solid(simulation, surface)
         if ghost and not solids and int(simulation.model("geom_type")[surface]) != PLANE:
             continue
@@ -95,6 +100,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             says,
             excess=3.0,
         )
+
+
+def _ghost(model: ReaderModel, root: int, tree: list[int]) -> bool:
+    """Whether it is meant to be passed: by its name, or because one can look through it."""
+    simulation = model.simulation
+    names = [simulation.names("body")[root], *(simulation.names("geom")[geom] for geom in tree)]
+    clear = all(simulation.row("geom_rgba", geom, 4)[3] < 1 for geom in tree)
+    return clear or any(re.search(GHOST, name, re.IGNORECASE) for name in names)
 
 
 def _usual(model: ReaderModel, geom: int) -> bool:

@@ -40,7 +40,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.probes.run import let_go
-from clinic.diagnosis.probes.shape import roots, size, solid, travels
+from clinic.diagnosis.probes.shape import falling, size, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -55,7 +55,7 @@ REFSAFE = 4096  # mjtDisableBit
 
 def _leaps(simulation: Simulation) -> float:
     run = let_go(simulation)
-    sizes = [size(simulation, root) for root in roots(simulation) if travels(simulation, root)]
+    sizes = [size(simulation, root) for root in falling(simulation)]
     if run.end is None:
         return float("inf")
     return run.rise / max(sizes) if sizes and max(sizes) > 0 else 0.0

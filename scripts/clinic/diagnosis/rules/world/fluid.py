@@ -40,8 +40,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import FREE, SLIDE
-from clinic.diagnosis.probes.shape import roots, size
+from clinic.diagnosis.probes.shape import falling, size
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -53,28 +52,15 @@ SINCE = "0.2"
 MOST = 0.2  # of the weight
 
 
-def _falling(simulation: Simulation) -> list[tuple[int, int]]:
-    """Roots that can fall, and the degree of freedom in which they do."""
-    made = []
-    for root in roots(simulation):
-        for joint in simulation.joints_of(root):
-            kind, axis = simulation.joint_type(joint), simulation.row("jnt_axis", joint, 3)
-            if kind == FREE:
-                made.append((root, simulation.dof(joint) + 2))
-            elif kind == SLIDE and abs(axis[2]) > 0.9:
-                made.append((root, simulation.dof(joint)))
-    return made
-
-
 def _held_back(simulation: Simulation) -> float:
     simulation.begin()
     g = math.hypot(*simulation.model("opt.gravity"))
-    falling = _falling(simulation)
-    for root, dof in falling:
+    falls = falling(simulation)
+    for root, dof in falls.items():
         simulation.engine.write("qvel", [-math.sqrt(g * max(size(simulation, root), 1e-3))], dof)
     simulation.engine.forward()
     drag, masses = simulation.data("qfrc_fluid"), simulation.model("body_subtreemass")
-    return max((abs(drag[dof]) / max(g * masses[root], 1e-12) for root, dof in falling), default=0.0)
+    return max((abs(drag[dof]) / max(g * masses[root], 1e-12) for root, dof in falls.items()), default=0.0)
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

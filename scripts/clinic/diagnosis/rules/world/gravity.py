@@ -59,7 +59,9 @@ USUAL = "0 0 -9.81"
 def _up(simulation: Simulation) -> tuple[float, float, float]:
     simulation.begin()
     matrices, kinds = simulation.data("geom_xmat"), simulation.model("geom_type")
-    ups = [(m[2], m[5], m[8]) for g, kind in enumerate(kinds) if int(kind) == PLANE for m in [matrices[9 * g : 9 * g + 9]]]
+    ups = [
+        (m[2], m[5], m[8]) for g, kind in enumerate(kinds) if int(kind) == PLANE for m in [matrices[9 * g : 9 * g + 9]]
+    ]
     level = [up for up in ups if up[2] > 0.5]
     return (0.0, 0.0, 1.0) if level or not ups else ups[0]
 
@@ -109,6 +111,10 @@ def _none(model: ReaderModel, now: str, off: bool) -> Iterator[Suspect]:
     flags = tuple(set_attribute(each, "gravity", "enable") for each in model.source.elements("flag")) if off else ()
     edits = flags or model.option("gravity", USUAL)
     names = tuple(simulation.name("body", body) for body in simulation.free_bodies)
-    probe = Probe("free bodies that nothing pulls down", "", lambda s, count: float(count), (len(names),), dynamic=False)
+    probe = Probe(
+        "free bodies that nothing pulls down", "", lambda s, count: float(count), (len(names),), dynamic=False
+    )
     says = "Gravity is switched off." if off else f"Gravity is {now}."
-    yield Suspect(("gravity", *names), "gravity", "disable" if off else now, USUAL, edits, probe, 0.0, says, level="hint")
+    yield Suspect(
+        ("gravity", *names), "gravity", "disable" if off else now, USUAL, edits, probe, 0.0, says, level="hint"
+    )

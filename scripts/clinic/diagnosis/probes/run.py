@@ -23,8 +23,9 @@ class State:
 
 def state(simulation: Simulation) -> State:
     """The state as it is now; contacts of flexes, which have no geom, are left out."""
-    fields = [tuple(simulation.data(name)) for name in ("qpos", "qvel", "xipos", "geom_xpos", "geom_xmat")]
-    return State(*fields, tuple(each for each in simulation.engine.contacts() if min(each.geoms) >= 0))
+    contacts = tuple(each for each in simulation.engine.contacts() if min(each.geoms) >= 0)
+    qpos, qvel, xipos = (tuple(simulation.data(name)) for name in ("qpos", "qvel", "xipos"))
+    return State(qpos, qvel, xipos, tuple(simulation.data("geom_xpos")), tuple(simulation.data("geom_xmat")), contacts)
 
 
 @dataclass

@@ -12,6 +12,7 @@ from clinic.diagnosis.suspect import Probe
 
 FRICTION = 0.3  # stops what is pushed within the time that the probe waits
 GRAVITY = 9.81
+PART = 0.1  # a push as fast as a fall over this part of the thing's size: without friction it slides by a third of it
 
 
 def _slides_on(simulation: Simulation) -> float:
@@ -28,7 +29,7 @@ def _pushed(simulation: Simulation, rest: State, pushed: list[int], along: int) 
     simulation.engine.write("qpos", rest.qpos)
     velocities = [0.0] * len(rest.qvel)
     scale = min(size(simulation, root) for root in pushed) or 0.1
-    speed = math.sqrt(gravity * scale)
+    speed = math.sqrt(PART * gravity * scale)
     # neighbours are pushed apart, so that those of a pile slide on each other as well
     for number, root in enumerate(pushed):
         sign = 1 if number % 2 == 0 else -1
@@ -85,7 +86,8 @@ def _rolls_on(simulation: Simulation, body: int) -> float:
     simulation.engine.write("qvel", [0.0] * len(run.end.qvel))
     simulation.engine.write("qvel", [1.0], dof)
     speeds = [math.hypot(*simulation.data("qvel")[dof : dof + 2]) for _ in simulation.run(1.5, samples=3)]
-    return speeds[-1] / speeds[0] if len(speeds) > 1 and speeds[0] > 0.1 else 0.0
+    rolled = len(speeds) > 1 and 0.1 < speeds[0] >= 0.95 * speeds[-1]
+    return speeds[-1] / speeds[0] if rolled else 0.0
 
 
 def rolls_on(body: int) -> Probe:

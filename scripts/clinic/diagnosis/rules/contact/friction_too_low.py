@@ -28,8 +28,8 @@ Good:
     </mujoco>
 
 The number: a push, once at rest, at the speed of a fall over the size of what is pushed; with friction 0.3 it would be
-over when the probe looks. Below 0.3 of the push's speed, which is friction 0.2, is well. PTFE on PTFE has 0.04, wet ice less, steel on steel
-0.4 and more.
+over when the probe looks. Below 0.3 of the push's speed, which is friction 0.2, is well. PTFE on PTFE has 0.04, wet ice
+less, steel on steel 0.4 and more.
 
 When it is wrong: ice.
 """

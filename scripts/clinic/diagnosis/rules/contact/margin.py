@@ -1,7 +1,8 @@
 """Contacts push before anything touches: a large `margin`.
 
-Since MuJoCo 3.9 `margin` is a layer around the geom: things rest on it, in the air. The margins of both geoms are added. Before,
-`margin` = `gap` meant contacts that are seen and do not push; now the same text lifts things by the margin.
+Since MuJoCo 3.9 `margin` is a layer around the geom: things rest on it, in the air. The margins of both geoms are
+added. Before, `margin` = `gap` meant contacts that are seen and do not push; now the same text lifts things by the
+margin.
 
 Bad:
 

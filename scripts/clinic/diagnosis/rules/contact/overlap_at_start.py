@@ -30,8 +30,8 @@ Good:
 The number: the deepest overlap at the start as a share of how far the thing reaches from its own origin; below 0.1 is
 well. Robots are often pressed into the floor by a few millimetres.
 
-When it is wrong: code that puts everything into its place after the reset. Bodies that all begin at the origin look like that
-and are left alone.
+When it is wrong: code that puts everything into its place after the reset. Bodies that all begin at the origin look
+like that and are left alone.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     start = beginning(simulation)
     edits: tuple[Edit, ...] = ()
     raised: dict[int, float] = {}
-    for root, (_, deepest) in found.items():
+    for root in found:
         for contact in start.contacts:
             trees = [owner[int(bodies[geom])] for geom in contact.geoms]
             if root not in trees or trees[0] == trees[1] or contact.distance >= 0:

@@ -34,8 +34,8 @@ Good:
       </contact>
     </mujoco>
 
-The number: the deepest overlap at the start of bodies at most 3 links apart, as a share of the thinner geom's thickness;
-below 0.1 is well. MuJoCo's manual, Computation, Collision detection: the filter of parents.
+The number: the deepest overlap at the start of bodies at most 3 links apart, as a share of the thinner geom's
+thickness; below 0.1 is well. MuJoCo's manual, Computation, Collision detection: the filter of parents.
 
 When it is wrong: a geom that is too large, where the edit hides it; or a part without the free joint that it gets
 elsewhere. So a body with three limbs and more that is fixed in an empty world is left alone, and so is a start outside
@@ -73,6 +73,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     xml = "".join(f'<exclude body1="{names[one]}" body2="{names[other]}"/>' for one, other in deep)
     named = all(names[body] for pair in deep for body in pair)
     bodies = tuple(simulation.name("body", body) for pair in sorted(deep, key=deep.__getitem__)[::-1] for body in pair)
+    if not deep or (model.source is not None and model.source.urdf and any(0 in pair for pair in deep)):
+        return  # what a URDF has for a base is often carried by something else
     static = any(not root_of(simulation)[body] for pair in deep for body in pair)
     says = f"They overlap by {1000 * max(deep.values()):.3g} mm" + (
         "; the parent is fixed to the world, so that the filter of parents does not apply." if static else "."

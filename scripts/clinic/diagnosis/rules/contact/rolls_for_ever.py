@@ -1,7 +1,7 @@
 """A ball that never stops rolling.
 
-With `condim` 3, the default, a contact has no rolling friction: a ball rolls for ever. With `condim="6"` the third number of
-`friction` acts, and its default of 0.0001 m is next to nothing.
+With `condim` 3, the default, a contact has no rolling friction: a ball rolls for ever. With `condim="6"` the third
+number of `friction` acts, and its default of 0.0001 m is next to nothing.
 
 Bad:
 
@@ -65,7 +65,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         meant = [
             decides
             for contact, decides in resting(simulation)
-            if body in [int(bodies[geom]) for geom in contact.geoms] and 1 < decides.dim
+            if body in [int(bodies[geom]) for geom in contact.geoms] and decides.dim > 1
         ]
         if meant and all(each.dim < 6 for each in meant):
             says = f"With condim {meant[0].dim} a contact has no rolling friction."

@@ -1,7 +1,8 @@
 """Contacts so soft that things sink in.
 
 A contact is a damped spring: `solref` has its time constant and damping ratio, `solimp` how much of it acts. A time
-constant of 0.2 s in place of 0.02 s, or an impedance of 0.1 in place of 0.9, lets things sink in by a part of their size.
+constant of 0.2 s in place of 0.02 s, or an impedance of 0.1 in place of 0.9, lets things sink in by a part of their
+size.
 
 Bad:
 
@@ -27,8 +28,8 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: the deepest contact 2 s after letting go as a share of the thinner geom's thickness; below 0.15 is well. With
-the default values a box at rest sinks in by 0.1 mm.
+The number: the deepest contact 2 s after letting go as a share of the thinner geom's thickness; below 0.15 is well.
+With the default values a box at rest sinks in by 0.1 mm.
 
 When it is wrong: a cushion.
 """

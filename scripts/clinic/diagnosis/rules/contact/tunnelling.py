@@ -39,6 +39,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.fall import below, fallen, limit
+from clinic.diagnosis.probes.overlap import buried
 from clinic.diagnosis.probes.shape import collides, geoms_of_tree
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -48,11 +49,15 @@ FAMILIES = ("falls-through", "sinks")
 SINCE = "0.2"
 CASE = "ball-passes-through-shelf"
 
+BURIED = 0.1  # what begins inside of something has another fault
+
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The timestep and `solref` of what passes through something although it may touch it."""
     simulation = model.simulation
     for root, surface in fallen(simulation):
+        if buried(simulation).get(root, (0.0,))[0] > BURIED:
+            continue
         own = [geom for geom in geoms_of_tree(simulation, root) if collides(simulation, geom, surface)]
         if not own or int(simulation.model("geom_type")[surface]) == PLANE or len(own) > 8:
             continue

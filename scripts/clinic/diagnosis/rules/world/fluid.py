@@ -1,7 +1,7 @@
 """The air is as dense as water, or as viscous as honey.
 
-`density` and `viscosity` of `<option>` make a medium that holds everything back. Air has 1.2 kg/m3 and 0.00002 Pa s, water
-1000 kg/m3 and 0.0009 Pa s.
+`density` and `viscosity` of `<option>` make a medium that holds everything back. Air has 1.2 kg/m3 and 0.00002 Pa s,
+water 1000 kg/m3 and 0.0009 Pa s.
 
 Bad:
 
@@ -29,8 +29,8 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: what the medium holds back of something that falls at the speed of a fall over its own size, as a share of its
-weight; below 0.2 is well.
+The number: what the medium holds back of something that falls at the speed of a fall over its own size, as a share of
+its weight; below 0.2 is well.
 
 When it is wrong: a swimmer or a boat. What cannot fall, or has no gravity, is left alone.
 """

@@ -28,8 +28,9 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: the angle between gravity and the way down to the floor (-z where there is no horizontal plane), at most 45 degrees;
-and the time in which something falls as far as the model is wide: 0.45 s for 1 m, told where it is under 0.02 s or over 5 s.
+The number: the angle between gravity and the way down to the floor (-z where there is no horizontal plane), at most
+45 degrees; and the time in which something falls as far as the model is wide: 0.45 s for 1 m, told where it is under
+0.02 s or over 5 s.
 
 When it is wrong: a slope or a wall that is made by tilting gravity. Gravity 0 where free bodies are above a floor is a
 hint, for it is often meant.

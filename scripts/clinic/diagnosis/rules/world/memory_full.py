@@ -1,7 +1,7 @@
 """MuJoCo's memory is full, and contacts or constraints are dropped.
 
-`<size memory=...>`, or `nconmax` and `njmax` of older models, bound how much there may be. What does not fit is dropped with
-a warning: things fall through.
+`<size memory=...>`, or `nconmax` and `njmax` of older models, bound how much there may be. What does not fit is
+dropped with a warning: things fall through.
 
 Bad:
 

@@ -1,0 +1,86 @@
+"""A touch sensor's site does not hold the points of contact.
+
+A `<touch>` sensor sums the normal forces of contacts of its site's body whose points lie inside of the site's volume.
+The default site is a sphere of 5 mm; contacts are at the geom's surface, often outside.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="box" pos="0 0 0.05">
+          <freejoint/>
+          <geom type="box" size="0.05 0.05 0.05"/>
+          <site name="sole" pos="0 0 -0.05"/>
+        </body>
+      </worldbody>
+      <sensor>
+        <touch name="touch" site="sole"/>
+      </sensor>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="box" pos="0 0 0.05">
+          <freejoint/>
+          <geom type="box" size="0.05 0.05 0.05"/>
+          <site name="sole" pos="0 0 -0.05" type="box" size="0.06 0.06 0.01"/>
+        </body>
+      </worldbody>
+      <sensor>
+        <touch name="touch" site="sole"/>
+      </sensor>
+    </mujoco>
+
+The number: of what contacts of the body carry within 2 s after letting go, the share that the sensor never reads;
+below 0.95 is well.
+
+When it is wrong: a sensor that is meant for a part of its body. A body with several touch sensors is left alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.touched import TOUCH, touched, unread
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "A touch sensor whose site misses the contacts"
+FAMILIES = ("sensor-wrong",)
+SINCE = "0.2"
+
+MOST = 0.95
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Each touch sensor that is alone on its body, with a site as large as the contacts are far."""
+    simulation = model.simulation
+    kinds, of, owners = (simulation.model(name) for name in ("sensor_type", "sensor_objid", "site_bodyid"))
+    sites = [int(of[i]) for i, kind in enumerate(kinds) if int(kind) == TOUCH]
+    bodies = [owners[site] for site in sites]
+    for sensor, seen in touched(simulation).items():
+        site = int(of[sensor])
+        if int(kinds[sensor]) != TOUCH or bodies.count(owners[site]) > 1:
+            continue
+        if seen.carried > 0 and model.measured(unread(sensor)) > MOST and seen.reach < 2 * _reach(simulation, site):
+            size = f"{1.1 * seen.reach:.3g}"
+            value = " ".join([size] * 3)
+            edits = model.set("site", [site], "size", value)
+            if model.value("site", site, "type") not in (None, "sphere", "box", "ellipsoid"):
+                edits += model.set("site", [site], "type", "sphere")
+            names = (simulation.name("sensor", sensor), simulation.name("site", site))
+            now = " ".join(f"{each:g}" for each in simulation.row("site_size", site, 3))
+            says = f"Contacts carry up to {seen.carried:.3g} N on its body, up to {seen.reach:.3g} m from the site."
+            yield Suspect(names, "size", now, value, edits, unread(sensor), MOST, says)
+
+
+def _reach(simulation: Simulation, site: int) -> float:
+    radii = simulation.model("geom_rbound")
+    return 2 * max(
+        (radii[geom] for geom in simulation.geoms_of(int(simulation.model("site_bodyid")[site]))), default=0.0
+    )

@@ -43,6 +43,8 @@ def relatives(simulation: Simulation) -> list[tuple[int, int, Contact]]:
         siblings = (
             not same and links == 2 and owner[one] and owner[other] and not {owner[one], owner[other]} & set(falls)
         )
+        if contact.distance < -thickness(simulation, contact.geoms[0]) / 10 and links > LINKS and (same or bolted):
+            return []  # folded up: nobody starts like that
         path = [body for line in lines for body in line[: line.index(common)]]
         if contact.distance < 0 and links <= LINKS and (same or bolted or siblings) and not _outside(simulation, path):
             made.append((one, other, contact))

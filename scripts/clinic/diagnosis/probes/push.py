@@ -42,10 +42,10 @@ def _pushed(simulation: Simulation, rest: State, pushed: list[int], along: int) 
         pass
     if simulation.unstable():
         return float("inf")
-    return max((each / speed for each in _slips(simulation)), default=0.0)
+    return max((each / speed for each in _slips(simulation).values()), default=0.0)
 
 
-def _slips(simulation: Simulation) -> list[float]:
+def _slips(simulation: Simulation) -> dict[int, float]:
     """For each tree how fast its contacts slide in m/s, the mean by force."""
     simulation.engine.forward()
     now, owner, bodies = state(simulation), root_of(simulation), simulation.model("geom_bodyid")
@@ -68,7 +68,7 @@ def _slips(simulation: Simulation) -> list[float]:
         for root in {owner[one], owner[other]} - {0}:
             weight, total = sums.get(root, (0.0, 0.0))
             sums[root] = (weight + contact.force, total + contact.force * slip)
-    return [total / weight for weight, total in sums.values()]
+    return {root: total / weight for root, (weight, total) in sums.items()}
 
 
 def slides_on() -> Probe:
@@ -93,3 +93,20 @@ def _rolls_on(simulation: Simulation, body: int) -> float:
 def rolls_on(body: int) -> Probe:
     """The share of a ball's speed that is left after a second of rolling."""
     return Probe("of its speed it has after a second of rolling", "", _rolls_on, (body,))
+
+
+def _creeps(simulation: Simulation, body: int) -> float:
+    run = let_go(simulation)
+    if run.end is None:
+        return float("inf")
+    simulation.begin()
+    simulation.engine.write("qpos", run.end.qpos)
+    simulation.engine.write("qvel", run.end.qvel)
+    for _ in simulation.run(0.1, samples=1):
+        pass
+    return _slips(simulation).get(body, 0.0) / max(size(simulation, body), 1e-9)
+
+
+def creeps(body: int) -> Probe:
+    """How fast what is held slides in the grasp, 2 s after letting go."""
+    return Probe("contacts slide on it after 2 s with", "radii a second", _creeps, (body,))

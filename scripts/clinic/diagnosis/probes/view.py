@@ -11,7 +11,7 @@ from clinic.diagnosis.probes.shape import Vector, at, cross, dot, falling, minus
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 
-ASPECT = 4 / 3  # of the image's sides, where the model does not say
+ASPECT = 1.0  # of the image's sides, where the model does not say
 VISIBLE = 3  # groups from this one on are hidden by default
 TURNS = ("xyaxes", "euler", "axisangle", "zaxis", "quat")
 FIXED, TRACK, TRACKCOM = range(3)  # mjtCamLight
@@ -25,11 +25,11 @@ def axes(simulation: Simulation, camera: int) -> tuple[Vector, Vector, Vector]:
 
 def onlookers(simulation: Simulation) -> list[int]:
     """The cameras that look at the model from outside: fixed to the world, or following something."""
-    bodies, modes, owner = simulation.model("cam_bodyid"), simulation.model("cam_mode"), root_of(simulation)
+    bodies, modes = simulation.model("cam_bodyid"), simulation.model("cam_mode")
     follows = set(falling(simulation))
     made = []
     for camera, body in enumerate(bodies):
-        still = owner[int(body)] == 0 and int(modes[camera]) == FIXED
+        still = int(body) == 0 and int(modes[camera]) == FIXED
         after = int(body) in follows and int(modes[camera]) in (TRACK, TRACKCOM)
         if still or after:
             made.append(camera)
@@ -73,7 +73,8 @@ def middle(simulation: Simulation) -> Vector | None:
     places = [at(positions, geom) for geom in ([each for each in seen if owner[int(bodies[each])]] or seen)]
     if not places:
         return None
-    return (sum(p[0] for p in places) / len(places), sum(p[1] for p in places) / len(places), sum(p[2] for p in places) / len(places))  # fmt: skip
+    x, y, z = (sum(place[i] for place in places) / len(places) for i in range(3))
+    return (x, y, z)
 
 
 def turned(model: ReaderModel, camera: int, right: Sequence[float], up: Sequence[float]) -> tuple[Edit, ...]:

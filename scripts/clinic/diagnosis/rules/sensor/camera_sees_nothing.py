@@ -30,7 +30,7 @@ Good:
     </mujoco>
 
 The number: the share of visible geoms, floors left out, whose centre is not in the image; 1 is nothing in sight. By
-geometry, for an image of 4:3 where `resolution` does not say otherwise, at the start.
+geometry, for a square image where `resolution` does not say otherwise, at the start.
 
 When it is wrong: things come into view later, or the camera is meant for the floor. Cameras on moving bodies are left
 alone.

@@ -22,7 +22,7 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: how many times `fovy` is below 6 or above 145 degrees. Cameras of robots have 30 to 100, fish eyes 180
+The number: how many times `fovy` is below 3 or above 145 degrees. Cameras of robots have 30 to 100, fish eyes 180
 that no perspective image can show. Where `resolution` is given and no field of view, the default of 45 degrees is a
 hint.
 
@@ -41,7 +41,7 @@ TITLE = "A field of view next to nothing, or all around"
 FAMILIES = ("camera",)
 SINCE = "0.2"
 
-LOW, HIGH = 6.0, 145.0  # degrees
+LOW, HIGH = 3.0, 145.0  # degrees
 LENSES = ("fovy", "focal", "focalpixel", "sensorsize")
 
 
@@ -65,12 +65,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         ):
             continue
         if not LOW <= angle <= HIGH:
-            probe = Probe("field of view beyond 6 to 145 degrees by", "times", _beyond, (camera,), dynamic=False)
+            probe = Probe("field of view beyond 3 to 145 degrees by", "times", _beyond, (camera,), dynamic=False)
             edits = model.set("camera", [camera], "fovy", "45")
             says = f"The image spans {angle:.3g} degrees from top to bottom."
-            yield Suspect(name, "fovy", f"{angle:g}", "45", edits, probe, 1.0, says, "6 to 145 degrees")
-        elif simulation.row("cam_resolution", camera, 2)[0] > 1 and model.element("camera", camera) is not None:
-            if not any(model.value("camera", camera, lens) for lens in LENSES):
-                probe = Probe("field of view", "degrees", _default, (camera,), dynamic=False)
-                says = "It has a resolution and no field of view: MuJoCo's default of 45 degrees, not the real lens."
-                yield Suspect(name, "fovy", "45", "the lens's", (), probe, 0.0, says, level="hint")
+            yield Suspect(name, "fovy", f"{angle:g}", "45", edits, probe, 1.0, says, "3 to 145 degrees")
+        elif model.value("camera", camera, "resolution") and not any(
+            model.value("camera", camera, lens) for lens in LENSES
+        ):
+            probe = Probe("field of view", "degrees", _default, (camera,), dynamic=False)
+            says = "It has a resolution and no field of view: MuJoCo's default of 45 degrees, not the real lens."
+            yield Suspect(name, "fovy", "45", "the lens's", (), probe, 0.0, says, level="hint")

@@ -80,5 +80,5 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             simulation.name("site", site),
             simulation.name("body", int(owners[site])),
         )
-        says = f"Contacts carry up to {seen.carried:.3g} N, and the sensor reads {seen.reading:.3g}: the body has no parent."
+        says = f"Contacts carry {seen.carried:.3g} N, the sensor reads {seen.reading:.3g}: the body has no parent."
         yield Suspect(names, element.tag, element.tag, "touch", edits, unread(sensor), MOST, says)

@@ -7,7 +7,8 @@ Bad:
 
     <mujoco>
       <worldbody>
-        <camera name="front" pos="1 0 0.5" xyaxes="0 1 0 -0.4 0 1" resolution="640 480" sensorsize="0.004 0.003" focal="0.003 0.003" principalpixel="320 240"/>
+        <camera name="front" pos="1 0 0.5" xyaxes="0 1 0 -0.4 0 1"
+          resolution="640 480" sensorsize="0.004 0.003" focal="0.003 0.003" principalpixel="320 240"/>
         <geom type="box" size="0.05 0.05 0.05"/>
       </worldbody>
     </mujoco>
@@ -16,7 +17,8 @@ Good:
 
     <mujoco>
       <worldbody>
-        <camera name="front" pos="1 0 0.5" xyaxes="0 1 0 -0.4 0 1" resolution="640 480" sensorsize="0.004 0.003" focal="0.003 0.003" principalpixel="2 -1"/>
+        <camera name="front" pos="1 0 0.5" xyaxes="0 1 0 -0.4 0 1"
+          resolution="640 480" sensorsize="0.004 0.003" focal="0.003 0.003" principalpixel="2 -1"/>
         <geom type="box" size="0.05 0.05 0.05"/>
       </worldbody>
     </mujoco>

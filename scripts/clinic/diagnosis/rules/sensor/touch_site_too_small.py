@@ -45,6 +45,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.overlap import of_relatives
 from clinic.diagnosis.probes.touched import TOUCH, touched, unread
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -55,6 +56,7 @@ FAMILIES = ("sensor-wrong",)
 SINCE = "0.2"
 
 MOST = 0.95
+OVERLAP = 0.1  # forces of parts that overlap mean nothing
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -63,6 +65,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     kinds, of, owners = (simulation.model(name) for name in ("sensor_type", "sensor_objid", "site_bodyid"))
     sites = [int(of[i]) for i, kind in enumerate(kinds) if int(kind) == TOUCH]
     bodies = [owners[site] for site in sites]
+    if model.measured(of_relatives()) > OVERLAP:
+        return
     for sensor, seen in touched(simulation).items():
         site = int(of[sensor])
         if int(kinds[sensor]) != TOUCH or bodies.count(owners[site]) > 1:

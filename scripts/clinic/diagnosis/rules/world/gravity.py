@@ -98,9 +98,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = f"Gravity is {now} m/s2."
     yield Suspect(name, "gravity", now, value, edits, angle, ANGLE, says, USUAL, share=0.1)
     extent = simulation.model("stat.extent")[0]
-    says = f"With {math.hypot(*g):.3g} m/s2 a fall of {extent:.2g} m, the model's extent, takes {math.sqrt(2 * extent / math.hypot(*g)):.2g} s."
+    size = math.hypot(*g)
+    took = math.sqrt(2 * extent / size)
+    says = f"With {size:.3g} m/s2 a fall of {extent:.2g} m, the model's extent, takes {took:.2g} s."
     ratio = Probe("time of a fall over the model's extent, beyond 0.02 to 5 s by", "times", _ratio, dynamic=False)
-    scaled = " ".join(f"{9.81 * each / math.hypot(*g) + 0.0:.4g}" for each in g)
+    scaled = " ".join(f"{9.81 * each / size + 0.0:.4g}" for each in g)
     yield Suspect(name, "gravity", now, scaled, model.option("gravity", scaled), ratio, 1.0, says, USUAL)
 
 

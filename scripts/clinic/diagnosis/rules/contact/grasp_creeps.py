@@ -1,7 +1,7 @@
 """What is held creeps out of the grasp.
 
-Friction in MuJoCo is soft: under a load along the surface a contact slides slowly, however firm the grasp. How slowly is a
-matter of `impratio`, of the cone, and of `noslip_iterations`.
+Friction in MuJoCo is soft: under a load along the surface a contact slides slowly, however firm the grasp. How slowly
+is a matter of `impratio`, of the cone, and of `noslip_iterations`.
 
 Bad:
 
@@ -56,9 +56,9 @@ Good:
       </keyframe>
     </mujoco>
 
-The number: how fast contacts slide on what is held by moving parts alone, at the end of 2 s from the keyframe, in radii of
-the thing a second; below 0.02 is well. Measured with this pin: 2 mm/s, and 0.02 mm/s with the edit. `cone="elliptic"` with
-`impratio="10"` helps as well.
+The number: how fast contacts slide on what is held by moving parts alone, at the end of 2 s from the keyframe, in
+radii of the thing a second; below 0.02 is well. Measured with this pin: 2 mm/s, and 0.02 mm/s with the edit.
+`cone="elliptic"` with `impratio="10"` helps as well.
 
 When it is wrong: what slips fast has too little friction, or fingers that are too weak.
 """

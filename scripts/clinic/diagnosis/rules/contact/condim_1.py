@@ -27,8 +27,8 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: a push, once at rest, at the speed of a fall over a tenth of the size of what is pushed; with friction 0.3 it
-would be over when the probe looks. Below 0.3 of the push's speed is well.
+The number: a push, once at rest, at the speed of a fall over a tenth of the size of what is pushed; with friction 0.3
+it would be over when the probe looks. Below 0.3 of the push's speed is well.
 
 When it is wrong: a puck on air. A robot of which some geoms have friction, such as its feet, is left alone.
 """

@@ -27,9 +27,9 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: a push, once at rest, at the speed of a fall over a tenth of the size of what is pushed; with friction 0.3 it
-would be over when the probe looks. Below 0.5 of the push's speed, which is friction 0.15, is well. PTFE on PTFE has 0.04,
-wet ice less, steel on steel 0.4 and more.
+The number: a push, once at rest, at the speed of a fall over a tenth of the size of what is pushed; with friction 0.3
+it would be over when the probe looks. Below 0.5 of the push's speed, which is friction 0.15, is well. PTFE on PTFE has
+0.04, wet ice less, steel on steel 0.4 and more.
 
 When it is wrong: ice.
 """

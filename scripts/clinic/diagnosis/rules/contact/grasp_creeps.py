@@ -57,7 +57,7 @@ Good:
     </mujoco>
 
 The number: how fast contacts slide on what is held by moving parts alone, at the end of 2 s from the keyframe, in
-radii of the thing a second; below 0.02 is well. Measured with this pin: 2 mm/s, and 0.02 mm/s with the edit.
+radii of the thing a second; below 0.05 is well. Measured with this pin: 2 mm/s, and 0.02 mm/s with the edit.
 `cone="elliptic"` with `impratio="10"` helps as well.
 
 When it is wrong: what slips fast has too little friction, or fingers that are too weak.
@@ -69,7 +69,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.push import creeps
 from clinic.diagnosis.probes.run import let_go
-from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.shape import dot, root_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -77,7 +77,8 @@ TITLE = "A grasp that creeps"
 FAMILIES = ("slips", "drifts")
 SINCE = "0.2"
 
-MOST = 0.02  # radii a second
+OPPOSITE = 0.7
+MOST = 0.05  # radii a second
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -89,7 +90,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for body in simulation.free_bodies:
         trees = [[owner[int(bodies[geom])] for geom in contact.geoms] for contact in run.end.contacts]
         others = [tree for pair in trees if body in pair for tree in pair if tree != body]
-        if len(others) > 1 and not set(others) & {0, *simulation.free_bodies}:
+        if _squeezed(model, body) and not set(others) & {0, *simulation.free_bodies}:
             edits = model.option("noslip_iterations", "10")
             says = "Soft friction slides under a steady load; the no-slip pass of the solver takes that away."
             now = f"{int(simulation.model('opt.noslip_iterations')[0])}"
@@ -98,3 +99,15 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 share=0.2,
             )  # fmt: skip
             return
+
+
+def _squeezed(model: ReaderModel, body: int) -> bool:
+    """Whether contacts press on a body from opposite sides."""
+    run, bodies = let_go(model.simulation), model.simulation.model("geom_bodyid")
+    pressed = []
+    for contact in run.end.contacts if run.end else ():
+        sides = [int(bodies[geom]) for geom in contact.geoms]
+        if body in sides and contact.force > 0:
+            sign = 1 if sides[1] == body else -1
+            pressed.append((sign * contact.normal[0], sign * contact.normal[1], sign * contact.normal[2]))
+    return any(dot(one, other) < -OPPOSITE for one in pressed for other in pressed)

@@ -56,6 +56,7 @@ FAMILIES = ("sensor-wrong",)
 SINCE = "0.2"
 
 MOST = 0.95
+AWAY = 3.0  # sizes of the site; nearer contacts may be beside it on purpose
 OVERLAP = 0.1  # forces of parts that overlap mean nothing
 
 
@@ -70,6 +71,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for sensor, seen in touched(simulation).items():
         site = int(of[sensor])
         if int(kinds[sensor]) != TOUCH or bodies.count(owners[site]) > 1:
+            continue
+        if seen.reach < AWAY * max(simulation.row("site_size", site, 3)):
             continue
         if seen.carried > 0 and model.measured(unread(sensor)) > MOST and seen.reach < 2 * _reach(simulation, site):
             size = f"{1.1 * seen.reach:.3g}"

@@ -6,13 +6,15 @@
 # make growth  how the site grows to 1,000 cases; the table goes into *Work on the code*
 # make releases   what every release of MuJoCo does with every case, and which messages read otherwise; writes the two locks
 # make lint    style, types, order of the storeys
-# make lock    renews requirements.txt and requirements-parity.txt
+# make healthy   the robots of other people's packages on which the rules of `clinic diagnose` are measured
+# make lock    renews requirements.txt, requirements-parity.txt and requirements-healthy.txt
 # make audit   asks the registries for known holes in what is locked
 # make clean   forgets everything built
 
 SHELL := /bin/bash
 VENV := .venv
 BIN := $(VENV)/bin
+HEALTHY := .cache/healthy
 export MUJOCO_GL ?= egl
 # MkDocs' and Material's notices about the end of their lines: docs/contribute/work-on-the-code.md says what the way out is.
 export NO_MKDOCS_2_WARNING := 1
@@ -22,7 +24,7 @@ unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup serve site test bench growth releases lint lock audit clean
+.PHONY: help setup serve site test bench growth releases healthy lint lock audit clean
 
 help:
 	@sed -n 's/^# make/make/p' Makefile
@@ -43,9 +45,16 @@ serve: setup
 site: setup
 	$(BIN)/mkdocs build --strict
 
-test: setup
+test: setup healthy
 	-@$(BIN)/clinic build --out .cache/pages >/dev/null  # every run that the tests read, made once
 	$(BIN)/pytest -n auto --dist loadgroup
+
+healthy: $(HEALTHY)/.ready
+
+$(HEALTHY)/.ready: requirements-healthy.txt | $(VENV)/.ready
+	@rm -rf $(HEALTHY)
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps --target $(HEALTHY) -r $<
+	@touch $@
 
 bench: setup
 	$(BIN)/python scripts/bench.py --tests --write
@@ -69,10 +78,14 @@ lock: setup
 	sed -n 's/.*"@mujoco\/mujoco": "\(.*\)".*/mujoco==\1/p' package.json | $(BIN)/uv pip compile - --universal --python-version 3.11 \
 	  --no-deps --generate-hashes --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" \
 	  --upgrade --quiet --output-file requirements-parity.txt
+	printf '%s\n' dm-control gymnasium gymnasium-robotics cloudpickle farama-notifications imageio typing-extensions glfw | $(BIN)/uv pip compile - --universal --python-version 3.11 \
+	  --no-deps --generate-hashes --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" \
+	  --upgrade --quiet --output-file requirements-healthy.txt
 
 audit: setup
 	$(BIN)/uv tool run pip-audit --strict --require-hashes --disable-pip -r requirements.txt
 	$(BIN)/uv tool run pip-audit --strict --require-hashes --disable-pip -r requirements-parity.txt
+	$(BIN)/uv tool run pip-audit --strict --require-hashes --disable-pip -r requirements-healthy.txt
 	PATH="$(CURDIR)/$(BIN):$$PATH" npm audit
 
 clean:

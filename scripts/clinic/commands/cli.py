@@ -10,12 +10,13 @@ from typing import Annotated, Literal
 
 import typer
 
-from clinic.commands import diagnose
+from clinic.commands import bench_rules, diagnose
 from clinic.record.checkout import cache_folder, cases_root, folders, project_root, slugs
 from clinic.record.problem import CaseError, MissingRequirementError
 
 app = typer.Typer(no_args_is_help=True, help="Broken MuJoCo simulations that prove themselves.")
 app.add_typer(diagnose.app)
+app.add_typer(bench_rules.app)
 
 
 def complete(incomplete: str) -> list[str]:

@@ -13,6 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from clinic.engine import node
+from clinic.engine.provoke import provoke
 from clinic.pages.messages import LOCK as HEARD
 from clinic.pages.messages import Heard, Message, codes_of, listen, load_messages, read_heard
 from clinic.proof.experiments import measure_case
@@ -113,15 +114,10 @@ def listen_to(root: Path, messages: Sequence[Message], releases: Iterable[str] =
     Raises:
         RuntimeError: If an environment cannot be made or nothing can be provoked in it.
     """
-    wanted, codes = list(releases), json.dumps(codes_of(messages))
-
-    def ask(release: str) -> dict[str, str]:
-        command, folder = python_environment(root, release)
-        answer: dict[str, str] = json.loads(_run([*command, "-m", "clinic.engine.provoke"], folder, codes))
-        return answer
-
+    wanted, codes = list(releases), codes_of(messages)
     with ThreadPoolExecutor(jobs()) as pool:
-        return listen(messages, dict(zip(wanted, pool.map(ask, wanted), strict=True)))
+        pythons = (python_environment(root, release)[0][0] for release in wanted)
+        return listen(messages, dict(zip(wanted, pool.map(lambda each: provoke(codes, each), pythons), strict=True)))
 
 
 def _ask(root: Path, environment: tuple[list[str], Path], slugs: list[str]) -> dict[str, tuple[str, dict[str, object]]]:
@@ -135,8 +131,8 @@ def _uv() -> str:
     return shutil.which("uv", path=os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])) or "uv"
 
 
-def _run(command: list[str], folder: Path, given: str = "") -> str:
-    done = subprocess.run(command, cwd=folder, check=False, capture_output=True, text=True, input=given)
+def _run(command: list[str], folder: Path) -> str:
+    done = subprocess.run(command, cwd=folder, check=False, capture_output=True, text=True)
     if done.returncode:
         raise RuntimeError(f"{Path(command[0]).name} {command[1]} failed: {done.stderr.strip()[-500:]}")
     return done.stdout

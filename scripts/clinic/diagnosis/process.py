@@ -101,7 +101,9 @@ def _read(source: Any) -> tuple[str, str, str]:
 
 def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | None, str]:
     """The answer of a process; or None and the rule that was being tried when it ended."""
-    child = subprocess.Popen(CHILD, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    found = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}  # what this process can import
+    pipe = subprocess.PIPE
+    child = subprocess.Popen(CHILD, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, env=found)
     timer = threading.Timer(LIMIT, child.kill)
     timer.start()
     trying = ""

@@ -1,48 +1,45 @@
 """Makes MuJoCo say what it warns of and complains about, each time in a process of its own, which may crash or hang.
 
 `python -m clinic.engine.provoke`, run by the Python that has a release installed, answers stdin's codes with its texts.
+The processes are copies of that one, which has MuJoCo imported: to import it for each would take ten times as long.
 """
 
 from __future__ import annotations
 
+import contextlib
 import json
+import os
 import re
+import signal
+import subprocess
 import sys
+import tempfile
 from collections.abc import Mapping
-
-from clinic.engine import sandbox
 
 SECONDS = 10.0
 LINES = 6  # of a long message are kept
-SCRIPT = """\
-import os
-import mujoco
-import numpy as np
-
-def load(xml, files=None):
-    return mujoco.MjModel.from_xml_string(xml, files or {})
-
-os.dup2(1, 2)
-with open("code.py", encoding="utf-8") as file:
-    code = file.read()
-try:
-    exec(compile(code, "code.py", "exec"), {"mujoco": mujoco, "np": np, "load": load})
-except BaseException as error:
-    print(f"{type(error).__name__}: {error}", flush=True)  # before what destructors say
-"""
 
 
-def provoke(codes: Mapping[str, str]) -> dict[str, str]:
+def provoke(codes: Mapping[str, str], python: str = sys.executable) -> dict[str, str]:
     """What each piece of Python printed, to stdout and stderr alike, by its name.
 
     A piece has `mujoco`, `np` and `load(xml, files)`, which compiles a model. Where it ended by a signal, a crash or
     more than SECONDS, a last line says so: `ended by signal 11`.
+
+    Args:
+        codes: The pieces by name.
+        python: The Python that runs them.
+
+    Raises:
+        RuntimeError: If that Python cannot run this module.
     """
-    said = {}
-    for name, code in codes.items():
-        done = sandbox.run([sys.executable, "script.py"], {"script.py": SCRIPT, "code.py": code}, SECONDS)
-        ended = f"\nended by signal {-done.returncode}" if done.returncode < 0 else ""
-        said[name] = tidied(done.stdout + ended)
+    command = [python, "-m", "clinic.engine.provoke"]
+    done = subprocess.run(
+        command, check=False, capture_output=True, text=True, input=json.dumps([SECONDS, dict(codes)])
+    )
+    if done.returncode:
+        raise RuntimeError(f"{python}: {done.stderr.strip()[-500:]}")
+    said: dict[str, str] = json.loads(done.stdout)
     return said
 
 
@@ -52,5 +49,43 @@ def tidied(text: str) -> str:
     return "\n".join(lines[:LINES])
 
 
+def _said(code: str, seconds: float) -> str:
+    """What a copy of this process prints when it runs the code."""
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryDirectory() as folder:
+        child = os.fork()
+        if child == 0:
+            os.chdir(folder)  # MuJoCo appends to a log there
+            os.dup2(out.fileno(), 1)
+            os.dup2(out.fileno(), 2)
+            signal.setitimer(signal.ITIMER_REAL, seconds)
+            _run(code)
+            os._exit(0)
+        _, status = os.waitpid(child, 0)
+        out.seek(0)
+        ended = f"\nended by signal {os.WTERMSIG(status)}" if os.WIFSIGNALED(status) else ""
+        return tidied(out.read().decode(errors="replace") + ended)
+
+
+def _run(code: str) -> None:
+    import mujoco
+    import numpy as np
+
+    def load(xml: str, files: Mapping[str, bytes] | None = None) -> mujoco.MjModel:
+        return mujoco.MjModel.from_xml_string(xml, files or {})
+
+    names = {"mujoco": mujoco, "np": np, "load": load}
+    try:
+        exec(compile(code, "code.py", "exec"), names)
+    except BaseException as error:
+        print(f"{type(error).__name__}: {error}", flush=True)  # before what destructors say
+    names.clear()
+    with contextlib.suppress(OSError):
+        sys.stdout.flush()
+        sys.stderr.flush()
+
+
 if __name__ == "__main__":
-    print(json.dumps(provoke(json.load(sys.stdin))))
+    import mujoco  # once, for all copies
+
+    limit, given = json.load(sys.stdin)
+    print(json.dumps({name: _said(code, limit) for name, code in given.items()}))

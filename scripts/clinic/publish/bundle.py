@@ -52,7 +52,8 @@ def diagnosis_files(root: Path) -> Files:
         return {}
     made = {f"{DIAGNOSIS}/{name}": (folder / name).read_bytes() for name in PYTHON}
     package, packed = Path(__file__).parents[1], io.BytesIO()
-    rules = [path for path in sorted((package / "diagnosis").rglob("*.py")) if "bench" not in path.parts]
+    bench = package / "diagnosis" / "bench"
+    rules = [path for path in sorted((package / "diagnosis").rglob("*.py")) if not path.is_relative_to(bench)]
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
         for path in [package / "__init__.py", *rules]:
             entry = zipfile.ZipInfo(f"clinic/{path.relative_to(package).as_posix()}")  # with the same date always

@@ -215,8 +215,8 @@ def keyframes(s: Subject) -> Seen:
 
 
 RULES: tuple[Rule, ...] = (
-    still, ranges, unused_ranges, start_outside, gains, weak_servos, undamped, masses, lengths, gravity, switches, time_steps,
-    time_constants, lonely, priorities, quaternions, visual_mass, keyframes,
+    still, ranges, unused_ranges, start_outside, gains, weak_servos, undamped, masses, lengths, gravity, switches,
+    time_steps, time_constants, lonely, priorities, quaternions, visual_mass, keyframes,
 )  # fmt: skip
 
 

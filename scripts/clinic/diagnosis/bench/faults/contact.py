@@ -1,0 +1,160 @@
+"""Contacts, and what is around the model: gravity, the solver."""
+
+from __future__ import annotations
+
+from random import Random
+
+from clinic.diagnosis.bench.faults import Fault, between, kind, text_of
+from clinic.diagnosis.edit import delete, set_attribute
+from clinic.diagnosis.engine import PLANE
+from clinic.diagnosis.reader_model import ReaderModel
+
+MOVES = ("strays", "sinks", "faster", "unstable")
+
+
+def _colliding(model: ReaderModel) -> list[int]:
+    masks = zip(model.simulation.model("geom_contype"), model.simulation.model("geom_conaffinity"), strict=True)
+    return [i for i, (one, other) in enumerate(masks) if one or other]
+
+
+def _of_all(model: ReaderModel, geoms: list[int], strength: float, **values: str) -> Fault | None:
+    """Attributes of geoms set to the same value, in a default class where it is theirs alone."""
+    edits = [edit for name, value in values.items() for edit in model.set("geom", geoms, name, value)]
+    if not geoms or not edits:
+        return None
+    names = tuple(model.simulation.name("geom", i) for i in geoms)
+    return Fault(tuple(edits), names, next(iter(values)), strength)
+
+
+@kind("condim-1", "condim", harms=MOVES)
+def condim_1(model: ReaderModel, random: Random) -> Fault | None:
+    """No friction between any two geoms: condim 1."""
+    return _of_all(model, _colliding(model), 1, condim="1")
+
+
+@kind("friction-too-low", "no-friction", harms=MOVES)
+def friction_lost(model: ReaderModel, random: Random) -> Fault | None:
+    """Friction of all geoms next to nothing."""
+    value = between(random, 1e-4, 0.05)
+    return _of_all(model, _colliding(model), value, friction=text_of(value, 0.005, 0.0001))
+
+
+@kind("friction-too-low", "priority", harms=MOVES)
+def priority_of_a_slippery_floor(model: ReaderModel, random: Random) -> Fault | None:
+    """The floor has the last word on friction, and is slippery."""
+    floors = [i for i in _colliding(model) if model.simulation.model("geom_type")[i] == PLANE]
+    value = between(random, 1e-3, 0.1)
+    return _of_all(model, floors[:1], value, friction=text_of(value, 0.005, 0.0001), priority="1")
+
+
+@kind("friction-too-high", "friction-beyond-cone", harms=MOVES)
+def friction_huge(model: ReaderModel, random: Random) -> Fault | None:
+    """Friction of all geoms far beyond what the pyramidal cone can bear."""
+    value = between(random, 4, 500)
+    return _of_all(model, _colliding(model), value, friction=text_of(value, 0.005, 0.0001))
+
+
+@kind("masks", harms=MOVES)
+def masks_of_the_floor(model: ReaderModel, random: Random) -> Fault | None:
+    """The floor collides with nothing that stands on it."""
+    floors = [i for i in _colliding(model) if model.simulation.model("geom_type")[i] == PLANE]
+    bit = str(2 ** random.randrange(3, 20))
+    return _of_all(model, floors[:1], 1, contype=bit, conaffinity=bit)
+
+
+@kind("masks", harms=MOVES)
+def masks_of_a_body(model: ReaderModel, random: Random) -> Fault | None:
+    """The geoms of one moving body collide with nothing."""
+    simulation, colliding = model.simulation, set(_colliding(model))
+    bodies = [b for b in simulation.moving_bodies if colliding.intersection(simulation.geoms_of(b))]
+    if not bodies:
+        return None
+    geoms = sorted(colliding.intersection(simulation.geoms_of(random.choice(bodies))))
+    return _of_all(model, geoms, len(geoms), contype="0", conaffinity="0")
+
+
+@kind("soft-contact", harms=MOVES)
+def contacts_soft(model: ReaderModel, random: Random) -> Fault | None:
+    """The contacts of all geoms give way slowly: a long time constant."""
+    value = between(random, 0.05, 2)
+    return _of_all(model, _colliding(model), value, solref=text_of(value, 1))
+
+
+@kind("soft-contact", harms=MOVES)
+def contacts_weak(model: ReaderModel, random: Random) -> Fault | None:
+    """The contacts of all geoms have hardly any impedance."""
+    value = between(random, 0.001, 0.3)
+    return _of_all(model, _colliding(model), value, solimp=text_of(value, value, 0.001))
+
+
+@kind("margin", "gap", harms=MOVES)
+def margin_large(model: ReaderModel, random: Random) -> Fault | None:
+    """Contacts push before anything touches: a margin of a part of the model's size."""
+    value = model.simulation.model("stat.extent")[0] * between(random, 0.005, 0.3)
+    return _of_all(model, _colliding(model), value, margin=text_of(value))
+
+
+@kind("overlap-at-start", "overlap", harms=("jumps", *MOVES))
+def start_in_the_floor(model: ReaderModel, random: Random) -> Fault | None:
+    """A free body begins lower by a part of the model's size."""
+    free = [b for b in model.simulation.free_bodies if model.element("body", b) is not None]
+    if not free:
+        return None
+    body = random.choice(free)
+    x, y, z = model.simulation.row("body_pos", body, 3)
+    depth = model.simulation.model("stat.extent")[0] * between(random, 0.01, 1)
+    place = model.element("body", body)
+    assert place is not None
+    edit = set_attribute(place, "pos", text_of(x, y, z - depth))
+    names = [model.simulation.name("geom", i) for i in model.simulation.geoms_of(body)]
+    return Fault((edit,), (model.simulation.name("body", body), *names), "pos", depth)
+
+
+@kind("overlap-of-relatives", "missing-exclude", "overlap-at-start", "overlap", harms=("jumps", "reaches", *MOVES))
+def exclude_removed(model: ReaderModel, random: Random) -> Fault | None:
+    """Two bodies that may not collide with each other collide: their `<exclude>` is gone."""
+    assert model.source is not None
+    there = [each for each in model.source.section("contact") if each.tag == "exclude"]
+    if not there:
+        return None
+    gone = random.choice(there)
+    return Fault((delete(gone),), (f'body "{gone.get("body1")}"', f'body "{gone.get("body2")}"'), "")
+
+
+@kind("gravity-upwards", "gravity", harms=MOVES)
+def gravity_wrong(model: ReaderModel, random: Random) -> Fault | None:
+    """Gravity of the other sign, along another axis, in millimetres, or none."""
+    g = model.simulation.model("opt.gravity")
+    size = max(map(abs, g))
+    if not size:
+        return None
+    choices = [(0, 0, size), (0, 0, 0), (size, 0, 0), (0, -size, 0), (0, 0, -1000 * size), (0, 0, -size / 1000)]
+    return Fault(model.option("gravity", text_of(*random.choice(choices))), (), "gravity")
+
+
+@kind("contact-disabled", harms=MOVES)
+def contact_disabled(model: ReaderModel, random: Random) -> Fault | None:
+    """Contacts are switched off."""
+    return Fault(model.add("option", '<flag contact="disable"/>'), (), "contact")
+
+
+@kind("solver-iterations", "iterations", harms=MOVES)
+def few_iterations(model: ReaderModel, random: Random) -> Fault | None:
+    """The solver stops after one or two iterations."""
+    count = random.choice((1, 2))
+    return Fault(model.option("iterations", str(count)), (), "iterations", count)
+
+
+@kind("fluid", harms=MOVES)
+def fluid_thick(model: ReaderModel, random: Random) -> Fault | None:
+    """The air is as dense as water, or as viscous as honey."""
+    name, low, high = random.choice((("density", 10.0, 1e4), ("viscosity", 0.1, 100.0)))
+    value = between(random, low, high)
+    return Fault(model.option(name, text_of(value)), (), name, value)
+
+
+@kind("timestep-too-long", harms=("unstable", "faster", "sinks"))
+def timestep_long(model: ReaderModel, random: Random) -> Fault | None:
+    """A timestep 2 to 50 times as long."""
+    factor = between(random, 2, 50)
+    return Fault(model.option("timestep", text_of(model.simulation.timestep * factor)), (), "timestep", factor)

@@ -1,0 +1,149 @@
+"""Joints: ranges, axes, springs, damping."""
+
+from __future__ import annotations
+
+import math
+from random import Random
+
+from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, text_of, written
+from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.reader_model import ReaderModel
+
+ENDS = ("reaches", "jumps", "strays")
+BURSTS = ("unstable", "faster", "jumps")
+
+
+def _single(model: ReaderModel, attribute: str = "") -> list[int]:
+    """Hinges and slides that have a place, and a value for the attribute."""
+    return [i for i in written(model, "joint", attribute) if model.simulation.joint_type(i) in (HINGE, SLIDE)]
+
+
+def _set(model: ReaderModel, joint: int, attribute: str, value: str, strength: float) -> Fault:
+    element = model.element("joint", joint)
+    assert element is not None
+    return Fault(
+        (set_attribute(element, attribute, value),), (model.simulation.name("joint", joint),), attribute, strength
+    )
+
+
+def _limited(model: ReaderModel) -> list[int]:
+    limited = model.simulation.model("jnt_limited")
+    return [i for i in _single(model, "range") if limited[i]]
+
+
+def _range(model: ReaderModel, joint: int, low: float, high: float, strength: float) -> Fault:
+    return _set(model, joint, "range", text_of(low, high), strength)
+
+
+@kind("range-in-the-wrong-unit", "start-outside-range", harms=ENDS)
+def range_of_a_joint_in_the_other_unit(model: ReaderModel, random: Random) -> Fault | None:
+    """The range of one hinge in degrees among radians, or in radians among degrees."""
+    hinges = [i for i in _limited(model) if model.simulation.joint_type(i) == HINGE]
+    if not hinges:
+        return None
+    joint = random.choice(hinges)
+    low, high = numbers(model.value("joint", joint, "range"))[:2]
+    factor = math.pi / 180 if max(abs(low), abs(high)) > 7 else 180 / math.pi
+    return _range(model, joint, low * factor, high * factor, factor)
+
+
+@kind("range-in-the-wrong-unit", "start-outside-range", harms=ENDS)
+def angles_in_the_other_unit(model: ReaderModel, random: Random) -> Fault | None:
+    """The compiler reads all angles in the other unit: `angle` of `<compiler>`."""
+    assert model.source is not None
+    there = [each.get("angle") for each in model.source.elements("compiler") if each.get("angle")]
+    other = "degree" if there == ["radian"] else "radian"
+    hinges = [i for i in _limited(model) if model.simulation.joint_type(i) == HINGE]
+    if not hinges:
+        return None
+    return Fault(model.option("angle", other, tag="compiler"), (), "angle")
+
+
+@kind("start-outside-range", harms=ENDS)
+def start_outside_of_the_range(model: ReaderModel, random: Random) -> Fault | None:
+    """The range of a joint begins beyond where the joint starts, by 2 to 100 % of the range."""
+    if not (found := _limited(model)):
+        return None
+    joint, share = random.choice(found), between(random, 0.02, 1)
+    low, high = numbers(model.value("joint", joint, "range"))[:2]
+    way = share * (high - low)
+    if random.random() < 0.5:
+        return _range(model, joint, way, way + high - low, share)
+    return _range(model, joint, -way - (high - low), -way, share)
+
+
+@kind("range-too-narrow", "range-is-a-point", harms=ENDS)
+def range_narrow(model: ReaderModel, random: Random) -> Fault | None:
+    """The range of a joint 0.1 to 10 % of what it was, about the start."""
+    if not (found := _limited(model)):
+        return None
+    joint, share = random.choice(found), between(random, 0.001, 0.1)
+    low, high = numbers(model.value("joint", joint, "range"))[:2]
+    return _range(model, joint, low * share, high * share, share)
+
+
+@kind("range-not-applied", harms=ENDS)
+def range_not_applied(model: ReaderModel, random: Random) -> Fault | None:
+    """A joint's range is written, and not applied."""
+    if not (found := _limited(model)):
+        return None
+    return _set(model, random.choice(found), "limited", "false", 1)
+
+
+@kind("twin-joint-differs", "axis-along-gravity", "parallel-axes", harms=ENDS)
+def axis_wrong(model: ReaderModel, random: Random) -> Fault | None:
+    """A joint's axis of the other sign, or along another direction of its body."""
+    if not (found := _single(model)):
+        return None
+    joint = random.choice(found)
+    x, y, z = model.simulation.row("jnt_axis", joint, 3)
+    return _set(model, joint, "axis", text_of(*random.choice(((-x, -y, -z), (y, z, x), (z, x, y)))), 1)
+
+
+@kind("spring-too-stiff", "timestep-too-long", harms=BURSTS)
+def spring_stiff(model: ReaderModel, random: Random) -> Fault | None:
+    """A joint's spring 2 to 1,000 times as stiff as the timestep bears, without damping."""
+    if not (found := _single(model)):
+        return None
+    joint, factor = random.choice(found), between(random, 2, 1000)
+    mass = model.simulation.mass_diagonal[model.simulation.dof(joint)]
+    made = _set(model, joint, "stiffness", text_of(factor * mass * (2 / model.simulation.timestep) ** 2), factor)
+    more = _set(model, joint, "damping", "0", factor)
+    off = _set(model, joint, "springref", "5", factor)  # degrees or rad: somewhere else than the start
+    return Fault((*made.edits, *more.edits, *off.edits), made.elements, "stiffness", factor)
+
+
+@kind("spring-far-off", "springref", "spring-too-stiff", harms=("strays", *BURSTS))
+def spring_pulls_away(model: ReaderModel, random: Random) -> Fault | None:
+    """A joint's spring that holds it away from its start, 2 to 200 times as strong as its load."""
+    if not (found := _single(model)):
+        return None
+    joint, factor = random.choice(found), between(random, 2, 200)
+    model.simulation.begin()
+    dof = model.simulation.dof(joint)
+    load = max(abs(model.simulation.data("qfrc_bias")[dof]), model.simulation.mass_diagonal[dof])
+    made = _set(model, joint, "stiffness", text_of(factor * load), factor)
+    more = _set(model, joint, "springref", text_of(random.choice((-1, 1)) * random.uniform(20, 170)), factor)
+    return Fault((*made.edits, *more.edits), made.elements, "springref", factor)
+
+
+@kind("joint-frozen", "damping-too-high", "frozen-joint", harms=("strays", "commands"))
+def joint_frozen(model: ReaderModel, random: Random) -> Fault | None:
+    """A joint with so much damping or dry friction that it hardly moves."""
+    if not (found := _single(model)):
+        return None
+    joint, factor = random.choice(found), between(random, 10, 1e5)
+    mass = model.simulation.mass_diagonal[model.simulation.dof(joint)]
+    attribute = random.choice(("damping", "frictionloss"))
+    return _set(model, joint, attribute, text_of(10 * mass * factor), factor)
+
+
+@kind("negative-damping", harms=("strays", *BURSTS))
+def damping_negative(model: ReaderModel, random: Random) -> Fault | None:
+    """A joint's damping with a minus before it."""
+    if not (found := _single(model)):
+        return None
+    joint, factor = random.choice(found), between(random, 0.3, 100)
+    mass = model.simulation.mass_diagonal[model.simulation.dof(joint)]
+    return _set(model, joint, "damping", text_of(-factor * mass), factor)

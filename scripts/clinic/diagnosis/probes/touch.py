@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import Contact
 from clinic.diagnosis.probes.run import let_go
-from clinic.diagnosis.probes.shape import geoms_of_tree, root_of, roots, solid, thickness
+from clinic.diagnosis.probes.shape import solid, thickness
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe
@@ -41,9 +41,20 @@ def deciding(simulation: Simulation, contact: Contact) -> Deciding:
 
 
 def resting(simulation: Simulation) -> list[tuple[Contact, Deciding]]:
-    """The contacts that carry something at the end of the run."""
-    end = let_go(simulation).end
-    return [(each, deciding(simulation, each)) for each in (end.contacts if end else ()) if each.force > 0]
+    """The contacts that carry something in the second half of the run, and at its end."""
+    run = let_go(simulation)
+    if run.end is None:
+        return []
+    there = {contact.geoms: contact for contact in (*run.end.contacts, *run.late) if contact.force > 0}
+    return [(each, deciding(simulation, each)) for each in there.values()]
+
+
+def with_like(simulation: Simulation, found: Iterable[Deciding], is_like: Callable[[int], bool]) -> list[Deciding]:
+    """The same and all other geoms that can touch and are like them, for they touch once these are mended."""
+    made = list(found)
+    like = tuple(geom for geom in range(simulation.count("geom")) if solid(simulation, geom) and is_like(geom))
+    geoms = any(each.kind == "geom" for each in made)
+    return [*made, Deciding(3, 0.0, 0.0, "geom", like)] if like and geoms else made
 
 
 def edits_of(model: ReaderModel, of: Iterable[Deciding], attribute: str, value: str) -> tuple[Edit, ...]:
@@ -66,12 +77,12 @@ def names_of(simulation: Simulation, of: Iterable[Deciding]) -> tuple[str, ...]:
 
 
 def _depth(simulation: Simulation) -> float:
-    made = 0.0
-    for contact, _ in resting(simulation):
+    made, end = 0.0, let_go(simulation).end
+    for contact in end.contacts if end else ():
         thick = min(thickness(simulation, geom) for geom in contact.geoms)
-        if 0 < thick < float("inf"):
+        if contact.force > 0 and 0 < thick < float("inf"):
             made = max(made, -contact.distance / thick)
-    return made if let_go(simulation).end else float("inf")
+    return made if end else float("inf")
 
 
 def depth() -> Probe:
@@ -84,17 +95,3 @@ def all_alike(simulation: Simulation, field: str, value: float) -> bool:
     return all(
         simulation.model(field)[geom] == value for geom in range(simulation.count("geom")) if solid(simulation, geom)
     )
-
-
-__all__ = [
-    "Deciding",
-    "all_alike",
-    "deciding",
-    "depth",
-    "edits_of",
-    "geoms_of_tree",
-    "names_of",
-    "resting",
-    "root_of",
-    "roots",
-]

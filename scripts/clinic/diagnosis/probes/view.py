@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.engine import HFIELD, PLANE
-from clinic.diagnosis.probes.shape import Vector, at, cross, dot, falling, minus, root_of
+from clinic.diagnosis.probes.shape import Vector, at, cross, dot, minus, root_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 
@@ -26,11 +26,10 @@ def axes(simulation: Simulation, camera: int) -> tuple[Vector, Vector, Vector]:
 def onlookers(simulation: Simulation) -> list[int]:
     """The cameras that look at the model from outside: fixed to the world, or following something."""
     bodies, modes = simulation.model("cam_bodyid"), simulation.model("cam_mode")
-    follows = set(falling(simulation))
     made = []
     for camera, body in enumerate(bodies):
         still = int(body) == 0 and int(modes[camera]) == FIXED
-        after = int(body) in follows and int(modes[camera]) in (TRACK, TRACKCOM)
+        after = int(modes[camera]) in (TRACK, TRACKCOM)
         if still or after:
             made.append(camera)
     return made

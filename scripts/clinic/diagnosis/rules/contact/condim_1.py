@@ -39,7 +39,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.push import slides_on
 from clinic.diagnosis.probes.shape import geoms_of_tree, root_of, solid
-from clinic.diagnosis.probes.touch import all_alike, edits_of, names_of, resting
+from clinic.diagnosis.probes.touch import all_alike, edits_of, names_of, resting, with_like
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -66,6 +66,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         ]
         if decides.dim == 1 and (everything or all(dim == 1 for dim in dims) or decides.kind == "pair"):
             meant.append(decides)
+    if everything:
+        meant = with_like(simulation, meant, lambda geom: True)
     if meant:
         says = "With condim 1 a contact has no friction, whatever `friction` says."
         edits = edits_of(model, meant, "condim", "3")

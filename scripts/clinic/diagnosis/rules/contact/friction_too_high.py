@@ -37,7 +37,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.touch import depth, edits_of, names_of, resting
+from clinic.diagnosis.probes.touch import depth, edits_of, names_of, resting, with_like
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -54,8 +54,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     high = [decides for _, decides in resting(simulation) if decides.dim > 1 and decides.friction > HIGH]
     if not high or int(simulation.model("opt.cone")[0]) == 1:
         return
+    frictions = simulation.model("geom_friction")
     most = max(each.friction for each in high)
     says = f"Friction {most:g} leans the pyramid's edges so far that they carry next to nothing."
+    high = with_like(simulation, high, lambda geom: frictions[3 * geom] > HIGH)
     edits = edits_of(model, high, "friction", "1 0.005 0.0001")
     yield Suspect(
         names_of(simulation, high), "friction", f"{most:g}", "1", edits, depth(), MOST, says,

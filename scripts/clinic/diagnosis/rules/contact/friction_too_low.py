@@ -39,7 +39,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.push import slides_on
-from clinic.diagnosis.probes.touch import edits_of, names_of, resting
+from clinic.diagnosis.probes.touch import edits_of, names_of, resting, with_like
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -57,6 +57,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not low:
         return
     least = min(each.friction for each in low)
+    frictions = simulation.model("geom_friction")
     names = names_of(simulation, low)
     priority = simulation.model("geom_priority")
     first = [each for each in low if each.kind == "geom" and any(priority[geom] for geom in each.elements)]
@@ -80,6 +81,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             )
             return
     says = f"Friction {least:g} holds nothing on a slope of {100 * least:.2g} %."
+    low = with_like(simulation, low, lambda geom: frictions[3 * geom] < LOW)
     edits = edits_of(model, low, "friction", _value(model, low))
     yield Suspect(
         names, "friction", f"{least:g}", "1", edits, slides_on(), MOST, says, healthy, excess=LOW / max(least, 1e-6)

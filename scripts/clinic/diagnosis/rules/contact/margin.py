@@ -74,7 +74,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     simulation = model.simulation
     margins = simulation.model("geom_margin")
     geoms = {geom for contact in _floating(simulation) for geom in contact.geoms}
-    wide = sorted(geom for geom in geoms if margins[geom] > 0)
+    least = 0.5 * max((margins[geom] for geom in geoms), default=0.0)
+    wide = [g for g in range(len(margins)) if margins[g] > 0 and (g in geoms or margins[g] >= least > 0)]
     pairs = [i for i, each in enumerate(simulation.model("pair_margin")) if each > 0]
     if not wide and not pairs:
         return

@@ -87,4 +87,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _walker(model: ReaderModel) -> bool:
     simulation = model.simulation
     empty = not any(int(body) == 0 for body in simulation.model("geom_bodyid"))
-    return empty and len(roots(simulation)) >= LIMBS
+    excludes = [each for each in (model.source.section("contact") if model.source else ()) if each.tag == "exclude"]
+    told = {each.get(side) for each in excludes for side in ("body1", "body2")}
+    minded = any(simulation.names("body")[body] in told for body in _parents(model))
+    return empty and not minded and len(roots(simulation)) >= LIMBS
+
+
+def _parents(model: ReaderModel) -> set[int]:
+    """The bodies on which what moves hangs."""
+    parents = model.simulation.model("body_parentid")
+    return {int(parents[root]) for root in roots(model.simulation)} - {0}

@@ -36,10 +36,12 @@ When it is wrong: a cushion.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 
-from clinic.diagnosis.probes.touch import depth, edits_of, names_of, resting
+from clinic.diagnosis.probes.touch import depth, edits_of, names_of, resting, with_like
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Contacts too soft"
@@ -47,7 +49,7 @@ FAMILIES = ("sinks", "falls-through", "slips")
 SINCE = "0.2"
 
 MOST = 0.15  # of the thinner geom's thickness
-SOLREF, SOLIMP = (0.02, 1.0), (0.9, 0.95, 0.001, 0.5, 2.0)  # MuJoCo's defaults
+TIME, SOFT = 0.02, 400.0  # s, MuJoCo's default; 1/s2 of a negative solref
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -56,25 +58,31 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if model.measured(depth()) <= MOST:
         return
     rests = [decides for _, decides in resting(simulation)]
-    soft, weak, least, longest = [], [], 1.0, 0.0
-    for each in rests:
-        for index in each.elements:
-            time, damping = simulation.row(f"{each.kind}_solref", index, 2)
-            impedance = simulation.row(f"{each.kind}_solimp", index, 5)
-            if time * damping > 1.5 * SOLREF[0] or -400 < time < 0:
-                soft.append(each)
-                longest = max(longest, time) if time > 0 else time
-            if impedance[1] < 0.5:
-                weak.append(each)
-                least = min(least, impedance[1])
-    for found, attribute, now, value, excess in (
-        (soft, "solref", f"{longest:g}", "0.02 1", abs(longest) / SOLREF[0]),
-        (weak, "solimp", f"{least:g}", "0.9 0.95 0.001", SOLIMP[0] / max(least, 1e-3)),
-    ):
-        if found:
-            says = f"{attribute} lets the contact give way: {now} beside MuJoCo's default {value}."
-            edits = edits_of(model, found, attribute, value)
+    for attribute, value, softness in (("solref", "0.02 1", _slow), ("solimp", "0.9 0.95 0.001", _weak)):
+        soft = [each for each in rests if max(softness(simulation, each.kind, i) for i in each.elements) > 1]
+        if soft:
+            excess = max(softness(simulation, each.kind, i) for each in soft for i in each.elements)
+            soft = with_like(simulation, soft, partial(_softer, simulation, softness))
+            kind, worst = next((each.kind, i) for each in soft for i in each.elements)
+            now = " ".join(f"{each:g}" for each in simulation.row(f"{kind}_{attribute}", worst, len(value.split())))
+            says = f"{attribute} {now} lets the contact give way; MuJoCo's default is {value}."
+            edits = edits_of(model, soft, attribute, value)
             yield Suspect(
-                names_of(simulation, found), attribute, now, value, edits, depth(), MOST, says,
+                names_of(simulation, soft), attribute, now, value, edits, depth(), MOST, says,
                 f"{value}, MuJoCo's default", excess=excess,
             )  # fmt: skip
+
+
+def _softer(simulation: Simulation, softness: Callable[[Simulation, str, int], float], geom: int) -> bool:
+    return softness(simulation, "geom", geom) > 1
+
+
+def _slow(simulation: Simulation, kind: str, index: int) -> float:
+    """How many times longer the time constant is than 1.5 default ones, or softer the stiffness of a negative one."""
+    time, damping = simulation.row(f"{kind}_solref", index, 2)
+    return time * damping / (1.5 * TIME) if time > 0 else SOFT / max(-time, 1e-9)
+
+
+def _weak(simulation: Simulation, kind: str, index: int) -> float:
+    """How many times smaller than a half the largest impedance is."""
+    return 0.5 / max(simulation.row(f"{kind}_solimp", index, 5)[1], 1e-3)

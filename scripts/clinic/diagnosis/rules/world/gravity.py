@@ -43,7 +43,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import PLANE
-from clinic.diagnosis.probes.shape import dot
+from clinic.diagnosis.probes.shape import dot, falling
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -109,11 +109,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _none(model: ReaderModel, now: str, off: bool) -> Iterator[Suspect]:
     simulation = model.simulation
     planes = any(int(kind) == PLANE for kind in simulation.model("geom_type"))
-    if not planes or not simulation.free_bodies or model.source is None:
+    falls = sorted(falling(simulation))
+    if not planes or not falls or model.source is None:
         return
     flags = tuple(set_attribute(each, "gravity", "enable") for each in model.source.elements("flag")) if off else ()
     edits = flags or model.option("gravity", USUAL)
-    names = tuple(simulation.name("body", body) for body in simulation.free_bodies)
+    names = tuple(simulation.name("body", body) for body in falls)
     probe = Probe(
         "free bodies that nothing pulls down", "", lambda s, count: float(count), (len(names),), dynamic=False
     )

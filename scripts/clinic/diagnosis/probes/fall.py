@@ -24,7 +24,7 @@ def _above(simulation: Simulation, now: State, body: int, geom: int) -> float | 
 
 
 def fallen(simulation: Simulation) -> list[tuple[int, int]]:
-    """Roots of trees and the geoms that they fell through after letting go."""
+    """Bodies and the geoms that they fell through after letting go: roots of trees, and what `bare` gives."""
     if "fallen" not in simulation.kept:
         simulation.kept["fallen"] = list(_fallen(simulation))
     return simulation.kept["fallen"]  # type: ignore[return-value]
@@ -35,15 +35,30 @@ def _fallen(simulation: Simulation) -> Iterator[tuple[int, int]]:
     if run.end is None:
         return
     kinds, bodies, owner = simulation.model("geom_type"), simulation.model("geom_bodyid"), root_of(simulation)
-    for root in falling(simulation):
+    for root in [*falling(simulation), *bare(simulation)]:
         for geom, body in enumerate(bodies):
             kind = int(kinds[geom])
-            if owner[int(body)] == root or kind == HFIELD or not (solid(simulation, geom) or kind in (PLANE, BOX)):
+            if (
+                owner[int(body)] == owner[root]
+                or kind == HFIELD
+                or not (solid(simulation, geom) or kind in (PLANE, BOX))
+            ):
                 continue
             before = _above(simulation, run.start, root, geom)
             after = _above(simulation, run.end, root, geom)
             if before is not None and after is not None and before > 0 and after < -limit(simulation, root, geom):
                 yield root, geom
+
+
+def bare(simulation: Simulation) -> list[int]:
+    """The one body of a tree that can fall whose geoms collide with nothing, where all others do."""
+    made, owner = [], root_of(simulation)
+    for root in falling(simulation):
+        bodies = [body for body in range(len(owner)) if owner[body] == root and simulation.geoms_of(body)]
+        empty = [body for body in bodies if not any(solid(simulation, geom) for geom in simulation.geoms_of(body))]
+        if len(bodies) > len(empty) == 1 and empty != [root]:
+            made += empty
+    return made
 
 
 def limit(simulation: Simulation, root: int, geom: int) -> float:

@@ -11,7 +11,6 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe
 
 LINKS = 3  # bodies further apart in the tree are no relatives
-OUTSIDE = 0.01  # of a joint's range, in which it does not begin
 
 
 def beginning(simulation: Simulation) -> State:
@@ -22,6 +21,20 @@ def beginning(simulation: Simulation) -> State:
     return simulation.kept["beginning"]  # type: ignore[return-value]
 
 
+def _within(simulation: Simulation) -> State:
+    """The start with each hinge and slide inside of its range."""
+    if "within" not in simulation.kept:
+        simulation.begin()
+        for joint in range(simulation.count("joint")):
+            if simulation.joint_type(joint) in (HINGE, SLIDE) and simulation.model("jnt_limited")[joint]:
+                low, high = simulation.row("jnt_range", joint, 2)
+                place = int(simulation.model("jnt_qposadr")[joint])
+                simulation.engine.write("qpos", [min(max(simulation.data("qpos")[place], low), high)], place)
+        simulation.engine.forward()
+        simulation.kept["within"] = state(simulation)
+    return simulation.kept["within"]  # type: ignore[return-value]
+
+
 def _line(simulation: Simulation, body: int) -> list[int]:
     parents, made = simulation.model("body_parentid"), [body]
     while made[-1]:
@@ -30,10 +43,10 @@ def _line(simulation: Simulation, body: int) -> list[int]:
 
 
 def relatives(simulation: Simulation) -> list[tuple[int, int, Contact]]:
-    """Bodies of one mechanism that overlap at the start, each inside of its joints' ranges, with the contact."""
+    """Bodies of one mechanism that overlap at the start, put inside of the joints' ranges, with the contact."""
     bodies, owner, falls = simulation.model("geom_bodyid"), root_of(simulation), falling(simulation)
     made = []
-    for contact in beginning(simulation).contacts:
+    for contact in _within(simulation).contacts:
         one, other = (int(bodies[geom]) for geom in contact.geoms)
         lines = _line(simulation, one), _line(simulation, other)
         common = next(body for body in lines[0] if body in lines[1])
@@ -45,22 +58,9 @@ def relatives(simulation: Simulation) -> list[tuple[int, int, Contact]]:
         )
         if contact.distance < -thickness(simulation, contact.geoms[0]) / 10 and links > LINKS and (same or bolted):
             return []  # folded up: nobody starts like that
-        path = [body for line in lines for body in line[: line.index(common)]]
-        if contact.distance < 0 and links <= LINKS and (same or bolted or siblings) and not _outside(simulation, path):
+        if contact.distance < 0 and links <= LINKS and (same or bolted or siblings):
             made.append((one, other, contact))
     return made
-
-
-def _outside(simulation: Simulation, path: list[int]) -> bool:
-    qpos = beginning(simulation).qpos
-    for body in path:
-        for joint in simulation.joints_of(body):
-            if simulation.joint_type(joint) in (HINGE, SLIDE) and simulation.model("jnt_limited")[joint]:
-                low, high = simulation.row("jnt_range", joint, 2)
-                slack = OUTSIDE * (high - low)
-                if not low - slack <= qpos[int(simulation.model("jnt_qposadr")[joint])] <= high + slack:
-                    return True
-    return False
 
 
 def _share(simulation: Simulation) -> float:

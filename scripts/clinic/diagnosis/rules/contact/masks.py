@@ -42,7 +42,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.fall import below, fallen, limit
-from clinic.diagnosis.probes.shape import collides, geoms_of_tree, solid
+from clinic.diagnosis.probes.shape import collides, geoms_of_tree, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -59,7 +59,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     simulation = model.simulation
     told: set[tuple[Edit, ...]] = set()
     for root, surface in fallen(simulation):
-        tree = geoms_of_tree(simulation, root)
+        whole = root_of(simulation)[root] == root
+        tree = geoms_of_tree(simulation, root) if whole else simulation.geoms_of(root)
         if not tree or any(collides(simulation, geom, surface) for geom in tree):
             continue
         own = [geom for geom in tree if solid(simulation, geom)] or _bodily(model, tree)

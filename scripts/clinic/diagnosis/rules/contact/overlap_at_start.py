@@ -27,7 +27,7 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: the deepest overlap at the start as a share of how far the thing reaches from its own origin; below 0.1 is
+The number: the deepest overlap at the start as a share of how far the thing reaches from its own origin; below 0.05 is
 well. Robots are often pressed into the floor by a few millimetres.
 
 When it is wrong: code that puts everything into its place after the reset. Bodies that all begin at the origin look
@@ -49,7 +49,7 @@ TITLE = "Something begins inside of something else"
 FAMILIES = ("jumps-at-start", "sinks", "explodes")
 SINCE = "0.2"
 
-MOST = 0.1
+MOST = 0.05
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

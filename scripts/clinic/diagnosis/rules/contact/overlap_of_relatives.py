@@ -38,8 +38,9 @@ The number: the deepest overlap at the start of bodies at most 3 links apart, as
 thickness; below 0.1 is well. MuJoCo's manual, Computation, Collision detection: the filter of parents.
 
 When it is wrong: a geom that is too large, where the edit hides it; or a part without the free joint that it gets
-elsewhere. So a body with three limbs and more that is fixed in an empty world is left alone, and so is a start outside
-of a joint's range, which is another fault.
+elsewhere. So a body with three limbs and more that is fixed in an empty world, and that no exclude names, is left
+alone.
+A joint that starts outside of its range, which is another fault, is looked at inside.
 """
 
 from __future__ import annotations

@@ -38,7 +38,8 @@ Good:
 The number: of what contacts of the body carry within 2 s after letting go, the share that the sensor never reads;
 below 0.95 is well.
 
-When it is wrong: a sensor that is meant for a part of its body. A body with several touch sensors is left alone.
+When it is wrong: a sensor that is meant for a part of its body. Of several on one body only one far smaller
+than the others is told.
 """
 
 from __future__ import annotations
@@ -70,7 +71,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     for sensor, seen in touched(simulation).items():
         site = int(of[sensor])
-        if int(kinds[sensor]) != TOUCH or bodies.count(owners[site]) > 1:
+        if int(kinds[sensor]) != TOUCH or (bodies.count(owners[site]) > 1 and not _dwarf(simulation, site, sites)):
             continue
         if seen.reach < AWAY * max(simulation.row("site_size", site, 3)):
             continue
@@ -84,6 +85,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             now = " ".join(f"{each:g}" for each in simulation.row("site_size", site, 3))
             says = f"Contacts carry up to {seen.carried:.3g} N on its body, up to {seen.reach:.3g} m from the site."
             yield Suspect(names, "size", now, value, edits, unread(sensor), MOST, says)
+
+
+def _dwarf(simulation: Simulation, site: int, sites: list[int]) -> bool:
+    """Whether it is far smaller than the other sites of touch sensors."""
+    sizes = sorted(max(simulation.row("site_size", each, 3)) for each in sites)
+    return max(simulation.row("site_size", site, 3)) < sizes[len(sizes) // 2] / AWAY
 
 
 def _reach(simulation: Simulation, site: int) -> float:

@@ -30,7 +30,7 @@ Good:
 
 The number: the angle between gravity and the way down to the floor (-z where there is no horizontal plane), at most
 45 degrees; and the time in which something falls as far as the model is wide: 0.45 s for 1 m, told where it is under
-0.02 s or over 5 s.
+0.025 s or over 5 s.
 
 When it is wrong: a slope or a wall that is made by tilting gravity. Gravity 0 where free bodies are above a floor is a
 hint, for it is often meant.
@@ -52,7 +52,7 @@ TITLE = "Gravity points the wrong way, or has the wrong size"
 FAMILIES = ("falls-through", "drifts", "stuck", "sags")
 SINCE = "0.2"
 
-ANGLE, SHORT, LONG = 45.0, 0.02, 5.0  # degrees, s, s
+ANGLE, SHORT, LONG = 45.0, 0.025, 5.0  # degrees, s, s
 OFF = 128  # mjtDisableBit
 USUAL = "0 0 -9.81"
 
@@ -101,7 +101,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     size = math.hypot(*g)
     took = math.sqrt(2 * extent / size)
     says = f"With {size:.3g} m/s2 a fall of {extent:.2g} m, the model's extent, takes {took:.2g} s."
-    ratio = Probe("time of a fall over the model's extent, beyond 0.02 to 5 s by", "times", _ratio, dynamic=False)
+    ratio = Probe("time of a fall over the model's extent, beyond 0.025 to 5 s by", "times", _ratio, dynamic=False)
     scaled = " ".join(f"{9.81 * each / size + 0.0:.4g}" for each in g)
     yield Suspect(name, "gravity", now, scaled, model.option("gravity", scaled), ratio, 1.0, says, USUAL)
 

@@ -35,6 +35,14 @@ def _within(simulation: Simulation) -> State:
     return simulation.kept["within"]  # type: ignore[return-value]
 
 
+def _outside(simulation: Simulation) -> set[int]:
+    """The bodies with a joint that starts outside of its range."""
+    before, after = beginning(simulation).qpos, _within(simulation).qpos
+    joints = range(simulation.count("joint"))
+    places = [int(each) for each in simulation.model("jnt_qposadr")]
+    return {int(simulation.model("jnt_bodyid")[j]) for j in joints if before[places[j]] != after[places[j]]}
+
+
 def _line(simulation: Simulation, body: int) -> list[int]:
     parents, made = simulation.model("body_parentid"), [body]
     while made[-1]:
@@ -58,7 +66,10 @@ def relatives(simulation: Simulation) -> list[tuple[int, int, Contact]]:
         )
         if contact.distance < -thickness(simulation, contact.geoms[0]) / 10 and links > LINKS and (same or bolted):
             return []  # folded up: nobody starts like that
-        if contact.distance < 0 and links <= LINKS and (same or bolted or siblings):
+        moved = any(body in _outside(simulation) for line in lines for body in line[: line.index(common)])
+        # two links at the end of their range often touch; a parent and its child by design do not
+        near = links <= (1 if moved else LINKS)
+        if contact.distance < 0 and near and (same or bolted or siblings):
             made.append((one, other, contact))
     return made
 

@@ -69,9 +69,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not any(simulation.model("opt.gravity")) or int(simulation.model("opt.disableflags")[0]) & 128:
         return
     probe = Probe("drag of a fall", "of the weight", _held_back, dynamic=False)
-    for name, usual, unit in (("density", 1.2, "kg/m3"), ("viscosity", 0.00002, "Pa s")):
+    for name, usual, most, unit in (("density", 1.2, 6.0, "kg/m3"), ("viscosity", 0.00002, 0.01, "Pa s")):
         now = simulation.model(f"opt.{name}")[0]
-        if now > 5 * usual:
+        if now > most:
             says = f"The medium has {now:g} {unit}; air has {usual:g}."
             edits = model.option(name, f"{usual:g}")
             yield Suspect((name,), name, f"{now:g}", f"{usual:g}", edits, probe, MOST, says, f"{usual:g} {unit}, air")

@@ -56,8 +56,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Whatever is buried deepest, raised until it is free; the upper one of two bodies."""
     simulation = model.simulation
     found = {root: each for root, each in buried(simulation).items() if each[0] > MOST}
-    if not found:
-        return
+    if not found or (model.start.key < 0 and simulation.count("key")):
+        return  # where there are keyframes, what begins is begun from one
     bodies, owner, kinds = simulation.model("geom_bodyid"), root_of(simulation), simulation.model("geom_type")
     start = beginning(simulation)
     edits: tuple[Edit, ...] = ()

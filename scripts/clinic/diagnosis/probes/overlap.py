@@ -60,7 +60,8 @@ def relatives(simulation: Simulation) -> list[tuple[int, int, Contact]]:
         common = next(body for body in lines[0] if body in lines[1])
         links = lines[0].index(common) + lines[1].index(common)
         same = owner[one] == owner[other]
-        bolted = not same and common in (one, other) and not {owner[one], owner[other]} & set(falls)
+        rail = links == 1 and common == 0  # a cart and its rail
+        bolted = not same and not rail and common in (one, other) and not {owner[one], owner[other]} & set(falls)
         siblings = (
             not same and links == 2 and owner[one] and owner[other] and not {owner[one], owner[other]} & set(falls)
         )

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 import mujoco
@@ -17,7 +18,7 @@ class NativeModel:
     """A compiled model with one `mjData`."""
 
     def __init__(self, model: mujoco.MjModel) -> None:
-        self.mj, self.mjdata = model, mujoco.MjData(model)
+        self.mj, self.mjdata, self.out_of_memory = model, mujoco.MjData(model), False
 
     def count(self, kind: str) -> int:
         return int(getattr(self.mj, OBJECTS.get(kind, f"n{kind}")))
@@ -38,16 +39,27 @@ class NativeModel:
         _write(self.mj, field, values, start)
 
     def reset(self, key: int = -1) -> None:
+        self.out_of_memory = False
         if key >= 0:
             mujoco.mj_resetDataKeyframe(self.mj, self.mjdata, key)
         else:
             mujoco.mj_resetData(self.mj, self.mjdata)
 
     def forward(self) -> None:
-        mujoco.mj_forward(self.mj, self.mjdata)
+        with self._bounded():
+            mujoco.mj_forward(self.mj, self.mjdata)
 
     def step(self, count: int = 1) -> None:
-        mujoco.mj_step(self.mj, self.mjdata, nstep=count)
+        with self._bounded():
+            mujoco.mj_step(self.mj, self.mjdata, nstep=count)
+
+    @contextmanager
+    def _bounded(self) -> Iterator[None]:
+        """Where MuJoCo's memory does not hold what a step needs, the run is over, and ends in a warning."""
+        try:
+            yield
+        except mujoco.FatalError:
+            self.out_of_memory = True
 
     def contacts(self) -> list[Contact]:
         made, force = [], np.zeros(6)
@@ -73,7 +85,8 @@ class NativeModel:
             for kind in mujoco.mjtWarning.__members__.values()
             if int(kind) < len(self.mjdata.warning)
         }
-        return {kind.name.removeprefix("mjWARN_"): count for kind, count in counts.items() if count}
+        over = {"CNSTRFULL": 1, "BADQACC": 1} if self.out_of_memory else {}
+        return over | {kind.name.removeprefix("mjWARN_"): count for kind, count in counts.items() if count}
 
 
 class NativeEngine:

@@ -88,7 +88,7 @@ class ReaderModel:
 
     def _placed(self, kind: str) -> list[Element | None]:
         names = self.simulation.names(kind)
-        if self.source is None:
+        if self.source is None:  # the engine reads XML that is not quite well-formed
             return [None] * len(names)
         if kind == "body":
             written = list(self.source.elements("link")) if self.source.urdf else list(self.source.bodies())
@@ -96,6 +96,8 @@ class ReaderModel:
             written = self.source.of_bodies(*TAGS[kind])
         else:
             written = list(self.source.section(SECTION.get(kind, kind)))
+        if kind in ("pair", "exclude"):
+            written = [each for each in self.source.section("contact") if each.tag == kind]
         if self.source.urdf and kind == "joint":
             written = list(self.source.elements("joint"))
         by_name = {element.get("name"): element for element in written if element.get("name")}

@@ -161,8 +161,10 @@ class Behaviour:
         for sample in range(1, SAMPLES + 1):
             each(data, data.time)
             count = max(0, round((sample * total / SAMPLES - data.time) / step)) if step > 0 else 1
-            if count:
-                mujoco.mj_step(model, data, nstep=count)
+            try:
+                mujoco.mj_step(model, data, nstep=count) if count else None
+            except mujoco.FatalError:  # its memory is full
+                return Run(True, math.inf, math.inf)
             if any(data.warning[int(getattr(mujoco.mjtWarning, name))].number for name in UNSTABLE):
                 return Run(True, math.inf, math.inf)
             positions.append(data.xpos.copy())

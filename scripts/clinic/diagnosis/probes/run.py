@@ -4,19 +4,47 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from clinic.diagnosis.engine import Contact
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe
 
 
+@dataclass(frozen=True)
+class State:
+    """Where everything is at one moment, in MuJoCo's flat arrays, and the contacts."""
+
+    qpos: tuple[float, ...]
+    qvel: tuple[float, ...]
+    xipos: tuple[float, ...]
+    geom_xpos: tuple[float, ...]
+    geom_xmat: tuple[float, ...]
+    contacts: tuple[Contact, ...]
+
+
+def state(simulation: Simulation) -> State:
+    """The state as it is now; contacts of flexes, which have no geom, are left out."""
+    contacts = tuple(each for each in simulation.engine.contacts() if min(each.geoms) >= 0)
+    qpos, qvel, xipos = (tuple(simulation.data(name)) for name in ("qpos", "qvel", "xipos"))
+    return State(qpos, qvel, xipos, tuple(simulation.data("geom_xpos")), tuple(simulation.data("geom_xmat")), contacts)
+
+
 @dataclass
 class LetGo:
-    """What was seen: the number of resets, the fastest hinge or slide in rad/s or m/s, the deepest contact in m."""
+    """What was seen: the number of resets, the fastest hinge or slide in rad/s or m/s, the deepest contact in m.
+
+    `late` are the contacts that carried something in the second half, each as wide apart as it was. `rise` is the
+    highest that a body's centre came above its start in m. `end` is None where the run went to infinity.
+    """
 
     resets: int
     fastest: float
     fastest_joint: int | None
     deepest: float
     warnings: dict[str, int]
+    start: State
+    end: State | None = None
+    rise: float = 0.0
+    late: tuple[Contact, ...] = ()
 
 
 def let_go(simulation: Simulation) -> LetGo:
@@ -31,9 +59,11 @@ def let_go(simulation: Simulation) -> LetGo:
 
 def _let_go(simulation: Simulation) -> LetGo:
     simulation.begin()
-    made = LetGo(0, 0.0, None, 0.0, {})
+    made = LetGo(0, 0.0, None, 0.0, {}, state(simulation))
     owners = simulation.dof_joints
-    for _ in simulation.run(simulation.begin_with.duration):
+    late: dict[tuple[int, int], Contact] = {}
+    half = simulation.steps(simulation.begin_with.duration) * simulation.timestep / 2
+    for time in simulation.run(simulation.begin_with.duration):
         if simulation.unstable():
             made.resets += 1
             made.warnings = simulation.engine.warnings()
@@ -42,8 +72,18 @@ def _let_go(simulation: Simulation) -> LetGo:
         for dof, speed in enumerate(simulation.data("qvel")):
             if abs(speed) > made.fastest:
                 made.fastest, made.fastest_joint = abs(speed), owners[dof]
-        distances = [contact.distance for contact in simulation.engine.contacts()]
+        contacts = simulation.engine.contacts()
+        distances = [contact.distance for contact in contacts]
+        for contact in contacts if time > half else ():
+            there = late.get(contact.geoms, contact)
+            if contact.force > 0 and min(contact.geoms) >= 0 and there.distance <= contact.distance:
+                late[contact.geoms] = contact
         made.deepest = max(made.deepest, -min(distances, default=0.0))
+        heights = zip(simulation.data("xipos")[5::3], made.start.xipos[5::3], strict=True)
+        made.rise = max(made.rise, max((now - then for now, then in heights), default=0.0))
+    else:
+        made.late = tuple(late.values())
+        made.warnings, made.end = simulation.engine.warnings(), state(simulation)
     return made
 
 

@@ -1,0 +1,120 @@
+"""What overlaps at the start."""
+
+from __future__ import annotations
+
+import math
+
+from clinic.diagnosis.engine import HINGE, SLIDE, Contact
+from clinic.diagnosis.probes.run import State, state
+from clinic.diagnosis.probes.shape import at, falling, geoms_of_tree, root_of, thickness
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe
+
+LINKS = 3  # bodies further apart in the tree are no relatives
+
+
+def beginning(simulation: Simulation) -> State:
+    """The start that the reader chose."""
+    if "beginning" not in simulation.kept:
+        simulation.begin()
+        simulation.kept["beginning"] = state(simulation)
+    return simulation.kept["beginning"]  # type: ignore[return-value]
+
+
+def _within(simulation: Simulation) -> State:
+    """The start with each hinge and slide inside of its range."""
+    if "within" not in simulation.kept:
+        simulation.begin()
+        for joint in range(simulation.count("joint")):
+            if simulation.joint_type(joint) in (HINGE, SLIDE) and simulation.model("jnt_limited")[joint]:
+                low, high = simulation.row("jnt_range", joint, 2)
+                place = int(simulation.model("jnt_qposadr")[joint])
+                simulation.engine.write("qpos", [min(max(simulation.data("qpos")[place], low), high)], place)
+        simulation.engine.forward()
+        simulation.kept["within"] = state(simulation)
+    return simulation.kept["within"]  # type: ignore[return-value]
+
+
+def _outside(simulation: Simulation) -> set[int]:
+    """The bodies with a joint that starts outside of its range."""
+    before, after = beginning(simulation).qpos, _within(simulation).qpos
+    joints = range(simulation.count("joint"))
+    places = [int(each) for each in simulation.model("jnt_qposadr")]
+    return {int(simulation.model("jnt_bodyid")[j]) for j in joints if before[places[j]] != after[places[j]]}
+
+
+def _line(simulation: Simulation, body: int) -> list[int]:
+    parents, made = simulation.model("body_parentid"), [body]
+    while made[-1]:
+        made.append(int(parents[made[-1]]))
+    return made
+
+
+def relatives(simulation: Simulation) -> list[tuple[int, int, Contact]]:
+    """Bodies of one mechanism that overlap at the start, put inside of the joints' ranges, with the contact."""
+    bodies, owner, falls = simulation.model("geom_bodyid"), root_of(simulation), falling(simulation)
+    made = []
+    for contact in _within(simulation).contacts:
+        one, other = (int(bodies[geom]) for geom in contact.geoms)
+        lines = _line(simulation, one), _line(simulation, other)
+        common = next(body for body in lines[0] if body in lines[1])
+        links = lines[0].index(common) + lines[1].index(common)
+        same = owner[one] == owner[other]
+        rail = links == 1 and common == 0  # a cart and its rail
+        bolted = not same and not rail and common in (one, other) and not {owner[one], owner[other]} & set(falls)
+        siblings = (
+            not same and links == 2 and owner[one] and owner[other] and not {owner[one], owner[other]} & set(falls)
+        )
+        if contact.distance < -thickness(simulation, contact.geoms[0]) / 10 and links > LINKS and (same or bolted):
+            return []  # folded up: nobody starts like that
+        moved = any(body in _outside(simulation) for line in lines for body in line[: line.index(common)])
+        # two links at the end of their range often touch; a parent and its child by design do not
+        near = links <= (1 if moved else LINKS)
+        if contact.distance < 0 and near and (same or bolted or siblings):
+            made.append((one, other, contact))
+    return made
+
+
+def _share(simulation: Simulation) -> float:
+    made = 0.0
+    for _, _, contact in relatives(simulation):
+        thick = min(thickness(simulation, geom) for geom in contact.geoms)
+        if contact.force > 0 and thick > 0:
+            made = max(made, -contact.distance / thick)
+    return made
+
+
+def of_relatives() -> Probe:
+    """The deepest overlap of relatives at the start, as a share of the thinner geom's thickness."""
+    return Probe("deepest overlap of relatives at the start", "of the geom's thickness", _share, dynamic=False)
+
+
+def extent(simulation: Simulation, root: int) -> float:
+    """How far a tree reaches from its root's place at the start in m."""
+    now, place = beginning(simulation), tuple(simulation.data_row("xpos", root, 3))
+    radii = simulation.model("geom_rbound")
+    far = [math.dist(at(now.geom_xpos, geom), place) + radii[geom] for geom in geoms_of_tree(simulation, root)]
+    return max(far, default=0.0)
+
+
+def buried(simulation: Simulation) -> dict[int, tuple[float, Contact]]:
+    """For each tree that can fall its deepest overlap at the start with something else, as a share of its extent."""
+    bodies, owner = simulation.model("geom_bodyid"), root_of(simulation)
+    made: dict[int, tuple[float, Contact]] = {}
+    falls = falling(simulation)
+    for contact in beginning(simulation).contacts:
+        trees = {owner[int(bodies[geom])] for geom in contact.geoms}
+        for root in trees & set(falls) if len(trees) > 1 else ():
+            share = -contact.distance / max(extent(simulation, root), 1e-9)
+            if contact.force > 0 and share > made.get(root, (0.0, contact))[0]:
+                made[root] = (share, contact)
+    return made
+
+
+def _buried(simulation: Simulation) -> float:
+    return max((share for share, _ in buried(simulation).values()), default=0.0)
+
+
+def at_start() -> Probe:
+    """The deepest overlap at the start of something that can fall, as a share of its extent."""
+    return Probe("deepest overlap at the start", "of its extent", _buried, dynamic=False)

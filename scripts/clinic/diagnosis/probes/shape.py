@@ -1,0 +1,106 @@
+"""Sizes of bodies and geoms, and which of them move together."""
+
+from __future__ import annotations
+
+from clinic.diagnosis.engine import FREE, PLANE, SLIDE
+from clinic.diagnosis.simulation import Simulation
+
+Vector = tuple[float, float, float]
+
+
+def dot(one: Vector, other: Vector) -> float:
+    """The scalar product."""
+    return sum(a * b for a, b in zip(one, other, strict=True))
+
+
+def minus(one: Vector, other: Vector) -> Vector:
+    """The difference."""
+    return (one[0] - other[0], one[1] - other[1], one[2] - other[2])
+
+
+def cross(one: Vector, other: Vector) -> Vector:
+    """The vector product."""
+    return (
+        one[1] * other[2] - one[2] * other[1],
+        one[2] * other[0] - one[0] * other[2],
+        one[0] * other[1] - one[1] * other[0],
+    )
+
+
+def at(flat: tuple[float, ...], index: int) -> Vector:
+    """Row `index` of a flat array of three columns."""
+    return (flat[3 * index], flat[3 * index + 1], flat[3 * index + 2])
+
+
+def roots(simulation: Simulation) -> list[int]:
+    """The moving bodies that hang on nothing that moves."""
+    moving, parents = set(simulation.moving_bodies), simulation.model("body_parentid")
+    return [body for body in simulation.moving_bodies if int(parents[body]) not in moving]
+
+
+def root_of(simulation: Simulation) -> list[int]:
+    """For each body the root of its tree; 0 for what does not move."""
+    kept = simulation.kept
+    if "root of" not in kept:
+        parents, tops = simulation.model("body_parentid"), set(roots(simulation))
+        made = [0] * simulation.count("body")
+        for body in range(1, len(made)):
+            made[body] = body if body in tops else made[int(parents[body])]
+        kept["root of"] = made
+    return kept["root of"]  # type: ignore[return-value]
+
+
+def geoms_of_tree(simulation: Simulation, root: int) -> list[int]:
+    """The geoms of a root and of all that hangs on it; for 0 those that do not move."""
+    owner = root_of(simulation)
+    return [geom for geom, body in enumerate(simulation.model("geom_bodyid")) if owner[int(body)] == root]
+
+
+def falling(simulation: Simulation) -> dict[int, int]:
+    """The roots that can fall, and the degree of freedom in which they do."""
+    made = {}
+    for root in roots(simulation):
+        for joint in simulation.joints_of(root):
+            kind, axis = simulation.joint_type(joint), simulation.row("jnt_axis", joint, 3)
+            if kind == FREE:
+                made[root] = simulation.dof(joint) + 2
+            elif kind == SLIDE and abs(axis[2]) > 0.9:
+                made[root] = simulation.dof(joint)
+    return made
+
+
+def collides(simulation: Simulation, one: int, other: int) -> bool:
+    """Whether the masks of two geoms let them touch."""
+    types, affinities = simulation.model("geom_contype"), simulation.model("geom_conaffinity")
+    return bool(int(types[one]) & int(affinities[other]) or int(types[other]) & int(affinities[one]))
+
+
+def solid(simulation: Simulation, geom: int) -> bool:
+    """Whether a geom collides with anything at all by its masks."""
+    return bool(simulation.model("geom_contype")[geom] or simulation.model("geom_conaffinity")[geom])
+
+
+def thickness(simulation: Simulation, geom: int) -> float:
+    """The smallest extent of a geom in its own axes, in m; infinite for a plane."""
+    if int(simulation.model("geom_type")[geom]) == PLANE:
+        return float("inf")
+    return 2 * min(simulation.row("geom_aabb", geom, 6)[3:])
+
+
+def size(simulation: Simulation, body: int) -> float:
+    """The largest radius of a body's geoms in m; of those of the whole tree where it has none."""
+    radii = simulation.model("geom_rbound")
+    own = [radii[geom] for geom in simulation.geoms_of(body)]
+    return max([*own, 0.0]) or max([radii[geom] for geom in geoms_of_tree(simulation, body)], default=0.0)
+
+
+def box(
+    simulation: Simulation, positions: tuple[float, ...], axes: tuple[float, ...], geom: int
+) -> tuple[Vector, Vector]:
+    """The box around a geom along the world's axes: its centre and half sizes in m."""
+    cx, cy, cz, hx, hy, hz = simulation.row("geom_aabb", geom, 6)
+    matrix, place = axes[9 * geom : 9 * geom + 9], at(positions, geom)
+    rows = [matrix[3 * i : 3 * i + 3] for i in range(3)]
+    centre = [place[i] + sum(a * b for a, b in zip(rows[i], (cx, cy, cz), strict=True)) for i in range(3)]
+    half = [sum(abs(a) * b for a, b in zip(rows[i], (hx, hy, hz), strict=True)) for i in range(3)]
+    return (centre[0], centre[1], centre[2]), (half[0], half[1], half[2])

@@ -1,0 +1,66 @@
+"""What sensors read while contacts carry something."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from clinic.diagnosis.probes.shape import at
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe
+
+TOUCH, FORCE, TORQUE, RANGE = 0, 4, 5, 7  # mjtSensor
+SITE = 6  # mjtObj
+
+
+@dataclass
+class Read:
+    """Of one sensor: its largest reading, the most that contacts of its body carried in N, and how far these were.
+
+    `reach` is the largest distance of such a contact from the site's centre, in m.
+    """
+
+    reading: float = 0.0
+    carried: float = 0.0
+    reach: float = 0.0
+
+
+def touched(simulation: Simulation) -> dict[int, Read]:
+    """Each touch, force and torque sensor, over the time after letting go."""
+    if "touched" not in simulation.kept:
+        simulation.kept["touched"] = _touched(simulation)
+    return simulation.kept["touched"]  # type: ignore[return-value]
+
+
+def _touched(simulation: Simulation) -> dict[int, Read]:
+    kinds, of, places = (simulation.model(f"sensor_{name}") for name in ("type", "objid", "adr"))
+    made = {i: Read() for i, kind in enumerate(kinds) if int(kind) in (TOUCH, FORCE, TORQUE)}
+    if not made:
+        return made
+    bodies, owners = simulation.model("geom_bodyid"), simulation.model("site_bodyid")
+    simulation.begin()
+    for _ in simulation.run(simulation.begin_with.duration):
+        contacts, data = simulation.engine.contacts(), simulation.data("sensordata")
+        centres = tuple(simulation.data("site_xpos"))
+        for sensor, seen in made.items():
+            site, width = int(of[sensor]), 1 if int(kinds[sensor]) == TOUCH else 3
+            values = data[int(places[sensor]) : int(places[sensor]) + width]
+            seen.reading = max(seen.reading, math.hypot(*values))
+            carried = 0.0
+            for contact in contacts:
+                on = min(contact.geoms) >= 0 and owners[site] in [bodies[geom] for geom in contact.geoms]
+                if on and contact.force > 0:
+                    carried += contact.force
+                    seen.reach = max(seen.reach, math.dist(contact.position, at(centres, site)))
+            seen.carried = max(seen.carried, carried)
+    return made
+
+
+def _unread(simulation: Simulation, sensor: int) -> float:
+    seen = touched(simulation).get(sensor, Read())
+    return 1.0 - min(1.0, seen.reading / seen.carried) if seen.carried > 0 else 0.0
+
+
+def unread(sensor: int) -> Probe:
+    """The share of what contacts of its body carry that a sensor does not read."""
+    return Probe("of what contacts carry, not read", "", _unread, (sensor,))

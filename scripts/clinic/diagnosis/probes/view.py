@@ -1,0 +1,109 @@
+"""What a camera sees, by geometry: nothing is rendered."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
+from clinic.diagnosis.engine import HFIELD, PLANE
+from clinic.diagnosis.probes.shape import Vector, at, cross, dot, minus, root_of
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+
+ASPECT = 1.0  # of the image's sides, where the model does not say
+VISIBLE = 3  # groups from this one on are hidden by default
+TURNS = ("xyaxes", "euler", "axisangle", "zaxis", "quat")
+FIXED, TRACK, TRACKCOM = range(3)  # mjtCamLight
+
+
+def axes(simulation: Simulation, camera: int) -> tuple[Vector, Vector, Vector]:
+    """The image's right and up, and the direction in which the camera looks, in the world at the start."""
+    m = simulation.data_row("cam_xmat", camera, 9)
+    return (m[0], m[3], m[6]), (m[1], m[4], m[7]), (-m[2], -m[5], -m[8])
+
+
+def onlookers(simulation: Simulation) -> list[int]:
+    """The cameras that look at the model from outside: fixed to the world, or following something."""
+    bodies, modes = simulation.model("cam_bodyid"), simulation.model("cam_mode")
+    made = []
+    for camera, body in enumerate(bodies):
+        still = int(body) == 0 and int(modes[camera]) == FIXED
+        after = int(modes[camera]) in (TRACK, TRACKCOM)
+        if still or after:
+            made.append(camera)
+    return made
+
+
+def things(simulation: Simulation) -> list[int]:
+    """The geoms that are something to look at: no floors, nothing hidden or clear."""
+    kinds, groups = simulation.model("geom_type"), simulation.model("geom_group")
+    return [
+        geom
+        for geom in range(simulation.count("geom"))
+        if int(kinds[geom]) not in (PLANE, HFIELD)
+        and groups[geom] < VISIBLE
+        and simulation.row("geom_rgba", geom, 4)[3] > 0
+    ]
+
+
+def in_sight(simulation: Simulation, camera: int) -> list[tuple[int, float]]:
+    """The things whose centre is in a camera's image, and how far along its view they are in m."""
+    simulation.begin()
+    right, up, forward = axes(simulation, camera)
+    place = simulation.data_row("cam_xpos", camera, 3)
+    tall = math.tan(math.radians(min(simulation.model("cam_fovy")[camera], 179.0)) / 2)
+    wide, high = (int(each) for each in simulation.row("cam_resolution", camera, 2))
+    aspect = wide / high if wide > 1 and high > 1 else ASPECT
+    positions, made = tuple(simulation.data("geom_xpos")), []
+    for geom in things(simulation):
+        way = minus(at(positions, geom), place)  # type: ignore[arg-type]
+        ahead = dot(way, forward)
+        if ahead > 0 and abs(dot(way, up)) <= tall * ahead and abs(dot(way, right)) <= aspect * tall * ahead:
+            made.append((geom, ahead))
+    return made
+
+
+def middle(simulation: Simulation) -> Vector | None:
+    """The mean place of what there is to look at; of what moves, where something does."""
+    simulation.begin()
+    positions, owner, bodies = tuple(simulation.data("geom_xpos")), root_of(simulation), simulation.model("geom_bodyid")
+    seen = things(simulation)
+    places = [at(positions, geom) for geom in ([each for each in seen if owner[int(bodies[each])]] or seen)]
+    if not places:
+        return None
+    x, y, z = (sum(place[i] for place in places) / len(places) for i in range(3))
+    return (x, y, z)
+
+
+def turned(model: ReaderModel, camera: int, right: Sequence[float], up: Sequence[float]) -> tuple[Edit, ...]:
+    """Edits that give a camera's image other axes, told in the world's frame."""
+    element = model.element("camera", camera)
+    if element is None:
+        return ()
+    simulation = model.simulation
+    simulation.begin()
+    body = int(simulation.model("cam_bodyid")[camera])
+    m = simulation.data_row("xmat", body, 9)
+    if int(simulation.model("cam_mode")[camera]) in (TRACK, TRACKCOM):
+        m = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0) if not any(m) else m
+    local = [sum(m[3 * row + column] * axis[row] for row in range(3)) for axis in (right, up) for column in range(3)]
+    gone = tuple(remove_attribute(element, name) for name in TURNS[1:] if name in element.attributes)
+    return (*gone, set_attribute(element, "xyaxes", " ".join(f"{each + 0.0:.4g}" for each in local)))
+
+
+def aimed(model: ReaderModel, camera: int) -> tuple[Edit, ...]:
+    """Edits that let a camera look at the middle of things, upright."""
+    simulation = model.simulation
+    target = middle(simulation)
+    if target is None:
+        return ()
+    way = minus(target, simulation.data_row("cam_xpos", camera, 3))  # type: ignore[arg-type]
+    far = math.hypot(*way)
+    if far < 1e-6:
+        return ()
+    forward = (way[0] / far, way[1] / far, way[2] / far)
+    right = cross(forward, (0.0, 0.0, 1.0) if abs(forward[2]) < 0.99 else (0.0, 1.0, 0.0))
+    size = math.hypot(*right)
+    right = (right[0] / size, right[1] / size, right[2] / size)
+    return turned(model, camera, right, cross(right, forward))

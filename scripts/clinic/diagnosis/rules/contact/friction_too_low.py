@@ -1,0 +1,92 @@
+"""Friction next to nothing, or a slippery geom that has the last word.
+
+Of two geoms the larger friction counts, unless one has a higher `priority`: then its own counts alone, however small.
+A `<pair>` has its own.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="5 5 0.1"/>
+        <body name="box" pos="0 0 0.05">
+          <freejoint/>
+          <geom name="box" type="box" size="0.05 0.05 0.05" friction="0.05" priority="1"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="5 5 0.1"/>
+        <body name="box" pos="0 0 0.05">
+          <freejoint/>
+          <geom name="box" type="box" size="0.05 0.05 0.05" friction="0.05"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: a push, once at rest, at the speed of a fall over a tenth of the size of what is pushed; with friction 0.3
+it would be over when the probe looks. Below 0.5 of the push's speed, which is friction 0.15, is well. PTFE on PTFE has
+0.04, wet ice less, steel on steel 0.4 and more.
+
+When it is wrong: ice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.push import slides_on
+from clinic.diagnosis.probes.touch import edits_of, names_of, resting, with_like
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "Friction next to nothing"
+FAMILIES = ("slips", "rolls-on")
+SINCE = "0.2"
+
+LOW, MOST = 0.12, 0.5
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """What decides the contacts that carry something with friction below 0.12."""
+    simulation = model.simulation
+    low = [decides for _, decides in resting(simulation) if decides.dim > 1 and decides.friction < LOW]
+    if not low:
+        return
+    least = min(each.friction for each in low)
+    frictions = simulation.model("geom_friction")
+    names = names_of(simulation, low)
+    priority = simulation.model("geom_priority")
+    first = [each for each in low if each.kind == "geom" and any(priority[geom] for geom in each.elements)]
+    healthy = "0.15 to 2 for dry solids"
+    if first and len(first) == len(low):
+        says = f"The geom with the higher priority has the last word, and its friction is {least:g}."
+        edits = edits_of(model, first, "priority", "0")
+        if edits and model.measured(slides_on(), edits) <= MOST:
+            top = max(priority[geom] for each in first for geom in each.elements)
+            yield Suspect(
+                names,
+                "priority",
+                f"{int(top)}",
+                "0",
+                edits,
+                slides_on(),
+                MOST,
+                says,
+                healthy,
+                excess=LOW / max(least, 1e-6),
+            )
+            return
+    says = f"Friction {least:g} holds nothing on a slope of {100 * least:.2g} %."
+    low = with_like(simulation, low, lambda geom: frictions[3 * geom] < LOW)
+    edits = edits_of(model, low, "friction", _value(model, low))
+    yield Suspect(
+        names, "friction", f"{least:g}", "1", edits, slides_on(), MOST, says, healthy, excess=LOW / max(least, 1e-6)
+    )
+
+
+def _value(model: ReaderModel, low: list) -> str:  # type: ignore[type-arg]
+    return "1 1 0.005 0.0001 0.0001" if all(each.kind == "pair" for each in low) else "1 0.005 0.0001"

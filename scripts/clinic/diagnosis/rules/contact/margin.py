@@ -1,0 +1,89 @@
+"""Contacts push before anything touches: a large `margin`.
+
+Since MuJoCo 3.9 `margin` is a layer around the geom: things rest on it, in the air. The margins of both geoms are
+added. Before, `margin` = `gap` meant contacts that are seen and do not push; now the same text lifts things by the
+margin.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom name="floor" type="plane" size="1 1 0.1"/>
+        <body name="box" pos="0 0 0.2">
+          <freejoint/>
+          <geom name="box" type="box" size="0.05 0.05 0.05" margin="0.05"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom name="floor" type="plane" size="1 1 0.1"/>
+        <body name="box" pos="0 0 0.2">
+          <freejoint/>
+          <geom name="box" type="box" size="0.05 0.05 0.05" margin="0.0005"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the widest gap of a contact that carries something, 2 s after letting go, as a share of the thinner geom's
+thickness; below 0.2 is well. MuJoCo's manual, Computation, Margin and gap.
+
+When it is wrong: an air bearing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import Contact
+from clinic.diagnosis.probes.run import let_go
+from clinic.diagnosis.probes.shape import falling, root_of, thickness
+from clinic.diagnosis.probes.touch import resting
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "Contacts that push before anything touches"
+FAMILIES = ("stuck", "sinks", "jumps-at-start")
+SINCE = "0.2"
+
+MOST = 0.2  # of the thinner geom's thickness
+
+
+def _hovers(simulation: Simulation) -> float:
+    made = 0.0
+    for contact in _floating(simulation):
+        thick = min(thickness(simulation, geom) for geom in contact.geoms)
+        if 0 < thick < float("inf"):
+            made = max(made, contact.distance / thick)
+    return made if let_go(simulation).end else float("inf")
+
+
+def _floating(simulation: Simulation) -> list[Contact]:
+    """The contacts that carry something that can fall and touch nothing."""
+    falls, owner, bodies = falling(simulation), root_of(simulation), simulation.model("geom_bodyid")
+    apart = [contact for contact, _ in resting(simulation) if contact.distance > 0]
+    return [each for each in apart if any(owner[int(bodies[geom])] in falls for geom in each.geoms)]
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The margins of the geoms that hover."""
+    simulation = model.simulation
+    margins = simulation.model("geom_margin")
+    geoms = {geom for contact in _floating(simulation) for geom in contact.geoms}
+    least = 0.5 * max((margins[geom] for geom in geoms), default=0.0)
+    wide = [g for g in range(len(margins)) if margins[g] > 0 and (g in geoms or margins[g] >= least > 0)]
+    pairs = [i for i, each in enumerate(simulation.model("pair_margin")) if each > 0]
+    if not wide and not pairs:
+        return
+    edits = (model.set("geom", wide, "margin", "0") if wide else ()) + (
+        model.set("pair", pairs, "margin", "0") if pairs else ()
+    )
+    most = max([margins[geom] for geom in wide] + [simulation.model("pair_margin")[i] for i in pairs])
+    names = tuple(simulation.name("geom", geom) for geom in wide)
+    probe = Probe("widest gap of a contact that carries, at rest", "of the geom's thickness", _hovers)
+    says = f"A margin of {most:g} m carries before anything touches."
+    yield Suspect(names, "margin", f"{most:g}", "0", edits, probe, MOST, says, "0, MuJoCo's default", excess=3.0)

@@ -1,0 +1,105 @@
+"""Something begins inside of something else, and is thrown out.
+
+A free body whose `pos`, or whose place in a keyframe, lies within the floor, a table or another body is pushed out by
+the contact's spring within a few steps: it leaps. `size` of a box is half of its edge, a common reason.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="box">
+          <freejoint/>
+          <geom name="box" type="box" size="0.05 0.05 0.05"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="box" pos="0 0 0.05">
+          <freejoint/>
+          <geom name="box" type="box" size="0.05 0.05 0.05"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the deepest overlap at the start as a share of how far the thing reaches from its own origin; below 0.05 is
+well. Robots are often pressed into the floor by a few millimetres.
+
+When it is wrong: code that puts everything into its place after the reset. Bodies that all begin at the origin look
+like that and are left alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.engine import FREE, PLANE
+from clinic.diagnosis.probes.overlap import at_start, beginning, buried
+from clinic.diagnosis.probes.shape import box, root_of
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "Something begins inside of something else"
+FAMILIES = ("jumps-at-start", "sinks", "explodes")
+SINCE = "0.2"
+
+MOST = 0.05
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Whatever is buried deepest, raised until it is free; the upper one of two bodies."""
+    simulation = model.simulation
+    found = {root: each for root, each in buried(simulation).items() if each[0] > MOST}
+    if not found or (model.start.key < 0 and simulation.count("key")):
+        return  # where there are keyframes, what begins is begun from one
+    bodies, owner, kinds = simulation.model("geom_bodyid"), root_of(simulation), simulation.model("geom_type")
+    start = beginning(simulation)
+    edits: tuple[Edit, ...] = ()
+    raised: dict[int, float] = {}
+    for root in found:
+        for contact in start.contacts:
+            trees = [owner[int(bodies[geom])] for geom in contact.geoms]
+            if root not in trees or trees[0] == trees[1] or contact.distance >= 0:
+                continue
+            mine, theirs = contact.geoms if trees[0] == root else contact.geoms[::-1]
+            if int(kinds[theirs]) == PLANE:
+                lift = -contact.distance
+            else:
+                below, above = (box(simulation, start.geom_xpos, start.geom_xmat, geom) for geom in (theirs, mine))
+                if owner[int(bodies[theirs])] in found and (below[0][2], theirs) > (above[0][2], mine):
+                    continue
+                lift = below[0][2] + below[1][2] - above[0][2] + above[1][2]
+            raised[root] = max(raised.get(root, 0.0), lift)
+    for root, lift in raised.items():
+        edits += _raised(model, root, lift + 1e-4 * lift)
+    names = tuple(simulation.name("body", root) for root in raised)
+    depth = max(-contact.distance for _, contact in found.values())
+    lifted = ", ".join(f"{each:.3g} m higher" for each in raised.values())
+    says = f"It begins {1000 * depth:.3g} mm inside of what it touches."
+    if names:
+        geoms = tuple(simulation.name("geom", geom) for _, contact in found.values() for geom in contact.geoms)
+        yield Suspect((*names, *geoms), "pos", "", lifted, edits, at_start(), MOST, says, excess=2.0)
+
+
+def _raised(model: ReaderModel, root: int, lift: float) -> tuple[Edit, ...]:
+    simulation, key = model.simulation, model.start.key
+    joint = next(iter(simulation.joints_of(root)), -1)
+    if key >= 0:
+        element = model.element("key", key)
+        at = int(simulation.model("jnt_qposadr")[joint]) + 2
+        qpos = element.get("qpos").split() if element is not None else []
+        if element is None or len(qpos) <= at or simulation.joint_type(joint) != FREE:
+            return ()
+        qpos[at] = f"{float(qpos[at]) + lift:.6g}"
+        return (set_attribute(element, "qpos", " ".join(qpos)),)
+    element = model.element("body", root)
+    if element is None:
+        return ()
+    x, y, z = (element.get("pos") or "0 0 0").split()
+    return (set_attribute(element, "pos", f"{x} {y} {float(z) + lift:.6g}"),)

@@ -1,0 +1,100 @@
+"""Parts of one mechanism overlap at the start, and throw each other.
+
+MuJoCo does not let a body collide with its parent, unless the parent is fixed to the world: then it does. Grandparents
+and siblings always do. Where their geoms overlap by design, an `<exclude>` is missing.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="base">
+          <geom type="sphere" size="0.1"/>
+          <body name="arm" pos="0.1 0 0">
+            <joint axis="0 1 0" damping="1"/>
+            <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.04"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="base">
+          <geom type="sphere" size="0.1"/>
+          <body name="arm" pos="0.1 0 0">
+            <joint axis="0 1 0" damping="1"/>
+            <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.04"/>
+          </body>
+        </body>
+      </worldbody>
+      <contact>
+        <exclude body1="base" body2="arm"/>
+      </contact>
+    </mujoco>
+
+The number: the deepest overlap at the start of bodies at most 3 links apart, as a share of the thinner geom's
+thickness; below 0.1 is well. MuJoCo's manual, Computation, Collision detection: the filter of parents.
+
+When it is wrong: a geom that is too large, where the edit hides it; or a part without the free joint that it gets
+elsewhere. So a body with three limbs and more that is fixed in an empty world, and that no exclude names, is left
+alone.
+A joint that starts outside of its range, which is another fault, is looked at inside.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.overlap import of_relatives, relatives
+from clinic.diagnosis.probes.shape import root_of, roots, thickness
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "Parts that overlap at the start"
+FAMILIES = ("jumps-at-start", "stuck", "explodes")
+SINCE = "0.2"
+
+MOST, LIMBS = 0.1, 3
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """All pairs of relatives that overlap, excluded together."""
+    simulation = model.simulation
+    if model.measured(of_relatives()) <= MOST or _walker(model):
+        return
+    names = ["world", *simulation.names("body")[1:]]
+    deep: dict[tuple[int, int], float] = {}
+    for one, other, contact in relatives(simulation):
+        thick = min(thickness(simulation, geom) for geom in contact.geoms)
+        pair = (min(one, other), max(one, other))
+        if contact.force > 0 and -contact.distance > MOST * thick:
+            deep[pair] = max(deep.get(pair, 0.0), -contact.distance)
+    xml = "".join(f'<exclude body1="{names[one]}" body2="{names[other]}"/>' for one, other in deep)
+    named = all(names[body] for pair in deep for body in pair)
+    bodies = tuple(simulation.name("body", body) for pair in sorted(deep, key=deep.__getitem__)[::-1] for body in pair)
+    if not deep or (model.source is not None and model.source.urdf and any(0 in pair for pair in deep)):
+        return  # what a URDF has for a base is often carried by something else
+    static = any(not root_of(simulation)[body] for pair in deep for body in pair)
+    says = f"They overlap by {1000 * max(deep.values()):.3g} mm" + (
+        "; the parent is fixed to the world, so that the filter of parents does not apply." if static else "."
+    )
+    edits = model.add("contact", xml) if named else ()
+    value = f"{len(deep)} excluded" if len(deep) > 1 else "excluded"
+    yield Suspect(tuple(dict.fromkeys(bodies)), "exclude", "none", value, edits, of_relatives(), MOST, says, excess=2.0)
+
+
+def _walker(model: ReaderModel) -> bool:
+    simulation = model.simulation
+    empty = not any(int(body) == 0 for body in simulation.model("geom_bodyid"))
+    excludes = [each for each in (model.source.section("contact") if model.source else ()) if each.tag == "exclude"]
+    told = {each.get(side) for each in excludes for side in ("body1", "body2")}
+    minded = any(simulation.names("body")[body] in told for body in _parents(model))
+    return empty and not minded and len(roots(simulation)) >= LIMBS
+
+
+def _parents(model: ReaderModel) -> set[int]:
+    """The bodies on which what moves hangs."""
+    parents = model.simulation.model("body_parentid")
+    return {int(parents[root]) for root in roots(model.simulation)} - {0}

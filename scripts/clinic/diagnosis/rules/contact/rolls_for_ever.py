@@ -1,0 +1,77 @@
+"""A ball that never stops rolling.
+
+With `condim` 3, the default, a contact has no rolling friction: a ball rolls for ever. With `condim="6"` the third
+number of `friction` acts, and its default of 0.0001 m is next to nothing.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom name="field" type="plane" size="9 6 0.1"/>
+        <body name="ball" pos="0 0 0.095">
+          <freejoint/>
+          <geom name="ball" type="sphere" size="0.095" mass="0.45"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom name="field" type="plane" size="9 6 0.1"/>
+        <body name="ball" pos="0 0 0.095">
+          <freejoint/>
+          <geom name="ball" type="sphere" size="0.095" mass="0.45" condim="6" friction="1 0.005 0.008"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: of the speed of a rolling ball, what is left 1 s later; above 0.99 it never stops. A soccer ball on grass
+loses 0.6 m/s in a second.
+
+When it is wrong: it is a hint only, for a ball on a hard floor does roll on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import FREE, SPHERE
+from clinic.diagnosis.probes.push import rolls_on
+from clinic.diagnosis.probes.shape import root_of, solid
+from clinic.diagnosis.probes.touch import edits_of, names_of, resting
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "A ball that never stops rolling"
+FAMILIES = ("rolls-on", "drifts")
+SINCE = "0.2"
+
+MOST = 0.99  # of the speed
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Contacts of free balls that have no rolling friction."""
+    simulation = model.simulation
+    bodies, kinds, owner = simulation.model("geom_bodyid"), simulation.model("geom_type"), root_of(simulation)
+    for body in simulation.free_bodies:
+        geoms = [geom for geom in simulation.geoms_of(body) if solid(simulation, geom)]
+        if owner.count(body) != 1 or len(geoms) != 1 or int(kinds[geoms[0]]) != SPHERE:
+            continue
+        joint = simulation.joints_of(body)[0]
+        if simulation.joint_type(joint) != FREE or simulation.model("dof_damping")[simulation.dof(joint)] > 0:
+            continue
+        meant = [
+            decides
+            for contact, decides in resting(simulation)
+            if body in [int(bodies[geom]) for geom in contact.geoms] and decides.dim > 1
+        ]
+        if meant and all(each.dim < 6 for each in meant):
+            says = f"With condim {meant[0].dim} a contact has no rolling friction."
+            edits = edits_of(model, meant, "condim", "6")
+            yield Suspect(
+                names_of(simulation, meant), "condim", f"{meant[0].dim}", "6, friction 1 0.005 0.005", edits,
+                rolls_on(body), MOST, says, level="hint",
+            )  # fmt: skip
+            return

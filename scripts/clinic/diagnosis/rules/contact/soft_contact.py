@@ -1,0 +1,88 @@
+"""Contacts so soft that things sink in.
+
+A contact is a damped spring: `solref` has its time constant and damping ratio, `solimp` how much of it acts. A time
+constant of 0.2 s in place of 0.02 s, or an impedance of 0.1 in place of 0.9, lets things sink in by a part of their
+size.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom name="floor" type="plane" size="1 1 0.1"/>
+        <body name="box" pos="0 0 0.05">
+          <freejoint/>
+          <geom name="box" type="box" size="0.05 0.05 0.05" solref="1 1"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom name="floor" type="plane" size="1 1 0.1"/>
+        <body name="box" pos="0 0 0.05">
+          <freejoint/>
+          <geom name="box" type="box" size="0.05 0.05 0.05"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the deepest contact 2 s after letting go as a share of the thinner geom's thickness; below 0.05 is well.
+With the default values a box at rest sinks in by 0.1 mm.
+
+When it is wrong: a cushion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+
+from clinic.diagnosis.probes.touch import depth, edits_of, names_of, resting, with_like
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "Contacts too soft"
+FAMILIES = ("sinks", "falls-through", "slips")
+SINCE = "0.2"
+
+MOST = 0.05  # of the thinner geom's thickness
+TIME, SOFT = 0.02, 400.0  # s, MuJoCo's default; 1/s2 of a negative solref
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """`solref` and `solimp`, where they are softer than the default, of what decides deep contacts."""
+    simulation = model.simulation
+    if model.measured(depth()) <= MOST:
+        return
+    rests = [decides for _, decides in resting(simulation)]
+    for attribute, value, softness in (("solref", "0.02 1", _slow), ("solimp", "0.9 0.95 0.001", _weak)):
+        soft = [each for each in rests if max(softness(simulation, each.kind, i) for i in each.elements) > 1]
+        if soft:
+            excess = max(softness(simulation, each.kind, i) for each in soft for i in each.elements)
+            soft = with_like(simulation, soft, partial(_softer, simulation, softness))
+            kind, worst = next((each.kind, i) for each in soft for i in each.elements)
+            now = " ".join(f"{each:g}" for each in simulation.row(f"{kind}_{attribute}", worst, len(value.split())))
+            says = f"{attribute} {now} lets the contact give way; MuJoCo's default is {value}."
+            edits = edits_of(model, soft, attribute, value)
+            yield Suspect(
+                names_of(simulation, soft), attribute, now, value, edits, depth(), MOST, says,
+                f"{value}, MuJoCo's default", excess=excess,
+            )  # fmt: skip
+
+
+def _softer(simulation: Simulation, softness: Callable[[Simulation, str, int], float], geom: int) -> bool:
+    return softness(simulation, "geom", geom) > 1
+
+
+def _slow(simulation: Simulation, kind: str, index: int) -> float:
+    """How many times longer the time constant is than 1.5 default ones, or softer the stiffness of a negative one."""
+    time, damping = simulation.row(f"{kind}_solref", index, 2)
+    return time * damping / (1.5 * TIME) if time > 0 else SOFT / max(-time, 1e-9)
+
+
+def _weak(simulation: Simulation, kind: str, index: int) -> float:
+    """How many times smaller than a half the largest impedance is."""
+    return 0.5 / max(simulation.row(f"{kind}_solimp", index, 5)[1], 1e-3)

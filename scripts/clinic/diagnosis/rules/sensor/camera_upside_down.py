@@ -1,0 +1,75 @@
+"""A camera's image is upside down.
+
+A camera looks along its own -z, and its y axis is up in the image. `xyaxes`, `euler` and `quat` with a wrong sign
+turn it by 180 degrees about the view.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <camera name="front" pos="1.6 0 0.5" xyaxes="0 -1 0 0 0 -1"/>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="box" pos="0 0 0.05">
+          <freejoint/>
+          <geom type="box" size="0.05 0.05 0.05"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <camera name="front" pos="1.6 0 0.5" xyaxes="0 1 0 0 0 1"/>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="box" pos="0 0 0.05">
+          <freejoint/>
+          <geom type="box" size="0.05 0.05 0.05"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the angle between the image's up and the world's, at most 100 degrees, for a camera that is fixed to the
+world or follows a robot, and does not look straight up or down.
+
+When it is wrong: a camera that is mounted upside down on purpose. Cameras on arms are left alone.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.view import axes, onlookers, turned
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A camera that is upside down"
+FAMILIES = ("camera",)
+SINCE = "0.2"
+CASE = "camera-upside-down"
+
+MOST, LEVEL = 100.0, 0.9  # degrees; of the view's direction along the vertical
+
+
+def _tilt(simulation: Simulation, camera: int) -> float:
+    simulation.begin()
+    _, up, forward = axes(simulation, camera)
+    return math.degrees(math.acos(max(-1.0, min(1.0, up[2])))) if abs(forward[2]) < LEVEL else 0.0
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Each camera that looks from outside, turned by 180 degrees about its view."""
+    simulation = model.simulation
+    for camera in onlookers(simulation):
+        if _tilt(simulation, camera) > MOST:
+            right, up, _ = axes(simulation, camera)
+            edits = turned(model, camera, [-each for each in right], [-each for each in up])
+            name, probe = (
+                simulation.name("camera", camera),
+                Probe("image up against world up", "degrees", _tilt, (camera,), dynamic=False),
+            )
+            says = "The image's up points down in the world."
+            value = edits[-1].value if edits else "turned by 180 degrees"
+            yield Suspect((name,), "xyaxes", "", value, edits, probe, MOST, says, "0 to 90 degrees")

@@ -1,0 +1,77 @@
+"""The near or far clipping plane cuts everything away.
+
+`znear` and `zfar` of `<map>` are not metres: they are multiplied with the model's extent. Nothing nearer or farther
+is drawn.
+
+Bad:
+
+    <mujoco>
+      <visual>
+        <map znear="3" zfar="5"/>
+      </visual>
+      <statistic extent="1"/>
+      <worldbody>
+        <camera name="front" pos="1 0 0.5" xyaxes="0 1 0 -0.4 0 1"/>
+        <geom type="box" size="0.05 0.05 0.05"/>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <statistic extent="1"/>
+      <worldbody>
+        <camera name="front" pos="1 0 0.5" xyaxes="0 1 0 -0.4 0 1"/>
+        <geom type="box" size="0.05 0.05 0.05"/>
+      </worldbody>
+    </mujoco>
+
+The number: of the geoms in a camera's sight, the share that is nearer than `znear` or farther than `zfar` times the
+extent; below 0.9 is well.
+
+When it is wrong: a camera that looks from within.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import remove_attribute
+from clinic.diagnosis.probes.view import in_sight, onlookers
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "Clipping planes that cut everything away"
+FAMILIES = ("camera",)
+SINCE = "0.2"
+
+MOST = 0.9
+
+
+def _clipped(simulation: Simulation, camera: int) -> float:
+    extent = simulation.model("stat.extent")[0]
+    near, far = (extent * simulation.model(f"vis.map.{name}")[0] for name in ("znear", "zfar"))
+    radii, seen = simulation.model("geom_rbound"), in_sight(simulation, camera)
+    cut = [geom for geom, ahead in seen if ahead + radii[geom] < near or ahead - radii[geom] > far]
+    return len(cut) / len(seen) if seen else 0.0
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Both planes, for the first camera that sees nothing for them."""
+    simulation = model.simulation
+    maps = [
+        each
+        for each in (model.source.elements("map") if model.source else ())
+        if {"znear", "zfar"} & set(each.attributes)
+    ]
+    for camera in onlookers(simulation) if maps else ():
+        probe = Probe("cut away", "of what is in sight", _clipped, (camera,), dynamic=False)
+        if model.measured(probe) > MOST:
+            names = [name for name in ("znear", "zfar") if name in maps[-1].attributes]
+            now = ", ".join(f"{name} {maps[-1].get(name)}" for name in names)
+            edits = tuple(remove_attribute(maps[-1], name) for name in names)
+            says = f"{now}, times the extent of {simulation.model('stat.extent')[0]:.3g} m, cut it away."
+            camera_name = simulation.name("camera", camera)
+            yield Suspect(("<map>", camera_name), ", ".join(names), now, "0.01, 50", edits, probe, MOST, says)
+            return

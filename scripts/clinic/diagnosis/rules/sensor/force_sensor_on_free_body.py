@@ -1,0 +1,84 @@
+"""A force or torque sensor on a body that hangs on nothing reads 0.
+
+`<force>` and `<torque>` measure what a body and its parent do to each other through their joint. A free body has no
+such joint: it reads 0, whatever it stands on.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="box" pos="0 0 0.05">
+          <freejoint/>
+          <geom type="box" size="0.05 0.05 0.05"/>
+          <site name="sole" pos="0 0 -0.05"/>
+        </body>
+      </worldbody>
+      <sensor>
+        <force name="force" site="sole"/>
+      </sensor>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="box" pos="0 0 0.05">
+          <freejoint/>
+          <geom type="box" size="0.05 0.05 0.05"/>
+          <site name="sole" pos="0 0 -0.05" size="0.08"/>
+        </body>
+      </worldbody>
+      <sensor>
+        <touch name="touch" site="sole"/>
+      </sensor>
+    </mujoco>
+
+The number: of what contacts of the body carry within 2 s after letting go, the share that the sensor never reads;
+below 0.99 is well.
+
+When it is wrong: nothing known.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit, replace
+from clinic.diagnosis.probes.touched import FORCE, TORQUE, touched, unread
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "A force sensor on a free body"
+FAMILIES = ("sensor-reads-zero",)
+SINCE = "0.2"
+
+MOST = 0.99
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Each such sensor, replaced by a touch sensor with a site that holds the contacts."""
+    simulation = model.simulation
+    kinds, of, owners = (simulation.model(name) for name in ("sensor_type", "sensor_objid", "site_bodyid"))
+    for sensor, seen in touched(simulation).items():
+        site = int(of[sensor])
+        if (
+            int(kinds[sensor]) not in (FORCE, TORQUE)
+            or int(owners[site]) not in simulation.free_bodies
+            or not seen.carried
+        ):
+            continue
+        element = model.element("sensor", sensor)
+        if element is None:
+            continue
+        name = f'name="{element.get("name")}" ' if element.get("name") else ""
+        edits: tuple[Edit, ...] = (replace(element, f'<touch {name}site="{element.get("site")}"/>'),)
+        edits += model.set("site", [site], "size", " ".join([f"{1.1 * seen.reach:.3g}"] * 3))
+        names = (
+            simulation.name("sensor", sensor),
+            simulation.name("site", site),
+            simulation.name("body", int(owners[site])),
+        )
+        says = f"Contacts carry {seen.carried:.3g} N, the sensor reads {seen.reading:.3g}: the body has no parent."
+        yield Suspect(names, element.tag, element.tag, "touch", edits, unread(sensor), MOST, says)

@@ -1,0 +1,100 @@
+"""A touch sensor's site does not hold the points of contact.
+
+A `<touch>` sensor sums the normal forces of contacts of its site's body whose points lie inside of the site's volume.
+The default site is a sphere of 5 mm; contacts are at the geom's surface, often outside.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="box" pos="0 0 0.05">
+          <freejoint/>
+          <geom type="box" size="0.05 0.05 0.05"/>
+          <site name="sole" pos="0 0 -0.05"/>
+        </body>
+      </worldbody>
+      <sensor>
+        <touch name="touch" site="sole"/>
+      </sensor>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="box" pos="0 0 0.05">
+          <freejoint/>
+          <geom type="box" size="0.05 0.05 0.05"/>
+          <site name="sole" pos="0 0 -0.05" type="box" size="0.06 0.06 0.01"/>
+        </body>
+      </worldbody>
+      <sensor>
+        <touch name="touch" site="sole"/>
+      </sensor>
+    </mujoco>
+
+The number: of what contacts of the body carry within 2 s after letting go, the share that the sensor never reads;
+below 0.95 is well.
+
+When it is wrong: a sensor that is meant for a part of its body. Of several on one body only one far smaller
+than the others is told.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.overlap import of_relatives
+from clinic.diagnosis.probes.touched import TOUCH, touched, unread
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "A touch sensor whose site misses the contacts"
+FAMILIES = ("sensor-reads-zero",)
+SINCE = "0.2"
+
+MOST = 0.95
+AWAY = 3.0  # sizes of the site; nearer contacts may be beside it on purpose
+OVERLAP = 0.1  # forces of parts that overlap mean nothing
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Each touch sensor that is alone on its body, with a site as large as the contacts are far."""
+    simulation = model.simulation
+    kinds, of, owners = (simulation.model(name) for name in ("sensor_type", "sensor_objid", "site_bodyid"))
+    sites = [int(of[i]) for i, kind in enumerate(kinds) if int(kind) == TOUCH]
+    bodies = [owners[site] for site in sites]
+    if model.measured(of_relatives()) > OVERLAP:
+        return
+    for sensor, seen in touched(simulation).items():
+        site = int(of[sensor])
+        if int(kinds[sensor]) != TOUCH or (bodies.count(owners[site]) > 1 and not _dwarf(simulation, site, sites)):
+            continue
+        if seen.reach < AWAY * max(simulation.row("site_size", site, 3)):
+            continue
+        if seen.carried > 0 and model.measured(unread(sensor)) > MOST and seen.reach < 2 * _reach(simulation, site):
+            size = f"{1.1 * seen.reach:.3g}"
+            value = " ".join([size] * 3)
+            edits = model.set("site", [site], "size", value)
+            if model.value("site", site, "type") not in (None, "sphere", "box", "ellipsoid"):
+                edits += model.set("site", [site], "type", "sphere")
+            names = (simulation.name("sensor", sensor), simulation.name("site", site))
+            now = " ".join(f"{each:g}" for each in simulation.row("site_size", site, 3))
+            says = f"Contacts carry up to {seen.carried:.3g} N on its body, up to {seen.reach:.3g} m from the site."
+            yield Suspect(names, "size", now, value, edits, unread(sensor), MOST, says)
+
+
+def _dwarf(simulation: Simulation, site: int, sites: list[int]) -> bool:
+    """Whether it is far smaller than the other sites of touch sensors."""
+    sizes = sorted(max(simulation.row("site_size", each, 3)) for each in sites)
+    return max(simulation.row("site_size", site, 3)) < sizes[len(sizes) // 2] / AWAY
+
+
+def _reach(simulation: Simulation, site: int) -> float:
+    radii = simulation.model("geom_rbound")
+    return 2 * max(
+        (radii[geom] for geom in simulation.geoms_of(int(simulation.model("site_bodyid")[site]))), default=0.0
+    )

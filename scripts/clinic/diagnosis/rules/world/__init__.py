@@ -1,0 +1,1 @@
+"""Rules about what is around the model: gravity, the medium, switches, memory."""

@@ -1,0 +1,124 @@
+"""Gravity points the wrong way, or is a thousand times too large or small.
+
+MuJoCo's default is `gravity="0 0 -9.81"`: along -z, in m/s2. A sign, an axis, or millimetres turn up here.
+
+Bad:
+
+    <mujoco>
+      <option gravity="0 0 9.81"/>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="box" pos="0 0 0.5">
+          <freejoint/>
+          <geom type="box" size="0.05 0.05 0.05"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <option gravity="0 0 -9.81"/>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="box" pos="0 0 0.5">
+          <freejoint/>
+          <geom type="box" size="0.05 0.05 0.05"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the angle between gravity and the way down to the floor (-z where there is no horizontal plane), at most
+45 degrees; and the time in which something falls as far as the model is wide: 0.45 s for 1 m, told where it is under
+0.025 s or over 5 s.
+
+When it is wrong: a slope or a wall that is made by tilting gravity. Gravity 0 where free bodies are above a floor is a
+hint, for it is often meant.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.engine import PLANE
+from clinic.diagnosis.probes.shape import dot, falling
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "Gravity points the wrong way, or has the wrong size"
+FAMILIES = ("falls-through", "drifts", "stuck", "sags")
+SINCE = "0.2"
+
+ANGLE, SHORT, LONG = 45.0, 0.025, 5.0  # degrees, s, s
+OFF = 128  # mjtDisableBit
+USUAL = "0 0 -9.81"
+
+
+def _up(simulation: Simulation) -> tuple[float, float, float]:
+    simulation.begin()
+    matrices, kinds = simulation.data("geom_xmat"), simulation.model("geom_type")
+    ups = [
+        (m[2], m[5], m[8]) for g, kind in enumerate(kinds) if int(kind) == PLANE for m in [matrices[9 * g : 9 * g + 9]]
+    ]
+    level = [up for up in ups if up[2] > 0.5]
+    return (0.0, 0.0, 1.0) if level or not ups else ups[0]
+
+
+def _angle(simulation: Simulation) -> float:
+    g, up = simulation.row("opt.gravity", 0, 3), _up(simulation)
+    size = math.hypot(*g)
+    return math.degrees(math.acos(max(-1.0, min(1.0, -dot(g, up) / size)))) if size else 0.0  # type: ignore[arg-type]
+
+
+def _ratio(simulation: Simulation) -> float:
+    size = math.hypot(*simulation.model("opt.gravity"))
+    time = math.sqrt(2 * simulation.model("stat.extent")[0] / size) if size else 0.0
+    return max(time / LONG, SHORT / time) if time else 0.0
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Gravity's direction, its size beside the model's, and its absence."""
+    simulation = model.simulation
+    g, falls = simulation.row("opt.gravity", 0, 3), bool(simulation.count("dof"))
+    off = bool(int(simulation.model("opt.disableflags")[0]) & OFF)
+    now = " ".join(f"{each:g}" for each in g)
+    name = ("gravity",)
+    if not falls:
+        return
+    if not any(g) or off:
+        yield from _none(model, now, off)
+        return
+    up = _up(simulation)
+    value = " ".join(f"{-9.81 * each + 0.0:.4g}" for each in up).replace("-0 ", "0 ")
+    edits = model.option("gravity", value)
+    angle = Probe("angle between gravity and down", "degrees", _angle, dynamic=False)
+    says = f"Gravity is {now} m/s2."
+    yield Suspect(name, "gravity", now, value, edits, angle, ANGLE, says, USUAL, share=0.1)
+    extent = simulation.model("stat.extent")[0]
+    size = math.hypot(*g)
+    took = math.sqrt(2 * extent / size)
+    says = f"With {size:.3g} m/s2 a fall of {extent:.2g} m, the model's extent, takes {took:.2g} s."
+    ratio = Probe("time of a fall over the model's extent, beyond 0.025 to 5 s by", "times", _ratio, dynamic=False)
+    scaled = " ".join(f"{9.81 * each / size + 0.0:.4g}" for each in g)
+    yield Suspect(name, "gravity", now, scaled, model.option("gravity", scaled), ratio, 1.0, says, USUAL)
+
+
+def _none(model: ReaderModel, now: str, off: bool) -> Iterator[Suspect]:
+    simulation = model.simulation
+    planes = any(int(kind) == PLANE for kind in simulation.model("geom_type"))
+    falls = sorted(falling(simulation))
+    if not planes or not falls or model.source is None:
+        return
+    flags = tuple(set_attribute(each, "gravity", "enable") for each in model.source.elements("flag")) if off else ()
+    edits = flags or model.option("gravity", USUAL)
+    names = tuple(simulation.name("body", body) for body in falls)
+    probe = Probe(
+        "free bodies that nothing pulls down", "", lambda s, count: float(count), (len(names),), dynamic=False
+    )
+    says = "Gravity is switched off." if off else f"Gravity is {now}."
+    yield Suspect(
+        ("gravity", *names), "gravity", "disable" if off else now, USUAL, edits, probe, 0.0, says, level="hint"
+    )

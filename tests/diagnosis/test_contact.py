@@ -1,0 +1,87 @@
+"""Contacts, what is around a model, sensors and cameras: things that look ill and are well, and the other way round."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.rules import rules
+
+BOX = '<body name="box" pos="0 0 {z}"><freejoint/><geom name="box" type="box" size="0.05 0.05 0.05"{more}/></body>'
+FLOOR = '<geom name="floor" type="plane" size="5 5 0.1"/>'
+
+
+def causes(inside: str, tmp_path, monkeypatch, more: str = "") -> set[str]:
+    monkeypatch.chdir(tmp_path)
+    own = [name for name, rule in rules().items() if rule.suspects.__module__.split(".")[3] in OWN]
+    text = f"<mujoco>{more}<worldbody>{inside}</worldbody></mujoco>"
+    return {each.rule for each in examine(NativeEngine(), {"model.xml": text}, select=own).causes}
+
+
+OWN = ("contact", "sensor", "world")
+ARM = '<joint axis="0 1 0" damping="1"/><geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.04"/>'
+
+WELL = {
+    "a ghost of the target falls": FLOOR
+    + '<body name="target" pos="0 0 1"><freejoint/><geom type="sphere" size="0.1" contype="0" conaffinity="0"/></body>',
+    "a box falls beside a table": FLOOR
+    + '<geom type="box" pos="1 0 0.3" size="0.2 0.2 0.01" contype="4" conaffinity="4"/>'
+    + BOX.format(z=0.6, more=""),
+    "a robot's visual geoms pass": FLOOR
+    + '<body pos="0 0 0.3"><freejoint/><geom type="sphere" size="0.1"/>'
+    + '<geom type="box" size="0.2 0.02 0.02" contype="0" conaffinity="0"/></body>',
+    "rubber on rubber": FLOOR + BOX.format(z=0.05, more=' friction="2"'),
+    "a little margin": FLOOR + BOX.format(z=0.05, more=' margin="0.002"'),
+    "pressed into the floor by 2 mm": FLOOR + BOX.format(z=0.048, more=""),
+    "only the shell of a robot has condim 1": FLOOR
+    + '<body pos="0 0 0.1"><freejoint/><geom type="sphere" size="0.1" condim="1"/>'
+    + '<geom type="box" pos="0.3 0 -0.05" size="0.05 0.05 0.05" condim="3"/></body>',
+    "a walker without its free joint": '<body name="torso"><geom size="0.1"/>'
+    + "".join(f'<body pos="0.1 {y} 0">{ARM}</body>' for y in (-0.1, 0, 0.1))
+    + "</body>",
+    "a camera in a hand is upside down": f'<body pos="0 0 1">{ARM}<camera xyaxes="0 -1 0 0 0 -1"/></body>',
+    "a camera far away with a long lens": FLOOR
+    + '<camera pos="0 -10 0.3" xyaxes="1 0 0 0 0 1" fovy="4"/>'
+    + BOX.format(z=0.05, more=""),
+}
+ILL = {
+    "masks": FLOOR + BOX.format(z=0.5, more=' contype="0" conaffinity="0"'),
+    "friction-too-high": FLOOR + BOX.format(z=0.05, more=' friction="50"'),
+    "soft-contact": FLOOR + BOX.format(z=0.05, more=' solref="1 1" priority="1"'),
+    "margin": FLOOR + BOX.format(z=0.3, more=' margin="0.1"'),
+    "overlap-at-start": '<geom type="box" pos="0 0 0.1" size="0.3 0.3 0.1"/>' + BOX.format(z=0.2, more=""),
+}
+
+
+@pytest.mark.parametrize("inside", WELL.values(), ids=WELL)
+def test_what_looks_ill_and_is_well_has_no_cause(inside, tmp_path, monkeypatch):
+    assert causes(inside, tmp_path, monkeypatch) == set()
+
+
+@pytest.mark.parametrize("rule", ILL)
+def test_the_fault_is_named_alone(rule, tmp_path, monkeypatch):
+    assert causes(ILL[rule], tmp_path, monkeypatch) == {rule}
+
+
+def test_all_geoms_of_a_default_class_are_mended_by_one_edit(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = (
+        '<mujoco><default><geom solref="1 1"/></default><worldbody><geom type="plane" size="5 5 0.1"/>'
+        '<body pos="0 0 0.05"><freejoint/><geom type="box" size="0.05 0.05 0.05"/></body>'
+        '<body pos="1 0 0.05"><freejoint/><geom type="box" size="0.05 0.05 0.05"/></body></worldbody></mujoco>'
+    )
+    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["soft-contact"]).causes
+    assert [each.element for each in found.edit] == ["geom"]
+    assert len(found.elements) == 3
+
+
+def test_a_step_that_needs_more_memory_than_there_is_ends_in_a_warning():
+    boxes = "".join(
+        f'<body pos="{x} 0 0.05"><freejoint/><geom type="box" size="0.05 0.05 0.05"/></body>' for x in (0, 1)
+    )
+    text = f'<mujoco><size memory="6K"/><worldbody>{FLOOR}{boxes}</worldbody></mujoco>'
+    compiled = NativeEngine().compile(text, {})
+    compiled.step()
+    assert compiled.warnings()["CNSTRFULL"] == 1
+    compiled.reset()
+    assert not compiled.warnings()

@@ -4,7 +4,9 @@ import { keep } from "../page/fetch.js";
 
 export const SIZE = 6.5e6; // bytes, about, of all that is loaded before the first diagnosis
 const LIMIT = 60_000; // ms without a sign of life
+const SILENT = `MuJoCo gave no answer for ${LIMIT / 1000} s`;
 const DEATHS = 5;
+const ROOM = "A page has less room than a terminal, for nested bodies above all: try `clinic diagnose` there.";
 const FILES = {
   worker: "diagnosis-worker.js",
   mujoco: "mujoco.wasm.gz",
@@ -84,13 +86,12 @@ export async function diagnose(base, request, tell, stop) {
     const { made, trying, message } = await ask({ parts, request, died }, tell, stop);
     if (made) return made;
     if (trying === null) throw new DiagnosisError(`MuJoCo and Python could not be started: ${message}.`);
-    if (!trying) throw new DiagnosisError(`MuJoCo ended while it compiled the model (${message}). ${ROOM}`);
-    if (died.length >= DEATHS) throw new DiagnosisError(`MuJoCo ended ${DEATHS + 1} times on this model, the last time while ${trying} was tried. ${ROOM}`);
+    const ended = message === SILENT ? SILENT : `MuJoCo ended (${message})`;
+    if (!trying) throw new DiagnosisError(`${ended} while it compiled the model. ${ROOM}`);
+    if (died.length >= DEATHS) throw new DiagnosisError(`${ended} while ${trying} was tried, as while ${died.join(", ")} were. ${ROOM}`);
     died.push(trying);
   }
 }
-
-const ROOM = "A page has less room than a terminal, where about 100 nested bodies are too many already: try `clinic diagnose` there.";
 
 /**
  * @param {URL} base
@@ -129,7 +130,7 @@ function ask(asked, tell, stop) {
     };
     const watch = () => {
       clearTimeout(timer);
-      timer = setTimeout(() => end(null, `no answer within ${LIMIT / 1000} s`), LIMIT);
+      timer = setTimeout(() => end(null, SILENT), LIMIT);
     };
     stop.addEventListener("abort", () => {
       reject(stop.reason);

@@ -70,7 +70,7 @@ function unpacked(bytes, path) {
       return !name.endsWith("/") && !HIDDEN.test(name) && size <= MAX_BYTES && count <= MAX_FILES;
     };
     unzip(bytes, { filter }, (error, files) => {
-      if (error) reject(new FilesError(`${path} cannot be unpacked: ${error.message}`));
+      if (error) reject(new FilesError(`${path} cannot be unpacked: ${error.message}.`));
       else if (size > MAX_BYTES || count > MAX_FILES) reject(new FilesError(`${path}: ${tooLarge()}`));
       else resolve(/** @type {[string, Uint8Array<ArrayBuffer>][]} */ (Object.entries(files)));
     });
@@ -78,7 +78,7 @@ function unpacked(bytes, path) {
 }
 
 function tooLarge() {
-  return `more than ${megabytes(MAX_BYTES)} or ${MAX_FILES} files: give the model's own folder only`;
+  return `more than ${megabytes(MAX_BYTES)} or ${MAX_FILES} files: give the model's own folder only.`;
 }
 
 /**
@@ -105,14 +105,14 @@ export function models(files) {
 export function textOf(files, path) {
   const bytes = files.get(path) ?? new Uint8Array();
   const large = bytes.length > MAX_TEXT;
-  if (large) throw new FilesError(`the text has ${megabytes(bytes.length)}; this page reads up to ${megabytes(MAX_TEXT)}. \`clinic diagnose\` in a terminal reads more`);
+  if (large) throw new FilesError(`the text has ${megabytes(bytes.length)}; this page reads up to ${megabytes(MAX_TEXT)}. \`clinic diagnose\` in a terminal reads more.`);
   try {
     const text = new TextDecoder("utf-8", { fatal: true }).decode(bytes);
     if (!text.includes("\0")) return text;
   } catch {
     // said below
   }
-  throw new FilesError("this is not a text in UTF-8; expected MJCF or URDF");
+  throw new FilesError("this is not a text in UTF-8; expected MJCF or URDF.");
 }
 
 /**

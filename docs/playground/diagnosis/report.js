@@ -33,7 +33,9 @@ export function report(diagnosis, request, rules, tryEdit) {
   made.append(tried);
   if (hints.length > 0) {
     const lines = hints.map((each) => el("li", {}, each.title, " (", link(each.rule, rules), "): ", where(each), ". ", each.says));
-    made.append(fold(`${count(hints.length, "hint")}, where only you know what was meant`, el("ul", {}, ...lines)));
+    const told = fold(`${count(hints.length, "hint")}, where only you know what was meant`, el("ul", {}, ...lines));
+    told.open = causes.length === 0;
+    made.append(told);
   }
   if (diagnosis.diff) made.append(fold(causes.length === 1 ? "The edit as a diff" : "The edits as a diff", el("pre", {}, diagnosis.diff)));
   if (ruledOut.length > 0) {
@@ -73,8 +75,9 @@ function finding(found, rules) {
 
 /** @param {Finding} found */
 function where({ file, line, elements }) {
-  const more = elements.length > 3 ? ` and ${elements.length - 3} more` : "";
-  return [line ? `${file}, line ${line}` : file, elements.slice(0, 3).join(", ") + more].filter(Boolean).join(": ");
+  const named = elements.filter((each) => each !== `line ${line}`);
+  const more = named.length > 3 ? ` and ${named.length - 3} more` : "";
+  return [line ? `${file}, line ${line}` : file, named.slice(0, 3).join(", ") + more].filter(Boolean).join(": ");
 }
 
 /**
@@ -108,7 +111,7 @@ function shown(value, unit) {
  * @param {HTMLElement} content
  */
 function fold(title, content) {
-  return el("details", {}, el("summary", {}, title), content);
+  return el("details", {}, el("summary", {}, title[0].toUpperCase() + title.slice(1)), content);
 }
 
 /**

@@ -17,7 +17,7 @@ let under = new AbortController();
  * @param {URL} base where the playground's files are
  * @param {string} rules the address of the rules' pages
  * @param {string} symptom the family that the reader sees; empty for none
- * @param {FileSystemEntry[] | FileList} given
+ * @param {Iterable<FileSystemEntry | File>} given
  */
 export async function start(place, base, rules, symptom, given) {
   under.abort(null);

@@ -61,7 +61,7 @@ function take(root) {
   form.children[1].innerHTML = CHOICES;
   const seen = /** @type {HTMLSelectElement} */ (form.querySelector("select"));
   for (const each of root.dataset.symptoms?.split("|") ?? []) seen.add(new Option(...each.split(": ").reverse()));
-  const given = async (/** @type {FileSystemEntry[] | FileList} */ files) => {
+  const given = async (/** @type {Iterable<FileSystemEntry | File>} */ files) => {
     try {
       const { start } = await import(base + "diagnose.js");
       await start(place, base, new URL(root.dataset.rules ?? "", location.href).href, seen.value, files);
@@ -78,8 +78,8 @@ function take(root) {
   form.ondragover = (event) => event.preventDefault();
   form.ondrop = (event) => {
     event.preventDefault();
-    const entries = [...(event.dataTransfer?.items ?? [])].map((item) => item.webkitGetAsEntry()); // gone in a moment
-    void given(entries.filter((entry) => entry !== null));
+    const items = [...(event.dataTransfer?.items ?? [])].map((item) => item.webkitGetAsEntry() ?? item.getAsFile()); // gone in a moment
+    void given(items.filter((item) => item !== null));
   };
 }
 

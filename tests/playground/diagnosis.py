@@ -13,7 +13,9 @@ from clinic.diagnosis.native import NativeEngine
 
 models = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
 with tempfile.TemporaryDirectory() as folder:
-    os.chdir(folder)
+    alone = Path(folder, "around", "model")  # a rule looks for files around it
+    alone.mkdir(parents=True)
+    os.chdir(alone)
     found = {name: examine(NativeEngine(), {"model.xml": text}).data() for name, text in models.items()}
     os.chdir("/")
 print(json.dumps(found))

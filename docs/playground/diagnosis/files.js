@@ -13,7 +13,7 @@ export class FilesError extends Error {}
 
 /**
  * The files of a drop or a choice; zips are unpacked.
- * @param {FileSystemEntry[] | FileList} given what was dropped, or chosen
+ * @param {Iterable<FileSystemEntry | File>} given what was dropped, or chosen
  * @returns {Promise<Map<string, Uint8Array<ArrayBuffer>>>} by path
  * @throws {FilesError} if there are too many, or they cannot be read
  */

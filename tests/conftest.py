@@ -65,8 +65,6 @@ def proven() -> Proven:
 @pytest.fixture(scope="session")
 def site(root: Path, tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Path:
     """The strict build, made once for all workers of a session."""
-    if "DEV_SITE" in os.environ:
-        return Path(os.environ["DEV_SITE"])
     base = tmp_path_factory.getbasetemp()
     out = (base if worker_id == "master" else base.parent) / "built"
     out.mkdir(exist_ok=True)

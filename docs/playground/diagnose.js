@@ -50,8 +50,9 @@ async function examine(place, all, path) {
   const bar = el("progress", { max: "1", "aria-label": "Progress" });
   const stop = button("Stop", () => own.abort(new DiagnosisError("Stopped.")), { class: "md-button" });
   const tell = (/** @type {string} */ what, /** @type {number} */ share) => {
-    bar.value = share;
-    status.textContent = `${what} (${Math.round(100 * share)} %)`;
+    if (share > 0) bar.value = share;
+    else bar.removeAttribute("value");
+    status.textContent = share > 0 ? `${what} (${Math.round(100 * share)} %)` : what;
   };
   const show = (/** @type {HTMLElement} */ made) => place.replaceChildren(...others, made);
   show(el("div", { class: "dg-progress" }, status, bar, stop));
@@ -76,12 +77,18 @@ let leave = () => {};
  */
 async function tryEdit(place, base, record) {
   leave();
-  /** @type {typeof import("./start.js")} */
-  const { open } = await import(/* @vite-ignore */ new URL("start.js", base).href);
-  const playground = await open(place, base, record, null);
-  leave = () => playground.leave();
-  playground.draft.showRemedy("edit");
-  place.scrollIntoView({ block: "nearest" });
+  leave = () => {};
+  try {
+    /** @type {typeof import("./start.js")} */
+    const { open } = await import(/* @vite-ignore */ new URL("start.js", base).href);
+    const playground = await open(place, base, record, null);
+    leave = () => playground.leave();
+    playground.draft.showRemedy("edit");
+    place.scrollIntoView({ block: "nearest" });
+  } catch (error) {
+    console.error(error);
+    place.replaceChildren(complaint("The playground cannot be opened: it needs WebGL and, the first time, the network."));
+  }
 }
 
 /** @param {string} text */

@@ -6,6 +6,8 @@ import { button, el } from "./page/elements.js";
 import { markSolved } from "./page/solved.js";
 import { Player } from "./view/player.js";
 
+export { Beside } from "./view/beside.js";
+
 /** @import {Engine, Loss} from "./engine/client.js" */
 /** @import {Judgement} from "./judge/judgement.js" */
 /** @import {CaseRecord} from "./record/types.js" */

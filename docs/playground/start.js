@@ -31,11 +31,14 @@ export async function mount(root, base) {
 export async function open(root, base, record, linked) {
   const address = (/** @type {string} */ name) => String(new URL(name, base));
   const rest = Promise.all([import("./playground.js"), stylesheet(new URL("start.css", base))]);
-  const engine = new Engine({ worker: address("worker.js"), wasm: address("mujoco.wasm.gz"), record });
+  const source = { worker: address("worker.js"), wasm: address("mujoco.wasm.gz"), record };
+  const engine = new Engine(source);
   if (linked === null) engine.renew();
   try {
-    const [{ Playground }] = await rest;
-    return new Playground(root, record, engine, linked);
+    const [{ Playground, Beside }] = await rest;
+    const playground = new Playground(root, record, engine, linked);
+    if (record.files) new Beside(playground.player, new Engine(source), record.text);
+    return playground;
   } catch (error) {
     engine.end();
     throw error;

@@ -106,7 +106,9 @@ def test_an_edit_runs_beside_the_model_as_it_was(page: Page, served: str, tmp_pa
     expect(page.locator(".pg-status")).to_contain_text("This runs in MuJoCo")
     page.get_by_role("button", name="Run", exact=True).click()
     page.wait_for_function("document.querySelector('.pg-clock')?.dataset.steps > 0", timeout=LIMIT)
+    expect(page.get_by_text("As it was: MuJoCo warns: Nan, Inf or huge value in QACC")).to_be_visible()
     expect(page.locator(".pg-complaint")).to_be_empty()
+    expect(page.locator(".pg-warnings")).to_be_empty()
     expect(page.get_by_role("button", name="Check my fix")).to_have_count(0)
 
 
@@ -181,7 +183,9 @@ def test_the_symptom_and_everything_shown_have_names(page: Page, served: str, ro
     expect(page.locator(".pg-status")).to_contain_text("This runs in MuJoCo")
     page.add_script_tag(path=root / "node_modules/axe-core/axe.min.js")
 
-    found = page.evaluate("axe.run('.diagnose').then(({ violations }) => violations.map(({ id, nodes }) => [id, nodes[0].html]))")
+    found = page.evaluate(
+        "axe.run('.diagnose').then(({ violations }) => violations.map(({ id, nodes }) => [id, nodes[0].html]))"
+    )
 
     assert found == []
 

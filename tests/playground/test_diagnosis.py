@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from clinic.diagnosis.rules import rules
 from clinic.engine.node import executable as node
-from clinic.publish.bundle import DIAGNOSIS, diagnosis_files
+from clinic.publish.bundle import diagnosis_files
 from clinic.record.case import read_cases
 from clinic.record.checkout import cache_folder
 from clinic.work.cache import Cache
@@ -42,7 +42,9 @@ def test_the_page_finds_what_python_finds(root: Path, models: dict[str, str], tm
 
 
 def output(root: Path, command: list[str], **environment: str) -> Any:
-    done = subprocess.run(command, cwd=root, env={**os.environ, **environment}, check=False, capture_output=True, text=True)
+    done = subprocess.run(
+        command, cwd=root, env={**os.environ, **environment}, check=False, capture_output=True, text=True
+    )
     assert done.returncode == 0, done.stderr[-2000:]
     return json.loads(done.stdout)
 

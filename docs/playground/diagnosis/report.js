@@ -68,7 +68,7 @@ function finding(found, rules) {
   if (change) made.push(el("p", {}, el("code", {}, change)));
   if (found.probe && found.unit !== "errors") {
     const after = found.edit.length > 0 ? ` With the edit: ${shown(found.after, found.unit)}.` : "";
-    made.push(el("p", {}, `${found.probe}: ${shown(found.before, found.unit)}.${after}`));
+    made.push(el("p", {}, `${capital(found.probe)}: ${shown(found.before, found.unit)}.${after}`));
   }
   return made;
 }
@@ -87,6 +87,11 @@ function where({ file, line, elements }) {
 function link(rule, rules) {
   if (rule === "engine-dies") return el("code", {}, rule);
   return el("a", { href: `${rules}${rule}.html`, target: "_blank", rel: "noopener" }, rule);
+}
+
+/** @param {string} text */
+function capital(text) {
+  return text.slice(0, 1).toUpperCase() + text.slice(1);
 }
 
 /**
@@ -111,7 +116,7 @@ function shown(value, unit) {
  * @param {HTMLElement} content
  */
 function fold(title, content) {
-  return el("details", {}, el("summary", {}, title[0].toUpperCase() + title.slice(1)), content);
+  return el("details", {}, el("summary", {}, capital(title)), content);
 }
 
 /**

@@ -1,67 +1,111 @@
 // Diagnose your model: fetched when a reader gives one.
 
 import { DiagnosisError, diagnose } from "./diagnosis/client.js";
-import { FilesError, models, readFiles, seenFrom } from "./diagnosis/files.js";
+import { FilesError, last, models, readFiles, seenFrom, textOf } from "./diagnosis/files.js";
 import { report } from "./diagnosis/report.js";
+import { readersRecord } from "./diagnosis/try.js";
 import { button, choice, el } from "./page/elements.js";
 
-/** @import {Diagnosis} from "./diagnosis/client.js" */
+/** @import {CaseRecord} from "./record/types.js" */
+
+/** What is under way ends when another model is given. */
+let under = new AbortController();
 
 /**
  * Diagnoses what was given, and shows it.
  * @param {HTMLElement} place emptied and filled
  * @param {URL} base where the playground's files are
  * @param {string} rules the address of the rules' pages
- * @param {FileSystemEntry[] | FileList} given
+ * @param {string} symptom the family that the reader sees; empty for none
+ * @param {Iterable<FileSystemEntry | File>} given
  */
-export async function start(place, base, rules, given) {
-  const address = (/** @type {string} */ name) => new URL(name, base).href;
-  const source = { worker: address("diagnosis-worker.js"), wasm: address("mujoco.wasm.gz"), base: address("../diagnosis/") };
-  const status = el("p", { class: "dg-status", role: "status" }, "reading");
-  place.replaceChildren(status);
+export async function start(place, base, rules, symptom, given) {
+  under.abort(null);
+  const mine = (under = new AbortController());
   try {
     const files = await readFiles(given);
     const found = models(files);
-    if (found.length === 0) throw new FilesError("there is no MJCF or URDF file among these: expected one that ends in .xml, .mjcf or .urdf");
-    const run = (/** @type {string} */ path) => examine(place, source, rules, files, path, found);
-    await run(found[0]);
+    if (mine.signal.aborted) return;
+    if (found.length === 0) throw new FilesError("There is no MJCF or URDF file among these: expected one that ends in .xml, .mjcf or .urdf.");
+    await examine(place, { base, rules, symptom, files, found }, found[0]);
   } catch (error) {
-    place.replaceChildren(el("p", { class: "dg-error", role: "alert" }, said(error)));
+    if (!mine.signal.aborted) place.replaceChildren(complaint(said(error)));
   }
 }
 
 /**
  * @param {HTMLElement} place
- * @param {{worker: string, base: string, wasm: string}} source
- * @param {string} rules
- * @param {Map<string, Uint8Array<ArrayBuffer>>} files
- * @param {string} path
- * @param {string[]} all
+ * @param {{base: URL, rules: string, symptom: string, files: Map<string, Uint8Array<ArrayBuffer>>, found: string[]}} all
+ * @param {string} path of the model
  */
-async function examine(place, source, rules, files, path, all) {
-  const stop = new AbortController();
-  const name = path.slice(path.lastIndexOf("/") + 1);
-  const status = el("p", { class: "dg-status", role: "status" }, "starting");
-  const again = (/** @type {string} */ other) => {
-    stop.abort(new DiagnosisError("stopped"));
-    void examine(place, source, rules, files, other, all);
+async function examine(place, all, path) {
+  leave();
+  leave = () => {};
+  under.abort(null);
+  const { signal } = (under = new AbortController());
+  const [own, name] = [under, last(path)];
+  const again = (/** @type {string} */ other) => void examine(place, all, other);
+  const others = all.found.length > 1 ? [choice("Model", all.found.map((each) => [each, each]), path, again).whole] : [];
+  const status = el("p", { role: "status" });
+  const bar = el("progress", { max: "1", "aria-label": "Progress" });
+  const stop = button("Stop", () => own.abort(new DiagnosisError("Stopped.")), { class: "md-button" });
+  const tell = (/** @type {string} */ what, /** @type {number} */ share) => {
+    if (share > 0) bar.value = share;
+    else bar.removeAttribute("value");
+    status.textContent = share > 0 ? `${what} (${Math.round(100 * share)} %)` : what;
   };
-  const others = all.length > 1 ? [choice("Model", all.map((each) => [each, each]), path, again).whole] : [];
-  place.replaceChildren(...others, status, button("Stop", () => stop.abort(new DiagnosisError("stopped")), { class: "md-button" }));
+  const show = (/** @type {HTMLElement} */ made) => place.replaceChildren(...others, made);
+  show(el("div", { class: "dg-progress" }, status, bar, stop));
+  place.scrollIntoView({ block: "nearest" });
   try {
-    const request = { text: new TextDecoder().decode(files.get(path)), name, files: seenFrom(files, path), symptom: "" };
-    /** @type {Diagnosis} */
-    const made = await diagnose(source, request, (what) => (status.textContent = what), stop.signal);
-    place.replaceChildren(...others, report(made, rules));
+    const request = { text: textOf(all.files, path), name, files: seenFrom(all.files, path), symptom: all.symptom };
+    const made = await diagnose(all.base, request, tell, signal);
+    show(report(made, request, all.rules, (place, index) => void tryEdit(place, all.base, readersRecord(request, made, index))));
   } catch (error) {
-    if (stop.signal.aborted && place.firstChild !== (others[0] ?? status)) return; // another model took the place
-    place.replaceChildren(...others, el("p", { class: "dg-error", role: "alert" }, `${name}: ${said(error)}`));
+    if (signal.reason !== null) show(complaint(`${name}: ${said(error)}`)); // null: another model took the place
   }
+}
+
+/** Takes away the playground of the edit that was tried last. */
+let leave = () => {};
+
+/**
+ * Opens the model with the edit of a cause in the playground.
+ * @param {HTMLElement} place
+ * @param {URL} base
+ * @param {CaseRecord} record
+ */
+async function tryEdit(place, base, record) {
+  leave();
+  leave = () => {};
+  try {
+    /** @type {typeof import("./start.js")} */
+    const { open } = await import(/* @vite-ignore */ new URL("start.js", base).href);
+    const playground = await open(place, base, record, null);
+    leave = () => playground.leave();
+    playground.draft.showRemedy("edit");
+    place.scrollIntoView({ block: "nearest" });
+  } catch (error) {
+    console.error(error);
+    place.replaceChildren(complaint("The playground cannot be opened: it needs WebGL and, the first time, the network."));
+  }
+}
+
+/** @param {string} text */
+function complaint(text) {
+  return el("p", { class: "dg-error", role: "alert" }, text);
 }
 
 /** @param {unknown} error */
 function said(error) {
-  if (error instanceof FilesError || error instanceof DiagnosisError) return error.message || "it cannot be diagnosed";
+  if (error instanceof FilesError || error instanceof DiagnosisError) return error.message;
   console.error(error);
-  return "it cannot be read";
+  return `it cannot be read: ${error instanceof Error ? error.message : error}`;
 }
+
+// What is under way ends when the reader goes to another page of the site.
+document$.subscribe(() => {
+  under.abort(null);
+  leave();
+  leave = () => {};
+});

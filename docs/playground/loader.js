@@ -2,6 +2,9 @@
 
 const base = new URL(".", /** @type {HTMLScriptElement} */ (document.currentScript).src);
 const KEY = "mujoco-clinic"; // as in page/solved.js
+const CHOICES = `<label class="md-button">Choose files<input type="file" multiple accept=".xml,.mjcf,.urdf,.zip,.stl,.obj,.msh,.png"></label>
+<label class="md-button">Choose a folder<input type="file" webkitdirectory></label>
+<label>What do you see? <select><option value="">not sure</select></label>`;
 let leave = () => {};
 
 /** @returns {string[]} */
@@ -51,23 +54,32 @@ function offer(root) {
 
 /** @param {HTMLElement} root where a reader's own model is taken */
 function take(root) {
-  const [note, place] = /** @type {HTMLElement[]} */ ([...root.children]);
+  const [note, form, place] = /** @type {HTMLElement[]} */ ([...root.children]);
   if (!self.WebAssembly || !self.DecompressionStream || location.protocol === "file:") return;
-  const input = Object.assign(document.createElement("input"), { type: "file", multiple: true, accept: ".xml,.mjcf,.urdf,.zip,.stl,.obj,.msh,.png" });
-  const label = Object.assign(document.createElement("label"), { className: "dg-drop" });
-  label.append("Drop your model here, an XML, or a folder or zip with its meshes; or choose it: ", input);
-  note.textContent = "Nothing leaves your machine: MuJoCo and the rules run in this page, 5 MB that are loaded when you drop.";
-  note.before(label);
-  const given = async (/** @type {FileSystemEntry[] | FileList} */ what) => {
-    const { start } = await import(base + "diagnose.js");
-    await start(place, base, new URL(root.dataset.rules ?? "", location.href).href, what);
+  note.hidden = true;
+  form.hidden = false;
+  form.children[1].innerHTML = CHOICES;
+  const seen = /** @type {HTMLSelectElement} */ (form.querySelector("select"));
+  for (const each of root.dataset.symptoms?.split("|") ?? []) seen.add(new Option(...each.split(": ").reverse()));
+  const given = async (/** @type {Iterable<FileSystemEntry | File>} */ files) => {
+    try {
+      const { start } = await import(base + "diagnose.js");
+      await start(place, base, new URL(root.dataset.rules ?? "", location.href).href, seen.value, files);
+    } catch (error) {
+      console.error(error);
+      note.hidden = false;
+    }
   };
-  input.onchange = () => input.files && given(input.files);
-  label.ondragover = (event) => event.preventDefault();
-  label.ondrop = (event) => {
+  form.onchange = async ({ target }) => {
+    if (!(target instanceof HTMLInputElement) || !target.files?.length) return;
+    await given(target.files);
+    target.value = ""; // the same file can be chosen again
+  };
+  form.ondragover = (event) => event.preventDefault();
+  form.ondrop = (event) => {
     event.preventDefault();
-    const entries = [...(event.dataTransfer?.items ?? [])].map((item) => item.webkitGetAsEntry()); // gone in a moment
-    void given(entries.filter((entry) => entry !== null));
+    const items = [...(event.dataTransfer?.items ?? [])].map((item) => item.webkitGetAsEntry() ?? item.getAsFile()); // gone in a moment
+    void given(items.filter((item) => item !== null));
   };
 }
 

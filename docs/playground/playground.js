@@ -6,6 +6,8 @@ import { button, el } from "./page/elements.js";
 import { markSolved } from "./page/solved.js";
 import { Player } from "./view/player.js";
 
+export { Beside } from "./view/beside.js";
+
 /** @import {Engine, Loss} from "./engine/client.js" */
 /** @import {Judgement} from "./judge/judgement.js" */
 /** @import {CaseRecord} from "./record/types.js" */
@@ -39,7 +41,7 @@ export class Playground {
     const act = { changed: () => this.edited(), check: () => this.check(), stop: () => engine.post({ type: "stop" }) };
     this.draft = new Draft(record, engine, linked ?? record.text, act);
     const { stage, time, warnings, more, signals } = this.player.controls.parts;
-    const parts = [stage, time, this.status, warnings, more, signals, ...this.draft.controls.parts, hints(record)];
+    const parts = [stage, time, this.status, warnings, more, signals, ...this.draft.controls.parts, ...(record.hints.length > 0 ? [hints(record)] : [])];
     this.before = [...root.childNodes];
     root.replaceChildren(el("div", { class: "pg" }, ...parts));
     this.setStatus(linked === null ? "The engine is starting." : "This text came with the link. Nothing runs until you press Run.");
@@ -90,7 +92,7 @@ export class Playground {
   showVersion(version) {
     const { engine } = this.record;
     const differs = version === engine ? "as was the evidence on this page" : `the evidence on this page was made with ${engine}`;
-    this.setStatus(`This runs in MuJoCo ${version}; ${differs}.`);
+    this.setStatus(`This runs in MuJoCo ${version}${engine && `; ${differs}`}.`);
     this.draft.controls.tellNeeds(version);
   }
 

@@ -14,19 +14,31 @@ import "../stylesheets/playground.css";
  * @returns {Promise<() => void>} takes everything away again
  */
 export async function mount(root, base) {
-  const rest = import("./playground.js");
-  const style = stylesheet(new URL("start.css", base));
+  void import("./playground.js");
   const response = await fetch(new URL(root.dataset.case ?? "", location.href));
   if (!response.ok) throw new Error(`${root.dataset.case}: ${response.status}`);
-  const record = /** @type {CaseRecord} */ (await response.json());
-  const linked = await fromFragment(location.hash);
+  const playground = await open(root, base, await response.json(), await fromFragment(location.hash));
+  return () => playground.leave();
+}
+
+/**
+ * Opens the playground of a record.
+ * @param {HTMLElement} root
+ * @param {URL} base where the playground's files are
+ * @param {CaseRecord} record
+ * @param {string | null} linked a text from a link
+ */
+export async function open(root, base, record, linked) {
   const address = (/** @type {string} */ name) => String(new URL(name, base));
-  const engine = new Engine({ worker: address("worker.js"), wasm: address("mujoco.wasm.gz"), record });
+  const rest = Promise.all([import("./playground.js"), stylesheet(new URL("start.css", base))]);
+  const source = { worker: address("worker.js"), wasm: address("mujoco.wasm.gz"), record };
+  const engine = new Engine(source);
   if (linked === null) engine.renew();
   try {
-    const [{ Playground }] = await Promise.all([rest, style]);
+    const [{ Playground, Beside }] = await rest;
     const playground = new Playground(root, record, engine, linked);
-    return () => playground.leave();
+    if (record.files) new Beside(playground.player, new Engine(source), record.text);
+    return playground;
   } catch (error) {
     engine.end();
     throw error;

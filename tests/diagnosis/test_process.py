@@ -8,6 +8,7 @@ import clinic
 import mujoco
 import pytest
 from clinic.diagnosis import process
+from clinic.diagnosis.finding import DIES
 from clinic.diagnosis.process import DiagnosisError, diagnose
 
 TALL = """<mujoco>
@@ -62,7 +63,7 @@ def test_where_the_engine_dies_that_is_a_finding_and_the_other_rules_are_tried(m
     rule = "malformed-number"
     monkeypatch.setattr(process, "CHILD", (sys.executable, "-c", DIES_ON_A_RULE.format(rule=rule)))
     found = diagnose("<mujoco><worldbody><geom size='0.1' colour='1 0 0 1'/></worldbody></mujoco>")
-    assert [each.rule for each in found.causes] == [process.DIES, "unknown-attribute"]
+    assert [each.rule for each in found.causes] == [DIES, "unknown-attribute"]
     assert rule in found.causes[0].says
     assert rule not in found.ruled_out
 

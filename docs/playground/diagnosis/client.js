@@ -1,9 +1,24 @@
 // The diagnosis as the page sees it: a worker for one request, begun anew where MuJoCo dies of the model.
 
+import { keep } from "../page/fetch.js";
+
+export const SIZE = 6.5e6; // bytes, about, of all that is loaded before the first diagnosis
 const LIMIT = 60_000; // ms without a sign of life
+const SILENT = `MuJoCo gave no answer for ${LIMIT / 1000} s`;
 const DEATHS = 5;
+const ROOM = "A page has less room than a terminal, for nested bodies above all: try `clinic diagnose` there.";
+const FILES = {
+  worker: "diagnosis-worker.js",
+  mujoco: "mujoco.wasm.gz",
+  script: "../diagnosis/pyodide.asm.mjs.gz",
+  python: "../diagnosis/pyodide.asm.wasm.gz",
+  library: "../diagnosis/python_stdlib.zip",
+  rules: "../diagnosis/clinic.zip",
+};
 
 /**
+ * @typedef {Record<keyof typeof FILES, string>} Parts what a worker is made of, by address
+ *
  * @typedef {object} Edit
  * @property {string} file
  * @property {number} line
@@ -29,18 +44,25 @@ const DEATHS = 5;
  * @property {string} says
  * @property {string} healthy
  *
- * @typedef {object} Diagnosis
+ * @typedef {Record<string, string>} Texts by file
+ *
+ * @typedef {object} Diagnosis as scripts/clinic/diagnosis/browser.py makes it
  * @property {{engine: string, file: string, causes: Finding[], hints: Finding[], ruled_out: string[]}} data
  * @property {string} text
+ * @property {string} error why the model does not compile
  * @property {string} diff
- * @property {string} error
- * @property {Record<string, string>} fixed
+ * @property {Texts} texts the model's and those that it includes
+ * @property {Texts} mended the files that all edits together change
+ * @property {Texts[]} edited the files that the edit of each cause changes
+ * @property {Record<string, string>} titles of the rules
  *
  * @typedef {object} Request
- * @property {string} text
- * @property {string} name
- * @property {[string, Uint8Array<ArrayBuffer>][]} files
- * @property {string} symptom
+ * @property {string} text the model
+ * @property {string} name what to call it
+ * @property {[string, Uint8Array<ArrayBuffer>][]} files what it names, by path from the model's folder
+ * @property {string} symptom the family that the reader sees
+ *
+ * @typedef {(what: string, share: number) => void} Tell what is being done, and how much of it is done
  */
 
 /** A model that cannot be diagnosed, in a sentence. */
@@ -48,37 +70,56 @@ export class DiagnosisError extends Error {}
 
 /**
  * Diagnoses a model.
- * @param {{worker: string, base: string, wasm: string}} source
+ * @param {URL} base where the playground's files are
  * @param {Request} request
- * @param {(what: string) => void} tell
+ * @param {Tell} tell
  * @param {AbortSignal} stop
  * @returns {Promise<Diagnosis>}
  * @throws {DiagnosisError}
  */
-export async function diagnose(source, request, tell, stop) {
+export async function diagnose(base, request, tell, stop) {
+  const parts = await load(base, tell);
   /** @type {string[]} */
   const died = [];
   for (;;) {
-    const { made, trying, message } = await asked(source, { ...request, ignore: died }, tell, stop);
-    if (made) {
-      made.data.causes.unshift(...died.map((rule) => death(rule, request.name)));
-      return made;
-    }
-    if (!trying || died.length >= DEATHS) throw new DiagnosisError(message);
+    stop.throwIfAborted();
+    const { made, trying, message } = await ask({ parts, request, died }, tell, stop);
+    if (made) return made;
+    if (trying === null) throw new DiagnosisError(`MuJoCo and Python could not be started: ${message}.`);
+    const ended = message === SILENT ? SILENT : `MuJoCo ended (${message})`;
+    if (!trying) throw new DiagnosisError(`${ended} while it compiled the model. ${ROOM}`);
+    if (died.length >= DEATHS) throw new DiagnosisError(`${ended} while ${trying} was tried, as while ${died.join(", ")} were. ${ROOM}`);
     died.push(trying);
   }
 }
 
 /**
- * @param {{worker: string, base: string, wasm: string}} source
- * @param {Request & {ignore: string[]}} request
- * @param {(what: string) => void} tell
- * @param {AbortSignal} stop
- * @returns {Promise<{made: Diagnosis | null, trying: string, message: string}>}
+ * @param {URL} base
+ * @param {Tell} tell
+ * @returns {Promise<Parts>} addresses in memory
  */
-function asked(source, request, tell, stop) {
-  const worker = new Worker(source.worker, { type: "module" });
-  let trying = "";
+export async function load(base, tell) {
+  let sum = 0;
+  const arrived = (/** @type {number} */ bytes) => tell("Loading MuJoCo and Python", Math.min(1, (sum += bytes) / SIZE));
+  const made = Object.entries(FILES).map(async ([part, file]) => [part, await keep(new URL(file, base).href, arrived)]);
+  try {
+    return Object.fromEntries(await Promise.all(made));
+  } catch (error) {
+    throw new DiagnosisError(`What the diagnosis needs could not be loaded: ${/** @type {Error} */ (error).message}.`);
+  }
+}
+
+/**
+ * @param {{parts: Parts, request: Request, died: string[]}} asked
+ * @param {Tell} tell
+ * @param {AbortSignal} stop
+ * @returns {Promise<{made: Diagnosis | null, trying: string | null, message: string}>} trying: a rule, "" for the compiler,
+ *   null before it is reached
+ */
+function ask(asked, tell, stop) {
+  const worker = new Worker(asked.parts.worker, { type: "module" });
+  /** @type {string | null} */
+  let trying = null;
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
   return new Promise((resolve, reject) => {
@@ -89,11 +130,11 @@ function asked(source, request, tell, stop) {
     };
     const watch = () => {
       clearTimeout(timer);
-      timer = setTimeout(() => end(null, `no answer within ${LIMIT / 1000} s`), LIMIT);
+      timer = setTimeout(() => end(null, SILENT), LIMIT);
     };
     stop.addEventListener("abort", () => {
-      end(null, "");
       reject(stop.reason);
+      end(null, "");
     });
     worker.onerror = (event) => {
       event.preventDefault();
@@ -101,23 +142,13 @@ function asked(source, request, tell, stop) {
     };
     worker.onmessage = ({ data }) => {
       watch();
-      if (data.type === "doing") tell(data.what);
-      else if (data.type === "trying") tell((trying = data.rule));
-      else if (data.type === "made") end(data, "");
-      else end(null, data.message);
+      if (data.type === "made") end(data.made, "");
+      else if (data.type === "died") end(null, data.message);
+      else tell(data.title, data.share);
+      trying = data.rule ?? trying;
     };
     watch();
-    worker.postMessage({ ...request, base: source.base, wasm: source.wasm });
+    tell("Starting MuJoCo and Python", 0);
+    worker.postMessage(asked);
   });
-}
-
-/**
- * @param {string} rule
- * @param {string} file
- * @returns {Finding}
- */
-function death(rule, file) {
-  const says = `MuJoCo ended, or gave no answer, while ${rule} was tried on this model.`;
-  const empty = { elements: [], attribute: "", now: "", value: "", edit: [], probe: "", unit: "", before: null, after: null, healthy: "" };
-  return { ...empty, rule: "engine-dies", title: "The engine does not survive the model", file, line: null, says };
 }

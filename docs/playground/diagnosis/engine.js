@@ -1,18 +1,18 @@
 // The engine as the diagnosis asks for it: `Engine` and `Compiled` of scripts/clinic/diagnosis/engine.py, on WebAssembly.
 
+import { compile, encoded } from "../engine/compile.js";
 import { nameOf, warningStat } from "../engine/signals.js";
 
 /** @import {MainModule, MjData, MjModel} from "@mujoco/mujoco" */
 
 const KEPT = 12; // compiled models; an older one is compiled anew when it is asked for again
-const MAIN = "clinic-main.xml"; // `from_xml_string` would take the name `model.xml`, which a file may have
 const COUNTS = { joint: "njnt", camera: "ncam", equality: "neq", actuator: "nu", dof: "nv", sensor: "nsensor" };
 
 /** Compiles texts, and keeps the last few models. */
 export class DiagnosisEngine {
   /**
    * @param {MainModule} mujoco
-   * @param {Map<string, Uint8Array>} files what the model names, by path from the model's folder
+   * @param {[string, Uint8Array][]} files what the model names, by path from the model's folder
    */
   constructor(mujoco, files) {
     this.mujoco = mujoco;
@@ -39,17 +39,7 @@ export class DiagnosisEngine {
    * @returns {MjModel}
    */
   load(main, texts) {
-    const { mujoco } = this;
-    const vfs = new mujoco.MjVFS();
-    try {
-      const encoder = new TextEncoder();
-      const given = [...texts, /** @type {[string, string]} */ ([MAIN, main])];
-      const all = new Map([...this.files, ...given.map(([name, text]) => /** @type {const} */ ([name, encoder.encode(text)]))]);
-      for (const [name, bytes] of all) vfs.addBuffer(name, bytes);
-      return mujoco.MjModel.from_xml_path(MAIN, vfs);
-    } finally {
-      vfs.delete();
-    }
+    return compile(this.mujoco, main, [...this.files, ...encoded(texts)]);
   }
 
   /** @param {CompiledModel} model that is in use now */

@@ -1,44 +1,60 @@
 // A diagnosis as the reader sees it: causes with what was measured, then hints, then what was ruled out.
 
+import { strToU8, zipSync } from "fflate";
 import { button, el } from "../page/elements.js";
+import { last } from "./files.js";
 
-/** @import {Diagnosis, Finding} from "./client.js" */
+/** @import {Diagnosis, Finding, Request, Texts} from "./client.js" */
 
 const SHOWN = 3;
+const BUTTON = { class: "md-button" };
 
 /**
  * @param {Diagnosis} diagnosis
+ * @param {Request} request what was asked
  * @param {string} rules the address of the rules' pages
+ * @param {(place: HTMLElement, index: number) => void} tryEdit opens the model with the edit of a cause in a place
  * @returns {HTMLElement}
  */
-export function report(diagnosis, rules) {
-  const { causes, hints, ruled_out: ruledOut, engine, file } = diagnosis.data;
-  const made = el("div", { class: "dg-report" });
-  const head = `${file}, run by MuJoCo ${engine} in this page: `;
-  const count = causes.length === 1 ? "one cause" : `${causes.length} causes`;
-  const nothing = diagnosis.error ? "it does not compile, and no rule knows why." : "nothing found.";
-  made.append(el("p", { class: "dg-head", role: "status" }, head + (causes.length > 0 ? `${count}.` : nothing)));
+export function report(diagnosis, request, rules, tryEdit) {
+  const { causes, hints, ruled_out: ruledOut, engine } = diagnosis.data;
+  const made = el("div", { class: "dg-report" }, el("p", { role: "status" }, el("strong", {}, request.name), ` ${summary(diagnosis)}`));
   if (diagnosis.error && causes.length === 0) made.append(el("pre", {}, diagnosis.error.trim()));
-  const list = el("ol", { class: "dg-causes" }, ...causes.slice(0, SHOWN).map((each) => finding(each, rules)));
-  if (causes.length > 0) made.append(list);
-  const more = causes.slice(SHOWN);
-  if (more.length > 0) made.append(fold(`${more.length} more`, el("ol", { start: String(SHOWN + 1) }, ...more.map((each) => finding(each, rules)))));
+  const tried = el("div", { class: "dg-tried" });
+  const item = (/** @type {Finding} */ found, /** @type {number} */ index) => {
+    const offer = Object.keys(diagnosis.edited[index]).length === 1;
+    const act = offer ? [button("Try this edit", () => tryEdit(tried, index), BUTTON)] : [];
+    return el("li", {}, ...finding(found, rules), ...act);
+  };
+  const items = causes.map(item);
+  if (items.length > 0) made.append(el("ol", { class: "dg-causes" }, ...items.slice(0, SHOWN)));
+  const more = items.slice(SHOWN);
+  if (more.length > 0) made.append(fold(count(more.length, "more cause"), el("ol", { start: String(SHOWN + 1) }, ...more)));
+  made.append(tried);
   if (hints.length > 0) {
-    const lines = hints.map((each) => el("li", {}, link(each, rules), ` ${each.elements.slice(0, 3).join(", ")}: ${each.says}`));
-    made.append(fold(hints.length === 1 ? "One hint, where only you know what was meant" : `${hints.length} hints, where only you know what was meant`, el("ul", {}, ...lines)));
+    const lines = hints.map((each) => el("li", {}, each.title, " (", link(each.rule, rules), "): ", where(each), ". ", each.says));
+    const told = fold(`${count(hints.length, "hint")}, where only you know what was meant`, el("ul", {}, ...lines));
+    told.open = causes.length === 0;
+    made.append(told);
   }
-  if (diagnosis.diff) made.append(fold("All edits as a diff", el("pre", {}, diagnosis.diff)));
-  if (ruledOut.length > 0) made.append(fold(`Ruled out: ${ruledOut.length} rules`, el("p", {}, ruledOut.join(", "))));
-  made.append(
-    el(
-      "p",
-      { class: "dg-actions" },
-      copy("Copy as text", diagnosis.text),
-      copy("Copy as JSON", JSON.stringify(diagnosis.data, null, 1)),
-      ...(diagnosis.diff ? [save("Save the mended model", Object.values(diagnosis.fixed)[0], file)] : []),
-    ),
-  );
+  if (diagnosis.diff) made.append(fold(causes.length === 1 ? "The edit as a diff" : "The edits as a diff", el("pre", {}, diagnosis.diff)));
+  if (ruledOut.length > 0) {
+    const lines = ruledOut.map((id) => el("li", {}, diagnosis.titles[id] ?? id, " (", link(id, rules), ")"));
+    made.append(fold(`Ruled out: ${count(ruledOut.length, "rule")} found nothing`, el("ul", {}, ...lines)));
+  }
+  const mended = Object.keys(diagnosis.mended).length > 0 ? [button("Save the mended model", () => save(diagnosis.mended, request.name), BUTTON)] : [];
+  const text = `clinic diagnose ${request.name}, in a page with MuJoCo ${engine}\n${diagnosis.text}\n`;
+  const actions = [copy("Copy as text", text), copy("Copy as JSON", JSON.stringify(diagnosis.data, null, 1)), ...mended];
+  made.append(el("p", { class: "dg-actions" }, ...actions));
   return made;
+}
+
+/** @param {Diagnosis} diagnosis */
+function summary({ data: { causes, hints, ruled_out: ruledOut, engine }, error }) {
+  const ran = error ? `does not compile in MuJoCo ${engine}, which this page runs` : `was run by MuJoCo ${engine} in this page`;
+  if (causes.length > 0) return `${ran}: ${count(causes.length, "cause")}.`;
+  if (hints.length > 0) return `${ran}: no cause, ${count(hints.length, "hint")}.`;
+  return error ? `${ran}, and none of ${count(ruledOut.length, "rule")} knows why. It says:` : `${ran}. Nothing found by ${count(ruledOut.length, "rule")}.`;
 }
 
 /**
@@ -46,26 +62,44 @@ export function report(diagnosis, rules) {
  * @param {string} rules
  */
 function finding(found, rules) {
-  const place = found.line ? `${found.file}, line ${found.line}` : found.file;
-  const elements = found.elements.slice(0, 3).join(", ") + (found.elements.length > 3 ? ` and ${found.elements.length - 3} more` : "");
-  const change = found.attribute ? `${found.attribute}: ${found.now} → ${found.value}` : found.value;
-  const made = el("li", {}, el("strong", {}, found.title), " ", link(found, rules));
-  made.append(el("p", { class: "dg-place" }, [place, elements].filter(Boolean).join(": ")), el("p", {}, found.says));
-  if (change) made.append(el("p", {}, el("code", {}, change)));
+  const change = found.attribute ? `${found.attribute}: ${found.now || "(none)"} → ${found.value}` : found.value;
+  const made = [el("p", { class: "dg-title" }, el("strong", {}, found.title), " ", link(found.rule, rules))];
+  made.push(el("p", { class: "dg-place" }, where(found)), el("p", {}, found.says));
+  if (change) made.push(el("p", {}, el("code", {}, change)));
   if (found.probe && found.unit !== "errors") {
     const after = found.edit.length > 0 ? ` With the edit: ${shown(found.after, found.unit)}.` : "";
-    made.append(el("p", {}, `${found.probe}: ${shown(found.before, found.unit)}.${after}`));
+    made.push(el("p", {}, `${capital(found.probe)}: ${shown(found.before, found.unit)}.${after}`));
   }
   return made;
 }
 
+/** @param {Finding} found */
+function where({ file, line, elements }) {
+  const named = elements.filter((each) => each !== `line ${line}`);
+  const more = named.length > 3 ? ` and ${named.length - 3} more` : "";
+  return [line ? `${file}, line ${line}` : file, named.slice(0, 3).join(", ") + more].filter(Boolean).join(": ");
+}
+
 /**
- * @param {Finding} found
+ * @param {string} rule
  * @param {string} rules
  */
-function link(found, rules) {
-  if (found.rule === "engine-dies") return el("code", {}, found.rule);
-  return el("a", { href: `${rules}${found.rule}.html` }, found.rule);
+function link(rule, rules) {
+  if (rule === "engine-dies") return el("code", {}, rule);
+  return el("a", { href: `${rules}${rule}.html`, target: "_blank", rel: "noopener" }, rule);
+}
+
+/** @param {string} text */
+function capital(text) {
+  return text.slice(0, 1).toUpperCase() + text.slice(1);
+}
+
+/**
+ * @param {number} number
+ * @param {string} what
+ */
+function count(number, what) {
+  return number === 1 ? `one ${what}` : `${number} ${what}s`;
 }
 
 /**
@@ -82,7 +116,7 @@ function shown(value, unit) {
  * @param {HTMLElement} content
  */
 function fold(title, content) {
-  return el("details", {}, el("summary", {}, title), content);
+  return el("details", {}, el("summary", {}, capital(title)), content);
 }
 
 /**
@@ -90,23 +124,27 @@ function fold(title, content) {
  * @param {string} text
  */
 function copy(label, text) {
-  const made = button(label, async () => {
-    await navigator.clipboard.writeText(text);
-    made.textContent = "Copied";
-    setTimeout(() => (made.textContent = label), 2000);
-  }, { class: "md-button" });
+  const said = el("span", {}, label);
+  const made = button("", async () => {
+    said.textContent = await navigator.clipboard.writeText(text).then(
+      () => "Copied",
+      () => "The browser does not let this page copy",
+    );
+    setTimeout(() => (said.textContent = label), 2000);
+  }, BUTTON);
+  made.append(said);
   return made;
 }
 
 /**
- * @param {string} label
- * @param {string} text
- * @param {string} name
+ * Saves the files that the edits change: one as it is, several as a zip.
+ * @param {Texts} texts
+ * @param {string} name of the model
  */
-function save(label, text, name) {
-  return button(label, () => {
-    const href = URL.createObjectURL(new Blob([text], { type: "text/xml" }));
-    el("a", { href, download: name.replace(/(\.\w+)?$/, ".mended$1") }).click();
-    setTimeout(() => URL.revokeObjectURL(href), 1000);
-  }, { class: "md-button" });
+function save(texts, name) {
+  const files = Object.entries(texts).map(([path, text]) => /** @type {const} */ ([path, strToU8(text)]));
+  const [[path, bytes]] = files.length === 1 ? files : [[name.replace(/(\.\w+)?$/, ".zip"), zipSync(Object.fromEntries(files))]];
+  const href = URL.createObjectURL(new Blob([bytes]));
+  el("a", { href, download: last(path).replace(/(\.\w+)?$/, ".mended$1") }).click();
+  setTimeout(() => URL.revokeObjectURL(href), 1000);
 }

@@ -27,7 +27,8 @@ export function editorControls(record, draft, { check: startCheck, stop: stopChe
     ...record.fixes.map(({ id, title }) => [id, title]),
     ...record.refuted.map(({ id, title }) => [id, `does not help: ${title}`]),
   ]);
-  const fix = choice("Show the fix", remedies, "", (id) => id && draft.showRemedy(id));
+  const judged = record.checks.fixed.length > 0; // a reader's own model has no checks
+  const fix = choice(judged ? "Show the fix" : "Show the edit", remedies, "", (id) => id && draft.showRemedy(id));
   /** Marks the remedies that a version of MuJoCo is too old for. @param {string} version */
   const tellNeeds = (version) => {
     for (const { id, title, needs } of [...record.fixes, ...record.refuted]) {
@@ -39,9 +40,9 @@ export function editorControls(record, draft, { check: startCheck, stop: stopChe
     el("p", { class: "pg-file" }, el("strong", {}, record.name), el("span", { id: help }, " Edit it; Tab leaves the editor, as does Escape and then Tab.")),
     editor,
     error,
-    group("Repair", check, stop, fix.whole),
+    group("Repair", ...(judged ? [check, stop] : []), fix.whole),
     result,
-    group("Text", button("Restore", () => draft.restore()), button("Download XML", () => draft.download()), button("Copy link", () => void draft.copyLink()), ...openElsewhere(record)),
+    group("Text", button("Restore", () => draft.restore()), button("Download XML", () => draft.download()), ...(judged ? [button("Copy link", () => void draft.copyLink()), ...openElsewhere(record)] : [])),
     address,
     linked,
   ];

@@ -1,6 +1,7 @@
 // A simulation that the reader watches: stepped in time with the screen, sampled, pulled, and packed for drawing.
 
 import { evaluate, parse } from "../record/expression.js";
+import { compile, encoded } from "./compile.js";
 import { pathSignals } from "./measure.js";
 import { bind, nameOf } from "./signals.js";
 import { controls, raised, start, step } from "./simulate.js";
@@ -64,7 +65,9 @@ export class InteractiveSimulation {
     this.mujoco = mujoco;
     this.record = record;
     /** @type {MjModel} */
-    this.model = mujoco.MjModel.from_xml_string(xml);
+    this.model = record.files
+      ? compile(mujoco, record.main ?? xml, [...record.files, ...encoded([[record.name, xml]])])
+      : mujoco.MjModel.from_xml_string(xml);
     /** @type {MjvScene} */
     this.scene = new mujoco.MjvScene(this.model, MAX_GEOMS);
     /** @type {MjvOption} */

@@ -61,6 +61,8 @@
  * @property {string[]} telling the overlays that show the cause
  * @property {{title: string, text: string}[]} hints
  * @property {Record<string, {href: string, title: string}[]>} explained pages that explain a warning
+ * @property {[string, Uint8Array][]} [files] what a reader's own model names, by path from its folder
+ * @property {string} [main] the text of the reader's model, if `text` is that of a file that it includes
  */
 
 export {};

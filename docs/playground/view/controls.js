@@ -25,7 +25,7 @@ const TURN = 0.15; // rad a press
  * @param {Player} player
  */
 export function viewControls(record, player) {
-  const canvas = el("canvas", { role: "img", "aria-label": `The model of case ${record.number}, live: ${record.title}` });
+  const canvas = el("canvas", { role: "img", "aria-label": `${record.number ? `The model of case ${record.number}` : record.name}, live: ${record.title}` });
   const clock = el("output", { class: "pg-clock" });
   const stage = el("div", { class: "pg-stage" }, canvas, clock);
   const warnings = el("ul", { class: "pg-warnings", "aria-live": "polite" });

@@ -9,6 +9,7 @@ import { Scene } from "./scene.js";
 /** @import {Assets} from "../engine/assets.js" */
 /** @import {Engine} from "../engine/client.js" */
 /** @import {Frame} from "../engine/interactive.js" */
+/** @import {Beside} from "./beside.js" */
 /** @import {CaseRecord} from "../record/types.js" */
 
 const LONGEST = 0.1; // s of the reader's time that a frame may stand for
@@ -32,6 +33,8 @@ export class Player {
     this.running = false;
     /** @type {Assets | null} */
     this.assets = null;
+    /** @type {Beside | null} */
+    this.beside = null;
     this.looking = -1;
     this.posted = 0;
     this.steps = 0;
@@ -79,7 +82,9 @@ export class Player {
   ask(now) {
     const seconds = this.running ? Math.min((now - this.posted) / 1000, LONGEST) * this.speed : 0;
     const overlays = this.controls.overlays.chosen();
-    this.engine.post({ type: "frame", seconds, steps: this.steps, overlays, camera: this.looking });
+    const wanted = { seconds, steps: this.steps, overlays, camera: this.looking };
+    this.engine.post({ type: "frame", ...wanted });
+    this.beside?.ask(wanted);
     this.posted = now;
     this.waiting = true;
     this.dirty = false;
@@ -130,6 +135,7 @@ export class Player {
   reset() {
     this.startEngine();
     this.engine.post({ type: "reset" });
+    this.beside?.reset();
     this.clear();
   }
 
@@ -147,6 +153,7 @@ export class Player {
   load(assets) {
     const first = this.assets === null;
     this.assets = assets;
+    this.beside?.reset();
     this.scene.load(assets);
     this.clear();
     this.offer(assets);
@@ -250,5 +257,6 @@ export class Player {
     this.palette.disconnect();
     this.scene.dispose();
     this.chart.destroy();
+    this.beside?.leave();
   }
 }

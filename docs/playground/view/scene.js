@@ -46,6 +46,7 @@ export class Scene {
     this.textures = [];
     this.lights = new Lights();
     this.draws = 0;
+    this.rendered = () => {};
   }
 
   /**
@@ -96,6 +97,7 @@ export class Scene {
     this.lights.aimHeadlight(this.camera.ahead());
     this.renderer.render(this.root, camera);
     this.draws += 1;
+    this.rendered();
   }
 
   /**

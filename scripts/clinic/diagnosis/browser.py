@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
+from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.edit import apply
 from clinic.diagnosis.engine import Compiled, CompileError, Contact
+from clinic.diagnosis.finding import death
+from clinic.diagnosis.rules import rules
+from clinic.diagnosis.source import read_texts
+
+FATAL = ("RuntimeError", "RangeError")  # JavaScript's, after which the module cannot be trusted
 
 
 class BrowserModel:
@@ -67,10 +76,56 @@ class BrowserEngine:
                 self.js.compile(main, self.to_js([[name, text] for name, text in files.items()])), self.to_js
             )
         except Exception as error:
-            if type(error).__name__ != "JsException":
+            if type(error).__name__ != "JsException" or getattr(error, "name", "") in FATAL:
                 raise
             said = re.sub(r"^Error: (?:MuJoCo Error: )?(?:Loading error: )?", "", str(error))
             raise CompileError(said) from None
+
+
+def diagnose(
+    engine: BrowserEngine,
+    text: str,
+    name: str,
+    read: Callable[[str], str | None],
+    tell: Callable[[str, str, float], None],
+    symptom: str = "",
+    died: Collection[str] = (),
+) -> str:
+    """Diagnoses a model, and gives what the page shows as JSON: the public contract, and what is made of it.
+
+    Args:
+        engine: What compiles and runs it.
+        text: The model.
+        name: What to call it.
+        read: Gives the text of a file by its path from the model's folder; None where there is none.
+        tell: Is called before a rule is tried: its id, its title, and which share of the rules is done.
+        symptom: The family of symptoms that the reader sees.
+        died: Rules of which the engine died before.
+    """
+
+    def trying(said: str) -> None:
+        if rule := rules().get(said):
+            alike = [each.id for each in rules().values() if each.of_errors == rule.of_errors]
+            tell(rule.id, rule.title, alike.index(rule.id) / len(alike))
+
+    texts = read_texts(text, name, read)
+    made = examine(engine, texts, symptom=symptom, ignore=died, tell=trying)
+    made = replace(made, causes=(*(death(rule, name) for rule in died), *made.causes))
+
+    def changed(after: Mapping[str, str]) -> dict[str, str]:
+        return {file: new for file, new in after.items() if new != texts[file]}
+
+    shown = {
+        "data": made.data(),
+        "text": made.text(every=True),
+        "error": made.error,
+        "diff": made.diff(),
+        "texts": texts,
+        "mended": changed(made.fixed),
+        "edited": [changed(apply(texts, each.edit)) for each in made.causes],
+        "titles": {rule.id: rule.title for rule in rules().values()},
+    }
+    return json.dumps(shown)
 
 
 def _numbers(value: Any) -> Sequence[float]:

@@ -13,6 +13,7 @@ from clinic.diagnosis.judge import Judged
 from clinic.diagnosis.suspect import Level
 
 CAUSES_SHOWN = 3
+DIES = "engine-dies"
 SITE = "CLINIC_SITE"  # the environment variable with the address of the site
 
 
@@ -133,6 +134,13 @@ def finding_of(judged: Judged, file: str) -> Finding:
         healthy=suspect.healthy,
         page=page if site else None,
     )
+
+
+def death(rule: str, file: str) -> Finding:
+    """That the engine ended while a rule was tried on a model file."""
+    says = f"MuJoCo ended, or gave no answer, while {rule} was tried on this model."
+    title = "The engine does not survive the model"
+    return Finding(DIES, title, "cause", (), file, None, "", "", "", (), "", "", 1.0, None, says, "")
 
 
 def _cause(number: int, found: Finding) -> list[str]:

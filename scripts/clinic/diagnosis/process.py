@@ -14,14 +14,13 @@ from pathlib import Path
 from typing import Any
 
 from clinic.diagnosis.diagnose import examine, read_file
-from clinic.diagnosis.finding import Diagnosis, Finding
+from clinic.diagnosis.finding import Diagnosis, death
 from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import read_texts
 
 LIMIT = 60.0  # s, for one process
 MEMORY = 4 * 2**30  # bytes
 DEATHS = 5  # of the engine, after which the diagnosis ends
-DIES = "engine-dies"
 CHILD = (sys.executable, "-m", "clinic.diagnosis.process")
 
 
@@ -75,7 +74,7 @@ def diagnose(
     while True:
         made, trying = _asked(replace(request, ignore=(*request.ignore, *died)), tell)
         if made is not None:
-            deaths = [_death(rule, name) for rule in died]
+            deaths = [death(rule, name) for rule in died]
             return replace(made, causes=(*deaths, *made.causes))
         died.append(trying or "")
         if not trying or len(died) > DEATHS:
@@ -128,12 +127,6 @@ def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | N
         child.kill()
         child.communicate()
     return None, trying
-
-
-def _death(rule: str, name: str) -> Finding:
-    says = f"MuJoCo ended its process, or gave no answer, while {rule} was tried on this model."
-    title = "The engine does not survive the model"
-    return Finding(DIES, title, "cause", (), name, None, "", "", "", (), "", "", 1.0, None, says, "")
 
 
 def main() -> None:

@@ -18,6 +18,7 @@ from clinic.pages.storeys import storeys
 from clinic.pages.symptoms import symptoms_page
 from clinic.pages.text.template import render
 from clinic.record.case import Case
+from clinic.record.families import families
 from clinic.record.problem import CaseError, Problem
 from clinic.triage.table import MARK as TRIAGE_MARK
 from clinic.triage.table import screening_tasks, table
@@ -42,7 +43,7 @@ def overviews(
     cases = [one.case for one in shown]
     screenings, problems = run_tasks(list(screening_tasks(cases)), cache)
     made = {f"cases/{slug}/{name}": text for slug, files in screenings.items() for name, text in files.items()}
-    made["index.md"] = render("home", shown=shown, engine=mujoco.__version__).encode()
+    made["index.md"] = render("home", shown=shown, families=families(), engine=mujoco.__version__).encode()
     made |= rule_pages(known, cache)
     made["symptoms.md"] = symptoms_page(shown).encode()
     screened = [case for case in cases if case.record.run is None or case.slug in screenings]

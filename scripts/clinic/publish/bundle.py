@@ -20,7 +20,16 @@ STYLE = "docs/stylesheets/playground.css"
 BUNDLER = "scripts/bundle.mjs"
 ENGINE = "node_modules/@mujoco/mujoco/mujoco.wasm"
 PYODIDE = "node_modules/pyodide"
-PYTHON = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json")
+PYTHON = ("pyodide.asm.mjs", "pyodide.asm.wasm")
+LIBRARY = "python_stdlib.zip"
+CODECS = ("__init__", "aliases", "ascii", "cp437", "latin_1", "utf_8", "utf_8_sig")  # of all that Python knows
+UNUSED = (  # of the library, by the rules
+    "_pydatetime _pydecimal _pyio _pyrepl argparse bdb cmd configparser csv ctypes dbm doctest email filecmp fractions "
+    "ftplib getopt gettext graphlib html http imaplib ipaddress mailbox mimetypes modulefinder multiprocessing netrc "
+    "optparse pdb pickletools platform plistlib poplib pprint profile pstats pyclbr pydoc pydoc_data sched shelve "
+    "smtplib socketserver sqlite3 statistics symtable sysconfig tabnanny tarfile timeit trace turtle unittest urllib "
+    "uuid venv wave webbrowser wsgiref xmlrpc zipapp zoneinfo"
+)
 DIAGNOSIS = "javascripts/diagnosis"
 INSTALLED = "node_modules/.package-lock.json"
 TABLES = ("scripts/clinic/engine/since.json", "scripts/clinic/proof/task.json")  # which the modules import
@@ -45,20 +54,20 @@ def playground_files(root: Path, cache: Cache) -> Files:
     return {f"{FOLDER}/loader.js": (root / LOADER).read_bytes()} if (root / LOADER).is_file() else {}
 
 
-def diagnosis_files(root: Path) -> Files:
+def diagnosis_files(root: Path, cache: Cache) -> Files:
     """Python for the page, its standard library and the rules, by their path in the site; none without the packages."""
     folder = root / PYODIDE
     if not folder.is_dir():
         return {}
-    made = {f"{DIAGNOSIS}/{name}": (folder / name).read_bytes() for name in PYTHON}
-    package, packed = Path(__file__).parents[1], io.BytesIO()
+    installed = (root / INSTALLED).read_text(encoding="utf-8")
+    key = key_of("python", installed, Path(__file__).read_text(encoding="utf-8"), of="record")
+    made = cache.remember(key, lambda: _python(folder))
+    package = Path(__file__).parents[1]
     bench = package / "diagnosis" / "bench"
     rules = [path for path in sorted((package / "diagnosis").rglob("*.py")) if not path.is_relative_to(bench)]
-    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
-        for path in [package / "__init__.py", *rules]:
-            entry = zipfile.ZipInfo(f"clinic/{path.relative_to(package).as_posix()}")  # with the same date always
-            archive.writestr(entry, path.read_bytes(), zipfile.ZIP_DEFLATED)
-    return {**made, f"{DIAGNOSIS}/clinic.zip": packed.getvalue()}
+    files = {f"clinic/{path.relative_to(package).as_posix()}": path.read_bytes() for path in rules}
+    made |= {"clinic.zip": _zip({"clinic/__init__.py": (package / "__init__.py").read_bytes(), **files})}
+    return {f"{DIAGNOSIS}/{name}": content for name, content in made.items()}
 
 
 def strip_custom_sections(wasm: bytes) -> bytes:
@@ -81,6 +90,30 @@ def _bundle(root: Path) -> Files:
         made = {path.name: path.read_bytes() for path in sorted(Path(folder).iterdir())}
     engine = strip_custom_sections((root / ENGINE).read_bytes())
     return {**made, "mujoco.wasm.gz": gzip.compress(engine, compresslevel=9, mtime=0)}
+
+
+def _python(folder: Path) -> Files:
+    """Pyodide, gzipped for hosts that do not compress, and its library without what the rules have no use for."""
+    made = {f"{name}.gz": gzip.compress((folder / name).read_bytes(), compresslevel=9, mtime=0) for name in PYTHON}
+    with zipfile.ZipFile(folder / LIBRARY) as archive:
+        used = {name: archive.read(name) for name in archive.namelist() if _used(name)}
+    return {**made, LIBRARY: _zip(used)}
+
+
+def _used(name: str) -> bool:
+    top, _, rest = name.partition("/")
+    if top == "encodings":
+        return rest.removesuffix(".py") in CODECS
+    return top.removesuffix(".py") not in UNUSED.split()
+
+
+def _zip(files: Files) -> bytes:
+    """A zip of files, whose entries have the same date always."""
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for name, content in files.items():
+            archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED, 9)
+    return packed.getvalue()
 
 
 def _leb128(data: bytes, at: int) -> tuple[int, int]:

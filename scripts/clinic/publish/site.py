@@ -36,7 +36,7 @@ def make_site(root: Path, cache: Cache) -> Site:
     files, others = overviews(root, shown, known, cache)
     problems += [*wrong, *others]
     made |= files
-    made |= bundle.diagnosis_files(root)
+    made |= bundle.diagnosis_files(root, cache)
     made[SCHEMA] = schema_text().encode()
     made |= {path: (root / part).read_bytes() for path, part in BROWSER_PARTS.items() if (root / part).is_file()}
     for one in shown:

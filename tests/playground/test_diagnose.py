@@ -1,0 +1,200 @@
+"""The page's diagnosis in a real browser: a model is given in each way, and what is found is shown, tried and kept."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from pathlib import Path
+
+import pytest
+from clinic.diagnosis.rules import rules
+from live import LIMIT, engines, no_engine
+from playwright.sync_api import Page, expect
+
+pytestmark = pytest.mark.xdist_group("site")
+SIZE = 6.5e6  # bytes, as the page says
+ANSWER = ":is(.dg-report, .dg-error):not(.seen)"
+STILL = '<mujoco><worldbody><geom name="slab" type="box" size="1 1 .1"/></worldbody></mujoco>'
+DEEP = "<mujoco><worldbody>" + 400 * '<body><joint/><geom size="1"/>' + 400 * "</body>" + "</worldbody></mujoco>"
+MESHED = """<mujoco><compiler meshdir="../meshes"/><asset><mesh name="wedge" file="wedge.obj"/></asset>
+<worldbody><body><freejoint/><geom type="mesh" mesh="wedge"/></body></worldbody></mujoco>"""
+WEDGE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+DROP = """(place, files) => {
+  const dataTransfer = new DataTransfer();
+  for (const [name, bytes] of files) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
+  place.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
+}"""
+BAD = rules()["timestep-too-long"].example("Bad")
+
+
+def opened(page: Page, served: str) -> Page:
+    page.goto(f"{served}index.html")
+    return page
+
+
+def give(page: Page, *files: Path) -> str:
+    """Chooses files, or a folder, and gives what is said in the end."""
+    page.locator(".dg-ask input").nth(int(files[0].is_dir())).set_input_files(files[0] if files[0].is_dir() else files)
+    return answer(page)
+
+
+def drop(page: Page, *files: Path) -> str:
+    """Drops files."""
+    page.locator(".dg-ask").evaluate(DROP, [[file.name, list(file.read_bytes())] for file in files])
+    return answer(page)
+
+
+def answer(page: Page) -> str:
+    shown = page.locator(ANSWER)
+    expect(shown).to_be_visible()
+    said = shown.inner_text()
+    shown.evaluate("(shown) => shown.className += ' seen'")
+    return said
+
+
+def written(path: Path, content: str | bytes) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(content.encode() if isinstance(content, str) else content)
+    return path
+
+
+def test_nothing_is_loaded_before_a_model_is_given_and_a_second_needs_no_network(
+    fresh: Page, served: str, site: Path, tmp_path: Path
+) -> None:
+    asked: list[str] = []
+    fresh.on("request", lambda request: asked.append(request.url.removeprefix(served)))
+    opened(fresh, served)
+    assert [url for url in asked if "playground" in url or "diagnosis" in url] == ["javascripts/playground/loader.js"]
+    asked.clear()
+
+    first = give(fresh, written(tmp_path / "shaking.xml", BAD))
+
+    assert "timestep-too-long" in first
+    own = [url for url in asked if url.startswith("javascripts/")]
+    assert sum((site / url).stat().st_size for url in own) == pytest.approx(SIZE, rel=0.05)
+    assert all(url.startswith(("javascripts/", "assets/", "blob:")) for url in asked), asked
+
+    fresh.context.set_offline(True)
+    assert "timestep-too-long" in give(fresh, written(tmp_path / "again.xml", BAD))
+
+
+def test_the_findings_are_copied_and_the_mended_model_is_saved(page: Page, served: str, tmp_path: Path) -> None:
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    opened(page, served)
+    give(page, written(tmp_path / "shaking.xml", BAD))
+
+    page.get_by_role("button", name="Copy as JSON").click()
+    expect(page.get_by_role("button", name="Copied")).to_be_visible()
+    copied = json.loads(page.evaluate("navigator.clipboard.readText()"))
+    assert copied["file"] == "shaking.xml"
+    (cause,) = copied["causes"]
+    assert (cause["rule"], cause["attribute"]) == ("timestep-too-long", "timestep")
+
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save the mended model").click()
+    assert download.value.suggested_filename == "shaking.mended.xml"
+    assert f'timestep="{cause["value"]}"' in Path(download.value.path()).read_text(encoding="utf-8")
+
+
+def test_an_edit_runs_beside_the_model_as_it_was(page: Page, served: str, tmp_path: Path) -> None:
+    opened(page, served)
+    give(page, written(tmp_path / "shaking.xml", BAD))
+
+    page.get_by_role("button", name="Try this edit").click()
+
+    expect(page.locator(".cm-deletedChunk")).to_be_visible()
+    expect(page.locator(".pg-status")).to_contain_text("This runs in MuJoCo")
+    page.get_by_role("button", name="Run", exact=True).click()
+    page.wait_for_function("document.querySelector('.pg-clock')?.dataset.steps > 0", timeout=LIMIT)
+    expect(page.get_by_text("As it was: MuJoCo warns: Nan, Inf or huge value in QACC")).to_be_visible()
+    expect(page.locator(".pg-complaint")).to_be_empty()
+    expect(page.locator(".pg-warnings")).to_be_empty()
+    expect(page.get_by_role("button", name="Check my fix")).to_have_count(0)
+
+    assert len(engines(page)) == 2
+    page.evaluate("document.querySelector('.diagnose').remove(); document$.next(document)")  # as the theme navigates
+    assert no_engine(page)
+
+
+def test_a_folder_and_a_zip_bring_their_meshes(page: Page, served: str, tmp_path: Path) -> None:
+    robot = tmp_path / "robot"
+    written(robot / "models" / "wedge.xml", MESHED)
+    written(robot / "meshes" / "wedge.obj", WEDGE)
+    with zipfile.ZipFile(tmp_path / "robot.zip", "w") as packed:
+        for path in robot.rglob("*.*"):
+            packed.write(path, path.relative_to(tmp_path))
+        packed.writestr("__MACOSX/robot/models/._wedge.xml", b"\0\1\2")
+    opened(page, served)
+
+    assert drop(page, tmp_path / "robot.zip").startswith("wedge.xml was run by MuJoCo")
+    assert give(page, robot).startswith("wedge.xml was run by MuJoCo")
+    assert "wedge.obj is not there" in give(page, robot / "models" / "wedge.xml")
+
+
+def test_of_several_models_one_is_chosen(page: Page, served: str, tmp_path: Path) -> None:
+    part = written(tmp_path / "part.xml", "<mujoco><worldbody><geom size='1'/></worldbody></mujoco>")
+    scene = written(tmp_path / "scene.xml", '<mujoco><include file="part.xml"/></mujoco>')
+    opened(page, served)
+
+    assert drop(page, part, scene, written(tmp_path / "shaking.xml", BAD)).startswith("scene.xml was run")
+    chooser = page.get_by_label("Model")
+    assert chooser.locator("option").all_text_contents() == ["scene.xml", "shaking.xml"]
+    chooser.select_option("shaking.xml")
+
+    assert answer(page).startswith("shaking.xml was run")
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "said"),
+    [
+        ("deep.xml", DEEP, "deep.xml: MuJoCo ended (RuntimeError"),
+        ("binary.xml", bytes(range(256)), "binary.xml: this is not a text in UTF-8"),
+        ("huge.xml", b" " * 25_000_000, "huge.xml: the text has 25 MB; this page reads up to 20 MB"),
+        ("notes.txt", "no model", "There is no MJCF or URDF file among these"),
+        ("torn.zip", "no zip", "torn.zip cannot be unpacked"),
+        ("bomb.zip", "", "bomb.zip: more than 300 MB"),
+        ("empty.xml", "", "empty.xml does not compile"),
+    ],
+)
+def test_what_cannot_be_diagnosed_is_said_in_a_sentence(
+    page: Page, served: str, tmp_path: Path, name: str, content: str | bytes, said: str
+) -> None:
+    given = written(tmp_path / name, content)
+    if name == "bomb.zip":
+        with zipfile.ZipFile(given, "w", zipfile.ZIP_DEFLATED) as packed:
+            packed.writestr("model.xml", b" " * 301_000_000)
+    opened(page, served)
+
+    assert said in give(page, given)
+
+    assert give(page, written(tmp_path / "still.xml", STILL)).startswith("still.xml was run")
+
+
+def test_it_stops(page: Page, served: str, tmp_path: Path) -> None:
+    opened(page, served)
+    page.locator(".dg-ask input").first.set_input_files(written(tmp_path / "still.xml", STILL))
+    page.get_by_role("button", name="Stop").click()
+
+    assert answer(page) == "still.xml: Stopped."
+    assert give(page, tmp_path / "still.xml").startswith("still.xml was run")
+
+
+def test_the_symptom_and_everything_shown_have_names(page: Page, served: str, root: Path, tmp_path: Path) -> None:
+    opened(page, served)
+    page.get_by_label("What do you see?").select_option("explodes")
+    give(page, written(tmp_path / "shaking.xml", BAD))
+    page.get_by_role("button", name="Try this edit").click()
+    expect(page.locator(".pg-status")).to_contain_text("This runs in MuJoCo")
+    page.add_script_tag(path=root / "node_modules/axe-core/axe.min.js")
+
+    found = page.evaluate(
+        "axe.run('.diagnose').then(({ violations }) => violations.map(({ id, nodes }) => [id, nodes[0].html]))"
+    )
+
+    assert found == []
+
+
+def test_opened_as_files_the_page_says_what_it_wants(page: Page, site: Path) -> None:
+    page.goto(f"{site.as_uri()}/index.html")
+    expect(page.get_by_text("In a page from a server, with JavaScript, your model can be given here.")).to_be_visible()
+    expect(page.locator(".dg-ask")).to_be_hidden()

@@ -1,0 +1,54 @@
+"""The page's diagnosis, run by Node, against Python's: the same findings on the same release of MuJoCo."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from clinic.diagnosis.rules import rules
+from clinic.engine.node import executable as node
+from clinic.publish.bundle import diagnosis_files
+from clinic.record.case import read_cases
+from clinic.record.checkout import cache_folder
+from clinic.work.cache import Cache
+
+pytestmark = pytest.mark.xdist_group("parity")
+SAME = ("rule", "elements", "file", "line", "attribute", "now", "value", "edit")
+
+
+@pytest.fixture(scope="module")
+def models(root: Path) -> dict[str, str]:
+    broken = {case.slug: case.text for case in read_cases(root / "cases")[0] if case.record.model is not None}
+    return {**broken, **{rule.id: rule.example("Bad") for rule in rules().values()}}
+
+
+def test_the_page_finds_what_python_finds(root: Path, models: dict[str, str], tmp_path: Path) -> None:
+    texts = tmp_path / "models.json"
+    texts.write_text(json.dumps(models), encoding="utf-8")
+    for path, content in diagnosis_files(root, Cache(cache_folder(root))).items():
+        (tmp_path / Path(path).name).write_bytes(content)
+    beside = os.pathsep.join([str(Path(sys.prefix, "parity")), str(root / "scripts")])
+
+    there = output(root, [node() or "", "tests/playground/diagnosis.mjs", str(texts), str(tmp_path)])
+    here = output(root, [sys.executable, "tests/playground/diagnosis.py", str(texts)], PYTHONPATH=beside)
+
+    assert len(models) >= 20
+    assert {name: told(found) for name, found in there.items()} == {name: told(found) for name, found in here.items()}
+
+
+def output(root: Path, command: list[str], **environment: str) -> Any:
+    done = subprocess.run(
+        command, cwd=root, env={**os.environ, **environment}, check=False, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    return json.loads(done.stdout)
+
+
+def told(found: dict[str, Any]) -> dict[str, Any]:
+    parts = {level: [{name: each[name] for name in SAME} for each in found[level]] for level in ("causes", "hints")}
+    return {**parts, "engine": found["engine"], "ruled_out": found["ruled_out"]}

@@ -101,7 +101,7 @@ def test_the_start_outside_of_a_range_is_a_hint_and_a_keyframes_is_a_cause():
     joint, key = 'range="30 90"', '<keyframe><key qpos="0"/></keyframe>'
     without, with_key = arm("", joint), arm("", joint, above=key)
     assert (causes(without), [each.rule for each in without.hints]) == ([], ["start-outside-range"])
-    assert causes(with_key) == ["start-outside-range"]
+    assert causes(with_key) == ["key-outside-range"]
 
 
 def test_a_part_for_another_model_is_told_of_its_units_in_a_hint():

@@ -37,12 +37,12 @@ Bad:
         </body>
       </worldbody>
       <actuator>
-        <position name="left_front" joint="left_front" kp="5" kv="0.2"/>
-        <position name="right_front" joint="right_front" kp="5" kv="0.2"/>
-        <position name="left_middle" joint="left_middle" kp="5" kv="0.2"/>
-        <position name="right_middle" joint="right_middle" kp="5" kv="0.2"/>
-        <position name="left_rear" joint="left_rear" kp="5" kv="0.2"/>
-        <position name="right_rear" joint="right_rear" kp="50" kv="0.2"/>
+        <position name="left_front" joint="left_front" kp="5" kv="0.02"/>
+        <position name="right_front" joint="right_front" kp="5" kv="0.02"/>
+        <position name="left_middle" joint="left_middle" kp="5" kv="0.02"/>
+        <position name="right_middle" joint="right_middle" kp="5" kv="0.02"/>
+        <position name="left_rear" joint="left_rear" kp="5" kv="0.02"/>
+        <position name="right_rear" joint="right_rear" kp="50" kv="0.02"/>
       </actuator>
     </mujoco>
 
@@ -80,12 +80,12 @@ Good:
         </body>
       </worldbody>
       <actuator>
-        <position name="left_front" joint="left_front" kp="5" kv="0.2"/>
-        <position name="right_front" joint="right_front" kp="5" kv="0.2"/>
-        <position name="left_middle" joint="left_middle" kp="5" kv="0.2"/>
-        <position name="right_middle" joint="right_middle" kp="5" kv="0.2"/>
-        <position name="left_rear" joint="left_rear" kp="5" kv="0.2"/>
-        <position name="right_rear" joint="right_rear" kp="5" kv="0.2"/>
+        <position name="left_front" joint="left_front" kp="5" kv="0.02"/>
+        <position name="right_front" joint="right_front" kp="5" kv="0.02"/>
+        <position name="left_middle" joint="left_middle" kp="5" kv="0.02"/>
+        <position name="right_middle" joint="right_middle" kp="5" kv="0.02"/>
+        <position name="left_rear" joint="left_rear" kp="5" kv="0.02"/>
+        <position name="right_rear" joint="right_rear" kp="5" kv="0.02"/>
       </actuator>
     </mujoco>
 

@@ -17,7 +17,7 @@ from clinic.diagnosis.rules import Rule, rules
 from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import read_source, read_texts
 
-LIMIT = 30.0  # s, after which no further rule is tried
+LIMIT = 20.0  # s for a start, after which no further rule is tried
 
 
 def examine(
@@ -47,10 +47,12 @@ def examine(
     if model.error:
         found, fixed = mended(model, tried, tell)
     else:
-        found, fixed = _found(model, tried, tell)
+        found, fixed, tried = _found(model, tried, tell)
         if start is None and model.simulation.count("key") and not any(each.level == "cause" for each in found):
-            model = ReaderModel(engine, texts, model.source, Start(key=0))
-            found, fixed = _found(model, tried, tell)
+            model, before = ReaderModel(engine, texts, model.source, Start(key=0)), found
+            found, fixed, tried = _found(model, tried, tell)
+            again = {each.rule.id for each in found}
+            found += [each for each in before if each.rule.id not in again]
         found = order(found, (symptom,) if symptom else ())
     named = {each.rule.id for each in found}
     file = model.source.main if model.source else next(iter(texts))
@@ -68,15 +70,17 @@ def examine(
 
 
 def _found(
-    model: ReaderModel, tried: Iterable[Rule], tell: Callable[[str], None]
-) -> tuple[list[Judged], Mapping[str, str]]:
-    """What is found in a model that compiles, and its texts with the edits of all causes that go together."""
+    model: ReaderModel, wanted: Iterable[Rule], tell: Callable[[str], None]
+) -> tuple[list[Judged], Mapping[str, str], list[Rule]]:
+    """What is found in a model that compiles, its texts with the edits of all causes that go together, and who tried."""
     found: list[Judged] = []
+    tried: list[Rule] = []
     until = time.monotonic() + LIMIT
-    for rule in tried:
+    for rule in wanted:
         if time.monotonic() > until:
             break
         tell(rule.id)
+        tried.append(rule)
         judged = (judge(model, rule, suspect) for suspect in suspects_of(model, rule, tell))
         found += [each for each in judged if each is not None]
     found = without_rivals(found)
@@ -84,7 +88,7 @@ def _found(
     for each in found:
         if each.level == "cause" and not isinstance(model.with_edits([*edits, *each.suspect.edits]), CompileError):
             edits += each.suspect.edits
-    return found, apply(model.texts, edits)
+    return found, apply(model.texts, edits), tried
 
 
 def diagnose_here(path: Path | str, **options: object) -> Diagnosis:

@@ -72,7 +72,7 @@ def examine(
 def _found(
     model: ReaderModel, wanted: Iterable[Rule], tell: Callable[[str], None]
 ) -> tuple[list[Judged], Mapping[str, str], list[Rule]]:
-    """What is found in a model that compiles, its texts with the edits of all causes that go together, and who tried."""
+    """What is found in a model that compiles, its texts with the edits of causes that go together, and who looked."""
     found: list[Judged] = []
     tried: list[Rule] = []
     until = time.monotonic() + LIMIT

@@ -91,6 +91,13 @@ def test_a_model_is_examined_without_a_checkout(installed: Path, tmp_path: Path)
     assert [line[:2] for line in done.stdout.splitlines()] == [f"{n}." for n in range(1, 7)]
 
 
+def test_a_model_is_diagnosed_without_a_checkout(installed: Path, tmp_path: Path) -> None:
+    (tmp_path / "model.xml").write_text(MODEL.replace("size=", "colour='1 0 0 1' size="), encoding="utf-8")
+    done = clinic(installed, tmp_path, "diagnose", "model.xml")
+    assert done.returncode == 1, done.stderr
+    assert "unknown-attribute" in done.stdout
+
+
 @pytest.mark.parametrize("arguments", [("build", "--out", "site"), ("check",)])
 def test_what_needs_more_says_so_in_a_sentence(installed: Path, tmp_path: Path, arguments: tuple[str, ...]) -> None:
     (tmp_path / "cases").mkdir()

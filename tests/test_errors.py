@@ -9,7 +9,12 @@ import pkgutil
 
 import clinic
 import pytest
+from clinic.commands.diagnosis_options import OptionError
+from clinic.diagnosis.engine import CompileError
+from clinic.diagnosis.process import DiagnosisError
+from clinic.diagnosis.source import SourceError
 from clinic.engine.mjcf import ModelError
+from clinic.engine.quotation import QuotationError
 from clinic.engine.render import RenderError
 from clinic.engine.script import ScriptError
 from clinic.engine.signals import SignalError
@@ -25,15 +30,20 @@ EXAMPLES = [
         [Problem("cases/b/case.yaml", 2, "run", "x", "y", "z"), Problem("cases/a/case.yaml", 1, "", "x", "y", "z")]
     ),
     ClusterError("no scheduler"),
+    CompileError("XML Error"),
+    DiagnosisError("no model"),
     EditError(2, 0),
     ExpressionError("a number"),
     MissingRequirementError("no Node"),
     ModelError(3, "a file", "none", "write it out"),
+    OptionError("--ctrl x"),
     ProseError("{{ x }}", "a field", "correct it"),
+    QuotationError("no such element", "cube"),
     RenderError("no OpenGL"),
     RunError(("qpos", "elbow"), "x", "y", "z"),
     ScriptError("KeyError: 'x'", "mend it"),
     SignalError("bodi(x)", "a path", "write body(x)"),
+    SourceError("model.xml", 3, "mismatched tag"),
 ]
 
 

@@ -21,7 +21,9 @@ COMPILED = [message for message in load_messages() if message.xml is not None]
 
 
 def diagnosed(text: str, tmp_path, monkeypatch) -> Diagnosis:
-    monkeypatch.chdir(tmp_path)
+    folder = tmp_path / "around" / "model"  # the folder around a model is searched too
+    folder.mkdir(parents=True, exist_ok=True)
+    monkeypatch.chdir(folder)
     return examine(NativeEngine(), {"model.xml": text})
 
 
@@ -51,9 +53,10 @@ def test_three_mistakes_are_named_in_turn_and_mended_together(tmp_path, monkeypa
 
 
 def test_a_file_elsewhere_below_the_folder_is_found(tmp_path, monkeypatch):
-    (tmp_path / "meshes").mkdir()
+    meshes = tmp_path / "around" / "model" / "meshes"
+    meshes.mkdir(parents=True)
     corner = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
-    (tmp_path / "meshes" / "part.obj").write_text(corner)
+    (meshes / "part.obj").write_text(corner)
     text = '<mujoco><asset><mesh name="part" file="Part.obj"/></asset><worldbody/></mujoco>'
     (found,) = diagnosed(text, tmp_path, monkeypatch).causes
     assert (found.rule, found.value) == ("missing-file", "meshes/part.obj")

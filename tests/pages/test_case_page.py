@@ -14,6 +14,7 @@ from clinic.pages.text.prose import opening
 from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence, collect
 from clinic.record.case import Case, read_cases
+from clinic.record.families import families
 from helpers import page_of, script_case, tiny_case, write_case
 
 SPACE = "\u00a0"
@@ -132,7 +133,7 @@ def test_front_matter_is_yaml_whatever_the_title(tmp_path: Path) -> None:
 
 def home(case: Case, evidence: Evidence, *files: str) -> str:
     page = CasePage(case, "", opening(case, evidence), dict.fromkeys(files, b""))
-    return render("home", shown=[page], engine="4.0.0")
+    return render("home", shown=[page], families=families(), engine="4.0.0")
 
 
 def test_home_page_has_a_card_of_every_case(made: tuple[Case, Evidence]) -> None:

@@ -123,7 +123,7 @@ def test_accepted(tmp_path: Path, change: Change) -> None:
             "unknown-key-in-a-signal",
             "unit: m",
             "units: m",
-            "13: signals.height.units | the unknown key `units` | one of unit, label, path | write `unit`",
+            "13: signals.height.units | the unknown key `units` | one of unit, label, said, path | write `unit`",
         ),
         wrong(
             "unknown-key-in-the-run",
@@ -232,7 +232,7 @@ def test_accepted(tmp_path: Path, change: Change) -> None:
             "signal-with-two-sources",
             "{path: ncon}",
             "{path: ncon, expr: 2 * height}",
-            "14: signals.contacts.expr | the unknown key `expr` | one of unit, label, path | remove the key",
+            "14: signals.contacts.expr | the unknown key `expr` | one of unit, label, said, path | remove the key",
         ),
         wrong(
             "neither-model-nor-script",

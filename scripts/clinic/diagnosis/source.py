@@ -20,7 +20,10 @@ class SourceError(ValueError):
 
     def __init__(self, file: str, line: int, found: str) -> None:
         self.file, self.line, self.found = file, line, found
-        super().__init__(f"{file}:{line}: {found}")
+        super().__init__(file, line, found)
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}: {self.found}"
 
 
 @dataclass(eq=False)

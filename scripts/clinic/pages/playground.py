@@ -53,7 +53,7 @@ def playground(case: Case, cases: Iterable[Case]) -> bytes:
 
 
 def _signal(case: Case, name: str, signal: Signal) -> dict[str, Any]:
-    made = signal.model_dump(mode="json", exclude_none=True)
+    made = signal.model_dump(mode="json", exclude_none=True, exclude={"said"})
     made["label"] = signal.label or name
     if isinstance(signal, PathSignal):
         made["columns"] = _columns(parse_path(signal.path), case.text)

@@ -48,11 +48,12 @@ def _folder(module: str) -> str:
 
 
 def _lines(package: str, folder: str, modules: Sequence[str]) -> list[str]:
-    """The names of a folder's modules, then those of each room in it, in lines of LETTERS."""
+    """The names of a folder's modules, then of what is in each room in it, in lines of LETTERS."""
     inside = [name.split(".")[2:] for name in modules if name.startswith(f"{package}.{folder}.")]
     rooms = sorted({parts[0] for parts in inside if len(parts) > 1})
     own = ", ".join(parts[0] for parts in inside if len(parts) == 1 and parts[0] not in rooms)
-    texts = [own, *(f"{room}: {', '.join(p[1] for p in inside if p[0] == room and len(p) > 1)}" for room in rooms)]
+    inner = {room: list(dict.fromkeys(p[1] for p in inside if p[0] == room and len(p) > 1)) for room in rooms}
+    texts = [own, *(f"{room}: {', '.join(names)}" for room, names in inner.items())]
     return [line for text in texts for line in textwrap.wrap(text, LETTERS)]
 
 

@@ -30,8 +30,8 @@ def labelled(case: Case, evidence: Evidence) -> Iterator[Problem]:
             yield case.problem(("signals", name, "label"), signal.label, expected, "correct the label or the path")
         shown = PRINTED.fullmatch(signal.path) if isinstance(signal, PathSignal) else None
         lines = re.findall(rf"^{re.escape(shown[1])} = \S+ ?(.*)$", output, re.MULTILINE) if shown else []
-        if lines and _plain(lines[0]) != _plain(signal.unit):
-            expected = f"the unit that is printed: {lines[0] or 'none'}"
+        if lines and lines[0] and _plain(lines[0]) != _plain(signal.unit):
+            expected = f"the unit that is printed: {lines[0]}"
             yield case.problem(("signals", name, "unit"), signal.unit or "no unit", expected, "correct one of them")
 
 

@@ -41,7 +41,6 @@ When it is wrong: a gain that is a hundred times too high shakes as well; then t
 from __future__ import annotations
 
 from collections.abc import Iterator
-from statistics import median
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.run import fastest
@@ -66,7 +65,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     gains = _gains(simulation)
     found = {joint: each for joint, each in gains.items() if _excess(each, min(step, USUAL)) > 1}
     if not found and len(gains) > 2 and step <= 5 * USUAL:
-        usual = median(_excess(each, step) for each in gains.values())
+        usual = sorted(_excess(each, step) for each in gains.values())[len(gains) // 2]
         found = {joint: each for joint, each in gains.items() if _excess(each, step) > max(1, 10 * usual)}
     if not found:
         return

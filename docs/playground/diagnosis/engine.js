@@ -6,6 +6,8 @@ import { nameOf, warningStat } from "../engine/signals.js";
 /** @import {MainModule, MjData, MjModel} from "@mujoco/mujoco" */
 
 const KEPT = 12; // compiled models; an older one is compiled anew when it is asked for again
+/** @type {Record<string, string>} */
+const BOOLEANS = { jnt: "njnt", actuator: "nu", eq: "neq" }; // how many, where it is not `n` and the prefix
 const COUNTS = { joint: "njnt", camera: "ncam", equality: "neq", actuator: "nu", dof: "nv", sensor: "nsensor" };
 
 /** Compiles texts, and keeps the last few models. */
@@ -103,9 +105,33 @@ class CompiledModel {
   field(of, path) {
     /** @type {any} */
     let value = this.use()[of];
-    for (const part of path.split(".")) value = value[part];
+    try {
+      for (const part of path.split(".")) value = value[part];
+    } catch (error) {
+      if (of === "model" && /memory_viewI[bE]/.test(String(error))) return this.booleans(path);
+      throw error;
+    }
     if (value === undefined) throw new Error(`${of} has no ${path}`);
     return value?.value ?? value;
+  }
+
+  /**
+   * An array of booleans, which the binding gives element by element alone, and of some fields not at all: those follow
+   * from the range that they belong to, or are 0.
+   * @param {string} path such as `jnt_limited`
+   */
+  booleans(path) {
+    const model = /** @type {any} */ (this.use().model);
+    const [prefix, ...rest] = path.split("_");
+    const name = rest.join("_");
+    const range = name.endsWith("limited") ? model[`${prefix}_${name.replace(/limited$/, "range")}`] : undefined;
+    return Array.from({ length: Number(model[BOOLEANS[prefix] ?? `n${prefix}`]) }, (_, i) => {
+      const element = model[prefix]?.(i);
+      const value = element?.[name];
+      element?.delete?.();
+      if (value !== undefined) return Number(value);
+      return Number(Boolean(range?.[2 * i] || range?.[2 * i + 1]));
+    });
   }
 
   /**

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
@@ -22,7 +23,7 @@ class BrowserModel:
     """A compiled model; `js` is a `CompiledModel` of docs/playground/diagnosis/engine.js."""
 
     def __init__(self, js: Any, to_js: Any) -> None:
-        self.js, self.to_js = js, to_js
+        self.js, self.to_js, self.out_of_memory = js, to_js, False
 
     def count(self, kind: str) -> int:
         return int(self.js.count(kind))
@@ -43,13 +44,26 @@ class BrowserModel:
         self.js.write("model", field, self.to_js([float(value) for value in values]), start)
 
     def reset(self, key: int = -1) -> None:
+        self.out_of_memory = False
         self.js.reset(key)
 
     def forward(self) -> None:
-        self.js.forward()
+        with self._bounded():
+            self.js.forward()
 
     def step(self, count: int = 1) -> None:
-        self.js.step(count)
+        with self._bounded():
+            self.js.step(count)
+
+    @contextmanager
+    def _bounded(self) -> Iterator[None]:
+        """Where MuJoCo's memory does not hold what a step needs, the run is over, and ends in a warning."""
+        try:
+            yield
+        except Exception as error:
+            if type(error).__name__ != "JsException" or "MuJoCo Error" not in str(error):
+                raise
+            self.out_of_memory = True
 
     def contacts(self) -> list[Contact]:
         made = []
@@ -61,7 +75,8 @@ class BrowserModel:
         return [float(number) for number in self.js.mass_diagonal().to_py()]
 
     def warnings(self) -> dict[str, int]:
-        return {str(name): int(number) for name, number in self.js.warnings().to_py()}
+        over = {"CNSTRFULL": 1, "BADQACC": 1} if self.out_of_memory else {}
+        return over | {str(name): int(number) for name, number in self.js.warnings().to_py()}
 
 
 class BrowserEngine:

@@ -18,13 +18,14 @@ from clinic.record.checkout import cache_folder
 from clinic.work.cache import Cache
 
 pytestmark = pytest.mark.xdist_group("parity")
+APART = {"memory-full"}  # after it the page's engine cannot be trusted, and the page begins a new one
 SAME = ("rule", "elements", "file", "line", "attribute", "now", "value", "edit")
 
 
 @pytest.fixture(scope="module")
 def models(root: Path) -> dict[str, str]:
     broken = {case.slug: case.text for case in read_cases(root / "cases")[0] if case.record.model is not None}
-    return {**broken, **{rule.id: rule.example("Bad") for rule in rules().values()}}
+    return {**broken, **{rule.id: rule.example("Bad") for rule in rules().values() if rule.id not in APART}}
 
 
 def test_the_page_finds_what_python_finds(root: Path, models: dict[str, str], tmp_path: Path) -> None:

@@ -44,6 +44,11 @@ export class DiagnosisEngine {
     return compile(this.mujoco, main, [...this.files, ...encoded(texts)]);
   }
 
+  /** Frees what is kept. */
+  end() {
+    for (const model of this.kept.splice(0)) model.drop();
+  }
+
   /** @param {CompiledModel} model that is in use now */
   touch(model) {
     if (this.kept.at(-1) === model) return;

@@ -34,7 +34,12 @@ export function diagnoseIn(python, mujoco, rules, { text, name, files, symptom }
   const read = (/** @type {string} */ path) => texts.get(path.replace(/^\.\//, ""));
   const run = python.runPython(SCRIPT);
   tell("", "Compiling the model", 0);
-  return run(new DiagnosisEngine(mujoco, files), text, name, read, tell, symptom, died);
+  const engine = new DiagnosisEngine(mujoco, files);
+  try {
+    return run(engine, text, name, read, tell, symptom, died);
+  } finally {
+    engine.end();
+  }
 }
 
 /**

@@ -24,7 +24,7 @@ DROP = """(place, files) => {
   for (const [name, bytes] of files) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
   place.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
 }"""
-BAD = rules()["timestep-too-long"].example("Bad")
+BAD = rules()["spring-too-stiff"].example("Bad")
 
 
 def opened(page: Page, served: str) -> Page:
@@ -69,13 +69,13 @@ def test_nothing_is_loaded_before_a_model_is_given_and_a_second_needs_no_network
 
     first = give(fresh, written(tmp_path / "shaking.xml", BAD))
 
-    assert "timestep-too-long" in first
+    assert "spring-too-stiff" in first
     own = [url for url in asked if url.startswith("javascripts/")]
     assert sum((site / url).stat().st_size for url in own) == pytest.approx(SIZE, rel=0.05)
     assert all(url.startswith(("javascripts/", "assets/", "blob:")) for url in asked), asked
 
     fresh.context.set_offline(True)
-    assert "timestep-too-long" in give(fresh, written(tmp_path / "again.xml", BAD))
+    assert "spring-too-stiff" in give(fresh, written(tmp_path / "again.xml", BAD))
 
 
 def test_the_findings_are_copied_and_the_mended_model_is_saved(page: Page, served: str, tmp_path: Path) -> None:
@@ -88,12 +88,12 @@ def test_the_findings_are_copied_and_the_mended_model_is_saved(page: Page, serve
     copied = json.loads(page.evaluate("navigator.clipboard.readText()"))
     assert copied["file"] == "shaking.xml"
     (cause,) = copied["causes"]
-    assert (cause["rule"], cause["attribute"]) == ("timestep-too-long", "timestep")
+    assert (cause["rule"], cause["attribute"]) == ("spring-too-stiff", "stiffness")
 
     with page.expect_download() as download:
         page.get_by_role("button", name="Save the mended model").click()
     assert download.value.suggested_filename == "shaking.mended.xml"
-    assert f'timestep="{cause["value"]}"' in Path(download.value.path()).read_text(encoding="utf-8")
+    assert f'stiffness="{cause["value"]}"' in Path(download.value.path()).read_text(encoding="utf-8")
 
 
 def test_an_edit_runs_beside_the_model_as_it_was(page: Page, served: str, tmp_path: Path) -> None:

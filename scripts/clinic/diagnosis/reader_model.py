@@ -171,6 +171,5 @@ class ReaderModel:
     def _users(self, kind: str, holder: Element, attribute: str) -> frozenset[int]:
         assert self.source is not None
         written = [self.element(kind, index) for index in range(self.simulation.count(kind))]
-        users = [each for each in written if each is not None and self.source.written(each, attribute)]
-        held = (each for each in users if (self.source.written(each, attribute) or (None,))[0] is holder)
-        return frozenset(map(id, held))
+        givers = ((each, self.source.written(each, attribute)) for each in written if each is not None)
+        return frozenset(id(each) for each, giver in givers if giver and giver[0] is holder)

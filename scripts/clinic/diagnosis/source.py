@@ -11,8 +11,6 @@ from xml.parsers import expat
 HEAD = re.compile(rb"""<[^\s/>]+(?:\s+[^\s=/>]+\s*=\s*(?:"[^"]*"|'[^']*'))*\s*/?>""")
 TRANSPARENT = {"frame"}  # its children belong to the body around it
 REPEATING = {"replicate", "composite", "flexcomp", "attach"}  # what they make has no line of its own
-IN_BODIES = {"joint", "freejoint", "geom", "site", "camera", "light", "inertial"}
-SECTIONS = {"actuator", "sensor", "tendon", "equality", "keyframe", "contact", "asset"}
 
 
 class SourceError(ValueError):
@@ -80,6 +78,10 @@ class Source:
         self.root = self._parsed(self.main)
         self._includes(self.root, 0)
         self.urdf = self.root.tag == "robot"
+        self._classes: dict[str, Element] = {}
+        for each in self.elements("default"):
+            for name in (each.get("class"), *([""] if each.parent is self.root else [])):
+                self._classes.setdefault(name, each)
 
     def elements(self, *tags: str) -> Iterator[Element]:
         """All elements of these kinds, in the order of the text."""
@@ -150,12 +152,9 @@ class Source:
 
     def _class_of(self, element: Element) -> Element | None:
         name = element.get("class")
-        if not name and element.tag not in SECTIONS:
-            name = next((outer.get("childclass") for outer in element.around() if outer.get("childclass")), "")
-        classes = list(self.elements("default"))
         if not name:
-            return next((each for each in classes if each.parent is self.root), None)
-        return next((each for each in classes if each.get("class") == name), None)
+            name = next((outer.get("childclass") for outer in element.around() if outer.get("childclass")), "")
+        return self._classes.get(name)
 
     def _parsed(self, file: str) -> Element:
         text = self.texts[file].encode()
@@ -224,7 +223,8 @@ def read_texts(main: str, name: str, read: Callable[[str], str | None]) -> dict[
         around, text = left.pop()
         for found in re.findall(r"<include\s[^>]*?file\s*=\s*[\"']([^\"']+)[\"']", text):
             beside = posixpath.join(posixpath.dirname(around), found) if around != name else found
-            inner = read(found) if read(found) is not None else read(beside)
+            inner = read(found)
+            inner = read(beside) if inner is None else inner
             if inner is not None and found not in texts:
                 texts[found] = inner
                 left.append((found, inner))

@@ -18,7 +18,7 @@ from clinic.diagnosis.bench.faults import DOES_NOT_COMPILE, Fault, Kind, kinds
 from clinic.diagnosis.bench.faults.servo import with_servos
 from clinic.diagnosis.bench.harm import HARMS
 from clinic.diagnosis.bench.healthy import Healthy
-from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.diagnose import examine, read_file
 from clinic.diagnosis.edit import apply
 from clinic.diagnosis.finding import Finding
 from clinic.diagnosis.native import NativeEngine, NativeModel
@@ -224,14 +224,7 @@ def _compiled(model: ReaderModel) -> Any:
 
 def _texts(model: Healthy) -> dict[str, str]:
     path = Path(model.path)
-    return read_texts(path.read_text(encoding="utf-8"), path.name, _read)
-
-
-def _read(name: str) -> str | None:
-    try:
-        return Path(name).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError):
-        return None
+    return read_texts(path.read_text(encoding="utf-8"), path.name, read_file)
 
 
 @contextmanager

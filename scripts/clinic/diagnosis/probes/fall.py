@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import BOX, HFIELD, PLANE
 from clinic.diagnosis.probes.run import State, let_go
-from clinic.diagnosis.probes.shape import at, box, dot, falling, minus, root_of, size, solid
+from clinic.diagnosis.probes.shape import box, falling, root_of, size, solid
+from clinic.diagnosis.probes.vector import at, dot, sub
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe
 
@@ -16,7 +17,7 @@ def _above(simulation: Simulation, now: State, body: int, geom: int) -> float | 
     centre = at(now.xipos, body)
     if int(simulation.model("geom_type")[geom]) == PLANE:
         matrix = now.geom_xmat[9 * geom : 9 * geom + 9]
-        return dot((matrix[2], matrix[5], matrix[8]), minus(centre, at(now.geom_xpos, geom)))
+        return dot((matrix[2], matrix[5], matrix[8]), sub(centre, at(now.geom_xpos, geom)))
     middle, half = box(simulation, now.geom_xpos, now.geom_xmat, geom)
     if any(abs(centre[i] - middle[i]) > half[i] for i in (0, 1)):
         return None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from clinic.diagnosis.engine import HINGE, PLANE, SLIDE
+from clinic.diagnosis.probes import servo
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe
 
@@ -14,25 +15,15 @@ def start_at(simulation: Simulation, key: int) -> None:
 
 
 def servos(simulation: Simulation, key: int) -> dict[int, tuple[float, float]]:
-    """Of position servos on hinges and slides: the target in a keyframe and the joint's position, in rad or m.
-
-    A servo is an actuator with `biasprm` 0 -kp: its force is zero where `gear * q` is `ctrl * gain / kp`.
-    """
-    made: dict[int, tuple[float, float]] = {}
-    count = simulation.count("actuator")
-    if not count:
-        return made
-    gain, bias = simulation.model("actuator_gainprm"), simulation.model("actuator_biasprm")
-    width = len(gain) // count
+    """Of position servos on hinges and slides: the target in a keyframe and the joint's position, in rad or m."""
+    found = servo.servos(simulation)
     start_at(simulation, key)
     ctrl = simulation.data("ctrl")
-    for actuator in range(count):
-        joint, stiffness = simulation.driven_joint(actuator), -bias[width * actuator + 1]
-        gear = simulation.row("actuator_gear", actuator, 6)[0]
-        if joint is not None and stiffness > 0 and gear and gain[width * actuator] > 0:
-            target = ctrl[actuator] * gain[width * actuator] / stiffness / gear
-            made[actuator] = (target, simulation.position(joint))
-    return made
+    return {
+        each.actuator: (each.offset + each.scale * ctrl[each.actuator], simulation.position(each.joint))
+        for each in found
+        if each.scale > 0
+    }
 
 
 def _off(simulation: Simulation, key: int) -> float:

@@ -6,7 +6,8 @@ import math
 
 from clinic.diagnosis.engine import HINGE, SLIDE, Contact
 from clinic.diagnosis.probes.run import State, state
-from clinic.diagnosis.probes.shape import at, falling, geoms_of_tree, root_of, thickness
+from clinic.diagnosis.probes.shape import falling, geoms_of_tree, root_of, thickness
+from clinic.diagnosis.probes.vector import at
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe
 

@@ -6,7 +6,8 @@ import math
 
 from clinic.diagnosis.engine import FREE, SLIDE
 from clinic.diagnosis.probes.run import State, let_go, state
-from clinic.diagnosis.probes.shape import Vector, at, cross, dot, falling, minus, root_of, size
+from clinic.diagnosis.probes.shape import falling, root_of, size
+from clinic.diagnosis.probes.vector import Vector, at, cross, dot, sub
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe
 
@@ -53,8 +54,8 @@ def _slips(simulation: Simulation) -> dict[int, float]:
 
     def velocity(body: int, place: Vector) -> Vector:
         turn, way = tuple(moves[6 * body : 6 * body + 3]), tuple(moves[6 * body + 3 : 6 * body + 6])
-        lever = minus(place, at(coms, int(tops[body])))  # type: ignore[arg-type]
-        lift = cross(turn, lever)  # type: ignore[arg-type]
+        lever = sub(place, at(coms, int(tops[body])))
+        lift = cross(turn, lever)
         return (way[0] + lift[0], way[1] + lift[1], way[2] + lift[2])
 
     sums: dict[int, tuple[float, float]] = {}
@@ -62,7 +63,7 @@ def _slips(simulation: Simulation) -> dict[int, float]:
         one, other = (int(bodies[geom]) for geom in contact.geoms)
         if owner[one] == owner[other] or contact.force <= 0:
             continue
-        apart = minus(velocity(one, contact.position), velocity(other, contact.position))
+        apart = sub(velocity(one, contact.position), velocity(other, contact.position))
         along = dot(apart, contact.normal)
         slip = math.sqrt(max(0.0, dot(apart, apart) - along * along))
         for root in {owner[one], owner[other]} - {0}:

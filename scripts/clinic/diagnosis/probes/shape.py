@@ -3,33 +3,8 @@
 from __future__ import annotations
 
 from clinic.diagnosis.engine import FREE, PLANE, SLIDE
+from clinic.diagnosis.probes.vector import Vector, at
 from clinic.diagnosis.simulation import Simulation
-
-Vector = tuple[float, float, float]
-
-
-def dot(one: Vector, other: Vector) -> float:
-    """The scalar product."""
-    return sum(a * b for a, b in zip(one, other, strict=True))
-
-
-def minus(one: Vector, other: Vector) -> Vector:
-    """The difference."""
-    return (one[0] - other[0], one[1] - other[1], one[2] - other[2])
-
-
-def cross(one: Vector, other: Vector) -> Vector:
-    """The vector product."""
-    return (
-        one[1] * other[2] - one[2] * other[1],
-        one[2] * other[0] - one[0] * other[2],
-        one[0] * other[1] - one[1] * other[0],
-    )
-
-
-def at(flat: tuple[float, ...], index: int) -> Vector:
-    """Row `index` of a flat array of three columns."""
-    return (flat[3 * index], flat[3 * index + 1], flat[3 * index + 2])
 
 
 def roots(simulation: Simulation) -> list[int]:

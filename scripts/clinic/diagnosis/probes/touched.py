@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from clinic.diagnosis.probes.shape import at
+from clinic.diagnosis.probes.vector import at
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe
 

@@ -24,6 +24,16 @@ def dot(a: Sequence[float], b: Sequence[float]) -> float:
     return sum(x * y for x, y in zip(a, b, strict=True))
 
 
+def cross(a: Sequence[float], b: Sequence[float]) -> Vector:
+    """The vector product."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def at(flat: Sequence[float], index: int) -> Vector:
+    """Row `index` of a flat array of three columns."""
+    return tuple(flat[3 * index : 3 * index + 3])
+
+
 def norm(a: Sequence[float]) -> float:
     """The length."""
     return math.sqrt(dot(a, a))

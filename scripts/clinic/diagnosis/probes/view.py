@@ -7,7 +7,8 @@ from collections.abc import Sequence
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.engine import HFIELD, PLANE
-from clinic.diagnosis.probes.shape import Vector, at, cross, dot, minus, root_of
+from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.vector import Vector, at, cross, dot, sub
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 
@@ -57,7 +58,7 @@ def in_sight(simulation: Simulation, camera: int) -> list[tuple[int, float]]:
     aspect = wide / high if wide > 1 and high > 1 else ASPECT
     positions, made = tuple(simulation.data("geom_xpos")), []
     for geom in things(simulation):
-        way = minus(at(positions, geom), place)  # type: ignore[arg-type]
+        way = sub(at(positions, geom), place)
         ahead = dot(way, forward)
         if ahead > 0 and abs(dot(way, up)) <= tall * ahead and abs(dot(way, right)) <= aspect * tall * ahead:
             made.append((geom, ahead))
@@ -98,7 +99,7 @@ def aimed(model: ReaderModel, camera: int) -> tuple[Edit, ...]:
     target = middle(simulation)
     if target is None:
         return ()
-    way = minus(target, simulation.data_row("cam_xpos", camera, 3))  # type: ignore[arg-type]
+    way = sub(target, simulation.data_row("cam_xpos", camera, 3))
     far = math.hypot(*way)
     if far < 1e-6:
         return ()

@@ -69,7 +69,8 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.push import creeps
 from clinic.diagnosis.probes.run import let_go
-from clinic.diagnosis.probes.shape import dot, root_of
+from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.vector import dot
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 

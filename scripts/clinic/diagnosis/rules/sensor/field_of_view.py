@@ -35,7 +35,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.shape import at
+from clinic.diagnosis.probes.vector import at
 from clinic.diagnosis.probes.view import middle, things
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation

@@ -43,7 +43,8 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import PLANE
-from clinic.diagnosis.probes.shape import dot, falling
+from clinic.diagnosis.probes.shape import falling
+from clinic.diagnosis.probes.vector import dot
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -70,7 +71,7 @@ def _up(simulation: Simulation) -> tuple[float, float, float]:
 def _angle(simulation: Simulation) -> float:
     g, up = simulation.row("opt.gravity", 0, 3), _up(simulation)
     size = math.hypot(*g)
-    return math.degrees(math.acos(max(-1.0, min(1.0, -dot(g, up) / size)))) if size else 0.0  # type: ignore[arg-type]
+    return math.degrees(math.acos(max(-1.0, min(1.0, -dot(g, up) / size)))) if size else 0.0
 
 
 def _ratio(simulation: Simulation) -> float:

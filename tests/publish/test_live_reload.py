@@ -59,9 +59,9 @@ def edit(project: Path, name: str, old: str, new: str) -> None:
 
 def ended(live: LiveSite) -> None:
     """Waits until the process has come to its end, and has told so."""
-    assert live.process is not None
+    assert live.end is not None
     assert live.watched is not None
-    live.process.wait(PATIENCE)
+    live.end.join(PATIENCE)
     (live.watched / "made").unlink()
 
 

@@ -73,7 +73,7 @@ def check(
     wanted = [folder.name for folder in folders(root, slugs or [])]
     checking = check_cases(root, wanted, Cache(cache_folder(root)))
     reports = list(track(checking, "checking", len(wanted), console=err, transient=True, disable=not err.is_terminal))
-    reports.sort(key=lambda report: report.case.record.number if report.case else 0)
+    reports.sort(key=lambda report: report.case.rank if report.case else (0.0, report.slug))
     if as_json:
         _print_json([report_data(report) for report in reports])
     else:

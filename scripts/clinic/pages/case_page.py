@@ -72,7 +72,7 @@ def interim_page(case: Case, evidence: Evidence) -> str:
     """The Markdown of a case's page while what takes long is being measured."""
     text = '!!! info "Being measured"\n\n    Plots, pictures and what else takes longer appear here by themselves.\n\n'
     table = render("table", table=_table(case, evidence))
-    return plain_page(f"{case.record.number}. {case.record.title}", f"{text}What was measured:\n\n{table}")
+    return plain_page(case.record.heading, f"{text}What was measured:\n\n{table}")
 
 
 def _summary(case: Case, evidence: Evidence) -> str:
@@ -194,7 +194,7 @@ def _steady(case: Case, evidence: Evidence) -> str:
 def _matrix(made: LookalikeMatrix, cases: Mapping[str, Case]) -> dict[str, Any]:
     """The matrix of look-alikes as a table."""
     members = [cases[slug] for slug in made.cases]
-    heads = [f"[{case.record.number}. {line(case.record.title)}](../{case.slug}/index.md)" for case in members]
+    heads = [f"[{line(case.record.heading)}](../{case.slug}/index.md)" for case in members]
     rows = []
     for case, values, holds in zip(members, made.measured, made.holds, strict=True):
         alike = case.record.alike

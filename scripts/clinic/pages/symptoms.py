@@ -1,18 +1,16 @@
 """Finding a case by its symptom: nine things that readers say, and the cases whose `looks` name them.
 
-A case without a place stands at the page's end, and `clinic check` reports it.
+A case without a place stands at the page's end.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from clinic.pages.cases import CasePage
 from clinic.pages.text.template import render
-from clinic.record.case import Case
 from clinic.record.fields import SymptomId
-from clinic.record.problem import Problem
 
 
 class Heading(NamedTuple):
@@ -61,12 +59,6 @@ HEADINGS: dict[SymptomId, Heading] = {
         "Change one thing at a time: the model, the code, MuJoCo's version, the speed at which it runs. Log all four.",
     ),
 }
-
-
-def symptom_problems(case: Case) -> Iterator[Problem]:
-    """Whether no reader would find the case by its symptom."""
-    if not case.record.looks:
-        yield case.problem(("looks",), "nothing", f"one or more of: {', '.join(HEADINGS)}", "add `looks: [...]`")
 
 
 def symptoms_page(shown: Sequence[CasePage]) -> str:

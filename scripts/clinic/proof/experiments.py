@@ -125,7 +125,7 @@ def compare_alike(case: Case, cases: Mapping[str, Case], cache: Cache) -> tuple[
     if case.record.alike is None:
         return None, []
     named = [case, *(cases[slug] for slug in case.record.alike.cases)]
-    members = sorted(named, key=lambda member: member.record.number)
+    members = sorted(named, key=lambda member: member.rank)
     asked = [[m.slug, m.text, m.record.model_dump(mode="json", include={"run", "alike"})] for m in members]
     key = key_of("alike", asked, of="proof")
     try:

@@ -42,7 +42,7 @@ def make_site(root: Path, cache: Cache) -> Site:
     for one in shown:
         made |= {f"{FOLDER.format(slug=one.case.slug)}/{name}": content for name, content in one.files.items()}
     pages, told = {one.case.slug: one.page for one in shown}, problems_by_case(problems)
-    headings = {case.slug: f"{case.record.number}. {case.record.title}" for case in read}
+    headings = {case.slug: case.record.heading for case in read}
     headings |= {slug: slug for slug in unread}
     for slug, heading in headings.items():
         if slug in pages:

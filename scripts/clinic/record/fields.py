@@ -24,6 +24,7 @@ SymptomId = Literal[
     "numbers-wrong",
     "worked-yesterday",
 ]
+FILM_SECONDS = 6.0  # how long a film lasts of which the record says nothing
 Law = Literal["lasting", "steady", "typed"]
 ManualPage = Annotated[str, Field(pattern=r"^[A-Za-z0-9_/]+\.html(?:#[a-z0-9-]+)?$")]
 
@@ -119,8 +120,10 @@ class RunSpec(Strict):
 class Picture(Strict):
     """The still image of a case."""
 
-    camera: Text = Field(description="The camera to render from.")
-    time: float = Field(default=0.0, ge=0, le=120, description="When, in s of simulated time.")
+    camera: Text | None = Field(default=None, description="The camera to render from; a view of all when absent.")
+    time: float | None = Field(
+        default=None, ge=0, le=120, description="When, in s of simulated time; half-way through the run when absent."
+    )
     scene: FileName | None = Field(default=None, description="Code cases: the scene to render, from its keyframe 0.")
 
 
@@ -133,7 +136,7 @@ class Film(Strict):
     """The film of the broken model beside the first fix: the picture's camera, same clock."""
 
     duration: float | None = Field(default=None, gt=0, description="Simulated time filmed, in s; the run's by default.")
-    speed: float = Field(default=1.0, gt=0, le=10, description="Simulated seconds a second; below 1 is slow motion.")
+    speed: float = Field(default=1.0, gt=0, le=20, description="Simulated seconds a second; below 1 is slow motion.")
     overlays: list[Overlay] = Field(default=[], description="What MuJoCo draws over the scene to show the cause.")
 
 
@@ -215,7 +218,9 @@ class Refuted(Remedy):
 class Record(Strict):
     """One broken simulation: what is seen, what is wrong, what repairs it, and the proof."""
 
-    number: int = Field(ge=1, le=99_999, description="Unique; readers say *case 7*.")
+    number: int | None = Field(
+        default=None, ge=1, le=99_999, description="Unique; readers say *case 7*. Without one, after the others."
+    )
     title: Text = Field(max_length=90, description="The symptom as a sentence, without a full stop.")
     model: FileName | None = Field(default=None, description="The broken model. Exactly one of `model`, `script`.")
     script: FileName | None = Field(default=None, description="The broken script: Python, or for Node `.mjs`.")
@@ -253,9 +258,9 @@ class Record(Strict):
     )
     sweep: dict[Identifier, Sweep] = Field(default={}, description="Sweeps by name.")
     formulas: dict[Name, Formula] = Field(default={}, description="Equations for prose: `{{ formula.NAME }}`, by name.")
-    no_sweep: str | None = Field(default=None, description="Why no sweep would tell anything; without one, required.")
-    film: Film | None = Field(default=None, description="Required for a model.")
-    picture: Picture = Field(description="The still image on the page and on the home page's card.")
+    no_sweep: str | None = Field(default=None, description="Why no sweep would tell anything; not beside `sweep`.")
+    film: Film | None = Field(default=None, description="Of a model; when absent, a film of the whole run.")
+    picture: Picture = Field(default=Picture(), description="The still image on the page and on the home page's card.")
 
     @model_validator(mode="after")
     def _model_or_script(self) -> Record:
@@ -277,8 +282,21 @@ class Record(Strict):
         wanted = {
             "trials": (self.trials, "whether a repair holds in another situation"),
             "loose": (self.loose is not None, "whether a check notices when a number is halved or doubled"),
+            "sweep": (self.sweep or self.no_sweep, "whether the cause is a law"),
         }
         return {name: unknown for name, (given, unknown) in wanted.items() if not given}
+
+    @property
+    def heading(self) -> str:
+        """The title after the number, if there is one."""
+        return self.title if self.number is None else f"{self.number}. {self.title}"
+
+    @property
+    def filmed(self) -> Film | None:
+        """The film to be made: the record's own, or for a model without one its whole run in FILM_SECONDS."""
+        if self.run is None or self.film is not None:
+            return self.film
+        return Film(speed=self.run.duration / FILM_SECONDS)
 
     @property
     def language(self) -> Literal["python", "javascript"]:

@@ -31,7 +31,10 @@ def checkout(root: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def begun(checkout: Path) -> list[str]:
     """A new case of each kind, by its slug."""
     kinds = scaffold.SOURCES
-    return [scaffold.write_case(checkout, f"begun-in-{kind}", f"It is askew in {kind}", kind).name for kind in kinds]
+    return [
+        scaffold.write_case(checkout, f"begun-in-{kind}", f"It is askew in {kind}", kind, "drifts").name
+        for kind in kinds
+    ]
 
 
 def test_a_new_case_passes_every_law(root: Path, checkout: Path, begun: list[str]) -> None:

@@ -37,16 +37,22 @@ def new(
     slug: Annotated[str, typer.Argument(help="The folder's name: words that name the symptom, joined by hyphens.")],
     title: Annotated[str, typer.Option(help="The symptom as a sentence, without a full stop.", prompt="The symptom")],
     kind: Annotated[Literal["model", "python", "javascript"], typer.Option(help="Where the bug lives.")] = "model",
+    family: Annotated[str, typer.Option(help="The symptom's family: sags, slips, ...; asked for when left out.")] = "",
 ) -> None:
     """Write the folder of a new case, which passes every law until you put your bug into it."""
     from clinic.commands.scaffold import write_case
     from clinic.pages.schema import write_schema
+    from clinic.record.families import families, likely_families
 
     root = project_root()
-    write_case(root, slug, title, kind)
+    if not family:
+        guess = [*likely_families(title), *families()][0]
+        family = typer.prompt("Its family", guess) if sys.stdin.isatty() else guess
+    write_case(root, slug, title, kind, family)
     write_schema(root)
     print(
-        f"cases/{slug}/ passes every law: clinic check {slug}. Now put your bug into it; `make serve` shows the page."
+        f"cases/{slug}/, of the family {family}, passes every law: clinic check {slug}. Now put your bug into it; "
+        "`make serve` shows the page."
     )
 
 

@@ -32,8 +32,8 @@ def make_site(root: Path, cache: Cache) -> Site:
     known = {case.slug: case for case in read}
     unread = sorted(set(slugs(root)) - known.keys())
     made: Files = bundle.playground_files(root, cache)
-    shown, wrong = case_pages(root, read, set(unread), cache, bundle.START in made)
-    files, others = overviews(root, shown, known, cache)
+    shown, told_apart, wrong = case_pages(root, read, cache, bundle.START in made)
+    files, others = overviews(root, shown, told_apart, known, cache)
     problems += [*wrong, *others]
     made |= files
     made |= bundle.diagnosis_files(root, cache)

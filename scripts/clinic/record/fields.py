@@ -5,27 +5,31 @@ The descriptions below are the record's reference; `clinic reference` prints the
 
 from __future__ import annotations
 
+import difflib
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
-from clinic.record.parts import Comparison, Edit, Identifier, Interval, Name, Strict, Take, Taken, Text
+from clinic.record.families import families, likely_families
+from clinic.record.parts import Comparison, Edit, Identifier, Interval, Name, Strict, Taken, Text
 from clinic.record.sweep import Sweep
 
 FileName = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]+\.(?:csv|json|mjs|py|txt|xml|yaml)$")]
-SymptomId = Literal[
-    "nothing-moves",
-    "moves-wrong",
-    "passes-through",
-    "explodes",
-    "oscillates",
-    "sags",
-    "picture-wrong",
-    "numbers-wrong",
-    "worked-yesterday",
-]
 FILM_SECONDS = 6.0  # how long a film lasts of which the record says nothing
+Element = Literal["actuator", "body", "camera", "dof", "geom", "joint", "sensor", "site", "tendon"]
 Law = Literal["lasting", "steady", "typed"]
+
+
+def _known_family(name: str) -> str:
+    """The name itself, if a family has it."""
+    if name not in families():
+        near = difflib.get_close_matches(name, families(), 2, 0.6) or likely_families(name)[:3]
+        repair = f"write {' or '.join(near)}" if near else "choose one"
+        raise ValueError(f"{name}, which is no family||one of {', '.join(families())}||{repair}")
+    return name
+
+
+FamilyName = Annotated[str, AfterValidator(_known_family), Field(json_schema_extra={"enum": list(families())})]
 ManualPage = Annotated[str, Field(pattern=r"^[A-Za-z0-9_/]+\.html(?:#[a-z0-9-]+)?$")]
 
 
@@ -33,12 +37,29 @@ class Check(Taken, Comparison):
     """One number taken from a signal, compared with a bound."""
 
 
-class Alike(Comparison):
-    """What tells a case from those that look like it: one measurement that holds for this case alone."""
+class Telling(Strict):
+    """What tells a case from the others of its family: one measurement, which holds for its broken model alone."""
 
-    cases: list[Identifier] = Field(min_length=1, description="Model cases with the same symptom; each names this one.")
-    path: Text = Field(description="A signal path that the models of all of them have.")
-    take: Take = Field(default="final", description="As in a check.")
+    says: Text = Field(description="What is measured, in words; of a code case, what to look for.")
+    expr: Text | None = Field(
+        default=None, description="A number, or one for each element: Python over what the family's `probe` measures."
+    )
+    unit: str = Field(default="", description="Its unit; empty for a pure number.")
+    of: Element | None = Field(default=None, description="What kind of element each of the numbers belongs to.")
+    above: float | None = Field(default=None, description="Holds where the largest number is greater.")
+    below: float | None = Field(default=None, description="Holds where the smallest number is smaller.")
+    still: dict[Identifier, Text] = Field(
+        default={}, description="Fixes after which it holds nevertheless, each with the reason."
+    )
+    threads: int = Field(default=0, ge=0, description="In how many threads we met the cause: the likelier comes first.")
+
+    @model_validator(mode="after")
+    def _one_bound(self) -> Telling:
+        given = sum(bound is not None for bound in (self.above, self.below))
+        if given != (self.expr is not None):
+            found, expected = f"{given} bounds", "one of above, below beside `expr`; none without it"
+            raise ValueError(f"{found}||{expected}||keep one bound, or remove it")
+        return self
 
 
 class Described(Strict):
@@ -233,12 +254,12 @@ class Record(Strict):
     lesson: Text = Field(description="What to remember.")
     tags: list[Identifier] = Field(min_length=1, description="Topics: contact, joint, actuator, camera, units, ...")
     phrases: list[Text] = Field(min_length=1, description="What people type into a search engine; feeds the search.")
-    looks: list[SymptomId] = Field(default=[], description="Where *Find your symptom* puts the case.")
+    family: FamilyName | None = Field(default=None, description="The symptom whose other causes it is told apart from.")
     manual: list[ManualPage] = Field(
         default=[], description="Pages of MuJoCo's manual, each as `modeling.html#anchor`."
     )
     see: list[Identifier] = Field(default=[], description="Related cases, by folder name.")
-    alike: Alike | None = Field(default=None, description="What tells this case from those that look like it.")
+    telling: Telling | None = Field(default=None, description="What tells this case from others of its family.")
     exempt: dict[Law, Text] = Field(default={}, description="Laws that this case need not obey, each with the reason.")
     loose: dict[Text, Text] | None = Field(
         default=None,
@@ -282,6 +303,8 @@ class Record(Strict):
         wanted = {
             "trials": (self.trials, "whether a repair holds in another situation"),
             "loose": (self.loose is not None, "whether a check notices when a number is halved or doubled"),
+            "family": (self.family, "which other causes its symptom has"),
+            "telling": (self.telling, "what tells it from them"),
             "sweep": (self.sweep or self.no_sweep, "whether the cause is a law"),
         }
         return {name: unknown for name, (given, unknown) in wanted.items() if not given}

@@ -57,7 +57,7 @@ QUERY = """async (queries) => {
 
 def varied(case: Case, record: dict[str, object], slugs: list[str], turn: int, number: int) -> dict[str, object]:
     """The record of a case's variation in this turn, with its relations to the variations of the same turn."""
-    text = json.dumps({key: value for key, value in record.items() if key != "alike"})
+    text = json.dumps({key: value for key, value in record.items() if key not in ("family", "telling")})
     for slug in slugs:
         text = text.replace(f"../{slug}/", f"../{slug}-{turn}/")
     made: dict[str, object] = json.loads(text)
@@ -71,7 +71,7 @@ def grow(folder: Path, cache: Cache, size: int) -> None:
     """Adds variations to the cases of a copy until there are as many as asked for, and keeps what they showed."""
     originals = read_cases(folder / "cases")[0]
     models = [case for case in originals if case.record.run is not None]
-    number = max(case.record.number for case in originals)
+    number = max(case.record.number or 0 for case in originals)
     turn = 0
     while number < size:
         turn += 1

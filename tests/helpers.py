@@ -240,7 +240,7 @@ def evidence_of_variants(**variants: VariantEvidence) -> Evidence:
 
 
 def page_of(case: Case, evidence: Evidence, files: dict[str, bytes] | None = None, *others: Case) -> str:
-    """The Markdown of a case's page, with no look-alikes."""
+    """The Markdown of a case's page, with nothing told of its family."""
     return case_page(case, evidence, files or {}, {other.slug: other for other in others}, None)
 
 

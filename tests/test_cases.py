@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from clinic.proof.laws import LAWS, breaches
+from clinic.proof.releases import read_lock
 from clinic.record.case import load_case, read_cases
 
 
@@ -18,8 +19,9 @@ def test_law(slug: str, law: str, proven) -> None:
     assert not found, f"case {case.record.number} {slug}:\n" + "\n".join(map(str, found))
 
 
-def test_every_case_of_ours_is_grade_a(slug: str, root: Path) -> None:
-    assert not load_case(root / "cases" / slug).record.lacking
+def test_every_case_that_releases_were_asked_about_is_grade_a(root: Path) -> None:
+    lacking = {slug: list(load_case(root / "cases" / slug).record.lacking) for slug in read_lock(root)}
+    assert {slug: fields for slug, fields in lacking.items() if fields} == {}
 
 
 def test_every_file_belongs_to_a_case_and_every_relation_resolves(root: Path) -> None:

@@ -11,7 +11,7 @@ from clinic.commands.check import check_cases
 from clinic.publish.site import make_site
 from clinic.record.checkout import cache_folder
 from clinic.work.cache import Cache
-from helpers import MODEL, RECORD, write_case
+from helpers import MODEL, RECORD, write_case, write_folder
 
 pytestmark = pytest.mark.xdist_group("site")
 PARTS = ("cases", "docs", "pyproject.toml", "package.json", "package-lock.json")
@@ -31,13 +31,60 @@ def checkout(root: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def begun(checkout: Path) -> list[str]:
     """A new case of each kind, by its slug."""
     kinds = scaffold.SOURCES
-    return [scaffold.write_case(checkout, f"begun-in-{kind}", f"It is askew in {kind}", kind).name for kind in kinds]
+    return [
+        scaffold.write_case(checkout, f"begun-in-{kind}", f"It is askew in {kind}", kind, "drifts").name
+        for kind in kinds
+    ]
 
 
 def test_a_new_case_passes_every_law(root: Path, checkout: Path, begun: list[str]) -> None:
     for report in check_cases(checkout, begun, Cache(cache_folder(root))):
         assert (report.problems, report.breaches) == ((), ())
         assert report.evidence is not None
+
+
+DROPPED = """\
+title: A crate sinks through the ground
+model: model.xml
+symptom: A crate is let go above the ground and falls on, out of sight.
+diagnosis: Print `data.ncon` while it falls. There is never a contact.
+cause: The masks of the two share no bit.
+fix: Let them share one.
+lesson: Look at the masks before the solver.
+tags: [contact]
+phrases: [crate sinks through the ground in mujoco]
+run: {duration: 0.4}
+signals:
+  contacts: {path: ncon}
+checks:
+  broken: [{signal: contacts, take: max, equals: 0}]
+  fixed: [{signal: contacts, take: max, above: 0}]
+fixes:
+  - id: share-a-bit
+    title: Remove the masks
+    edits: [{find: ' contype="2" conaffinity="2"', replace: ''}]
+"""
+"""The smallest record: the fields of prose, what is measured, what well means, one repair."""
+
+
+def test_the_smallest_record_has_a_page_a_card_a_search_entry_and_passes(root: Path, checkout: Path) -> None:
+    folder = write_folder(checkout, "crate-sinks", {"case.yaml": DROPPED, "model.xml": MODEL})
+    cache = Cache(cache_folder(root))
+    (report,) = check_cases(checkout, [folder.name], cache)
+    site = make_site(checkout, cache)
+    page, home = site.files["cases/crate-sinks/index.md"].decode(), site.files["index.md"].decode()
+    shutil.rmtree(folder)
+
+    assert (report.problems, report.breaches, report.grade) == ((), (), "B")
+    assert site.problems == ()
+    assert "\n# A crate sinks through the ground\n" in page
+    assert "Grade B: the record does not say " in page
+    assert "crate sinks through the ground in mujoco" in page
+    assert {"film.mp4", "broken.webp", "plot.svg"} <= {
+        Path(name).name for name in site.files if name.startswith("cases/crate-sinks/")
+    }
+    assert home.rindex("[A crate sinks through the ground](cases/crate-sinks/index.md)") > home.rindex("**[17. ")
+    assert "A crate sinks through the ground" in str(site.navigation)
 
 
 def test_folders_dropped_in_become_cases(root: Path, checkout: Path, begun: list[str]) -> None:

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 from clinic.commands.check import Report, check_cases, report_data
 from clinic.work.cache import Cache
-from helpers import write_script_case
+from helpers import write_case, write_script_case
 
 TAGS = "tags: [code]"
-FOUND = (TAGS, f"{TAGS}\nlooks: [numbers-wrong]")
+FOUND = (TAGS, f"{TAGS}\nfamily: wrong-numbers\ntelling: {{says: the error that it prints}}")
 
 
 @pytest.fixture
@@ -75,8 +75,29 @@ def test_what_a_strict_build_refuses_is_a_problem(checkout: Path, change: tuple[
 
 
 def test_mistakes_and_broken_laws_are_found_together(checkout: Path) -> None:
-    write_script_case(checkout, ("above: 0.1", "below: 0.1"))
+    write_script_case(checkout, ("above: 0.1", "below: 0.1"), ("lesson: Read", "lesson: Read {{ broken.eror.final }}"))
     report = checked(checkout)
-    assert [problem.where for problem in report.problems] == ["looks"]
+    assert [problem.where for problem in report.problems] == ["lesson"]
     assert [said.found.split(": ")[0] for said in report.breaches] == ["no-error", "broken"]
     assert [said.where for said in report.breaches] == ["checks.broken", "checks.broken[0]"]
+
+
+def test_mistakes_of_record_references_and_model_are_told_in_one_go(checkout: Path) -> None:
+    write_case(
+        checkout,
+        ("number: 1", "number: one"),
+        ("lesson: Look at the masks.\n", ""),
+        ("equals: 0}", "equals: 0, tke: max}"),
+        ("  contacts: {path: ncon}", "  contacts: {path: ncon, units: m}"),
+        ("signal: height, between", "signal: hight, between"),
+        ("find: 'timestep=\"0.002\"'", "find: 'timestep=\"0.003\"'"),
+        ("camera: side", "camera: sid"),
+    )
+    assert [problem.where for problem in checked(checkout, "falling-box").problems] == [
+        "lesson",
+        "number",
+        "signals.contacts.units",
+        "checks.broken[0].tke",
+        "refuted[0].edits[0].find",
+        "picture.camera",
+    ]

@@ -17,7 +17,7 @@ from clinic.pages.schema import FILE, schema_text
 from helpers import RECORD, changed, write_case, write_script_case
 from typer.testing import CliRunner, Result
 
-FOUND = ("tags: [code]", "tags: [code]\nlooks: [numbers-wrong]")
+FOUND = ("tags: [code]", "tags: [code]\nfamily: wrong-numbers")
 
 
 @pytest.fixture

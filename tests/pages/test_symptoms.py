@@ -1,46 +1,54 @@
-"""Finding a case by its symptom."""
+"""Finding a case by its symptom: the list of the families, and a page of each."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
+from clinic.pages.case_page import case_page, telling
 from clinic.pages.cases import CasePage
-from clinic.pages.symptoms import HEADINGS, symptom_problems, symptoms_page
-from clinic.record.case import Case, load_case
-from clinic.record.problem import CaseError
-from helpers import tiny_case
+from clinic.pages.symptoms import symptom_pages
+from clinic.proof.evidence import collect
+from clinic.proof.experiments import differential
+from clinic.record.families import families
+from clinic.work.cache import Cache
+from helpers import page_of, tiny_case
+
+STILL = "still: {share-a-bit: No motor.}"
+STILL = "still: {share-a-bit: No motor.}"
+TELLS = f"family: falls-through\ntelling: {{says: contacts at the start, expr: model.nu, below: 1, {STILL}}}"
 
 
-def looking(root: Path, looks: str) -> Case:
-    return tiny_case(root, ("tags: [contact]", f"tags: [contact]\nlooks: {looks}"))
+def test_a_case_without_a_family_stands_at_the_end(tmp_path: Path) -> None:
+    pages = symptom_pages([CasePage(tiny_case(tmp_path), "", "It falls.", {})], {None: None})
+    listed = pages["symptoms.md"].decode()
+    assert "falls through the floor" in listed.partition("## Something else")[2]
+    assert listed.count("No case yet.") == len(families())
+    assert list(pages) == ["symptoms.md"]
 
 
-def page_with(case: Case) -> str:
-    return symptoms_page([CasePage(case, "", "It falls.", {})])
+def test_a_family_has_its_causes_the_procedure_and_what_it_prints(tmp_path: Path) -> None:
+    case = tiny_case(tmp_path, ("tags: [contact]", f"tags: [contact]\n{TELLS}"))
+    told, problems = differential("falls-through", [case], Cache(tmp_path / "cache"))
+    assert problems == []
+    evidence = collect(case)
+    shown = CasePage(case, "", "It falls.", {}, telling(case, evidence))
+    pages = {name: page.decode() for name, page in symptom_pages([shown], {"falls-through": told}).items()}
+    listed, page = pages["symptoms.md"], pages["symptoms/falls-through.md"]
+    assert "(cases/falling-box/index.md)" in listed.partition("{ #falls-through }")[2].partition("\n## ")[0]
+    assert "symptoms/falls-through.md" in listed
+    assert "Contacts at the start: below 1." in page
+    assert "rows = [  # the case" in page
+    assert "falling-box = 0\nit is falling-box\n" in page
+    assert "after the repair `share-a-bit`. No motor." in page
+    assert "](../rules/masks.md)" in page
 
 
-def test_a_case_that_nobody_would_find_is_a_problem_and_stands_at_the_end(tmp_path: Path) -> None:
-    case = tiny_case(tmp_path)
-    assert [(problem.where, problem.repair) for problem in symptom_problems(case)] == [("looks", "add `looks: [...]`")]
-    assert "falls through the floor" in page_with(case).partition("## Something else")[2]
-
-
-def test_a_look_that_does_not_exist_is_a_problem(tmp_path: Path) -> None:
-    with pytest.raises(CaseError, match="looks"):
-        looking(tmp_path, "[smells]")
-
-
-def test_every_case_of_the_clinic_has_a_place(slug: str, root: Path) -> None:
-    assert list(symptom_problems(load_case(root / "cases" / slug))) == []
-
-
-def test_the_page_lists_a_case_under_each_of_its_looks(tmp_path: Path) -> None:
-    case = looking(tmp_path, "[sags, explodes]")
-    page = page_with(case)
-    assert list(symptom_problems(case)) == []
-    assert [heading.title for heading in HEADINGS.values() if f"## {heading.title} {{" not in page] == []
-    for look in ("sags", "explodes"):
-        part = page.partition(f"{{ #{look} }}")[2].partition("\n## ")[0]
-        assert f"[1. A box falls through the floor](cases/{case.slug}/index.md)" in part
-    assert page.count("No case yet.") == len(HEADINGS) - 2
+def test_a_case_links_to_its_family_in_the_open_and_tells_its_row_folded(tmp_path: Path) -> None:
+    case = tiny_case(tmp_path, ("tags: [contact]", f"tags: [contact]\n{TELLS}"))
+    told, _ = differential("falls-through", [case], Cache(tmp_path / "cache"))
+    opened, _, folded = case_page(case, collect(case), {}, {case.slug: case}, told).partition("???")
+    assert "**Is it your model?** [It falls or passes through](../../symptoms/falls-through.md)" in opened
+    assert "ontacts at the start" not in opened
+    assert "Contacts at the start: below 1." in folded
+    assert "| **this one** | 0\u00a0\u2713 |" in folded
+    assert "Is it your model" not in page_of(tiny_case(tmp_path / "other"), collect(case))

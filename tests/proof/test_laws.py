@@ -41,7 +41,6 @@ NEAR = ("[1, 2, 4, 8]", "[1, 2, 3.94, 4.06, 8]")
 FAR = ("[1, 2, 4, 8]", "[1, 2, 3.9, 4.1, 8]")
 APART = ("title: Gravity and the fall", "title: Gravity and the fall\n    apart: It is slow.")
 JUDGED_NEAR = "expected points judged near the line on both sides, by their end"
-NO_FILM = ("film: {}\n", "")
 SPACE = "\u00a0"
 EXPLOSIVE = (
     '<body><joint type="slide" stiffness="1e9" springref="1"/><geom size="0.1" mass="0.001" pos="9 0 9"/></body>'
@@ -172,9 +171,9 @@ def test_a_breach_tells_file_and_line(tmp_path: Path) -> None:
         ),
         pytest.param(
             "swept",
-            [("no_sweep: The masks are not a number.\n", "")],
-            ["sweep: neither; expected `sweep`, or the reason why there is none in `no_sweep`; give one of them"],
-            id="neither-a-sweep-nor-a-reason",
+            [("no_sweep:", f"{SWEEP}no_sweep:"), STRICT],
+            ["sweep: both; expected `sweep`, or the reason why there is none in `no_sweep`; give one of them"],
+            id="a-sweep-and-a-reason-for-none",
         ),
         pytest.param(
             "swept",
@@ -256,9 +255,6 @@ def test_a_breach_tells_file_and_line(tmp_path: Path) -> None:
             [("film: {}", "film: {}\nexempt: {lasting: It tips over in the end.}")],
             ["exempt.lasting: a law that it obeys; expected an exemption from a law that the case breaks; remove it"],
             id="an-exemption-that-is-not-needed",
-        ),
-        pytest.param(
-            "filmed", [NO_FILM], ["film: nothing; expected a film of the model; add `film`"], id="no-film-of-a-model"
         ),
     ],
 )

@@ -26,12 +26,7 @@ MISTAKES = {
     "signal": (RECORD, "body(box)", "body(bix)", "bix"),
     "prose": (RECORD, "broken.contacts.max", "broken.contact.max", "contact"),
     "claim": (RECORD, "[0.045, 0.051]", "[0.045, 0.046]", "height (final) = 0.04"),
-    "look-alike": (
-        RECORD,
-        "no_sweep:",
-        "alike: {cases: [odd-script], path: ncon, above: 1}\nno_sweep:",
-        "model",
-    ),
+    "telling": (RECORD, "no_sweep:", "family: sinks\ntelling: {says: x, expr: deep, above: 1}\nno_sweep:", "'deep'"),
 }
 
 

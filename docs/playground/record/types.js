@@ -56,7 +56,7 @@
  * @property {{may: string[]}} task
  * @property {Remedy[]} fixes
  * @property {Remedy[]} refuted
- * @property {string} camera
+ * @property {string | null} camera the record's own; null for a view of all
  * @property {number} speed simulated seconds a second
  * @property {string[]} telling the overlays that show the cause
  * @property {{title: string, text: string}[]} hints

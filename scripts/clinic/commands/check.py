@@ -9,13 +9,12 @@ from typing import Any
 
 from clinic.pages.case_files import files_of_case
 from clinic.pages.case_page import case_page
-from clinic.pages.symptoms import symptom_problems
 from clinic.pages.text.manual import manual_problems
 from clinic.proof.evidence import Evidence
-from clinic.proof.experiments import ALL, compare_alike, measure_case
+from clinic.proof.experiments import ALL, differential, measure_case
 from clinic.proof.laws import LAWS, breaches
-from clinic.proof.lookalike import alike_problems
-from clinic.record.case import Case, read_cases
+from clinic.proof.model_problems import check_against_model
+from clinic.record.case import Case, Reading, read_case, read_cases
 from clinic.record.problem import CaseError, Problem, problems_by_case
 from clinic.work.cache import Cache
 
@@ -52,9 +51,9 @@ def check_cases(root: Path, slugs: Iterable[str], cache: Cache) -> Iterator[Repo
     """Reads, runs and judges the cases of a checkout, one after the other."""
     read, problems = read_cases(root / "cases")
     known = {case.slug: case for case in read}
-    found = problems_by_case([*problems, *alike_problems(known)])
+    found = problems_by_case(problems)
     for slug in slugs:
-        yield _check(slug, known, found.get(slug, []), cache)
+        yield _check(root, slug, known, found.get(slug, []), cache)
 
 
 def report_data(report: Report) -> dict[str, Any]:
@@ -75,21 +74,36 @@ def report_data(report: Report) -> dict[str, Any]:
     }
 
 
-def _check(slug: str, known: Mapping[str, Case], problems: list[Problem], cache: Cache) -> Report:
+def _further_problems(reading: Reading) -> list[Problem]:
+    """What the models of a case that could not be read say about it all the same."""
+    case = reading.case
+    if case is None or case.record.source not in case.texts:
+        return []
+    try:
+        check_against_model(case)
+    except CaseError as error:
+        return reading.own(error.problems)
+    return []
+
+
+def _check(root: Path, slug: str, known: Mapping[str, Case], problems: list[Problem], cache: Cache) -> Report:
     case = known.get(slug)
     if case is None:
-        return Report(slug, None, None, tuple(problems))
-    problems = [*problems, *manual_problems(case), *symptom_problems(case)]
+        return Report(
+            slug, None, None, tuple(sorted({*problems, *_further_problems(read_case(root / "cases" / slug))}))
+        )
+    problems = [*problems, *manual_problems(case)]
     try:
         files = files_of_case(case, cache)
     except CaseError as error:
         return Report(slug, case, None, tuple(sorted({*problems, *error.problems})))
     evidence = measure_case(case, cache, ALL)
-    alike, unclear = (None, []) if problems else compare_alike(case, known, cache)
-    broken = [*breaches(case, evidence, *LAWS), *unclear]
+    family = case.record.family
+    told, unclear = (None, []) if family is None else differential(family, known.values(), cache)
+    broken = [*breaches(case, evidence, *LAWS), *problems_by_case(unclear).get(slug, [])]
     if set(case.record.see) <= known.keys():
         try:
-            case_page(case, evidence, files, known, alike)
+            case_page(case, evidence, files, known, told)
         except CaseError as error:
             problems += error.problems
     return Report(slug, case, evidence, tuple(sorted(set(problems))), tuple(sorted(set(broken))))

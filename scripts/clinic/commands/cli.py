@@ -37,16 +37,22 @@ def new(
     slug: Annotated[str, typer.Argument(help="The folder's name: words that name the symptom, joined by hyphens.")],
     title: Annotated[str, typer.Option(help="The symptom as a sentence, without a full stop.", prompt="The symptom")],
     kind: Annotated[Literal["model", "python", "javascript"], typer.Option(help="Where the bug lives.")] = "model",
+    family: Annotated[str, typer.Option(help="The symptom's family: sags, slips, ...; asked for when left out.")] = "",
 ) -> None:
     """Write the folder of a new case, which passes every law until you put your bug into it."""
     from clinic.commands.scaffold import write_case
     from clinic.pages.schema import write_schema
+    from clinic.record.families import families, likely_families
 
     root = project_root()
-    write_case(root, slug, title, kind)
+    if not family:
+        guess = [*likely_families(title), *families()][0]
+        family = typer.prompt("Its family", guess) if sys.stdin.isatty() else guess
+    write_case(root, slug, title, kind, family)
     write_schema(root)
     print(
-        f"cases/{slug}/ passes every law: clinic check {slug}. Now put your bug into it; `make serve` shows the page."
+        f"cases/{slug}/, of the family {family}, passes every law: clinic check {slug}. Now put your bug into it; "
+        "`make serve` shows the page."
     )
 
 
@@ -73,7 +79,7 @@ def check(
     wanted = [folder.name for folder in folders(root, slugs or [])]
     checking = check_cases(root, wanted, Cache(cache_folder(root)))
     reports = list(track(checking, "checking", len(wanted), console=err, transient=True, disable=not err.is_terminal))
-    reports.sort(key=lambda report: report.case.record.number if report.case else 0)
+    reports.sort(key=lambda report: report.case.rank if report.case else (0.0, report.slug))
     if as_json:
         _print_json([report_data(report) for report in reports])
     else:

@@ -16,7 +16,7 @@ Rules = Annotated[list[str], typer.Option(help="Only this rule; may be repeated.
 @app.command()
 def diagnose(
     model: Annotated[str, typer.Argument(help="An MJCF or URDF file; `-` reads standard input.")],
-    symptom: Annotated[str, typer.Option(help="What you see: explodes, slips, sags, ... Its causes come first.")] = "",
+    symptom: Annotated[str, typer.Option(help="What you see, as slips, or in your words: its causes come first.")] = "",
     keyframe: Annotated[str | None, typer.Option(help="Start from this keyframe, by name or number.")] = None,
     ctrl: Annotated[list[str], typer.Option(help="name=value, or a CSV or NPZ with a column `time`.")] = [],  # noqa: B006
     duration: Annotated[float, typer.Option(min=0.01, max=60, help="How long to let it go, in s.")] = 2.0,
@@ -30,13 +30,14 @@ def diagnose(
 ) -> None:
     """Say what is wrong with your own model; exit code 0 if nothing is found, 1 for a cause, 2 if it cannot be run."""
     from clinic.commands import terminal
-    from clinic.commands.diagnosis_options import OptionError, check_names, start_of
+    from clinic.commands.diagnosis_options import OptionError, check_rules, family_of, start_of
     from clinic.diagnosis.process import DiagnosisError
     from clinic.diagnosis.process import diagnose as run
 
     err = terminal.console(stderr=True)
     try:
-        check_names(symptom, [*select, *ignore])
+        check_rules([*select, *ignore])
+        symptom = family_of(symptom)
         start = start_of(keyframe, ctrl, duration, seed, model)
         source = sys.stdin.read() if model == "-" else model
         if model == "-" and not source.lstrip("\ufeff \r\n\t").startswith("<"):

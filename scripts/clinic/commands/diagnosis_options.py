@@ -9,7 +9,7 @@ from pathlib import Path
 
 from clinic.diagnosis.rules import Rule, rules
 from clinic.diagnosis.simulation import Start
-from clinic.record.families import families
+from clinic.record.families import families, likely_families
 
 
 class OptionError(ValueError):
@@ -79,14 +79,27 @@ def _series(path: Path) -> list[tuple[float, Mapping[str, float]]]:
     return [(time, {name: column[i] for name, column in columns.items()}) for i, time in enumerate(times)]
 
 
-def check_names(symptom: str, chosen: Iterable[str]) -> None:
-    """Whether a symptom and rules are known.
+def family_of(symptom: str) -> str:
+    """The family that a symptom names, or that its words speak of; empty for an empty one.
+
+    Raises:
+        OptionError: If there is none.
+    """
+    if not symptom or symptom in families():
+        return symptom
+    if not (found := likely_families(symptom)):
+        raise OptionError(
+            f"--symptom {symptom}: expected one of {', '.join(families())}, or what you see in your words"
+        )
+    return found[0]
+
+
+def check_rules(chosen: Iterable[str]) -> None:
+    """Whether rules are known.
 
     Raises:
         OptionError: If one is not; it names the nearest.
     """
-    if symptom and symptom not in families():
-        raise OptionError(f"--symptom {symptom}: expected one of {', '.join(families())}")
     for rule in chosen:
         if rule not in rules():
             raise OptionError(unknown(rule))

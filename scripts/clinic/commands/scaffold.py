@@ -28,11 +28,13 @@ TEMPLATES = jinja2.Environment(  # `{{ }}` is what a record's prose writes
 )
 
 
-def write_case(root: Path, slug: str, title: str, kind: str) -> Path:
+def write_case(root: Path, slug: str, title: str, kind: str, family: str) -> Path:
     """Writes the folder of a new case, whole or not at all, and gives its place; `kind` is one of SOURCES.
 
+    `family` is the name of one.
+
     Raises:
-        CaseError: If the slug or the title will not do.
+        CaseError: If the slug, the title or the family will not do.
     """
     place = root / "cases" / slug
     if not SLUG.fullmatch(slug) or place.exists():
@@ -41,7 +43,7 @@ def write_case(root: Path, slug: str, title: str, kind: str) -> Path:
         repair = "name the symptom, as in box-falls-through-floor"
         raise CaseError([Problem(f"cases/{slug}", 1, "", found, expected, repair)])
     place.mkdir()
-    for name, text in case_texts(slug, title, kind, free_number(root)).items():
+    for name, text in case_texts(slug, title, kind, free_number(root), family).items():
         (place / name).write_text(text, encoding="utf-8")
     try:
         load_case(place)
@@ -51,12 +53,13 @@ def write_case(root: Path, slug: str, title: str, kind: str) -> Path:
     return place
 
 
-def case_texts(slug: str, title: str, kind: str, number: int) -> dict[str, str]:
+def case_texts(slug: str, title: str, kind: str, number: int, family: str) -> dict[str, str]:
     """The files of a new case, by name."""
     sentence = " ".join(title.split()).removesuffix(".")
     quoted = yaml.safe_dump(sentence, allow_unicode=True, width=200).removesuffix("...\n").strip()
     source = SOURCES[kind]
     words = {"slug": slug, "title": quoted, "number": number, "modeline": MODELINE, "source": source, "kind": kind}
+    words["family"] = family
     return {name: TEMPLATES.get_template(name).render(words) for name in sorted({RECORD, "model.xml", source})}
 
 

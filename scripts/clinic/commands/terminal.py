@@ -38,7 +38,7 @@ def cases_table(cases: Iterable[Case]) -> Table:
     """Every case in a row."""
     table = Table(Column("number", justify="right"), "slug", "title", "tags")
     for case in cases:
-        table.add_row(str(case.record.number), case.slug, Text(case.record.title), ", ".join(case.record.tags))
+        table.add_row(str(case.record.number or ""), case.slug, Text(case.record.title), ", ".join(case.record.tags))
     return table
 
 
@@ -48,7 +48,7 @@ def reports_table(reports: Iterable[Report]) -> Table:
     for report in reports:
         made = report.evidence.variants.values() if report.evidence else ()
         checks = sum(len(results) for variant in made for results in variant.checks.values())
-        number = str(report.case.record.number) if report.case else ""
+        number = str(report.case.record.number or "") if report.case else ""
         counts = {"mistake": len(report.problems), "broken law": len(report.breaches)}
         wrong = ", ".join(f"{count} {noun}{'s' * (count > 1)}" for noun, count in counts.items() if count)
         lacking = f": no {' and no '.join(report.case.record.lacking)}" if report.grade == "B" and report.case else ""
@@ -59,7 +59,7 @@ def reports_table(reports: Iterable[Report]) -> Table:
 
 def checks_table(case: Case, evidence: Evidence) -> Table:
     """Every check of every variant, with what was measured."""
-    title = Text(f"{case.record.number}. {case.record.title}", "bold")
+    title = Text(case.record.heading, "bold")
     table = Table("variant", "asks whether", "check", "measured", "holds", title=title, title_justify="left")
     for key, variant in evidence.variants.items():
         name = key if variant.kind == key else f"{key}, {variant.kind}"
@@ -80,7 +80,7 @@ def checks_table(case: Case, evidence: Evidence) -> Table:
 def case_text(case: Case, evidence: Evidence, answer: bool) -> Markdown:
     """The case to read: the symptom, and the folds if `answer` is asked for."""
     data = case_data(case, evidence, answer)
-    parts = [f"## {case.record.number}. {line(case.record.title)}"]
+    parts = [f"## {line(case.record.heading)}"]
     parts += [f"*{', '.join(case.record.tags)}* cases/{case.slug}/", data["symptom"]]
     if not answer:
         parts += [f"*Folded: {', '.join(FOLDS)}. Open them with `--answer`.*"]

@@ -14,6 +14,7 @@ from clinic.record.problem import MissingRequirementError
 
 WIDTH, HEIGHT = 480, 360
 SHADOW_SIZE, SHADOW_CLIP = 1024, 2.0  # smaller than the defaults: faster; wider: no speckles at the edge
+FREE = -1  # MuJoCo's own view of all, from the model's extent
 Image = NDArray[np.uint8]
 
 
@@ -48,10 +49,10 @@ def why_no_images() -> str:
         return str(error)
 
 
-def image(model: mujoco.MjModel, data: mujoco.MjData, camera: str) -> Image:
-    """Draws the camera's colour image, shape (HEIGHT, WIDTH, 3)."""
+def image(model: mujoco.MjModel, data: mujoco.MjData, camera: str | None) -> Image:
+    """Draws the camera's colour image, or a view of all without one, shape (HEIGHT, WIDTH, 3)."""
     with renderer(model) as draw:
-        draw.update_scene(data, camera)
+        draw.update_scene(data, FREE if camera is None else camera)
         pixels: Image = draw.render()
         return pixels
 

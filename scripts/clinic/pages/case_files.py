@@ -44,7 +44,7 @@ def drawing_tasks(case: Case, measured: Files) -> Iterator[Task]:
 
 def picture_tasks(case: Case) -> Iterator[Task]:
     """Tasks that draw the film and the pictures, which depend on the case alone."""
-    if case.record.film is not None:
+    if case.record.filmed is not None:
         yield case_task(case, "film", partial(_film, case), of=DRAWING)
     yield case_task(case, "pictures", partial(_pictures, case), of=DRAWING)
 

@@ -11,16 +11,16 @@ from clinic.engine.checks import expected, satisfies
 from clinic.engine.variant import diff, variants
 from clinic.pages.error_page import plain_page
 from clinic.pages.text import manual
-from clinic.pages.text.claim import TAKE_WORDS, taken
-from clinic.pages.text.markup import code, line
+from clinic.pages.text.claim import taken
 from clinic.pages.text.prose import markdown, opening, prose_problems
 from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence, VariantEvidence
-from clinic.proof.lookalike import LookalikeMatrix
+from clinic.proof.procedure import Answer, Differential
 from clinic.proof.prose_laws import PROSE
 from clinic.proof.releases import differing
 from clinic.proof.robustness import NUDGE, STARTS
 from clinic.record.case import Case
+from clinic.record.families import families
 from clinic.record.fields import Check
 from clinic.record.parts import Interval
 from clinic.record.problem import CaseError
@@ -33,7 +33,7 @@ Column = tuple[str, str, Interval | None]  # a number taken from a signal: the s
 
 
 def case_page(
-    case: Case, evidence: Evidence, files: Files, others: Mapping[str, Case], alike: LookalikeMatrix | None
+    case: Case, evidence: Evidence, files: Files, others: Mapping[str, Case], told: Differential | None
 ) -> str:
     """The Markdown of a case's page.
 
@@ -61,7 +61,9 @@ def case_page(
         smaller_steps=_smaller_steps(case, evidence),
         releases=_releases(case, evidence),
         steady=_steady(case, evidence),
-        matrix=None if alike is None else _matrix(alike, others),
+        family=None if record.family is None else families()[record.family],
+        telling=telling(case, evidence),
+        row=_row(case, told, others),
         table=_table(case, evidence),
         manual=[(manual.title(page), manual.address(page)) for page in record.manual],
         others=[others[slug] for slug in record.see],
@@ -72,7 +74,7 @@ def interim_page(case: Case, evidence: Evidence) -> str:
     """The Markdown of a case's page while what takes long is being measured."""
     text = '!!! info "Being measured"\n\n    Plots, pictures and what else takes longer appear here by themselves.\n\n'
     table = render("table", table=_table(case, evidence))
-    return plain_page(f"{case.record.number}. {case.record.title}", f"{text}What was measured:\n\n{table}")
+    return plain_page(case.record.heading, f"{text}What was measured:\n\n{table}")
 
 
 def _summary(case: Case, evidence: Evidence) -> str:
@@ -191,18 +193,29 @@ def _steady(case: Case, evidence: Evidence) -> str:
     return " ".join([said, *([f"({', '.join(shaken)}.)"] if shaken else []), *reasons])
 
 
-def _matrix(made: LookalikeMatrix, cases: Mapping[str, Case]) -> dict[str, Any]:
-    """The matrix of look-alikes as a table."""
-    members = [cases[slug] for slug in made.cases]
-    heads = [f"[{case.record.number}. {line(case.record.title)}](../{case.slug}/index.md)" for case in members]
-    rows = []
-    for case, values, holds in zip(members, made.measured, made.holds, strict=True):
-        alike = case.record.alike
-        assert alike is not None
-        cells = [
-            f"{'not measured' if value is None else quantity(value, '', 4)} {'✓' if hold else ''}".strip()
-            for value, hold in zip(values, holds, strict=True)
-        ]
-        measured = f"{code(alike.path)} {TAKE_WORDS[alike.take]} is {expected(alike, plain)}"
-        rows.append([measured, *cells])
-    return {"heads": heads, "rows": rows}
+def telling(case: Case, evidence: Evidence) -> str:
+    """What tells the case from others of its family, as Markdown; empty if nothing does."""
+    tells = case.record.telling
+    if tells is None:
+        return ""
+    words = markdown(tells.says, evidence, case)
+    words = words[0].upper() + words[1:]
+    if tells.expr is None:
+        return f"{words}."
+    side, bound = ("above", tells.above) if tells.above is not None else ("below", tells.below)
+    return f"{words}: {side} {quantity(float(bound or 0.0), tells.unit, 3)}."
+
+
+def _row(case: Case, told: Differential | None, others: Mapping[str, Case]) -> list[tuple[Case, str]]:
+    """The models of the family, each with what the case's own measurement gives for it."""
+    unit = case.record.telling.unit if case.record.telling else ""
+    cases = {name: others[name] for name in told.answers if name in others} if told else {}
+    return [(each, value_in(told.answers[name], case.slug, unit)) for name, each in cases.items() if told]
+
+
+def value_in(answer: Answer, slug: str, unit: str = "") -> str:
+    """What a case's measurement gives for a model."""
+    if slug not in answer.values:
+        return "\u2013"
+    mark = "\u00a0✓" if slug in answer.told else ""
+    return f"{quantity(answer.values[slug], unit, 3)}{mark}"

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import mujoco
 
-from clinic.pages.cases import CasePage
+from clinic.pages.cases import CasePage, Differentials
 from clinic.pages.code_fences import NAMED, run_fences
 from clinic.pages.error_page import error_page
 from clinic.pages.messages import load_messages, messages_page, provoke_messages, read_heard
@@ -16,7 +16,7 @@ from clinic.pages.reference import reference
 from clinic.pages.rules import rule_pages
 from clinic.pages.search_index import search_files
 from clinic.pages.storeys import storeys
-from clinic.pages.symptoms import symptoms_page
+from clinic.pages.symptoms import symptom_pages
 from clinic.pages.text.template import render
 from clinic.record.case import Case
 from clinic.record.families import families
@@ -31,13 +31,14 @@ STOREYS_MARK = "The picture is made by the build."
 
 
 def overviews(
-    root: Path, shown: Sequence[CasePage], known: Mapping[str, Case], cache: Cache
+    root: Path, shown: Sequence[CasePage], told: Differentials, known: Mapping[str, Case], cache: Cache
 ) -> tuple[Files, list[Problem]]:
     """The files, and the problems of those that cannot be made, which hold these problems instead.
 
     Args:
         root: The checkout.
         shown: The cases that have a page.
+        told: What tells the causes of each family apart.
         known: Every case whose record can be read, by slug.
         cache: Where finished work is kept.
     """
@@ -46,7 +47,7 @@ def overviews(
     made = {f"cases/{slug}/{name}": text for slug, files in screenings.items() for name, text in files.items()}
     made["index.md"] = render("home", shown=shown, families=families(), engine=mujoco.__version__).encode()
     made |= rule_pages(known, cache)
-    made["symptoms.md"] = symptoms_page(shown).encode()
+    made |= symptom_pages(shown, told)
     screened = [case for case in cases if case.record.run is None or case.slug in screenings]
     parts = {
         TRIAGE_MARK: lambda: table(screened, screenings),

@@ -44,8 +44,8 @@ def playground(case: Case, cases: Iterable[Case]) -> bytes:
         "fixes": [_remedy(case, remedy) for remedy in record.fixes],
         "refuted": [_remedy(case, remedy) for remedy in record.refuted],
         "camera": record.picture.camera,
-        "speed": record.film.speed if record.film else 1.0,
-        "telling": record.film.overlays if record.film else [],
+        "speed": record.filmed.speed if record.filmed else 1.0,
+        "telling": record.filmed.overlays if record.filmed else [],
         "hints": _hints(case),
         "explained": _explained(cases),
     }
@@ -109,6 +109,6 @@ def _explained(cases: Iterable[Case]) -> dict[str, list[dict[str, str]]]:
     made: dict[str, list[dict[str, str]]] = {}
     for case in cases:
         for name in case.record.warnings:
-            page = {"href": f"../{case.slug}/index.html", "title": f"{case.record.number}. {case.record.title}"}
+            page = {"href": f"../{case.slug}/index.html", "title": case.record.heading}
             made.setdefault(name, []).append(page)
     return made

@@ -21,7 +21,6 @@ ANSWERS = "javascripts/search/answers.js"
 SYNONYMS = Path(__file__).with_name("synonyms.toml")
 HEAD = re.compile(r"\A---\n(.*?)^---\n", re.DOTALL | re.MULTILINE)
 HEADING = re.compile(r"^#+ (.*?)(?: \{[^}]*\})?$", re.MULTILINE)
-SYMPTOMS = "symptoms.html"
 
 Document = dict[str, str]
 
@@ -71,8 +70,8 @@ def _address(one: CasePage) -> str:
 
 
 def _families(families: Mapping[str, Family]) -> Iterator[Document]:
-    for family in families.values():
-        yield {"kind": "symptom", "at": SYMPTOMS, "title": family.title, "words": "; ".join(family.words), "text": ""}
+    for name, family in families.items():
+        yield {"kind": "symptom", "at": f"symptoms/{name}.html", "title": family.title, "words": "; ".join(family.words), "text": ""}
 
 
 def _message(message: Message) -> Document:
@@ -85,7 +84,7 @@ def _message(message: Message) -> Document:
 def _pages(pages: Files) -> Iterator[Document]:
     """Each page by its title and description, found by its headings too."""
     for path, content in pages.items():
-        if not path.endswith(".md"):
+        if not path.endswith(".md") or path.startswith("symptoms/"):
             continue
         text = content.decode()
         head = HEAD.match(text)

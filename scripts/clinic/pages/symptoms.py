@@ -1,79 +1,57 @@
-"""Finding a case by its symptom: nine things that readers say, and the cases whose `looks` name them.
-
-A case without a place stands at the page's end, and `clinic check` reports it.
-"""
+"""Finding a case by its symptom: the list of the families, and a page of each that has a case."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any
 
-from clinic.pages.cases import CasePage
+from clinic.diagnosis.rules import rules
+from clinic.pages.case_page import value_in
+from clinic.pages.cases import CasePage, Differentials
 from clinic.pages.text.template import render
-from clinic.record.case import Case
-from clinic.record.fields import SymptomId
-from clinic.record.problem import Problem
+from clinic.proof.procedure import members
+from clinic.record.families import families
+from clinic.work.cache import Files
+
+PAGE = "symptoms/{family}.md"
 
 
-class Heading(NamedTuple):
-    """A symptom in a reader's words, and what to measure first."""
-
-    title: str
-    first: str
-
-
-HEADINGS: dict[SymptomId, Heading] = {
-    "nothing-moves": Heading(
-        "Nothing moves",
-        "Print the forces: `data.qfrc_actuator`, `data.qfrc_bias`, `data.qfrc_constraint`. All zero: nothing acts. "
-        "Two that cancel: something holds.",
-    ),
-    "moves-wrong": Heading(
-        "It moves, or lies, where it should not",
-        "Draw the frames of bodies and axes of joints, or print `data.xmat` and `data.xaxis` before the first step.",
-    ),
-    "passes-through": Heading(
-        "It passes through",
-        "Count the contacts, `data.ncon`, while it happens. None: no contact was looked for. Some: they were too weak.",
-    ),
-    "explodes": Heading(
-        "It explodes",
-        "Read `data.warning`, and look whether `data.time` goes back. Then run with a twentieth of the timestep.",
-    ),
-    "oscillates": Heading(
-        "It jitters or oscillates",
-        "Halve the timestep. A frequency and an amplitude that stay belong to the model: stiffness without damping.",
-    ),
-    "sags": Heading(
-        "It drifts, sags or slips",
-        "Compare what holds with what pulls: stiffness times error, or friction times normal force, with the weight.",
-    ),
-    "picture-wrong": Heading(
-        "The picture is wrong",
-        "Print the camera: `data.cam_xpos` and `data.cam_xmat`, after `mj_forward`. The physics is not touched by it.",
-    ),
-    "numbers-wrong": Heading(
-        "The numbers are wrong",
-        "Compute one of them in a second way, by name, in the same step, right after `mj_forward`.",
-    ),
-    "worked-yesterday": Heading(
-        "It worked yesterday, or elsewhere",
-        "Change one thing at a time: the model, the code, MuJoCo's version, the speed at which it runs. Log all four.",
-    ),
-}
+def symptom_pages(shown: Sequence[CasePage], told: Differentials) -> Files:
+    """The list of the families, and the page of each that has a case."""
+    by_slug = {one.case.slug: one for one in shown}
+    own = {name: [by_slug[case.slug] for case in members(name, [one.case for one in shown])] for name in families()}
+    others = [one for one in shown if one.case.record.family is None]
+    listed = render("symptoms", families=families(), own=own, others=others)
+    made = {"symptoms.md": listed.encode()}
+    for name, causes in own.items():
+        if causes:
+            made[PAGE.format(family=name)] = _page(name, causes, told).encode()
+    return made
 
 
-def symptom_problems(case: Case) -> Iterator[Problem]:
-    """Whether no reader would find the case by its symptom."""
-    if not case.record.looks:
-        yield case.problem(("looks",), "nothing", f"one or more of: {', '.join(HEADINGS)}", "add `looks: [...]`")
+def _page(name: str, causes: list[CasePage], told: Differentials) -> str:
+    found = told[name]
+    measured = [one for one in causes if found and one.case.slug in found.answers]
+    return render(
+        "family",
+        symptom=name,
+        family=families()[name],
+        causes=causes,
+        code=found.code if found else "",
+        measured=measured,
+        matrix=[_row(one, measured, told) for one in measured],
+        printed=found.answers[measured[0].case.slug].printed if found and measured else "",
+        rules=[rule for rule in rules().values() if name in rule.families],
+    )
 
 
-def symptoms_page(shown: Sequence[CasePage]) -> str:
-    """The Markdown of the page."""
-    groups: list[tuple[str, Heading, list[CasePage]]] = [
-        (look, heading, [one for one in shown if look in one.case.record.looks]) for look, heading in HEADINGS.items()
-    ]
-    if others := [one for one in shown if not one.case.record.looks]:
-        groups.append(("other", Heading("Something else", "These have no place yet."), others))
-    return render("symptoms", groups=groups)
+def _row(row: CasePage, columns: list[CasePage], told: Differentials) -> dict[str, Any]:
+    """What the measurement of one case gives for the broken model of each."""
+    tells, found = row.case.record.telling, told[row.case.record.family]
+    assert tells is not None
+    assert found is not None
+    return {
+        "case": row.case,
+        "unit": tells.unit,
+        "cells": [value_in(found.answers[c.case.slug], row.case.slug) for c in columns],
+    }

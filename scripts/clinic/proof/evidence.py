@@ -99,7 +99,7 @@ class Evidence(Strict):
     """
 
     case: str
-    number: int
+    number: int | None
     engine: str
     package: str = "mujoco"
     snippet: str | None
@@ -121,7 +121,7 @@ def collect(case: Case) -> Evidence:
     if untried := list(trial_problems(case)):
         raise CaseError(untried)
     if missing := missing_requirement(case):
-        raise MissingRequirementError(f"case {case.record.number} is not measured: {missing.found}")
+        raise MissingRequirementError(f"case {case.record.number or case.slug} is not measured: {missing.found}")
     observed: dict[str, VariantEvidence] = {}
     problems: list[Problem] = []
     for variant in variants(case):

@@ -1,4 +1,4 @@
-"""Every experiment on a case, cut into tasks: the variants, sweeps, other starts, and the comparison of look-alikes.
+"""Every experiment on a case, cut into tasks: variants, sweeps, other starts, and what tells a family's causes apart.
 
 A task's result is kept under a key made of all that it depends on, so that a change of prose runs nothing, and a change
 of one case runs that case's tasks alone. Tasks that are not kept run in parallel.
@@ -13,9 +13,18 @@ from pydantic import TypeAdapter
 from pydantic_core import to_json
 
 from clinic.engine import node
-from clinic.engine.signals import SignalError
+from clinic.engine.script import ScriptError
 from clinic.proof.evidence import Evidence, collect, missing_requirement
-from clinic.proof.lookalike import LookalikeMatrix, matrix, matrix_problems
+from clinic.proof.model_problems import check_against_model
+from clinic.proof.procedure import (
+    Answer,
+    Differential,
+    asked,
+    members,
+    procedure,
+    procedure_problems,
+    run_procedure,
+)
 from clinic.proof.releases import on_releases
 from clinic.proof.robustness import Robustness, robustness
 from clinic.proof.sweep import SweepEvidence, measure_sweep
@@ -27,7 +36,8 @@ from clinic.work.task import Task, run_tasks
 
 EVIDENCE = "evidence.json"
 WORDS = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "no_sweep", "formulas"}
-WORDS |= {"tags", "phrases", "looks", "manual", "see", "alike", "exempt", "loose"}
+WORDS |= {"tags", "phrases", "family", "manual", "see", "telling", "exempt", "loose"}
+ANSWERS = TypeAdapter(dict[str, Answer])
 ROBUST = TypeAdapter(dict[str, Robustness])
 LOOSE = TypeAdapter(list[Loose] | None)
 SHOWN = ("sweeps", "robustness")  # what a page shows, beside the variants
@@ -120,20 +130,48 @@ def case_task(case: Case, kind: str, make: Callable[[], Files], *part: object, o
     return Task(case.slug, kind, key_of(kind, *whole, of=of), make)
 
 
-def compare_alike(case: Case, cases: Mapping[str, Case], cache: Cache) -> tuple[LookalikeMatrix | None, list[Problem]]:
-    """The measurements that tell a case from its look-alikes, None if it has none, and what they do not tell apart."""
-    if case.record.alike is None:
-        return None, []
-    named = [case, *(cases[slug] for slug in case.record.alike.cases)]
-    members = sorted(named, key=lambda member: member.record.number)
-    asked = [[m.slug, m.text, m.record.model_dump(mode="json", include={"run", "alike"})] for m in members]
-    key = key_of("alike", asked, of="proof")
+def differential(family: str, cases: Iterable[Case], cache: Cache) -> tuple[Differential, list[Problem]]:
+    """What tells the causes of a family apart, and where it does not.
+
+    Cases whose models cannot be compiled, or whose measurement does not run, are left out.
+    """
+    own = [case for case in members(family, cases) if _compiles(case)]
     try:
-        files = cache.remember(key, partial(_json_file, "matrix.json", matrix, members))
-    except SignalError as error:
-        return None, [case.problem(("alike", "path"), error.found, error.expected, error.repair)]
-    made = LookalikeMatrix.model_validate_json(files["matrix.json"])
-    return made, list(matrix_problems(case, made))
+        made = _answers(family, own, cache)
+    except ScriptError:
+        problems: list[Problem] = []
+        sound = []
+        for case in own:
+            try:
+                _answers(family, [case], cache)
+                sound.append(case)
+            except ScriptError as error:
+                wanted = "an expression that runs on every model of the family"
+                problems.append(
+                    case.problem(("telling", "expr"), error.found, wanted, "correct it, or the family's probe")
+                )
+        if len(sound) == len(own):
+            raise
+        told, more = differential(family, sound, cache)
+        return told, problems + more
+    return made, list(procedure_problems(own, made.answers))
+
+
+def _answers(family: str, cases: list[Case], cache: Cache) -> Differential:
+    code, models = procedure(family, cases), asked(cases)
+    if not models:
+        return Differential(code="", answers={})
+    make = partial(_json_file, "answers.json", run_procedure, code, models)
+    files = cache.remember(key_of("family", code, models, of="proof"), make)
+    return Differential(code=code, answers=ANSWERS.validate_json(files["answers.json"]))
+
+
+def _compiles(case: Case) -> bool:
+    try:
+        check_against_model(case)
+    except CaseError:
+        return False
+    return True
 
 
 def _json_file(name: str, make: Callable[..., object], *of: object) -> Files:

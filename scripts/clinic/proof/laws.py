@@ -113,11 +113,11 @@ def steady(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 
 def swept(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """The cause is a law: each prediction agrees, moved by 5 % it does not, and rivals miss; or `no_sweep` says why."""
+    """The cause is a law: each prediction agrees, moved by 5 % it does not, and rivals miss."""
     record = case.record
-    if bool(record.sweep) == (record.no_sweep is not None):
-        given, wanted = "both" if record.sweep else "neither", "`sweep`, or the reason why there is none in `no_sweep`"
-        yield case.problem(("sweep",), given, wanted, "give one of them")
+    if record.sweep and record.no_sweep is not None:
+        wanted = "`sweep`, or the reason why there is none in `no_sweep`"
+        yield case.problem(("sweep",), "both", wanted, "give one of them")
     for name, sweep in record.sweep.items():
         where: Where = ("sweep", name, "prediction")
         found, telling = evidence.sweep[name], "choose points that can tell"
@@ -160,9 +160,7 @@ def tightness(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 
 def filmed(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """A model case has a film, a code case none."""
-    if case.record.model is not None and case.record.film is None:
-        yield case.problem(("film",), "nothing", "a film of the model", "add `film`")
+    """A code case has no film."""
     if case.record.model is None and case.record.film is not None:
         yield case.problem(("film",), "a film of a script", "none: there is nothing to see", "remove `film`")
 

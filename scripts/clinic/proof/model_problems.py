@@ -61,7 +61,8 @@ def _script_problems(case: Case) -> Iterator[Problem]:
         except ValueError as error:
             yield _compile_problem(case, scene, (), error)
             return
-        if missing := missing_element(model, "camera", case.record.picture.camera):
+        camera = case.record.picture.camera
+        if camera is not None and (missing := missing_element(model, "camera", camera)):
             yield case.problem(("picture", "camera"), *missing)
 
 
@@ -88,7 +89,9 @@ def _variant_problems(case: Case, variant: Variant) -> Iterator[Problem]:
                 bind(parse_path(f"joint({signal.joint}).qpos[{signal.index}]"), model, data)
         except SignalError as error:
             yield case.problem(("signals", name), error.found, error.expected, error.repair)
-    named: list[tuple[Where, str, str]] = [(("picture", "camera"), "camera", record.picture.camera)]
+    named: list[tuple[Where, str, str]] = []
+    if record.picture.camera is not None:
+        named.append((("picture", "camera"), "camera", record.picture.camera))
     for name, signal in record.signals.items():
         if isinstance(signal, RowSignal):
             named.append((("signals", name, "camera"), "camera", signal.camera))

@@ -145,6 +145,8 @@ def prose_of(case: Case) -> Iterator[tuple[Where, str]]:
     """Every prose field of the record with its place."""
     for name in PROSE:
         yield (name,), getattr(case.record, name)
+    if case.record.telling is not None:
+        yield ("telling", "says"), case.record.telling.says
     for index, remedy in enumerate(case.record.refuted):
         yield ("refuted", index, "why"), remedy.why
     for name, sweep in case.record.sweep.items():

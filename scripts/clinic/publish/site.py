@@ -30,8 +30,8 @@ def make_site(root: Path, cache: Cache) -> Site:
     known = {case.slug: case for case in read}
     unread = sorted(set(slugs(root)) - known.keys())
     made: Files = bundle.playground_files(root, cache)
-    shown, wrong = case_pages(root, read, set(unread), cache, bundle.START in made)
-    files, others = overviews(root, shown, known, cache)
+    shown, told_apart, wrong = case_pages(root, read, cache, bundle.START in made)
+    files, others = overviews(root, shown, told_apart, known, cache)
     problems += [*wrong, *others]
     made |= files
     made |= bundle.diagnosis_files(root, cache)
@@ -39,7 +39,7 @@ def make_site(root: Path, cache: Cache) -> Site:
     for one in shown:
         made |= {f"{FOLDER.format(slug=one.case.slug)}/{name}": content for name, content in one.files.items()}
     pages, told = {one.case.slug: one.page for one in shown}, problems_by_case(problems)
-    headings = {case.slug: f"{case.record.number}. {case.record.title}" for case in read}
+    headings = {case.slug: case.record.heading for case in read}
     headings |= {slug: slug for slug in unread}
     for slug, heading in headings.items():
         if slug in pages:

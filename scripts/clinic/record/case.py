@@ -1,6 +1,6 @@
 """A case: its folder, read and validated, with every problem reported at once.
 
-The stages, in order; each needs the one before:
+The stages, in order; each needs the one before, but for what is sound of a record with mistakes:
 
 1. the folder: its name, its `case.yaml`, plain text files only (`folder.py`);
 2. the YAML: parses, no key twice (`yaml_lines.py`);
@@ -15,11 +15,13 @@ from __future__ import annotations
 
 import itertools
 import json
+import math
 import re
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import yaml
 from pydantic import ValidationError
@@ -31,6 +33,7 @@ from clinic.record.fields import ExpressionSignal, PathSignal, Record, StartsSig
 from clinic.record.folder import RECORD, folder_problems
 from clinic.record.parts import WARNINGS
 from clinic.record.problem import CaseError, Problem, article, closest, listed
+from clinic.record.salvage import Salvage, salvage
 from clinic.record.sweep import Prediction
 from clinic.record.yaml_lines import Lines, Where, dotted, read_yaml, yaml_problem
 
@@ -60,6 +63,11 @@ class Case:
         return self.texts[self.record.source]
 
     @property
+    def rank(self) -> tuple[float, str]:
+        """Its place among all: by number, those without one last."""
+        return self.record.number or math.inf, self.slug
+
+    @property
     def file(self) -> str:
         """The record's path as shown to the author."""
         return f"cases/{self.slug}/{RECORD}"
@@ -74,23 +82,52 @@ def load_case(folder: Path) -> Case:
     """Reads and validates one case.
 
     Raises:
-        CaseError: With all problems found by the first stage that found any.
+        CaseError: With all problems of the record and its files.
     """
+    reading = read_case(folder)
+    if reading.case is None or reading.problems:
+        raise CaseError(reading.problems)
+    return reading.case
+
+
+class Reading(NamedTuple):
+    """A case as far as it can be read.
+
+    Attributes:
+        case: None if too little can be; else it has stand-ins for what is wrong with its record.
+        problems: All that is wrong with the record and its files.
+        salvage: The sound part of a record with mistakes.
+    """
+
+    case: Case | None
+    problems: list[Problem]
+    salvage: Salvage | None = None
+
+    def own(self, problems: Iterable[Problem]) -> list[Problem]:
+        """Those problems that are not of a stand-in."""
+        return [*problems] if self.salvage is None else self.salvage.own(problems)
+
+
+def read_case(folder: Path) -> Reading:
+    """Reads one case, and goes on to its files and references when its record has mistakes."""
     if problems := list(folder_problems(folder)):
-        raise CaseError(problems)
+        return Reading(None, problems)
     texts = {path.name: path.read_text(encoding="utf-8") for path in sorted(folder.iterdir())}
     file, text = f"cases/{folder.name}/{RECORD}", texts.pop(RECORD)
+    part = None
     try:
         data, lines = read_yaml(text)
         record = Record.model_validate_json(json.dumps(data, default=str))
     except (yaml.MarkedYAMLError, yaml.reader.ReaderError) as error:
-        raise CaseError([yaml_problem(file, text, error)]) from None
+        return Reading(None, [yaml_problem(file, text, error)])
     except ValidationError as error:
-        raise CaseError(field_problems(file, lines, error.errors(), data)) from None
+        problems, part = list(field_problems(file, lines, error.errors(), data)), salvage(data, error.errors())
+        if part is None:
+            return Reading(None, problems)
+        record = part.record
     case = Case(folder.name, record, texts, lines)
-    if problems := [*_file_problems(case), *_reference_problems(case)]:
-        raise CaseError(problems)
-    return case
+    reading = Reading(case, problems, part)
+    return reading._replace(problems=problems + reading.own([*_file_problems(case), *_reference_problems(case)]))
 
 
 def read_cases(root: Path) -> tuple[list[Case], list[Problem]]:
@@ -103,7 +140,7 @@ def read_cases(root: Path) -> tuple[list[Case], list[Problem]]:
         except CaseError as error:
             problems += error.problems
     problems += _relation_problems(cases, {path.name for path in root.iterdir()})
-    return sorted(cases, key=lambda case: case.record.number), problems
+    return sorted(cases, key=lambda case: case.rank), problems
 
 
 def _file_problems(case: Case) -> Iterator[Problem]:
@@ -191,13 +228,14 @@ def _relation_problems(cases: list[Case], slugs: set[str]) -> Iterator[Problem]:
     """Numbers taken twice, relatives that do not exist, and tags that misspell another."""
     users: dict[int, list[str]] = defaultdict(list)
     for case in cases:
-        users[case.record.number].append(case.slug)
+        if case.record.number is not None:
+            users[case.record.number].append(case.slug)
     free = next(n for n in itertools.count(1) if n not in users)
     tags = Counter(tag for case in cases for tag in case.record.tags)
     shared = sorted(tag for tag, count in tags.items() if count > 1)
     for case in cases:
         number, others = case.record.number, sorted(slugs - {case.slug})
-        if same := [slug for slug in users[number] if slug != case.slug]:
+        if number and (same := [slug for slug in users[number] if slug != case.slug]):
             found, repair = f"{number}, the number of {listed(same)}", f"let the newer take {free}"
             yield case.problem(("number",), found, "a number of its own", repair)
         for index, slug in enumerate(case.record.see):

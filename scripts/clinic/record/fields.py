@@ -5,26 +5,31 @@ The descriptions below are the record's reference; `clinic reference` prints the
 
 from __future__ import annotations
 
+import difflib
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
-from clinic.record.parts import Comparison, Edit, Identifier, Interval, Name, Strict, Take, Taken, Text
+from clinic.record.families import families, likely_families
+from clinic.record.parts import Comparison, Edit, Identifier, Interval, Name, Strict, Taken, Text
 from clinic.record.sweep import Sweep
 
 FileName = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]+\.(?:csv|json|mjs|py|txt|xml|yaml)$")]
-SymptomId = Literal[
-    "nothing-moves",
-    "moves-wrong",
-    "passes-through",
-    "explodes",
-    "oscillates",
-    "sags",
-    "picture-wrong",
-    "numbers-wrong",
-    "worked-yesterday",
-]
+FILM_SECONDS = 6.0  # how long a film lasts of which the record says nothing
+Element = Literal["actuator", "body", "camera", "dof", "geom", "joint", "sensor", "site", "tendon"]
 Law = Literal["lasting", "steady", "typed"]
+
+
+def _known_family(name: str) -> str:
+    """The name itself, if a family has it."""
+    if name not in families():
+        near = difflib.get_close_matches(name, families(), 2, 0.6) or likely_families(name)[:3]
+        repair = f"write {' or '.join(near)}" if near else "choose one"
+        raise ValueError(f"{name}, which is no family||one of {', '.join(families())}||{repair}")
+    return name
+
+
+FamilyName = Annotated[str, AfterValidator(_known_family), Field(json_schema_extra={"enum": list(families())})]
 ManualPage = Annotated[str, Field(pattern=r"^[A-Za-z0-9_/]+\.html(?:#[a-z0-9-]+)?$")]
 
 
@@ -32,12 +37,29 @@ class Check(Taken, Comparison):
     """One number taken from a signal, compared with a bound."""
 
 
-class Alike(Comparison):
-    """What tells a case from those that look like it: one measurement that holds for this case alone."""
+class Telling(Strict):
+    """What tells a case from the others of its family: one measurement, which holds for its broken model alone."""
 
-    cases: list[Identifier] = Field(min_length=1, description="Model cases with the same symptom; each names this one.")
-    path: Text = Field(description="A signal path that the models of all of them have.")
-    take: Take = Field(default="final", description="As in a check.")
+    says: Text = Field(description="What is measured, in words; of a code case, what to look for.")
+    expr: Text | None = Field(
+        default=None, description="A number, or one for each element: Python over what the family's `probe` measures."
+    )
+    unit: str = Field(default="", description="Its unit; empty for a pure number.")
+    of: Element | None = Field(default=None, description="What kind of element each of the numbers belongs to.")
+    above: float | None = Field(default=None, description="Holds where the largest number is greater.")
+    below: float | None = Field(default=None, description="Holds where the smallest number is smaller.")
+    still: dict[Identifier, Text] = Field(
+        default={}, description="Fixes after which it holds nevertheless, each with the reason."
+    )
+    threads: int = Field(default=0, ge=0, description="In how many threads we met the cause: the likelier comes first.")
+
+    @model_validator(mode="after")
+    def _one_bound(self) -> Telling:
+        given = sum(bound is not None for bound in (self.above, self.below))
+        if given != (self.expr is not None):
+            found, expected = f"{given} bounds", "one of above, below beside `expr`; none without it"
+            raise ValueError(f"{found}||{expected}||keep one bound, or remove it")
+        return self
 
 
 class Described(Strict):
@@ -119,8 +141,10 @@ class RunSpec(Strict):
 class Picture(Strict):
     """The still image of a case."""
 
-    camera: Text = Field(description="The camera to render from.")
-    time: float = Field(default=0.0, ge=0, le=120, description="When, in s of simulated time.")
+    camera: Text | None = Field(default=None, description="The camera to render from; a view of all when absent.")
+    time: float | None = Field(
+        default=None, ge=0, le=120, description="When, in s of simulated time; half-way through the run when absent."
+    )
     scene: FileName | None = Field(default=None, description="Code cases: the scene to render, from its keyframe 0.")
 
 
@@ -133,7 +157,7 @@ class Film(Strict):
     """The film of the broken model beside the first fix: the picture's camera, same clock."""
 
     duration: float | None = Field(default=None, gt=0, description="Simulated time filmed, in s; the run's by default.")
-    speed: float = Field(default=1.0, gt=0, le=10, description="Simulated seconds a second; below 1 is slow motion.")
+    speed: float = Field(default=1.0, gt=0, le=20, description="Simulated seconds a second; below 1 is slow motion.")
     overlays: list[Overlay] = Field(default=[], description="What MuJoCo draws over the scene to show the cause.")
 
 
@@ -215,7 +239,9 @@ class Refuted(Remedy):
 class Record(Strict):
     """One broken simulation: what is seen, what is wrong, what repairs it, and the proof."""
 
-    number: int = Field(ge=1, le=99_999, description="Unique; readers say *case 7*.")
+    number: int | None = Field(
+        default=None, ge=1, le=99_999, description="Unique; readers say *case 7*. Without one, after the others."
+    )
     title: Text = Field(max_length=90, description="The symptom as a sentence, without a full stop.")
     model: FileName | None = Field(default=None, description="The broken model. Exactly one of `model`, `script`.")
     script: FileName | None = Field(default=None, description="The broken script: Python, or for Node `.mjs`.")
@@ -228,12 +254,12 @@ class Record(Strict):
     lesson: Text = Field(description="What to remember.")
     tags: list[Identifier] = Field(min_length=1, description="Topics: contact, joint, actuator, camera, units, ...")
     phrases: list[Text] = Field(min_length=1, description="What people type into a search engine; feeds the search.")
-    looks: list[SymptomId] = Field(default=[], description="Where *Find your symptom* puts the case.")
+    family: FamilyName | None = Field(default=None, description="The symptom whose other causes it is told apart from.")
     manual: list[ManualPage] = Field(
         default=[], description="Pages of MuJoCo's manual, each as `modeling.html#anchor`."
     )
     see: list[Identifier] = Field(default=[], description="Related cases, by folder name.")
-    alike: Alike | None = Field(default=None, description="What tells this case from those that look like it.")
+    telling: Telling | None = Field(default=None, description="What tells this case from others of its family.")
     exempt: dict[Law, Text] = Field(default={}, description="Laws that this case need not obey, each with the reason.")
     loose: dict[Text, Text] | None = Field(
         default=None,
@@ -253,9 +279,9 @@ class Record(Strict):
     )
     sweep: dict[Identifier, Sweep] = Field(default={}, description="Sweeps by name.")
     formulas: dict[Name, Formula] = Field(default={}, description="Equations for prose: `{{ formula.NAME }}`, by name.")
-    no_sweep: str | None = Field(default=None, description="Why no sweep would tell anything; without one, required.")
-    film: Film | None = Field(default=None, description="Required for a model.")
-    picture: Picture = Field(description="The still image on the page and on the home page's card.")
+    no_sweep: str | None = Field(default=None, description="Why no sweep would tell anything; not beside `sweep`.")
+    film: Film | None = Field(default=None, description="Of a model; when absent, a film of the whole run.")
+    picture: Picture = Field(default=Picture(), description="The still image on the page and on the home page's card.")
 
     @model_validator(mode="after")
     def _model_or_script(self) -> Record:
@@ -277,8 +303,23 @@ class Record(Strict):
         wanted = {
             "trials": (self.trials, "whether a repair holds in another situation"),
             "loose": (self.loose is not None, "whether a check notices when a number is halved or doubled"),
+            "family": (self.family, "which other causes its symptom has"),
+            "telling": (self.telling, "what tells it from them"),
+            "sweep": (self.sweep or self.no_sweep, "whether the cause is a law"),
         }
         return {name: unknown for name, (given, unknown) in wanted.items() if not given}
+
+    @property
+    def heading(self) -> str:
+        """The title after the number, if there is one."""
+        return self.title if self.number is None else f"{self.number}. {self.title}"
+
+    @property
+    def filmed(self) -> Film | None:
+        """The film to be made: the record's own, or for a model without one its whole run in FILM_SECONDS."""
+        if self.run is None or self.film is not None:
+            return self.film
+        return Film(speed=self.run.duration / FILM_SECONDS)
 
     @property
     def language(self) -> Literal["python", "javascript"]:

@@ -59,7 +59,7 @@ def table(cases: Iterable[Case], files: Mapping[str, Files]) -> str:
     lines = [f"| case | {' | '.join(titles)} |", "|---" * (1 + len(STEPS)) + "|"]
     for case in cases:
         link = f"cases/{case.slug}/index.md"
-        name = f"{case.record.number}. {case.record.title.translate(MARKDOWN_ESCAPES)}"
+        name = case.record.heading.translate(MARKDOWN_ESCAPES)
         cells = [f"[{text}]({link})" for text in (name, *(cell(found.get(case.slug), step) for step in STEPS))]
         lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(

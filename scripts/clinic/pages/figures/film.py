@@ -14,10 +14,10 @@ import numpy as np
 from PIL import Image as Pictures
 from PIL import ImageDraw, ImageFont
 
-from clinic.engine.render import Image, renderer
+from clinic.engine.render import FREE, Image, renderer
 from clinic.engine.simulate import captured_messages, compile_model, controls, initial_data, step
 from clinic.engine.variant import variants
-from clinic.pages.figures.pictures import webp
+from clinic.pages.figures.pictures import picture_time, webp
 from clinic.record.case import Case
 from clinic.record.fields import Film, RunSpec
 from clinic.record.prose import number
@@ -44,16 +44,18 @@ def film(case: Case) -> Files:
     Raises:
         RenderError: If images cannot be drawn on this machine.
     """
-    record = case.record
-    assert record.film is not None
+    record, spec = case.record, case.record.filmed
+    assert spec is not None
     assert record.run is not None
     camera = record.picture.camera
     broken, fixed = (
-        list(frames(compile_model(variant.text), record.run, record.film, camera)) for variant in variants(case)[:2]
+        list(frames(compile_model(variant.text), record.run, spec, camera)) for variant in variants(case)[:2]
     )
     pictures = [beside(left, right) for left, right in zip(broken, fixed, strict=True)]
     moments = np.linspace(0, len(pictures) - 1, STRIP).round().astype(int)
-    at = round(min(record.picture.time / film_duration(record.film, record.run), 1.0) * (len(pictures) - 1))
+    at = round(
+        min(picture_time(record.picture, record.run) / film_duration(spec, record.run), 1.0) * (len(pictures) - 1)
+    )
     return {
         "film.mp4": encode(pictures),
         "poster.webp": webp(pictures[at]),
@@ -66,7 +68,7 @@ def film_duration(spec: Film, run: RunSpec) -> float:
     return min(spec.duration or run.duration, MAX_FRAMES / FPS * spec.speed)
 
 
-def frames(model: mujoco.MjModel, run: RunSpec, spec: Film, camera: str) -> Iterator[tuple[Image, str]]:
+def frames(model: mujoco.MjModel, run: RunSpec, spec: Film, camera: str | None) -> Iterator[tuple[Image, str]]:
     """The images of a run, shape (HEIGHT, WIDTH, 3), each with the text of its clock.
 
     A state that has moved by less than STILL, in m or rad, is not drawn anew. From the first warning of a
@@ -93,7 +95,7 @@ def frames(model: mujoco.MjModel, run: RunSpec, spec: Film, camera: str) -> Iter
                     halted = f"reset at {number(made * model.opt.timestep, 2)} s"
             if image is None or (not halted and np.max(np.abs(data.qpos - drawn), initial=0) > STILL):
                 mujoco.mj_kinematics(model, data)  # a step leaves the positions of its start
-                draw.update_scene(data, camera, option)
+                draw.update_scene(data, FREE if camera is None else camera, option)
                 large = Pictures.fromarray(draw.render())
                 image, drawn = np.asarray(large.resize((WIDTH, HEIGHT), Pictures.Resampling.BOX)), data.qpos.copy()
             yield image, halted or f"{time:.2f} s"

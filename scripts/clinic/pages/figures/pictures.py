@@ -11,6 +11,7 @@ from clinic.engine.render import Image, image
 from clinic.engine.simulate import compile_model, data_at
 from clinic.engine.variant import variants
 from clinic.record.case import Case
+from clinic.record.fields import Picture, RunSpec
 from clinic.work.cache import Files
 
 
@@ -25,14 +26,21 @@ def pictures(case: Case) -> Files:
         for name, variant in zip(("broken", "fixed"), variants(case), strict=False):
             model = compile_model(variant.text)
             made[f"{name}.webp"] = webp(
-                image(model, data_at(model, record.run, record.picture.time), record.picture.camera)
+                image(
+                    model, data_at(model, record.run, picture_time(record.picture, record.run)), record.picture.camera
+                )
             )
     elif record.picture.scene is not None:
         made["broken.webp"] = webp(scene_image(case.texts[record.picture.scene], record.picture.camera))
     return made
 
 
-def scene_image(text: str, camera: str) -> Image:
+def picture_time(picture: Picture, run: RunSpec) -> float:
+    """When the picture is taken, in s."""
+    return run.duration / 2 if picture.time is None else picture.time
+
+
+def scene_image(text: str, camera: str | None) -> Image:
     """A model as it starts, in its first keyframe where it has one; shape (height, width, 3)."""
     model = compile_model(text)
     data = mujoco.MjData(model)

@@ -15,7 +15,7 @@ from typing import Any
 
 from clinic.diagnosis.diagnose import examine, read_file
 from clinic.diagnosis.finding import Diagnosis, death
-from clinic.diagnosis.simulation import Start
+from clinic.diagnosis.simulation import Start, StartError
 from clinic.diagnosis.source import read_texts
 
 LIMIT = 60.0  # s, for one process
@@ -65,7 +65,7 @@ def diagnose(
         tell: Is called with the id of each rule before it is tried.
 
     Raises:
-        DiagnosisError: If the model cannot be read, or is given in another form.
+        DiagnosisError: If the model cannot be read, is given in another form, or does not have the start.
     """
     text, name, folder = _read(source)
     given = {key: value if isinstance(value, bytes) else str(value).encode() for key, value in (assets or {}).items()}
@@ -157,6 +157,9 @@ def main() -> None:
         )
     except (MemoryError, RecursionError) as error:
         print(f"wrong {request.name}: {type(error).__name__}: the model is too large", flush=True)
+        return
+    except StartError as error:
+        print(f"wrong {request.name}: {error}", flush=True)
         return
     sys.stdout.buffer.write(b"made " + base64.b64encode(pickle.dumps(made)) + b"\n")
 

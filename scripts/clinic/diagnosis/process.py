@@ -129,6 +129,13 @@ def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | N
     return None, trying
 
 
+def _end_with_who_asked() -> None:
+    """Ends this process where the one that asked is gone, and its end of the pipe with it."""
+    while os.read(0, 1):
+        pass
+    os._exit(1)
+
+
 def main() -> None:
     """Answers one request."""
     if sys.platform == "linux":
@@ -139,6 +146,7 @@ def main() -> None:
     from clinic.diagnosis.native import NativeEngine
 
     request: Request = pickle.loads(base64.b64decode(sys.stdin.buffer.readline()))
+    threading.Thread(target=_end_with_who_asked, daemon=True).start()
     os.chdir(request.folder)
 
     def read(name: str) -> str | None:

@@ -175,7 +175,7 @@ class Source:
 
     def _parsed(self, file: str) -> Element:
         text = self.texts[file].encode()
-        parser = expat.ParserCreate("utf-8" if "encoding=" not in self.texts[file][:100] else None)
+        parser = expat.ParserCreate("utf-8")  # whatever the text says of itself, as MuJoCo reads it
         roots: list[Element] = []
         open_: list[Element] = []
         said: list[tuple[str, int, int]] = []

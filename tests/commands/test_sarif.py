@@ -98,15 +98,16 @@ def replaced(text: str, replacements: list[dict[str, Any]]) -> str:
         starts.append(starts[-1] + len(line) + 1)
     for each in reversed(replacements):
         region = each["deletedRegion"]
+        assert region["endLine"] < len(starts)
+        assert region["startColumn"] >= 1
         start = starts[region["startLine"] - 1] + region["startColumn"] - 1
         end = starts[region["endLine"] - 1] + region["endColumn"] - 1
         text = text[:start] + each["insertedContent"]["text"] + text[end:]
     return text
 
 
-@pytest.mark.parametrize("end", ["\n", ""])
-def test_a_log_names_rule_place_and_fix(folder, end):
-    text = ONE.rstrip("\n") + end
+@pytest.mark.parametrize("text", [ONE, ONE.rstrip("\n"), ONE.replace("\n", " ")], ids=["lines", "open end", "one line"])
+def test_a_log_names_rule_place_and_fix(folder, text):
     (folder / "drill.xml").write_text(text)
 
     made = log("my robot/drill.xml")
@@ -115,7 +116,7 @@ def test_a_log_names_rule_place_and_fix(folder, end):
     assert cause["level"] == "error"
     place = cause["locations"][0]["physicalLocation"]
     assert place["artifactLocation"] == {"uri": "my%20robot/drill.xml", "uriBaseId": "%SRCROOT%"}
-    assert place["region"] == {"startLine": 5}
+    assert place["region"] == {"startLine": text[: text.index("<geom")].count("\n") + 1}
     (change,) = cause["fixes"][0]["artifactChanges"]
     wanted = text.replace('conaffinity="0"/>', 'conaffinity="0" mass="0"/>')
     assert replaced(text, change["replacements"]) == wanted

@@ -81,6 +81,13 @@ def test_a_finding_about_two_elements_is_silenced_where_both_are():
     assert [each.silenced for each in both.silenced] == ["the shell weighs; the shade weighs"]
 
 
+def test_a_finding_about_no_element_is_silenced_where_its_edit_is():
+    visual = '<visual><headlight active="0"/></visual><worldbody>'
+    text = scene(DRILL).replace("<worldbody>", WHY.replace("visual-mass", "nothing-lit") + visual)
+    (silenced,) = examine(NativeEngine(), {"model.xml": text}, select=["nothing-lit"]).silenced
+    assert silenced.elements == ("the headlight",)
+
+
 def test_a_rule_that_is_not_tried_leaves_its_comment_alone():
     made = examine(
         NativeEngine(), {"model.xml": scene(WHY + DRILL)}, ignore=["visual-mass"], select=["visual-mass", "masks"]

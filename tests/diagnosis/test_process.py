@@ -12,7 +12,7 @@ import clinic
 import mujoco
 import pytest
 from clinic.diagnosis import process
-from clinic.diagnosis.finding import DIES
+from clinic.diagnosis.finding import DIES, FAILS
 from clinic.diagnosis.process import DiagnosisError, Request, diagnose
 from clinic.diagnosis.simulation import Start
 
@@ -77,6 +77,19 @@ def test_where_the_engine_dies_that_is_a_finding_and_the_other_rules_are_tried(m
     assert rule not in found.ruled_out
 
 
+def test_where_a_rule_fails_that_is_no_fault_of_the_model_or_the_engine(monkeypatch):
+    again = (
+        "import base64, os, pickle, sys\nfrom dataclasses import replace\nfrom clinic.diagnosis import process, rules\n"
+    )
+    again += "def fails(model):\n    raise AttributeError('nthe')\n"
+    again += "rules.rules()['masks'] = replace(rules.rules()['masks'], suspects=fails)\nprocess.main()\n"
+    monkeypatch.setattr(process, "CHILD", (sys.executable, "-c", again))
+    found = diagnose(TALL, select=["masks", "spring-too-stiff"])
+    assert [each.rule for each in found.causes] == ["spring-too-stiff"]
+    assert [each.rule for each in found.hints] == [FAILS]
+    assert "masks failed (AttributeError: nthe): a mistake of the clinic" in found.hints[0].says
+
+
 def test_a_process_whose_asker_is_gone_ends_and_leaves_nothing(tmp_path):
     loaded = TALL.replace("<body", "<body><freejoint/><geom size='0.05'/></body>" * 60 + "<body", 1)
     request = Request(loaded, "model.xml", str(tmp_path), {}, "", Start(duration=60.0), (), ())
@@ -97,6 +110,13 @@ def test_a_process_that_dies_before_any_rule_is_a_sentence(monkeypatch):
     monkeypatch.setattr(process, "CHILD", (sys.executable, "-c", "import os; os.abort()"))
     with pytest.raises(DiagnosisError, match="MuJoCo ended the process"):
         diagnose(TALL)
+
+
+def test_a_spec_that_does_not_compile_is_a_sentence():
+    spec = mujoco.MjSpec()
+    spec.worldbody.add_body(name="hand").add_freejoint()
+    with pytest.raises(DiagnosisError, match=r"give the text instead: .*mjMINVAL"):
+        diagnose(spec)
 
 
 @pytest.mark.parametrize("wrong", [3, None, ("a", "b", "c")])

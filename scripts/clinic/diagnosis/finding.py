@@ -16,6 +16,7 @@ from clinic.diagnosis.suspect import Level
 
 CAUSES_SHOWN = 3
 DIES = "engine-dies"
+FAILS = "rule-fails"
 SITE = "CLINIC_SITE"  # the environment variable with the address of the site
 
 
@@ -154,6 +155,12 @@ def finding_of(judged: Judged, model: ReaderModel) -> Finding:
         keyframe=judged.keyframe,
         silenced=judged.silenced,
     )
+
+
+def failure(rule: str, file: str, said: str) -> Finding:
+    """That a rule failed on a model file, by a mistake of the clinic."""
+    says = f"{rule} failed ({said}): a mistake of the clinic, not of the model."
+    return Finding(FAILS, "A rule failed", "hint", (), file, None, "", "", "", (), "", "", 1.0, None, says, "")
 
 
 def death(rule: str, file: str) -> Finding:

@@ -116,8 +116,9 @@ class ReaderModel:
     def named(self, said: str) -> Element | None:
         """Where an element stands that is told as `Simulation.name` does; None where it has no place."""
         kind = said.partition(" ")[0]
-        count = self.simulation.count(kind) if kind in (*TAGS, *SECTION, "body") else 0
-        found = (index for index in range(count) if self.simulation.name(kind, index) == said)
+        if kind not in (*TAGS, *SECTION, "body"):
+            return None
+        found = (index for index in range(self.simulation.count(kind)) if self.simulation.name(kind, index) == said)
         return self.element(kind, next(found, -1))
 
     def value(self, kind: str, index: int, attribute: str) -> str | None:

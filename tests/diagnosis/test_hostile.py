@@ -6,6 +6,9 @@ from pathlib import Path
 
 import pytest
 from clinic.commands.cli import app
+from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.rules import rules
 from mutilated import KINDS, mutilated
 from typer.testing import CliRunner
 
@@ -24,3 +27,12 @@ def test_a_mutilated_model_is_diagnosed_or_refused(seed: int, tmp_path: Path, mo
     assert "MuJoCo ended the process" not in result.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["model.xml"]
     assert Path("model.xml").read_bytes() == content
+
+
+@pytest.mark.parametrize("name", ["no-such", "utf-32", "latin-1"])
+def test_a_text_is_read_as_utf_8_whatever_it_declares(name: str) -> None:
+    text = rules()["visual-mass"].example("Bad").replace('"drill"', '"perçeuse"')
+    (cause,) = examine(
+        NativeEngine(), {"model.xml": f'<?xml version="1.0" encoding="{name}"?>\n{text}'}, select=["visual-mass"]
+    ).causes
+    assert (cause.elements, cause.line) == (('body "perçeuse"',), 6)

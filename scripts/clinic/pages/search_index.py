@@ -71,7 +71,13 @@ def _address(one: CasePage) -> str:
 
 def _families(families: Mapping[str, Family]) -> Iterator[Document]:
     for name, family in families.items():
-        yield {"kind": "symptom", "at": f"symptoms/{name}.html", "title": family.title, "words": "; ".join(family.words), "text": ""}
+        yield {
+            "kind": "symptom",
+            "at": f"symptoms/{name}.html",
+            "title": family.title,
+            "words": "; ".join(family.words),
+            "text": "",
+        }
 
 
 def _message(message: Message) -> Document:

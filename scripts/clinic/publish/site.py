@@ -81,6 +81,7 @@ def navigation(headings: Mapping[str, str]) -> Navigation:
         {"Find your symptom": "symptoms.md"},
         {"What MuJoCo says": "messages.md"},
         {"Diagnose your model": "rules/index.md"},
+        {"Check your models in CI": "check-your-models.md"},
         {"Triage": "triage.md"},
         {"Cases": divided if len(sections) > 1 else cases},
         {"By thing": "tags.md"},

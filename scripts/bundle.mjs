@@ -17,7 +17,7 @@ const options = /** @type {const} */ ({
 });
 const made = [
   await build({ ...options, entryPoints: ["docs/playground/start.js", "docs/playground/diagnose.js"], splitting: true, chunkNames: "[name]-[hash]" }),
-  await build({ ...options, entryPoints: ["docs/playground/loader.js"], format: "iife" }),
+  await build({ ...options, entryPoints: ["docs/playground/loader.js", "docs/playground/search.js"], format: "iife" }),
   await build({
     ...options,
     entryPoints: ["docs/playground/worker.js", "docs/playground/diagnosis-worker.js"],

@@ -44,7 +44,7 @@ say "installing the locked Python packages into $venv"
 
 say "installing the locked browser parts into node_modules"
 if ! PATH="$PWD/$venv/bin:$PATH" npm ci --silent --no-audit --no-fund; then
-  say "the browser parts could not be installed; without them the built site has no playground, and no search when opened as files"
+  say "the browser parts could not be installed; without them the built site has neither playground nor search"
   [ -z "${CI:-}" ] || exit 1
 fi
 

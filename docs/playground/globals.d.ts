@@ -4,3 +4,9 @@ declare module "*.css";
 
 /** Emits the document after every navigation. */
 declare const document$: { subscribe: (listen: () => void) => void };
+
+/** What javascripts/search/ and search.js leave for each other: both are scripts of the old kind, which run from a file too. */
+declare var clinicIndex: { documents: import("./search/index.js").Document[]; synonyms: string[][] };
+declare var clinicAnswers: Record<string, string> | undefined;
+declare var clinicSearch: (form: HTMLFormElement, site: string, fetched: (name: string) => Promise<void>) => void;
+declare var clinicNearest: (path: string) => import("./search/index.js").Document | undefined;

@@ -1,11 +1,76 @@
-// On every page: offers the playground, and ticks what has been solved. The playground itself is fetched on a click.
+// On every page: offers the playground and the search, and ticks what has been solved. What they need is fetched when asked for.
 
 const base = new URL(".", /** @type {HTMLScriptElement} */ (document.currentScript).src);
 const KEY = "mujoco-clinic"; // as in page/solved.js
 const CHOICES = `<label class="md-button">Choose files<input type="file" multiple accept=".xml,.mjcf,.urdf,.zip,.stl,.obj,.msh,.png"></label>
 <label class="md-button">Choose a folder<input type="file" webkitdirectory></label>
 <label>What do you see? <select><option value="">not sure</select></label>`;
+const SEARCH = new URL("../search/", base).href;
+const SITE = new URL("../../", base).href;
+/** @type {Map<string, Promise<void>>} */
+const scripts = new Map();
 let leave = () => {};
+
+/** @param {string} address @returns {Promise<void>} when the script has run; a module would not be fetched from a file */
+function script(address) {
+  const begun =
+    scripts.get(address) ??
+    new Promise((done, failed) => {
+      document.head.append(Object.assign(document.createElement("script"), { src: address, onload: () => done(), onerror: failed }));
+    });
+  scripts.set(address, begun);
+  begun.catch(() => scripts.delete(address)); // it can be tried again
+  return begun;
+}
+
+async function searching() {
+  await script(SEARCH + "index.js");
+  await script(base + "search.js");
+}
+
+/** @param {HTMLFormElement} form a search box */
+function listen(form) {
+  const input = /** @type {HTMLInputElement} */ (form.querySelector("input"));
+  input.oninput = async () => {
+    input.oninput = null;
+    try {
+      await searching();
+      clinicSearch(form, SITE, (name) => script(SEARCH + name));
+    } catch {
+      const place = /** @type {HTMLElement} */ (form.querySelector(".search-results"));
+      place.textContent = "The search could not be fetched. Are you offline? The next letter tries again.";
+      place.hidden = false;
+      listen(form);
+    }
+  };
+}
+
+/** @param {HTMLElement} link an example, which is asked in the box above it */
+function example(link) {
+  link.onclick = (event) => {
+    event.preventDefault();
+    const input = /** @type {HTMLInputElement} */ (document.querySelector(".search-home input"));
+    input.value = link.textContent ?? "";
+    input.focus();
+    input.dispatchEvent(new Event("input"));
+  };
+}
+
+/** @param {HTMLElement} line tells which page the reader may have meant */
+async function guess(line) {
+  await searching();
+  const found = clinicNearest(location.pathname);
+  if (!found) return;
+  const link = /** @type {HTMLAnchorElement} */ (line.querySelector("a"));
+  [link.href, link.textContent] = [new URL(found.at, SITE).href, found.title];
+  line.hidden = false;
+}
+
+addEventListener("keydown", (event) => {
+  if (event.key !== "/" || event.ctrlKey || event.metaKey || (event.target instanceof Element && event.target.closest("input, textarea, select, [contenteditable]"))) return;
+  event.preventDefault();
+  /** @type {HTMLElement | null} */ (document.querySelector(".search input"))?.focus();
+});
 
 /** @returns {string[]} */
 function solved() {
@@ -83,12 +148,22 @@ function take(root) {
   };
 }
 
-document$.subscribe(() => {
+function arrive() {
   leave();
   leave = () => {};
   tick();
+  for (const form of /** @type {NodeListOf<HTMLFormElement>} */ (document.querySelectorAll("form.search:not([data-heard])"))) {
+    form.dataset.heard = "";
+    listen(form);
+  }
+  for (const link of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("a[data-ask]"))) example(link);
+  const nearest = /** @type {HTMLElement | null} */ (document.querySelector(".nearest"));
+  if (nearest) void guess(nearest);
   const root = document.querySelector(".playground");
   if (root) offer(root);
   const reader = /** @type {HTMLElement | null} */ (document.querySelector(".diagnose"));
   if (reader && !reader.querySelector("input")) take(reader);
-});
+}
+
+if (location.protocol === "file:") arrive(); // where the theme emits nothing
+else document$.subscribe(arrive);

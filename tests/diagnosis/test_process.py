@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import base64
+import os
+import pickle
+import subprocess
 import sys
 
 import clinic
 import mujoco
 import pytest
 from clinic.diagnosis import process
-from clinic.diagnosis.finding import DIES
-from clinic.diagnosis.process import DiagnosisError, diagnose
+from clinic.diagnosis.finding import DIES, FAILS
+from clinic.diagnosis.process import DiagnosisError, Request, diagnose
+from clinic.diagnosis.simulation import Start
 
 TALL = """<mujoco>
   <option timestep="0.01"/>
@@ -31,6 +36,10 @@ if {rule!r} not in pickle.loads(base64.b64decode(line)).ignore:
 sys.stdin = type("Again", (), {{"buffer": __import__("io").BytesIO(line)}})
 process.main()
 """
+
+
+def found_here() -> dict[str, str]:
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
 
 
 def test_a_path_a_text_a_spec_and_a_pair_give_the_same(tmp_path):
@@ -68,16 +77,60 @@ def test_where_the_engine_dies_that_is_a_finding_and_the_other_rules_are_tried(m
     assert rule not in found.ruled_out
 
 
+def test_where_a_rule_fails_that_is_no_fault_of_the_model_or_the_engine(monkeypatch):
+    again = (
+        "import base64, os, pickle, sys\nfrom dataclasses import replace\nfrom clinic.diagnosis import process, rules\n"
+    )
+    again += "def fails(model):\n    raise AttributeError('nthe')\n"
+    again += "rules.rules()['masks'] = replace(rules.rules()['masks'], suspects=fails)\nprocess.main()\n"
+    monkeypatch.setattr(process, "CHILD", (sys.executable, "-c", again))
+    found = diagnose(TALL, select=["masks", "spring-too-stiff"])
+    assert [each.rule for each in found.causes] == ["spring-too-stiff"]
+    assert [each.rule for each in found.hints] == [FAILS]
+    assert "masks failed (AttributeError: nthe): a mistake of the clinic" in found.hints[0].says
+
+
+def test_a_process_whose_asker_is_gone_ends_and_leaves_nothing(tmp_path):
+    loaded = TALL.replace("<body", "<body><freejoint/><geom size='0.05'/></body>" * 60 + "<body", 1)
+    request = Request(loaded, "model.xml", str(tmp_path), {}, "", Start(duration=60.0), (), ())
+    child = subprocess.Popen(process.CHILD, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=found_here())
+    assert child.stdin is not None
+    assert child.stdout is not None
+    child.stdin.write(base64.b64encode(pickle.dumps(request)) + b"\n")
+    child.stdin.flush()
+    assert child.stdout.readline().startswith(b"trying ")
+    child.stdin.close()
+    assert b"made " not in child.stdout.read()
+    child.stdout.close()
+    assert child.wait() == 1
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_process_that_dies_before_any_rule_is_a_sentence(monkeypatch):
     monkeypatch.setattr(process, "CHILD", (sys.executable, "-c", "import os; os.abort()"))
     with pytest.raises(DiagnosisError, match="MuJoCo ended the process"):
         diagnose(TALL)
 
 
+def test_a_spec_that_does_not_compile_is_a_sentence():
+    spec = mujoco.MjSpec()
+    spec.worldbody.add_body(name="hand").add_freejoint()
+    with pytest.raises(DiagnosisError, match=r"give the text instead: .*mjMINVAL"):
+        diagnose(spec)
+
+
 @pytest.mark.parametrize("wrong", [3, None, ("a", "b", "c")])
 def test_another_kind_of_source_is_a_sentence(wrong):
     with pytest.raises(DiagnosisError, match="expected a path, a text, an MjSpec"):
         diagnose(wrong)
+
+
+@pytest.mark.parametrize(
+    ("start", "said"), [(Start(keyframe="home"), "keyframe home"), (Start(ctrl={"x": 1.0}), "control x")]
+)
+def test_a_start_that_the_model_lacks_is_a_sentence(start, said):
+    with pytest.raises(DiagnosisError, match=f"model.xml: {said}: the model has no"):
+        diagnose(TALL, start=start)
 
 
 def test_a_file_that_is_no_text_is_a_sentence(tmp_path):

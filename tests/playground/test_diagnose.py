@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from clinic.diagnosis.rules import rules
-from live import LIMIT, engines, no_engine
+from live import LIMIT, engines, follow, navigate_instantly, no_engine
 from playwright.sync_api import Page, expect
 
 pytestmark = pytest.mark.xdist_group("site")
@@ -96,7 +96,11 @@ def test_the_findings_are_copied_and_the_mended_model_is_saved(page: Page, serve
     assert f'stiffness="{cause["value"]}"' in Path(download.value.path()).read_text(encoding="utf-8")
 
 
-def test_an_edit_runs_beside_the_model_as_it_was(page: Page, served: str, tmp_path: Path) -> None:
+def test_an_edit_runs_beside_the_model_as_it_was_until_the_reader_leaves(
+    fresh: Page, served: str, site: Path, tmp_path: Path
+) -> None:
+    page = fresh
+    navigate_instantly(page, served, site)
     opened(page, served)
     give(page, written(tmp_path / "shaking.xml", BAD))
 
@@ -112,8 +116,38 @@ def test_an_edit_runs_beside_the_model_as_it_was(page: Page, served: str, tmp_pa
     expect(page.get_by_role("button", name="Check my fix")).to_have_count(0)
 
     assert len(engines(page)) == 2
-    page.evaluate("document.querySelector('.diagnose').remove(); document$.next(document)")  # as the theme navigates
+    follow(page, "triage", "Six steps of triage")
     assert no_engine(page)
+
+
+def test_a_diagnosis_ends_where_the_reader_goes_to_another_page(
+    fresh: Page, served: str, site: Path, tmp_path: Path
+) -> None:
+    navigate_instantly(fresh, served, site)
+    opened(fresh, served)
+    fresh.locator(".dg-ask input").first.set_input_files(written(tmp_path / "still.xml", STILL))
+    expect(fresh.get_by_role("button", name="Stop")).to_be_visible()
+    follow(fresh, "triage", "Six steps of triage")
+    assert no_engine(fresh)
+
+
+def test_an_edit_of_two_files_is_tried_and_what_is_silenced_is_told(page: Page, served: str, tmp_path: Path) -> None:
+    skinned = """<mujoco><worldbody><body name="{0}" pos="{1} 0 2"><freejoint/>
+    <geom size="0.05" contype="0" conaffinity="0"/><geom size="0.05" mass="0.2"/></body></worldbody></mujoco>"""
+    parts = [written(tmp_path / f"{name}.xml", skinned.format(name, x)) for x, name in enumerate(("left", "right"))]
+    silent = '<!-- clinic: ignore[nothing-lit] drawn elsewhere --><visual><headlight active="0"/></visual>'
+    includes = "".join(f'<include file="{part.name}"/>' for part in parts)
+    opened(page, served)
+
+    said = drop(page, written(tmp_path / "scene.xml", f"<mujoco>{silent}{includes}</mujoco>"), *parts)
+
+    assert "visual-mass" in said
+    assert "Silenced by comments in the model: one finding" in said
+    page.locator("li", has_text="visual-mass").get_by_role("button", name="Try this edit").click()
+    expect(page.locator(".pg-file")).to_contain_text("scene.xml")
+    expect(page.locator(".cm-deletedChunk").first).to_be_visible()
+    expect(page.locator(".pg-status")).to_contain_text("This runs in MuJoCo")
+    expect(page.locator(".pg-complaint")).to_be_empty()
 
 
 def test_a_folder_and_a_zip_bring_their_meshes(page: Page, served: str, tmp_path: Path) -> None:

@@ -96,6 +96,13 @@ def test_quotations_are_given_as_they_are_written(tmp_path) -> None:
     assert list(quotations(case)) == [(("lesson",), 'contype="2"'), (("lesson",), 'conaffinity="2"')]
 
 
+def test_a_quoted_attribute_may_have_an_underscore(tmp_path) -> None:
+    option = ('timestep="0.002"', 'timestep="0.002" noslip_iterations="3"')
+    case, _ = case_with(tmp_path, "The model has {{ small.option.noslip_iterations }}.", option)
+    print(case.text)
+    assert list(quotations(case)) == [(("lesson",), 'noslip_iterations="3"')]
+
+
 def test_a_problem_of_prose_stands_at_the_line_of_its_words(tmp_path) -> None:
     case, evidence = case_with(tmp_path, 'One line.\n  Another.\n  It falls 3 m, and `axis="0"` is wrong.')
     lines = {problem.line - case.lines.at(("lesson",)) for law in (typed, quoted) for problem in law(case, evidence)}

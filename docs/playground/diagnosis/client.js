@@ -43,13 +43,15 @@ const FILES = {
  * @property {number | null} after
  * @property {string} says
  * @property {string} healthy
+ * @property {string} silenced why a comment in the model silences it
+ * @property {number | null} keyframe that the runs began from; null for the model's own start
  *
  * @typedef {Record<string, string>} Texts by file
  *
  * @typedef {object} Diagnosis as scripts/clinic/diagnosis/browser.py makes it
- * @property {{engine: string, file: string, causes: Finding[], hints: Finding[], ruled_out: string[]}} data
+ * @property {{engine: string, file: string, causes: Finding[], hints: Finding[], silenced: Finding[], ruled_out: string[],
+ *   error: string}} data
  * @property {string} text
- * @property {string} error why the model does not compile
  * @property {string} diff
  * @property {Texts} texts the model's and those that it includes
  * @property {Texts} mended the files that all edits together change

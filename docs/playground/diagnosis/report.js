@@ -7,6 +7,7 @@ import { last } from "./files.js";
 /** @import {Diagnosis, Finding, Request, Texts} from "./client.js" */
 
 const SHOWN = 3;
+const NO_PAGE = new Set(["engine-dies", "ignore-comment"]); // what is said of no rule
 const BUTTON = { class: "md-button" };
 
 /**
@@ -17,12 +18,12 @@ const BUTTON = { class: "md-button" };
  * @returns {HTMLElement}
  */
 export function report(diagnosis, request, rules, tryEdit) {
-  const { causes, hints, ruled_out: ruledOut, engine } = diagnosis.data;
+  const { causes, hints, silenced, ruled_out: ruledOut, engine, error } = diagnosis.data;
   const made = el("div", { class: "dg-report" }, el("p", { role: "status" }, el("strong", {}, request.name), ` ${summary(diagnosis)}`));
-  if (diagnosis.error && causes.length === 0) made.append(el("pre", {}, diagnosis.error.trim()));
+  if (error && causes.length === 0) made.append(el("pre", {}, error.trim()));
   const tried = el("div", { class: "dg-tried" });
   const item = (/** @type {Finding} */ found, /** @type {number} */ index) => {
-    const offer = Object.keys(diagnosis.edited[index]).length === 1;
+    const offer = Object.keys(diagnosis.edited[index]).length > 0;
     const act = offer ? [button("Try this edit", () => tryEdit(tried, index), BUTTON)] : [];
     return el("li", {}, ...finding(found, rules), ...act);
   };
@@ -38,6 +39,10 @@ export function report(diagnosis, request, rules, tryEdit) {
     made.append(told);
   }
   if (diagnosis.diff) made.append(fold(causes.length === 1 ? "The edit as a diff" : "The edits as a diff", el("pre", {}, diagnosis.diff)));
+  if (silenced.length > 0) {
+    const lines = silenced.map((each) => el("li", {}, each.title, " (", link(each.rule, rules), "): ", where(each), ": ", each.silenced));
+    made.append(fold(`Silenced by comments in the model: ${count(silenced.length, "finding")}`, el("ul", {}, ...lines)));
+  }
   if (ruledOut.length > 0) {
     const lines = ruledOut.map((id) => el("li", {}, diagnosis.titles[id] ?? id, " (", link(id, rules), ")"));
     made.append(fold(`Ruled out: ${count(ruledOut.length, "rule")} found nothing`, el("ul", {}, ...lines)));
@@ -50,7 +55,7 @@ export function report(diagnosis, request, rules, tryEdit) {
 }
 
 /** @param {Diagnosis} diagnosis */
-function summary({ data: { causes, hints, ruled_out: ruledOut, engine }, error }) {
+function summary({ data: { causes, hints, ruled_out: ruledOut, engine, error } }) {
   const ran = error ? `does not compile in MuJoCo ${engine}, which this page runs` : `was run by MuJoCo ${engine} in this page`;
   if (causes.length > 0) return `${ran}: ${count(causes.length, "cause")}.`;
   if (hints.length > 0) return `${ran}: no cause, ${count(hints.length, "hint")}.`;
@@ -68,7 +73,8 @@ function finding(found, rules) {
   if (change) made.push(el("p", {}, el("code", {}, change)));
   if (found.probe && found.unit !== "errors") {
     const after = found.edit.length > 0 ? ` With the edit: ${shown(found.after, found.unit)}.` : "";
-    made.push(el("p", {}, `${capital(found.probe)}: ${shown(found.before, found.unit)}.${after}`));
+    const begun = found.keyframe === null ? "" : `, from keyframe ${found.keyframe}`;
+    made.push(el("p", {}, `${capital(found.probe)}${begun}: ${shown(found.before, found.unit)}.${after}`));
   }
   return made;
 }
@@ -85,7 +91,7 @@ function where({ file, line, elements }) {
  * @param {string} rules
  */
 function link(rule, rules) {
-  if (rule === "engine-dies") return el("code", {}, rule);
+  if (NO_PAGE.has(rule)) return el("code", {}, rule);
   return el("a", { href: `${rules}${rule}.html`, target: "_blank", rel: "noopener" }, rule);
 }
 

@@ -1,26 +1,47 @@
 // A cause's edit, tried in the playground on the reader's own model.
 
 /** @import {CaseRecord} from "../record/types.js" */
-/** @import {Diagnosis, Request} from "./client.js" */
+/** @import {Diagnosis, Request, Texts} from "./client.js" */
+
+const INCLUDE = /<!--[^]*?-->|<include\s[^>]*?file\s*=\s*["']([^"']+)["'][^>]*?(?:\/>|>\s*<\/include>)/g;
+const ROOT = /<(mujoco|mujocoinclude)(?:\s[^>]*)?>([^]*)<\/\1\s*>/;
+const DEEPEST = 20; // files that include each other
 
 /**
- * The reader's model as the playground takes it: a record without checks, whose only fix is the edit.
+ * The reader's model as the playground takes it: a record without checks, whose only fix is the edit, begun as the diagnosis
+ * began. Of an edit in several files the text is the whole model, with what it includes in the place of each `<include>`.
  * @param {Request} request
  * @param {Diagnosis} made
  * @param {number} index of the cause
  * @returns {CaseRecord}
  */
 export function readersRecord({ text: main, name, files }, made, index) {
-  const [[file, edited]] = Object.entries(made.edited[index]);
-  const { title } = made.data.causes[index];
-  const text = made.texts[file];
+  const edited = made.edited[index];
+  const several = Object.keys(edited).length > 1;
+  const file = several ? name : Object.keys(edited)[0];
+  const text = several ? whole(made.texts, name) : made.texts[file];
+  const after = several ? whole({ ...made.texts, ...edited }, name) : edited[file];
+  const { title, keyframe } = made.data.causes[index];
   return {
     ...{ case: name.replace(/\.\w+$/, ""), number: 0, title, engine: "", name: file, text, files },
     ...(file === name ? {} : { main }),
-    run: { duration: 1, keyframe: null, qpos: {}, qvel: {}, ctrl: {} },
+    run: { duration: 1, keyframe, qpos: {}, qvel: {}, ctrl: {} },
     signals: { contacts: { path: "ncon", columns: [], unit: "", label: "number of contacts" } },
     checks: { broken: [], fixed: [] },
-    fixes: [{ id: "edit", title, edits: [{ find: text, replace: edited }], needs: "" }],
+    fixes: [{ id: "edit", title, edits: [{ find: text, replace: after }], needs: "" }],
     ...{ trials: [], task: { may: [] }, refuted: [], camera: "", speed: 1, telling: [], hints: [], explained: {} },
   };
+}
+
+/**
+ * A text with what it includes in the place of each `<include>`.
+ * @param {Texts} texts
+ * @param {string} file
+ * @returns {string}
+ */
+export function whole(texts, file, depth = 0) {
+  return texts[file].replace(INCLUDE, (found, name) => {
+    if (!(name in texts) || depth === DEEPEST) return found;
+    return ROOT.exec(whole(texts, name, depth + 1))?.[2].trim() ?? found;
+  });
 }

@@ -76,7 +76,8 @@ export function* simulate(mujoco, model, spec, paths, nudge) {
  * @returns {MjData}
  */
 export function start(mujoco, model, spec) {
-  const keyframe = spec.keyframe === null ? -1 : requireId(mujoco, model, "key", spec.keyframe);
+  const named = spec.keyframe ?? -1;
+  const keyframe = typeof named === "number" ? named : requireId(mujoco, model, "key", named);
   const joint = (/** @type {string} */ name) => requireId(mujoco, model, "joint", name);
   [...Object.keys(spec.qpos), ...Object.keys(spec.qvel)].forEach(joint);
   const data = new mujoco.MjData(model);

@@ -27,7 +27,7 @@
  *
  * @typedef {object} RunSpec
  * @property {number} duration in s
- * @property {string | null} keyframe
+ * @property {string | number | null} keyframe its name; of a reader's own model its number
  * @property {Record<string, number>} qpos
  * @property {Record<string, number>} qvel
  * @property {Record<string, number | [number, number][]>} ctrl

@@ -2,67 +2,89 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
+from typer.core import TyperCommand
 
 app = typer.Typer()
 Rules = Annotated[list[str], typer.Option(help="Only this rule; may be repeated.")]
 
 
-@app.command()
+class _Diagnose(TyperCommand):
+    """`--fix` takes a file, or nothing."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        alone = [after.startswith("-") for after in [*args, "-"][1:]]
+        given = ["--fix=" if arg == "--fix" and last else arg for arg, last in zip(args, alone, strict=True)]
+        return super().parse_args(ctx, given)
+
+
+@app.command(cls=_Diagnose)
 def diagnose(
-    model: Annotated[str, typer.Argument(help="An MJCF or URDF file; `-` reads standard input.")],
+    models: Annotated[
+        list[str], typer.Argument(metavar="MODEL...", help="MJCF or URDF files; `-`: standard input.")
+    ] = [],  # noqa: B006
     symptom: Annotated[str, typer.Option(help="What you see, as slips, or in your words: its causes come first.")] = "",
     keyframe: Annotated[str | None, typer.Option(help="Start from this keyframe, by name or number.")] = None,
     ctrl: Annotated[list[str], typer.Option(help="name=value, or a CSV or NPZ with a column `time`.")] = [],  # noqa: B006
     duration: Annotated[float, typer.Option(min=0.01, max=60, help="How long to let it go, in s.")] = 2.0,
-    seed: Annotated[int, typer.Option(help="Of whatever is drawn.")] = 0,
-    fix: Annotated[bool, typer.Option("--fix", help="Print the edits as a diff.")] = False,
-    out: Annotated[Path | None, typer.Option(help="With --fix: write the mended model to this new file.")] = None,
+    seed: Annotated[int, typer.Option(help="Of the poses in which loads are measured.")] = 0,
+    fix: Annotated[
+        str | None,
+        typer.Option(metavar="[OUT]", help="Print the edits as a diff; with OUT, write the mended model to this file."),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="With --fix OUT: over a file that exists.")] = False,
     every: Annotated[bool, typer.Option("--all", help="Print every cause, and the six steps of triage.")] = False,
-    form: Annotated[Literal["text", "json"], typer.Option("--format", help="How to print it.")] = "text",
+    form: Annotated[
+        Literal["text", "json", "sarif", "github"], typer.Option("--format", help="How to print it.")
+    ] = "text",
     select: Rules = [],  # noqa: B006
     ignore: Annotated[list[str], typer.Option(help="Not this rule; may be repeated.")] = [],  # noqa: B006
 ) -> None:
     """Say what is wrong with your own model; exit code 0 if nothing is found, 1 for a cause, 2 if it cannot be run."""
     from clinic.commands import terminal
-    from clinic.commands.diagnosis_options import OptionError, check_rules, family_of, start_of
+    from clinic.commands.diagnosis_options import STDIN, OptionError, check_rules, family_of, read_source, start_of
+    from clinic.commands.diagnosis_output import check_output, printed, write_fix
+    from clinic.diagnosis.finding import Diagnosis
     from clinic.diagnosis.process import DiagnosisError
     from clinic.diagnosis.process import diagnose as run
 
-    err = terminal.console(stderr=True)
+    made: list[tuple[str, Diagnosis]] = []
+    failed: list[tuple[str, str]] = []
     try:
-        check_rules([*select, *ignore])
+        check_rules(select, ignore)
         symptom = family_of(symptom)
-        start = start_of(keyframe, ctrl, duration, seed, model)
-        source = sys.stdin.read() if model == "-" else model
-        if model == "-" and not source.lstrip("\ufeff \r\n\t").startswith("<"):
-            raise OptionError("standard input: no XML")
-        with err.status("compiling") as status:
-            made = run(source, symptom=symptom, start=start, select=select, ignore=ignore, tell=status.update)
-        if out is not None and fix:
-            if out.exists():
-                raise OptionError(f"{out} exists; name a new file")
-            out.write_text(next(iter(made.fixed.values())), encoding="utf-8")
-    except (OptionError, DiagnosisError, OSError) as error:
+        check_output(models, form, fix, force)
+        start = start_of(keyframe, ctrl, duration, seed)
+        with terminal.console(stderr=True).status("compiling") as status:
+            for model in models:
+                source = read_source(model)
+                tell = status.update
+                try:
+                    found = run(source, symptom=symptom, start=start, select=select, ignore=ignore, tell=tell)
+                    made.append((model, found))
+                except DiagnosisError as error:
+                    failed.append((model, str(error)))
+        if fix and made:
+            write_fix(*made[0], Path(fix))
+    except OptionError as error:
         print(f"clinic: {error}", file=sys.stderr)
         raise typer.Exit(2) from None
-    if form == "json":
-        print(json.dumps(made.data(), indent=1, ensure_ascii=False, allow_nan=False))
-    elif fix:
-        print(made.diff() or "nothing to change", end="")
-    else:
-        print(made.text(every))
-    if every and form == "text" and not made.error and model != "-":
+    for _, said in failed:
+        print(f"clinic: {said}", file=sys.stderr)
+    if made or form in ("sarif", "github"):
+        print(printed(made, failed, form, fix is not None, every))
+    if every and form == "text":
         from clinic.triage.process import reports
 
-        for said in reports(Path(model)):
-            print(said, flush=True)
-    raise typer.Exit(1 if made.causes else 2 if made.error else 0)
+        for path in [Path(model) for model, found in made if not found.error and model != STDIN]:
+            for report in reports(path):
+                print(report, flush=True)
+    causes, broken = any(found.causes for _, found in made), any(found.error for _, found in made)
+    raise typer.Exit(1 if causes else 2 if failed or broken else 0)
 
 
 @app.command()
@@ -76,7 +98,8 @@ def rules() -> None:
 @app.command()
 def explain(rule: Annotated[str, typer.Argument(help="A rule, by its id.")]) -> None:
     """Print what a rule looks for, why it matters, an example, and when it is wrong."""
-    from clinic.commands.diagnosis_options import explained, unknown
+    from clinic.commands.diagnosis_options import explained
+    from clinic.diagnosis.ignores import unknown
     from clinic.diagnosis.rules import rules
 
     if rule not in rules():

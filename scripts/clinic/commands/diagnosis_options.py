@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import csv
-import difflib
-from collections.abc import Iterable, Mapping
+import math
+import sys
+import zipfile
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 
+from clinic.diagnosis.ignores import unknown
 from clinic.diagnosis.rules import Rule, rules
 from clinic.diagnosis.simulation import Start
 from clinic.record.families import families, likely_families
+
+STDIN = "-"
 
 
 class OptionError(ValueError):
     """An option that cannot be taken, in a sentence."""
 
 
-def start_of(keyframe: str | None, ctrl: Iterable[str], duration: float, seed: int, model: str) -> Start | None:
+def start_of(keyframe: str | None, ctrl: Iterable[str], duration: float, seed: int) -> Start | None:
     """How the run begins, from the command's options; None where none is given.
 
     Raises:
@@ -27,56 +32,84 @@ def start_of(keyframe: str | None, ctrl: Iterable[str], duration: float, seed: i
     for each in ctrl:
         name, equals, value = each.partition("=")
         if equals:
-            try:
-                single[name] = float(value)
-            except ValueError:
-                raise OptionError(f"--ctrl {each}: {value!r} is not a number") from None
+            single[name] = _number(value, f"--ctrl {each}")
         else:
             series += _series(Path(each))
-    if keyframe is None and not single and not series and duration == 2.0 and not seed:
-        return None
-    return Start(_key(keyframe, model), single, tuple(sorted(series, key=lambda row: row[0])), duration, seed)
+    if not math.isfinite(duration):
+        raise OptionError(f"--duration {duration}: expected a time in s")
+    start = Start(-1, single, tuple(sorted(series, key=lambda row: row[0])), duration, seed, keyframe or "")
+    return None if start == Start() else start
 
 
-def _key(keyframe: str | None, model: str) -> int:
-    """The number of a keyframe, by its name or number."""
-    if keyframe is None:
-        return -1
-    if keyframe.isdigit():
-        return int(keyframe)
-    from clinic.diagnosis.diagnose import read_file
-    from clinic.diagnosis.source import read_source, read_texts
-
-    text, beside = read_file(model), Path(model).parent
-    source = read_source(read_texts(text, model, lambda name: read_file(str(beside / name)))) if text else None
-    names = [key.get("name") for key in source.section("keyframe")] if source else []
-    if keyframe not in names:
-        raise OptionError(
-            f"--keyframe {keyframe}: the model has {', '.join(filter(None, names)) or 'none with a name'}"
-        )
-    return names.index(keyframe)
+def _number(value: object, said: str) -> float:
+    try:
+        number = float(str(value))
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise OptionError(f"{said}: {str(value or '')!r} is not a number")
+    return number
 
 
 def _series(path: Path) -> list[tuple[float, Mapping[str, float]]]:
     """Controls by time: a CSV or NPZ with a column `time` and one for each actuator."""
+    said = f"--ctrl {path}"
     try:
-        if path.suffix == ".npz":
-            import numpy as np
-
-            with np.load(path) as arrays:
-                columns = {name: arrays[name].tolist() for name in arrays}
-        else:
-            with path.open(newline="", encoding="utf-8") as file:
-                rows = list(csv.DictReader(file))
-            columns = {name: [float(row[name]) for row in rows] for name in (rows[0] if rows else {})}
-        times = columns.pop("time")
+        columns = _arrays(path) if path.suffix == ".npz" else _columns(path)
     except OSError as error:
-        raise OptionError(f"--ctrl {path}: {error.strerror or error}; expected name=value, a CSV or NPZ") from None
-    except KeyError:
-        raise OptionError(f"--ctrl {path}: no column `time`, in s, beside those of the actuators") from None
-    except (ValueError, TypeError) as error:
-        raise OptionError(f"--ctrl {path}: {error}") from None
-    return [(time, {name: column[i] for name, column in columns.items()}) for i, time in enumerate(times)]
+        raise OptionError(f"{said}: {error.strerror or error}; expected name=value, a CSV or NPZ") from None
+    except (ValueError, csv.Error, zipfile.BadZipFile) as error:
+        found = "not a text in UTF-8" if isinstance(error, UnicodeDecodeError) else error
+        raise OptionError(f"{said}: {found}; expected name=value, a CSV or NPZ") from None
+    length = len(columns.get("time", ()))
+    if len(columns) < 2 or not length:
+        found = ", ".join(columns) or "none"
+        raise OptionError(
+            f"{said}: expected rows with a column `time`, in s, and one for each actuator; columns: {found}"
+        )
+    for name, column in columns.items():
+        if len(column) != length:
+            raise OptionError(f"{said}: {name} has {len(column)} values, time has {length}")
+    numbers = {
+        name: [_number(value, f"{said}, row {i}, {name}") for i, value in enumerate(column, 1)]
+        for name, column in columns.items()
+    }
+    times = numbers.pop("time")
+    return [(time, {name: column[i] for name, column in numbers.items()}) for i, time in enumerate(times)]
+
+
+def _columns(path: Path) -> Mapping[str, Sequence[object]]:
+    with path.open(newline="", encoding="utf-8-sig") as file:
+        rows = list(csv.DictReader(file, restkey="beyond the last column", skipinitialspace=True))
+    names = dict.fromkeys(name for row in rows for name in row)
+    return {name.strip(): [row.get(name, 0) for row in rows] for name in names}
+
+
+def _arrays(path: Path) -> Mapping[str, Sequence[object]]:
+    import numpy as np
+
+    with path.open("rb") as file:
+        if not zipfile.is_zipfile(file):
+            raise ValueError("not an NPZ")
+        arrays = np.load(file)
+        return {name: np.atleast_1d(arrays[name]).tolist() for name in arrays}
+
+
+def read_source(model: str) -> str:
+    """What is diagnosed: a path as it is, or what standard input holds.
+
+    Raises:
+        OptionError: If that is no XML.
+    """
+    if model != STDIN:
+        return model
+    try:
+        text = sys.stdin.buffer.read().decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise OptionError("standard input: not a text in UTF-8") from None
+    if not text.lstrip().startswith("<"):
+        raise OptionError("standard input: no XML")
+    return text
 
 
 def family_of(symptom: str) -> str:
@@ -94,21 +127,17 @@ def family_of(symptom: str) -> str:
     return found[0]
 
 
-def check_rules(chosen: Iterable[str]) -> None:
-    """Whether rules are known.
+def check_rules(select: Collection[str], ignore: Collection[str]) -> None:
+    """Whether rules are known, and one is left.
 
     Raises:
-        OptionError: If one is not; it names the nearest.
+        OptionError: If not; it names the nearest.
     """
-    for rule in chosen:
+    for rule in (*select, *ignore):
         if rule not in rules():
             raise OptionError(unknown(rule))
-
-
-def unknown(rule: str) -> str:
-    """That a rule is unknown, with the nearest that is known."""
-    near = difflib.get_close_matches(rule, rules(), 1)
-    return f"no rule is called {rule}" + (f"; {near[0]} is" if near else "; `clinic rules` lists them")
+    if not set(select or rules()) - set(ignore):
+        raise OptionError(f"--ignore {' --ignore '.join(ignore)}: no rule is left")
 
 
 def rules_table() -> str:

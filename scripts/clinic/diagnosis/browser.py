@@ -133,7 +133,6 @@ def diagnose(
     shown = {
         "data": made.data(),
         "text": made.text(every=True),
-        "error": made.error,
         "diff": made.diff(),
         "texts": texts,
         "mended": changed(made.fixed),

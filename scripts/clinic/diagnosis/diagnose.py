@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from clinic.diagnosis.edit import Edit, apply
 from clinic.diagnosis.engine import CompileError, Engine
 from clinic.diagnosis.errors import mended
 from clinic.diagnosis.finding import Diagnosis, finding_of
+from clinic.diagnosis.ignores import Ignores
 from clinic.diagnosis.judge import Judged, judge, order, suspects_of, without_rivals
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import Rule, rules
@@ -40,28 +42,33 @@ def examine(
         select: Rules to try; all where empty.
         ignore: Rules not to try.
         tell: Is called with the id of each rule before it is tried.
+
+    Raises:
+        StartError: If the model compiles and does not have the start.
     """
     model = ReaderModel(engine, texts, read_source(texts), start or Start())
+    ignores = Ignores(model)
     wanted = [rule for name, rule in rules().items() if name not in ignore and (not select or name in select)]
     tried = [rule for rule in wanted if rule.of_errors == bool(model.error)]
     if model.error:
         found, fixed = mended(model, tried, tell)
     else:
-        found, fixed, tried = _found(model, tried, tell)
-        if start is None and model.simulation.count("key") and not any(each.level == "cause" for each in found):
+        found, fixed, tried = _found(model, tried, ignores, tell)
+        if start is None and model.simulation.count("key") and not any(each.proved for each in found):
             model, before = ReaderModel(engine, texts, model.source, Start(key=0)), found
-            found, fixed, tried = _found(model, tried, tell)
+            found, fixed, tried = _found(model, tried, ignores, tell)
             again = {each.rule.id for each in found}
             found += [each for each in before if each.rule.id not in again]
         found = order(found, (symptom,) if symptom else ())
     named = {each.rule.id for each in found}
-    file = model.source.main if model.source else next(iter(texts))
-    findings = [finding_of(each, file) for each in found]
+    findings = [*(finding_of(each, model) for each in found), *ignores.findings({rule.id for rule in tried}, named)]
+    kept = [each for each in findings if not each.silenced]
     return Diagnosis(
         engine.version,
-        file,
-        tuple(each for each in findings if each.level == "cause"),
-        tuple(each for each in findings if each.level == "hint"),
+        next(iter(texts)),
+        tuple(each for each in kept if each.level == "cause"),
+        tuple(each for each in kept if each.level == "hint"),
+        tuple(each for each in findings if each.silenced),
         tuple(rule.id for rule in tried if rule.id not in named),
         model.error,
         texts,
@@ -70,7 +77,7 @@ def examine(
 
 
 def _found(
-    model: ReaderModel, wanted: Iterable[Rule], tell: Callable[[str], None]
+    model: ReaderModel, wanted: Iterable[Rule], ignores: Ignores, tell: Callable[[str], None]
 ) -> tuple[list[Judged], Mapping[str, str], list[Rule]]:
     """What is found in a model that compiles, its texts with the edits of causes that go together, and who looked."""
     found: list[Judged] = []
@@ -83,10 +90,10 @@ def _found(
         tried.append(rule)
         judged = (judge(model, rule, suspect) for suspect in suspects_of(model, rule, tell))
         found += [each for each in judged if each is not None]
-    found = without_rivals(found)
+    found = [replace(each, silenced=ignores.why(each, model)) for each in without_rivals(found)]
     edits: list[Edit] = []
     for each in found:
-        if each.level == "cause" and not isinstance(model.with_edits([*edits, *each.suspect.edits]), CompileError):
+        if each.proved and not isinstance(model.with_edits([*edits, *each.suspect.edits]), CompileError):
             edits += each.suspect.edits
     return found, apply(model.texts, edits), tried
 

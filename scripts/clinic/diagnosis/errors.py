@@ -9,6 +9,7 @@ from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.judge import Judged, suspects_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import Rule
+from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import read_source
 from clinic.diagnosis.suspect import Suspect
 
@@ -40,7 +41,7 @@ def mended(
             break
         found.append(Judged(*best, "cause", 1.0, 0.0))
         texts = apply(model.texts, best[1].edits)
-        model = ReaderModel(model.engine, texts, read_source(texts), model.start)
+        model = ReaderModel(model.engine, texts, read_source(texts), Start())
     return found, model.texts
 
 

@@ -10,10 +10,13 @@ from typing import Any
 
 from clinic.diagnosis.edit import Edit, diff
 from clinic.diagnosis.judge import Judged
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Level
 
 CAUSES_SHOWN = 3
 DIES = "engine-dies"
+FAILS = "rule-fails"
 SITE = "CLINIC_SITE"  # the environment variable with the address of the site
 
 
@@ -21,7 +24,9 @@ SITE = "CLINIC_SITE"  # the environment variable with the address of the site
 class Finding:
     """One finding. `before` and `after` are the probe's number without and with the edit, in `unit`.
 
-    A number that is not finite, such as the speed of a simulation that explodes, is infinity; None in JSON.
+    A number that is not finite, such as the speed of a simulation that explodes, is infinity; None in JSON. `keyframe`
+    is the number of the one that the runs began from, None for the model's own start; `silenced` why a comment in the
+    model silences the finding.
     """
 
     rule: str
@@ -41,6 +46,8 @@ class Finding:
     says: str
     healthy: str
     page: str | None = None
+    keyframe: int | None = None
+    silenced: str = ""
 
     def data(self) -> dict[str, Any]:
         """The finding as JSON has it."""
@@ -62,6 +69,7 @@ class Diagnosis:
         file: The model.
         causes: Proved by an edit, the most telling first.
         hints: What intent decides, or what no edit here mends.
+        silenced: What comments in the model silence (`ignores`).
         ruled_out: Rules that found nothing.
         error: Why it does not compile; empty where it does.
         texts: The model's texts by file.
@@ -72,6 +80,7 @@ class Diagnosis:
     file: str
     causes: tuple[Finding, ...]
     hints: tuple[Finding, ...]
+    silenced: tuple[Finding, ...]
     ruled_out: tuple[str, ...]
     error: str = ""
     texts: Mapping[str, str] = field(default_factory=dict)
@@ -84,7 +93,9 @@ class Diagnosis:
             "file": self.file,
             "causes": [each.data() for each in self.causes],
             "hints": [each.data() for each in self.hints],
+            "silenced": [each.data() for each in self.silenced],
             "ruled_out": list(self.ruled_out),
+            "error": self.error,
         }
 
     def diff(self) -> str:
@@ -100,19 +111,27 @@ class Diagnosis:
         if len(shown) < len(self.causes):
             lines.append(f"   and {len(self.causes) - len(shown)} more: --all")
         for each in self.hints:
-            where = f"{each.file}:{each.line}  " if each.line else ""
-            lines.append(f"hint     {each.rule}  {where}{_elements(each.elements)}: {each.says}")
+            place = (f"{each.file}:{each.line}" if each.line else "", _elements(each.elements))
+            lines.append(f"hint     {each.rule}  {'  '.join(filter(None, place))}: {each.says}")
         if not self.causes and not self.hints:
-            lines.append(f"Nothing found, by {len(self.ruled_out)} rules: {', '.join(self.ruled_out)}.")
+            tried = f"by {len(self.ruled_out)} rule{'s' * (len(self.ruled_out) > 1)}: {', '.join(self.ruled_out)}"
+            lines.append(
+                f"Nothing found, {tried if self.ruled_out else 'for no chosen rule is about a model that compiles'}."
+            )
         elif self.ruled_out:
             lines.append(f"ruled out ({len(self.ruled_out)}): {', '.join(self.ruled_out)}")
+        if self.silenced:
+            told = (f"{each.rule} {each.file}" + (f":{each.line}" if each.line else "") for each in self.silenced)
+            lines.append(f"silenced ({len(self.silenced)}): {', '.join(told)}")
         return "\n".join(lines)
 
 
-def finding_of(judged: Judged, file: str) -> Finding:
-    """What is said of a judged suspect of a model file."""
+def finding_of(judged: Judged, model: ReaderModel) -> Finding:
+    """What is said of a judged suspect of a model."""
     rule, suspect = judged.rule, judged.suspect
-    first = suspect.edits[0] if suspect.edits else None
+    first: Edit | Element | None = next(iter(suspect.edits), None)
+    if first is None and not model.error:
+        first = next((place for each in suspect.elements if (place := model.named(each))), None)
     site = os.environ.get(SITE, "").rstrip("/")
     page = f"{site}/cases/{rule.case}/" if rule.case else f"{site}/rules/{rule.id}/"
     return Finding(
@@ -120,7 +139,7 @@ def finding_of(judged: Judged, file: str) -> Finding:
         title=rule.title,
         level=judged.level,
         elements=suspect.elements,
-        file=first.file if first else file,
+        file=first.file if first else next(iter(model.texts)),
         line=first.line if first else None,
         attribute=suspect.attribute,
         now=suspect.now,
@@ -133,7 +152,15 @@ def finding_of(judged: Judged, file: str) -> Finding:
         says=suspect.says,
         healthy=suspect.healthy,
         page=page if site else None,
+        keyframe=judged.keyframe,
+        silenced=judged.silenced,
     )
+
+
+def failure(rule: str, file: str, said: str) -> Finding:
+    """That a rule failed on a model file, by a mistake of the clinic."""
+    says = f"{rule} failed ({said}): a mistake of the clinic, not of the model."
+    return Finding(FAILS, "A rule failed", "hint", (), file, None, "", "", "", (), "", "", 1.0, None, says, "")
 
 
 def death(rule: str, file: str) -> Finding:
@@ -150,7 +177,8 @@ def _cause(number: int, found: Finding) -> list[str]:
     indent = "   "
     lines = [f"{number}  cause   {found.rule}  {where}{_elements(found.elements)}  {change}", f"{indent}{found.says}"]
     if found.probe and found.unit != "errors":
-        lines.append(f"{indent}{found.probe}: {shown(found.before, found.unit)}.{after}")
+        begun = "" if found.keyframe is None else f", from keyframe {found.keyframe}"
+        lines.append(f"{indent}{found.probe}{begun}: {shown(found.before, found.unit)}.{after}")
     if found.page:
         lines.append(f"{indent}{found.page}")
     return lines

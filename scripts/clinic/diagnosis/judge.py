@@ -17,13 +17,24 @@ AS_GOOD = 1.5  # a rival whose number is within this factor helps as much
 
 @dataclass(frozen=True)
 class Judged:
-    """A suspect with the probe's numbers without and with its edit; `after` is None where no edit was tried."""
+    """A suspect with the probe's numbers without and with its edit; `after` is None where no edit was tried.
+
+    `keyframe` is the number of that from which the runs began, None for the model's own start; `silenced` is why a
+    comment in the model silences it.
+    """
 
     rule: Rule
     suspect: Suspect
     level: Level
     before: float
     after: float | None
+    keyframe: int | None = None
+    silenced: str = ""
+
+    @property
+    def proved(self) -> bool:
+        """Whether it is a cause that nothing silences."""
+        return self.level == "cause" and not self.silenced
 
     @property
     def severity(self) -> float:
@@ -35,16 +46,16 @@ class Judged:
 
 def judge(model: ReaderModel, rule: Rule, suspect: Suspect) -> Judged | None:
     """The verdict on a suspect; None where the symptom does not show, or where its edit does harm."""
-    before = model.measured(suspect.probe)
+    before, key = model.measured(suspect.probe), model.start.key if model.start.key >= 0 else None
     if not before > suspect.limit:
         return None
     if not suspect.edits or suspect.level == "hint":
-        return Judged(rule, suspect, "hint", before, None)
+        return Judged(rule, suspect, "hint", before, None, key)
     after = model.measured(suspect.probe, suspect.edits)
     helps = after <= suspect.limit or after <= suspect.share * before
     if not helps or not _calm(model, suspect):
         return None
-    return Judged(rule, suspect, "cause", before, after)
+    return Judged(rule, suspect, "cause", before, after, key)
 
 
 def _calm(model: ReaderModel, suspect: Suspect) -> bool:

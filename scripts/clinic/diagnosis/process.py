@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from clinic.diagnosis.diagnose import examine, read_file
-from clinic.diagnosis.finding import Diagnosis, death
-from clinic.diagnosis.simulation import Start
+from clinic.diagnosis.finding import Diagnosis, death, failure
+from clinic.diagnosis.simulation import Start, StartError
 from clinic.diagnosis.source import read_texts
 
 LIMIT = 60.0  # s, for one process
@@ -65,28 +65,36 @@ def diagnose(
         tell: Is called with the id of each rule before it is tried.
 
     Raises:
-        DiagnosisError: If the model cannot be read, or is given in another form.
+        DiagnosisError: If the model cannot be read, is given in another form, or does not have the start.
     """
     text, name, folder = _read(source)
     given = {key: value if isinstance(value, bytes) else str(value).encode() for key, value in (assets or {}).items()}
     request = Request(text, name, folder, given, symptom, start, tuple(select), tuple(ignore))
-    died: list[str] = []
+    died: dict[str, str] = {}
     while True:
-        made, trying = _asked(replace(request, ignore=(*request.ignore, *died)), tell)
+        made, trying, said = _asked(replace(request, ignore=(*request.ignore, *died)), tell)
         if made is not None:
-            deaths = [death(rule, name) for rule in died]
-            return replace(made, causes=(*deaths, *made.causes))
-        died.append(trying or "")
+            ends = [failure(rule, name, said) if said else death(rule, name) for rule, said in died.items()]
+            causes, hints = ([each for each in ends if each.level == level] for level in ("cause", "hint"))
+            return replace(made, causes=(*causes, *made.causes), hints=(*hints, *made.hints))
+        died[trying] = said
         if not trying or len(died) > DEATHS:
             doing = f"while trying {trying}" if trying else "while compiling the model"
-            raise DiagnosisError(f"{name}: MuJoCo ended the process, or gave no answer in {LIMIT:g} s, {doing}")
+            ended = said or f"MuJoCo ended the process, or gave no answer in {LIMIT:g} s,"
+            raise DiagnosisError(f"{name}: {ended} {doing}")
 
 
 def _read(source: Any) -> tuple[str, str, str]:
     if isinstance(source, tuple) and len(source) == 2:
         return _read(source[1])
     if hasattr(source, "to_xml"):
-        return source.to_xml(), "MjSpec", str(getattr(source, "modelfiledir", "") or os.getcwd())
+        try:
+            return source.to_xml(), "MjSpec", str(getattr(source, "modelfiledir", "") or os.getcwd())
+        except ValueError as error:
+            said = str(error).strip()
+            raise DiagnosisError(
+                f"MjSpec: it does not compile, and so has no XML; give the text instead: {said}"
+            ) from None
     if isinstance(source, str) and source.lstrip("\ufeff \t\r\n").startswith("<"):
         return source, "model.xml", os.getcwd()
     if not isinstance(source, (str, Path)):
@@ -98,8 +106,8 @@ def _read(source: Any) -> tuple[str, str, str]:
         raise DiagnosisError(f"{source}: {getattr(error, 'strerror', None) or 'not a text in UTF-8'}") from None
 
 
-def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | None, str]:
-    """The answer of a process; or None and the rule that was being tried when it ended."""
+def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | None, str, str]:
+    """The answer of a process; or None, the rule that was being tried, and the clinic's own mistake if it was one."""
     found = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}  # what this process can import
     pipe = subprocess.PIPE
     child = subprocess.Popen(CHILD, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, env=found)
@@ -114,10 +122,12 @@ def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | N
         for line in child.stdout:
             kind, _, rest = line.strip().partition(b" ")
             if kind == b"trying":
-                trying = rest.decode()
-                tell(trying)
+                tell(rest.decode())
+                trying = rest.decode().partition(":")[0]
             if kind == b"made":
-                return pickle.loads(base64.b64decode(rest)), trying
+                return pickle.loads(base64.b64decode(rest)), trying, ""
+            if kind == b"failed":
+                return None, trying, rest.decode()
             if kind == b"wrong":
                 raise DiagnosisError(rest.decode())
     except BrokenPipeError:
@@ -126,7 +136,14 @@ def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | N
         timer.cancel()
         child.kill()
         child.communicate()
-    return None, trying
+    return None, trying, ""
+
+
+def _end_with_who_asked() -> None:
+    """Ends this process where the one that asked is gone, and its end of the pipe with it."""
+    while os.read(0, 1):
+        pass
+    os._exit(1)
 
 
 def main() -> None:
@@ -139,6 +156,7 @@ def main() -> None:
     from clinic.diagnosis.native import NativeEngine
 
     request: Request = pickle.loads(base64.b64decode(sys.stdin.buffer.readline()))
+    threading.Thread(target=_end_with_who_asked, daemon=True).start()
     os.chdir(request.folder)
 
     def read(name: str) -> str | None:
@@ -157,6 +175,12 @@ def main() -> None:
         )
     except (MemoryError, RecursionError) as error:
         print(f"wrong {request.name}: {type(error).__name__}: the model is too large", flush=True)
+        return
+    except StartError as error:
+        print(f"wrong {request.name}: {error}", flush=True)
+        return
+    except Exception as error:  # ours, and not to be taken for the engine's
+        print("failed", " ".join(f"{type(error).__name__}: {error}".split()), flush=True)
         return
     sys.stdout.buffer.write(b"made " + base64.b64encode(pickle.dumps(made)) + b"\n")
 

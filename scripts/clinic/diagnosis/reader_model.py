@@ -33,6 +33,9 @@ class ReaderModel:
         source: Its text with places; None where it is not well-formed XML.
         error: What the engine says when it does not compile; empty when it does.
         simulation: The compiled model as it is; only where `error` is empty.
+
+    Raises:
+        StartError: If the model does not have the start.
     """
 
     def __init__(self, engine: Engine, texts: dict[str, str], source: Source | None, start: Start) -> None:
@@ -41,6 +44,8 @@ class ReaderModel:
         self._measured: dict[tuple[object, ...], float] = {}
         found = self.with_edits(())
         self.error = str(found) if isinstance(found, CompileError) else ""
+        if isinstance(found, Simulation):
+            self.start = found.begin_from(start)
         self._elements: dict[str, list[Element | None]] = {}
 
     @property
@@ -107,6 +112,14 @@ class ReaderModel:
             if fits or kind == "body":
                 return list(written)
         return [by_name.get(name) if name else None for name in names]
+
+    def named(self, said: str) -> Element | None:
+        """Where an element stands that is told as `Simulation.name` does; None where it has no place."""
+        kind = said.partition(" ")[0]
+        if kind not in (*TAGS, *SECTION, "body"):
+            return None
+        found = (index for index in range(self.simulation.count(kind)) if self.simulation.name(kind, index) == said)
+        return self.element(kind, next(found, -1))
 
     def value(self, kind: str, index: int, attribute: str) -> str | None:
         """What is written for an attribute, on the element or in its default class; None where nothing is."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from clinic.diagnosis.engine import BALL, FREE, HINGE, SLIDE, Compiled
@@ -23,7 +23,8 @@ class Start:
         ctrl: Controls by actuator, in place of the keyframe's.
         series: Controls by time in s, increasing, each from its time on.
         duration: How long the model is let go, in s.
-        seed: Of whatever is drawn.
+        seed: Of the poses in which loads are measured.
+        keyframe: A keyframe by its name, or its number, in place of `key`.
     """
 
     key: int = -1
@@ -31,6 +32,11 @@ class Start:
     series: Sequence[tuple[float, Mapping[str, float]]] = ()
     duration: float = 2.0
     seed: int = 0
+    keyframe: str = ""
+
+
+class StartError(ValueError):
+    """A start that a model does not have, in a sentence."""
 
 
 class Simulation:
@@ -110,6 +116,29 @@ class Simulation:
                 self._drive(controls)
             self.engine.step(each)
             yield done * self.timestep
+
+    def begin_from(self, start: Start) -> Start:
+        """Takes a start whose names and numbers the model has, and gives it with its keyframe's number.
+
+        Raises:
+            StartError: If the model lacks one of them.
+        """
+        names, named, key = self.names("key"), start.keyframe, start.key
+        if named:
+            key = names.index(named) if named in names else int(named) if named.isdecimal() else len(names)
+        if key >= len(names):
+            having = ", ".join(name or str(number) for number, name in enumerate(names)) or "no keyframe"
+            raise StartError(f"keyframe {named or key}: the model has {having}")
+        driven = dict.fromkeys(
+            name for controls in (start.ctrl, *(row for _, row in start.series)) for name in controls
+        )
+        actuators = self.names("actuator")
+        for name in driven:
+            if not name or name not in actuators:
+                having = ", ".join(filter(None, actuators)) or "no actuator with a name"
+                raise StartError(f"control {name}: the model has {having}")
+        self.begin_with = replace(start, key=key, keyframe="")
+        return self.begin_with
 
     def _drive(self, controls: Mapping[str, float]) -> None:
         names = self.names("actuator") if controls else []

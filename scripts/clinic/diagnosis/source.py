@@ -65,15 +65,32 @@ class Element:
             outer = outer.parent
 
 
+@dataclass(frozen=True, eq=False)
+class Comment:
+    """A comment: what it says, and the element that follows it, which is None at the end of the one around it."""
+
+    text: str
+    file: str
+    line: int
+    start: int
+    following: Element | None
+
+
 class Source:
     """The texts of a model and their elements.
 
     Args:
         texts: The texts by file, the main one first; an included one by the name that is written in `<include>`.
+
+    Attributes:
+        comments: The comments by file and offset.
+        included: The `<include>` that an included file's elements have taken the place of, by file.
     """
 
     def __init__(self, texts: Mapping[str, str]) -> None:
         self.texts = dict(texts)
+        self.comments: dict[tuple[str, int], Comment] = {}
+        self.included: dict[str, Element] = {}
         self.main = next(iter(self.texts))
         self.root = self._parsed(self.main)
         self._includes(self.root, 0)
@@ -158,9 +175,18 @@ class Source:
 
     def _parsed(self, file: str) -> Element:
         text = self.texts[file].encode()
-        parser = expat.ParserCreate("utf-8" if "encoding=" not in self.texts[file][:100] else None)
+        parser = expat.ParserCreate("utf-8")  # whatever the text says of itself, as MuJoCo reads it
         roots: list[Element] = []
         open_: list[Element] = []
+        said: list[tuple[str, int, int]] = []
+
+        def comment(text: str) -> None:
+            said.append((text, parser.CurrentLineNumber, parser.CurrentByteIndex))
+
+        def keep(following: Element | None) -> None:
+            for words, line, at in said:
+                self.comments[file, at] = Comment(words, file, line, at, following)
+            said.clear()
 
         def begin(tag: str, attributes: dict[str, str]) -> None:
             start = parser.CurrentByteIndex
@@ -173,17 +199,20 @@ class Source:
             else:
                 roots.append(made)
             open_.append(made)
+            keep(made)
 
         def finish(tag: str) -> None:
+            keep(None)
             made = open_.pop()
             if not text[made.start : made.head_end].endswith(b"/>"):
                 made.end = text.find(b">", parser.CurrentByteIndex) + 1
 
-        parser.StartElementHandler, parser.EndElementHandler = begin, finish
+        parser.StartElementHandler, parser.EndElementHandler, parser.CommentHandler = begin, finish, comment
         try:
             parser.Parse(text, True)
         except expat.ExpatError as error:
             raise SourceError(file, error.lineno, expat.errors.messages[error.code]) from None
+        keep(None)
         return roots[0]
 
     def _includes(self, element: Element, depth: int) -> None:
@@ -191,6 +220,7 @@ class Source:
         for child in element.children:
             name = child.get("file")
             if child.tag == "include" and name in self.texts and depth < 20:
+                self.included.setdefault(name, child)
                 root = self._parsed(name)
                 self._includes(root, depth + 1)
                 for inner in root.children:

@@ -16,7 +16,7 @@ from clinic.record.problem import listed
 UNNAMED = ("option", "compiler", "flag", "statistic", "map")
 QUOTATION = re.compile(
     rf"\s*(?P<variant>[a-z][a-z0-9-]*)\.(?:(?P<tag>[a-z]+)\((?P<name>[^)]*)\)|(?P<alone>{'|'.join(UNNAMED)}))"
-    r"\.(?P<attributes>[a-z0-9]+(?: [a-z0-9]+)*)\s*"
+    r"\.(?P<attributes>[a-z0-9_]+(?: [a-z0-9_]+)*)\s*"
 )
 SERVO = (
     '<mujoco><worldbody><body><joint name="a"/><geom size="1"/></body></worldbody>'

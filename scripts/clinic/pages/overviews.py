@@ -14,6 +14,7 @@ from clinic.pages.error_page import error_page
 from clinic.pages.messages import load_messages, messages_page, provoke_messages, read_heard
 from clinic.pages.reference import reference
 from clinic.pages.rules import rule_pages
+from clinic.pages.search_index import search_files
 from clinic.pages.storeys import storeys
 from clinic.pages.symptoms import symptom_pages
 from clinic.pages.text.template import render
@@ -66,7 +67,8 @@ def overviews(
         except CaseError as error:
             problems += error.problems
             made[path] = error_page(title, error.problems).encode()
-    return made, problems
+    said = load_messages() if not problems else []
+    return made | search_files(shown, families(), said, made), problems
 
 
 def _messages(root: Path, known: Mapping[str, Case], cache: Cache) -> str:

@@ -59,13 +59,15 @@ def diagnosis_schema() -> dict[str, Any]:
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "A diagnosis",
         "type": "object",
-        "required": ["engine", "file", "causes", "hints", "ruled_out"],
+        "required": ["engine", "file", "causes", "hints", "silenced", "ruled_out", "error"],
         "properties": {
             "engine": {"type": "string", "description": "The release of MuJoCo that ran the model."},
             "file": {"type": "string"},
             "causes": several,
             "hints": several,
+            "silenced": {**several, "description": "Causes and hints that comments in the model silence."},
             "ruled_out": {"type": "array", "items": {"type": "string"}},
+            "error": {"type": "string", "description": "Why it does not compile; empty where it does."},
         },
         "$defs": {**parts, "Finding": finding},
     }

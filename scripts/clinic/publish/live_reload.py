@@ -1,6 +1,6 @@
 """Live reload: after an edit of a model the page first shows its numbers, later its film and sweeps.
 
-They are made by a process of their own, which then touches a file that the server watches.
+They are made by a process of their own; when it has ended, a file that the server watches is touched.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from threading import Thread
 
 from mkdocs.livereload import LiveReloadServer
 
@@ -25,6 +26,7 @@ class LiveSite:
         shown: The site of the last build.
         watched: A folder that the server watches; None in a single build, which waits for everything.
         process: The last one that measured what an edit had changed.
+        end: Waits for that process, and then touches the file.
         tried: The keys of all work that was tried.
     """
 
@@ -32,6 +34,7 @@ class LiveSite:
         self.shown = Site({}, [])
         self.watched: Path | None = None
         self.process: subprocess.Popen[bytes] | None = None
+        self.end: Thread | None = None
         self.tried: set[str] = set()
 
     def site(self, root: Path, cache: Cache) -> Site:
@@ -48,9 +51,17 @@ class LiveSite:
             return make_site(root, cache)
         if not running:
             self.tried |= new
-            command = [sys.executable, "-m", "clinic.publish.live_reload", str(self.watched)]
+            command = [sys.executable, "-m", "clinic.publish.live_reload"]
             self.process = subprocess.Popen(command, cwd=root, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            self.end = Thread(target=_tell_end, args=(self.process, self.watched / "made"), daemon=True)
+            self.end.start()
         return Site({**self.shown.files, **numbers}, self.shown.navigation, self.shown.problems)
+
+
+def _tell_end(process: subprocess.Popen[bytes], made: Path) -> None:
+    """Touches the file once the process is gone: a build that still saw it running would wait for it for ever."""
+    process.wait()
+    made.touch()
 
 
 def on_serve(server: LiveReloadServer, **_: object) -> None:
@@ -72,7 +83,4 @@ if __name__ == "__main__":
     from clinic.publish.site import make_site
 
     os.nice(5)
-    try:
-        make_site(project_root(), Cache(cache_folder(project_root())))
-    finally:
-        Path(sys.argv[1], "made").touch()
+    make_site(project_root(), Cache(cache_folder(project_root())))

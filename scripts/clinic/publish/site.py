@@ -23,8 +23,6 @@ from clinic.record.problem import CaseError, problems_by_case
 from clinic.work.cache import Cache, Files
 from clinic.work.task import Task, run_tasks
 
-BROWSER_PARTS = {"javascripts/iframe-worker.js": "node_modules/iframe-worker/shim/index.js"}
-
 
 def make_site(root: Path, cache: Cache) -> Site:
     """The site as far as it can be made: every case comes as far as it can, and holds up no other."""
@@ -38,7 +36,6 @@ def make_site(root: Path, cache: Cache) -> Site:
     made |= files
     made |= bundle.diagnosis_files(root, cache)
     made[SCHEMA] = schema_text().encode()
-    made |= {path: (root / part).read_bytes() for path, part in BROWSER_PARTS.items() if (root / part).is_file()}
     for one in shown:
         made |= {f"{FOLDER.format(slug=one.case.slug)}/{name}": content for name, content in one.files.items()}
     pages, told = {one.case.slug: one.page for one in shown}, problems_by_case(problems)
@@ -84,6 +81,7 @@ def navigation(headings: Mapping[str, str]) -> Navigation:
         {"Find your symptom": "symptoms.md"},
         {"What MuJoCo says": "messages.md"},
         {"Diagnose your model": "rules/index.md"},
+        {"Check your models in CI": "check-your-models.md"},
         {"Triage": "triage.md"},
         {"Cases": divided if len(sections) > 1 else cases},
         {"By thing": "tags.md"},

@@ -20,7 +20,7 @@ def poses(simulation: Simulation) -> list[list[float]]:
     begin = list(simulation.data("qpos"))
     if CONNECT in map(int, simulation.model("eq_type")):
         return [begin]
-    drawn, seed = [begin], 12345
+    drawn, seed = [begin], 12345 + simulation.begin_with.seed
     for _ in range(POSES):
         pose = list(begin)
         for joint in range(simulation.count("joint")):

@@ -36,24 +36,25 @@ like that and are left alone.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
-from clinic.diagnosis.engine import FREE, PLANE
+from clinic.diagnosis.engine import BOX, FREE, PLANE
 from clinic.diagnosis.probes.overlap import at_start, beginning, buried
-from clinic.diagnosis.probes.shape import box, root_of
+from clinic.diagnosis.probes.shape import box, geoms_of_tree, root_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Something begins inside of something else"
 FAMILIES = ("jumps-at-start", "sinks", "explodes")
 SINCE = "0.2"
+CASE = "stacked-boxes-fly-apart"
 
 MOST = 0.05
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Whatever is buried deepest, raised until it is free; the upper one of two bodies."""
+    """Whatever is buried deepest, raised until it is free; the upper one of two bodies; else boxes halved."""
     simulation = model.simulation
     found = {root: each for root, each in buried(simulation).items() if each[0] > MOST}
     if not found or (model.start.key < 0 and simulation.count("key")):
@@ -84,7 +85,22 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = f"It begins {1000 * depth:.3g} mm inside of what it touches."
     if names:
         geoms = tuple(simulation.name("geom", geom) for _, contact in found.values() for geom in contact.geoms)
-        yield Suspect((*names, *geoms), "pos", "", lifted, edits, at_start(), MOST, says, excess=2.0)
+        if model.measured(at_start(), edits) > MOST and (halved := _halved(model, found)):
+            says += " The size of a box is half of its edge."
+            yield Suspect(geoms, "size", "", halved[0].value, halved, at_start(), MOST, says, excess=2.0)
+        else:
+            yield Suspect((*names, *geoms), "pos", "", lifted, edits, at_start(), MOST, says, excess=2.0)
+
+
+def _halved(model: ReaderModel, roots: Iterable[int]) -> tuple[Edit, ...]:
+    """Boxes of half the size, those of one size together; nothing where something else than a box is buried."""
+    simulation, sizes = model.simulation, dict[tuple[float, ...], list[int]]()
+    for geom in (geom for root in roots for geom in geoms_of_tree(simulation, root)):
+        if int(simulation.model("geom_type")[geom]) != BOX:
+            return ()
+        sizes.setdefault(simulation.row("geom_size", geom, 3), []).append(geom)
+    halves = ((geoms, " ".join(f"{each / 2:g}" for each in size)) for size, geoms in sizes.items())
+    return tuple(edit for geoms, text in halves for edit in model.set("geom", geoms, "size", text))
 
 
 def _raised(model: ReaderModel, root: int, lift: float) -> tuple[Edit, ...]:

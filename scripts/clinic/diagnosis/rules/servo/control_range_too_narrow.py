@@ -51,6 +51,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "The control range misses the joint's range"
 FAMILIES = ("stuck", "passes-limit", "sags")
 SINCE = "0.2"
+CASE = "servo-moves-a-fraction"
 
 MISSED = 0.6
 GEARED = 1.5
@@ -105,4 +106,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _ungeared(model: ReaderModel, servo: Servo) -> tuple[Edit, ...]:
-    return model.set("actuator", [servo.actuator], "gear", "1")
+    """A gear of 1 in place of the gear, and gains that leave the joint as stiff and as damped as it was."""
+    one, gear = [servo.actuator], model.simulation.model("actuator_gear")[6 * servo.actuator]
+    written = {gain: model.value("actuator", servo.actuator, gain) for gain in ("kp", "kv")}
+    gains = ((gain, f"{float(value) * gear**2:g}") for gain, value in written.items() if value)
+    return sum((model.set("actuator", one, *each) for each in gains), model.set("actuator", one, "gear", "1"))

@@ -52,6 +52,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "A gain too high for a joint without armature"
 FAMILIES = ("explodes", "oscillates")
 SINCE = "0.2"
+CASE = "hand-shakes-at-once"
 
 USUAL = 0.002  # s
 IMPLICIT = (2, 3)  # mjtIntegrator that treats an actuator's damping implicitly

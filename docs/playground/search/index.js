@@ -1,0 +1,66 @@
+// Asks the documents: any of the words, with beginnings, typos and synonyms; best first, and whether anything is about it.
+
+import MiniSearch from "minisearch";
+import { stem, stems, thesaurus, words } from "./words.js";
+
+/** @typedef {{kind: string, at: string, title: string, words: string, text: string, case?: string}} Document `case` is the address of a message's case */
+/** @typedef {{found: Document[], covered: boolean}} Answer `covered` is whether the best is about most of what was asked */
+
+const FIELDS = ["title", "words", "text", "answer"];
+const BOOST = { title: 3, words: 2, text: 1, answer: 0.5 };
+/** @type {Record<string, number>} */
+const KINDS = { case: 2, symptom: 0.8, message: 1, rule: 0.6, page: 0.6 };
+const BEGINNING = 3; // letters from which on a word may be unfinished
+const LONG = 8; // letters from which on a word may have two typos
+const PASTED = 3; // the weight of a message of whose words most are asked for
+const MOST = 2 / 3;
+const LIKE = 0.5; // a synonym's weight
+const WORTH = 0.1; // of the best one's score, for what is shown at all
+const COVERED = 0.42; // of what the words of a query weigh
+
+/**
+ * @param {{documents: Document[], synonyms: string[][]}} index
+ * @param {Record<string, string>} [answers] by address
+ * @returns {(query: string) => Answer}
+ */
+export function searcher({ documents, synonyms }, answers = {}) {
+  const texts = documents.map((document, id) => ({ ...document, id, answer: answers[document.at] ?? "" }));
+  const mini = new MiniSearch({ fields: FIELDS, tokenize: words, processTerm: stem });
+  mini.addAll(texts);
+  /** @type {Map<string, number>} in how many documents a stem stands */
+  const known = new Map();
+  for (const text of texts) {
+    const there = new Set([text.title, text.words, text.text, text.answer].flatMap(stems));
+    for (const each of there) known.set(each, (known.get(each) ?? 0) + 1);
+  }
+  const titles = texts.map(({ kind, title }) => (kind === "message" ? stems(title) : []));
+  const weight = (/** @type {string} */ term) => Math.log(1 + texts.length / (known.get(term) ?? 1));
+  const alike = thesaurus(synonyms);
+
+  return (query) => {
+    const asked = stems(query);
+    const last = stem(words(query).at(-1) ?? "");
+    const pasted = (/** @type {number} */ id) => titles[id].length > 1 && titles[id].filter((term) => asked.includes(term)).length >= MOST * titles[id].length;
+    const meant = new Map(asked.map((term) => [term, term]));
+    for (const [term, others] of alike(query)) for (const other of others) if (!meant.has(other)) meant.set(other, term);
+    const results = mini.search([...meant.keys()].join(" "), {
+      tokenize: (text) => text.split(" "),
+      processTerm: (term) => term,
+      boost: BOOST,
+      prefix: (term) => term === last && term.length >= BEGINNING,
+      fuzzy: (term) => (meant.get(term) === term && !known.has(term) && term.length > BEGINNING ? 1 + Number(term.length >= LONG) : false),
+      boostTerm: (term) => (meant.get(term) === term ? 1 : LIKE),
+      boostDocument: (id) => KINDS[texts[id].kind] * (pasted(id) ? PASTED : 1),
+    });
+    const total = asked.reduce((sum, term) => sum + weight(term), 0);
+    const best = results.slice(0, 3).map(({ queryTerms }) => {
+      const hit = new Set(queryTerms.map((term) => meant.get(term)));
+      return asked.reduce((sum, term) => sum + (hit.has(term) ? weight(term) : 0), 0) / total;
+    });
+    const worth = results.filter(({ score }) => score >= WORTH * results[0].score);
+    const found = worth.map(({ id }) => texts[id]);
+    const shown = found.findIndex(({ at }) => at === found[0].case);
+    if (shown > 1 && pasted(worth[0].id)) found.splice(1, 0, ...found.splice(shown, 1)); // what is about the message, right after it
+    return { found, covered: Math.max(0, ...best) >= COVERED };
+  };
+}

@@ -1,0 +1,108 @@
+"""What the search reads: a document for every case, symptom, message and page, in scripts that run from a file too."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path, PurePosixPath
+
+import yaml
+
+from clinic.pages.cases import FOLDER, CasePage
+from clinic.pages.messages import Message
+from clinic.record.families import Family
+from clinic.record.prose import FIELD
+from clinic.work.cache import Files
+
+FILE = "javascripts/search/index.js"
+ANSWERS = "javascripts/search/answers.js"
+SYNONYMS = Path(__file__).with_name("synonyms.toml")
+HEAD = re.compile(r"\A---\n(.*?)^---\n", re.DOTALL | re.MULTILINE)
+HEADING = re.compile(r"^#+ (.*?)(?: \{[^}]*\})?$", re.MULTILINE)
+
+Document = dict[str, str]
+
+
+def search_files(
+    shown: Iterable[CasePage], families: Mapping[str, Family], messages: Iterable[Message], pages: Files
+) -> Files:
+    """The search's index, and apart from it the text of the answers, for who asks for them.
+
+    Args:
+        shown: The cases that have a page.
+        families: The symptoms.
+        messages: What MuJoCo says.
+        pages: The other pages' Markdown by path; what is not Markdown is left out.
+    """
+    shown = list(shown)
+    documents = [
+        *(_case(one) for one in shown),
+        *_families(families),
+        *map(_message, messages),
+        *_pages(pages),
+    ]
+    answers = {_address(one): _answer(one) for one in shown}
+    index = {"documents": documents, "synonyms": synonyms()}
+    return {FILE: _script("clinicIndex", index), ANSWERS: _script("clinicAnswers", answers)}
+
+
+def synonyms() -> list[list[str]]:
+    """Groups of words and phrases that mean the same to who searches."""
+    groups: list[list[str]] = tomllib.loads(SYNONYMS.read_text(encoding="utf-8"))["groups"]
+    return groups
+
+
+def _case(one: CasePage) -> Document:
+    record = one.case.record
+    words = "; ".join([*record.phrases, *record.tags])
+    return {"kind": "case", "at": _address(one), "title": record.title, "words": words, "text": one.symptom}
+
+
+def _answer(one: CasePage) -> str:
+    record = one.case.record
+    return FIELD.sub("", " ".join([record.diagnosis, record.cause, record.fix, record.lesson]))
+
+
+def _address(one: CasePage) -> str:
+    return f"{FOLDER.format(slug=one.case.slug)}/index.html"
+
+
+def _families(families: Mapping[str, Family]) -> Iterator[Document]:
+    for name, family in families.items():
+        yield {
+            "kind": "symptom",
+            "at": f"symptoms/{name}.html",
+            "title": family.title,
+            "words": "; ".join(family.words),
+            "text": "",
+        }
+
+
+def _message(message: Message) -> Document:
+    words = "\n".join([message.says or "", *message.older])
+    title, text = (part.replace("`", "") for part in (message.title, message.meaning))
+    made = {"kind": "message", "at": f"messages.html#{message.id}", "title": title, "words": words, "text": text}
+    return made | ({"case": f"{FOLDER.format(slug=message.case)}/index.html"} if message.case else {})
+
+
+def _pages(pages: Files) -> Iterator[Document]:
+    """Each page by its title and description, found by its headings too."""
+    for path, content in pages.items():
+        if not path.endswith(".md") or path.startswith("symptoms/"):
+            continue
+        text = content.decode()
+        head = HEAD.match(text)
+        meta = yaml.safe_load(head[1]) if head else {}
+        headings = HEADING.findall(text)
+        title = meta.get("title") or next(iter(headings), path)
+        kind = "rule" if path.startswith("rules/") and PurePosixPath(path).stem != "index" else "page"
+        words = "" if kind == "rule" else "; ".join(headings[1:])
+        at = path.removesuffix(".md") + ".html"
+        yield {"kind": kind, "at": at, "title": title, "words": words, "text": meta.get("description", "")}
+
+
+def _script(name: str, content: object) -> bytes:
+    text = json.dumps(content, ensure_ascii=False, separators=(",", ":"))
+    return f"globalThis.{name} = {text};\n".encode()

@@ -1,0 +1,38 @@
+"""Whatever a file holds, a diagnosis of it ends with what it found or with a sentence."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from clinic.commands.cli import app
+from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.rules import rules
+from mutilated import KINDS, mutilated
+from typer.testing import CliRunner
+
+
+@pytest.mark.parametrize("seed", range(len(KINDS)), ids=lambda seed: KINDS[seed].__name__)
+def test_a_mutilated_model_is_diagnosed_or_refused(seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    _, content = mutilated(seed)
+    Path("model.xml").write_bytes(content)
+
+    result = CliRunner().invoke(app, ["diagnose", "model.xml"])
+
+    assert isinstance(result.exception, SystemExit | None)
+    assert result.exit_code in (0, 1, 2)
+    assert bool(result.stdout) or result.stderr.startswith("clinic: model.xml: ")
+    assert "MuJoCo ended the process" not in result.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["model.xml"]
+    assert Path("model.xml").read_bytes() == content
+
+
+@pytest.mark.parametrize("name", ["no-such", "utf-32", "latin-1"])
+def test_a_text_is_read_as_utf_8_whatever_it_declares(name: str) -> None:
+    text = rules()["visual-mass"].example("Bad").replace('"drill"', '"perçeuse"')
+    (cause,) = examine(
+        NativeEngine(), {"model.xml": f'<?xml version="1.0" encoding="{name}"?>\n{text}'}, select=["visual-mass"]
+    ).causes
+    assert (cause.elements, cause.line) == (('body "perçeuse"',), 6)

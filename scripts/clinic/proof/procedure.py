@@ -100,7 +100,7 @@ def procedure(family: str, cases: Iterable[Case]) -> str:
         telling = case.record.telling
         assert telling is not None
         sign, bound = (1, telling.above) if telling.above is not None else (-1, telling.below)
-        name, kind = json.dumps(telling.cause, ensure_ascii=False), telling.of or ""
+        name, kind = json.dumps(telling.cause or case.record.title, ensure_ascii=False), telling.of or ""
         rows.append(f'    ("{case.slug}", {name}, {telling.expr}, "{kind}", {sign}, {bound}),')
     known = families()[family]
     return HEAD.format(title=known.title, probe=known.probe.strip(), rows="\n".join(rows), none=NONE)

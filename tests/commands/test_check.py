@@ -10,7 +10,7 @@ from clinic.work.cache import Cache
 from helpers import write_case, write_script_case
 
 TAGS = "tags: [code]"
-FOUND = (TAGS, f"{TAGS}\nfamily: wrong-numbers\ntelling: {{says: the error that it prints}}")
+FOUND = (TAGS, f"{TAGS}\nfamily: wrong-numbers\ntelling: {{cause: masks, says: the error that it prints}}")
 
 
 @pytest.fixture

@@ -94,7 +94,7 @@ def test_a_first_version_tells_what_is_not_known(tmp_path: Path, page: str) -> N
         r"^Grade B: the record does not say whether a repair .*, nor whether a check .*, `telling`\)\.$", page, re.M
     )
     trial = 'trials: [{id: high, title: High, start: {"joint(free).qpos[2]": 0.2}}]'
-    family = "family: falls-through\ntelling: {says: It falls.}"
+    family = "family: falls-through\ntelling: {cause: masks, says: It falls.}"
     case = tiny_case(tmp_path, ("film: {}", f"film: {{}}\nloose: {{}}\n{trial}\n{family}"))
     assert "Grade" not in page_of(case, collect(case))
 

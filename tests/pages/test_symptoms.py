@@ -15,7 +15,9 @@ from helpers import page_of, tiny_case
 
 STILL = "still: {share-a-bit: No motor.}"
 STILL = "still: {share-a-bit: No motor.}"
-TELLS = f"family: falls-through\ntelling: {{says: contacts at the start, expr: model.nu, below: 1, {STILL}}}"
+TELLS = (
+    f"family: falls-through\ntelling: {{cause: masks, says: contacts at the start, expr: model.nu, below: 1, {STILL}}}"
+)
 
 
 def test_a_case_without_a_family_stands_at_the_end(tmp_path: Path) -> None:
@@ -38,7 +40,7 @@ def test_a_family_has_its_causes_the_procedure_and_what_it_prints(tmp_path: Path
     assert "symptoms/falls-through.md" in listed
     assert "Contacts at the start: below 1." in page
     assert "rows = [  # the case" in page
-    assert "falling-box = 0\nit is falling-box\n" in page
+    assert "falling-box = 0\nit is falling-box: masks\n" in page
     assert "after the repair `share-a-bit`. No motor." in page
     assert "](../rules/masks.md)" in page
 

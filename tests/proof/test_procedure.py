@@ -15,7 +15,7 @@ from clinic.work.cache import Cache
 from helpers import MODEL, PENDULUM, RECORD, RESTING, write_case
 
 LINES = 40
-FAMILY = "family: sinks\ntelling: {{says: contacts, expr: data.ncon, {}{}}}\n"
+FAMILY = "family: sinks\ntelling: {{cause: masks, says: contacts, expr: data.ncon, {}{}}}\n"
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +48,7 @@ def test_it_takes_a_path_and_names_the_element(clinic: list[Case]) -> None:
     code = procedure("stuck", [case]).replace("sys.argv[1]", "'model.xml'")
     assert run_script(code, {"model.xml": case.text}).splitlines() == [
         "elbow-will-not-bend = 0.04363, joint elbow",
-        "it is elbow-will-not-bend",
+        "it is elbow-will-not-bend: a range in radians is read in degrees",
     ]
     well = variants(case)[1].text
     assert run_script(code, {"model.xml": well}).splitlines()[-1] == "it is none of these: no row applies"

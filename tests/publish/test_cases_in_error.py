@@ -26,7 +26,12 @@ MISTAKES = {
     "signal": (RECORD, "body(box)", "body(bix)", "bix"),
     "prose": (RECORD, "broken.contacts.max", "broken.contact.max", "contact"),
     "claim": (RECORD, "[0.045, 0.051]", "[0.045, 0.046]", "height (final) = 0.04"),
-    "telling": (RECORD, "no_sweep:", "family: sinks\ntelling: {says: x, expr: deep, above: 1}\nno_sweep:", "'deep'"),
+    "telling": (
+        RECORD,
+        "no_sweep:",
+        "family: sinks\ntelling: {cause: masks, says: x, expr: deep, above: 1}\nno_sweep:",
+        "'deep'",
+    ),
 }
 
 

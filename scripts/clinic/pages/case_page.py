@@ -203,7 +203,7 @@ def telling(case: Case, evidence: Evidence) -> str:
     if tells.expr is None:
         return f"{words}."
     side, bound = ("above", tells.above) if tells.above is not None else ("below", tells.below)
-    return f"{words}: {side} {quantity(float(bound or 0.0), tells.unit, 3)}."
+    return f"{words}: {side} {plain(bound or 0.0)} {tells.unit}".rstrip() + "."
 
 
 def _row(case: Case, told: Differential | None, others: Mapping[str, Case]) -> list[tuple[Case, str]]:

@@ -178,7 +178,7 @@ def same_task(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 
 def released(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 9. Every release of MuJoCo that was measured does the same, or `older` says why not."""
+    """Law 10. Every release of MuJoCo that was measured does the same, or `older` says why not."""
     yield from release_problems(case, differing(evidence))
 
 
@@ -214,7 +214,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
 
 
 def breaches(case: Case, evidence: Evidence, *laws: str) -> list[Problem]:
-    """Where the case breaks the laws, after exemptions (law 8): one that is no longer needed is a breach itself."""
+    """Where the case breaks the laws, after exemptions (law 11): one that is no longer needed is a breach itself."""
     made = []
     for law in laws:
         found = list(LAWS[law](case, evidence))

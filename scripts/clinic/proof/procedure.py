@@ -28,19 +28,19 @@ if model.nkey:
     mujoco.mj_resetDataKeyframe(model, data, 0)
 mujoco.mj_forward(model, data)
 {probe}
-rows = [  # the case, what is measured, of what, the sign of its bound, the bound
+rows = [  # the case, its cause, what is measured, of what, the sign of its bound, the bound
 {rows}
 ]
 told = []
-for case, values, kind, sign, bound in rows:
+for case, cause, values, kind, sign, bound in rows:
     values = sign * np.atleast_1d(values).astype(float)
     if np.isnan(values).all():
         continue
     k = np.nanargmax(values)
     element = model.joint(model.dof_jntid[k]) if kind == "dof" else getattr(model, kind)(k) if kind else None
     print(f"{{case}} = {{sign * values[k]:.4g}}, {{kind}} {{element.name if element else ''}}".rstrip(", "))
-    told += [case] * bool(values[k] > sign * bound)
-print("it is", " and ".join(told) or "none of these: {none}")
+    told += [f"it is {{case}}: {{cause}}"] * bool(values[k] > sign * bound)
+print(*told or ["it is none of these: {none}"], sep=", and ")
 '''
 DRIVER = """
 import contextlib, io, json, pathlib, runpy, sys
@@ -53,6 +53,7 @@ for path in sorted(pathlib.Path(".").glob("*.xml")):
 print(json.dumps(said))
 """
 LINE = re.compile(r"^(?P<case>[a-z0-9-]+) = (?P<value>[^\s,]+)", re.MULTILINE)
+TOLD = re.compile(r"(?:^|, and )it is ([a-z0-9-]+): ", re.MULTILINE)
 
 
 class Answer(Strict):
@@ -99,7 +100,8 @@ def procedure(family: str, cases: Iterable[Case]) -> str:
         telling = case.record.telling
         assert telling is not None
         sign, bound = (1, telling.above) if telling.above is not None else (-1, telling.below)
-        rows.append(f'    ("{case.slug}", {telling.expr}, "{telling.of or ""}", {sign}, {bound}),')
+        name, kind = json.dumps(telling.cause or case.record.title, ensure_ascii=False), telling.of or ""
+        rows.append(f'    ("{case.slug}", {name}, {telling.expr}, "{kind}", {sign}, {bound}),')
     known = families()[family]
     return HEAD.format(title=known.title, probe=known.probe.strip(), rows="\n".join(rows), none=NONE)
 
@@ -127,9 +129,7 @@ def run_procedure(code: str, models: dict[str, str]) -> dict[str, Answer]:
 def read(printed: str) -> Answer:
     """What a procedure printed."""
     values = {match["case"]: float(match["value"]) for match in LINE.finditer(printed)}
-    last = printed.strip().splitlines()[-1].removeprefix("it is ")
-    told = [] if last.endswith(NONE) else last.split(" and ")
-    return Answer(values=values, told=told, printed=printed)
+    return Answer(values=values, told=TOLD.findall(printed), printed=printed)
 
 
 def procedure_problems(cases: Sequence[Case], said: dict[str, Answer]) -> Iterator[Problem]:

@@ -40,6 +40,9 @@ class Check(Taken, Comparison):
 class Telling(Strict):
     """What tells a case from the others of its family: one measurement, which holds for its broken model alone."""
 
+    cause: Text | None = Field(
+        default=None, max_length=90, description="The cause in a few words; the title when absent."
+    )
     says: Text = Field(description="What is measured, in words; of a code case, what to look for.")
     expr: Text | None = Field(
         default=None, description="A number, or one for each element: Python over what the family's `probe` measures."

@@ -77,6 +77,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "A grasp that creeps"
 FAMILIES = ("slips", "drifts")
 SINCE = "0.2"
+CASE = "box-creeps-out-of-grasp"
 
 OPPOSITE = 0.7
 MOST = 0.05  # radii a second

@@ -7,6 +7,7 @@ from random import Random
 from clinic.diagnosis.bench.faults import Fault, between, kind, text_of
 from clinic.diagnosis.edit import delete, set_attribute
 from clinic.diagnosis.engine import PLANE
+from clinic.diagnosis.probes.shape import falling, root_of
 from clinic.diagnosis.reader_model import ReaderModel
 
 MOVES = ("strays", "sinks", "faster", "unstable")
@@ -17,10 +18,22 @@ def _colliding(model: ReaderModel) -> list[int]:
     return [i for i, (one, other) in enumerate(masks) if one or other]
 
 
+def _rests(model: ReaderModel) -> bool:
+    """Whether something that can fall lies or stands on something after a second."""
+    simulation = model.simulation
+    owner, falls, bodies = root_of(simulation), falling(simulation), simulation.model("geom_bodyid")
+    simulation.begin()
+    for _ in simulation.run(1.0, samples=2):
+        pass
+    touching = [each for each in simulation.engine.contacts() if each.force > 0 and min(each.geoms) >= 0]
+    trees = [{owner[int(bodies[geom])] for geom in each.geoms} for each in touching]
+    return any(len(each) == 2 and each & set(falls) for each in trees)
+
+
 def _of_all(model: ReaderModel, geoms: list[int], strength: float, **values: str) -> Fault | None:
     """Attributes of geoms set to the same value, in a default class where it is theirs alone."""
     edits = [edit for name, value in values.items() for edit in model.set("geom", geoms, name, value)]
-    if not geoms or not edits:
+    if not geoms or not edits or not _rests(model):
         return None
     names = tuple(model.simulation.name("geom", i) for i in geoms)
     return Fault(tuple(edits), names, next(iter(values)), strength)

@@ -140,7 +140,9 @@ def visual_geom_with_mass(model: ReaderModel, random: Random) -> Fault | None:
         element = model.element("body", body)
         if element is not None and element.first("inertial") is None:
             found += [
-                (body, g) for g in simulation.geoms_of(body) if simulation.model("geom_type")[g] in (2, 3, 4, 5, 6)
+                (body, g)
+                for g in simulation.geoms_of(body)
+                if simulation.model("geom_type")[g] in (2, 3, 4, 5, 6) and simulation.model("geom_contype")[g]
             ]
     if not found:
         return None

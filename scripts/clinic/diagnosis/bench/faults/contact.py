@@ -31,7 +31,7 @@ def _rests(model: ReaderModel) -> bool:
 
 
 def _of_all(model: ReaderModel, geoms: list[int], strength: float, **values: str) -> Fault | None:
-    """Attributes of geoms set to the same value, in a default class where it is theirs alone."""
+    """Attributes of geoms set to the same value where something rests, in a default class where it is theirs alone."""
     edits = [edit for name, value in values.items() for edit in model.set("geom", geoms, name, value)]
     if not geoms or not edits or not _rests(model):
         return None
@@ -75,7 +75,7 @@ def masks_of_the_floor(model: ReaderModel, random: Random) -> Fault | None:
     return _of_all(model, floors[:1], 1, contype=bit, conaffinity=bit)
 
 
-@kind("masks", harms=MOVES)
+@kind("masks", "twin-place-differs", harms=MOVES)
 def masks_of_a_body(model: ReaderModel, random: Random) -> Fault | None:
     """The geoms of one moving body collide with nothing."""
     simulation, colliding = model.simulation, set(_colliding(model))
@@ -160,10 +160,10 @@ def few_iterations(model: ReaderModel, random: Random) -> Fault | None:
 
 @kind("fluid", harms=MOVES)
 def fluid_thick(model: ReaderModel, random: Random) -> Fault | None:
-    """The air is as dense as water, or as viscous as honey."""
+    """The air in which something can fall is as dense as water, or as viscous as honey."""
     name, low, high = random.choice((("density", 10.0, 1e4), ("viscosity", 0.1, 100.0)))
     value = between(random, low, high)
-    return Fault(model.option(name, text_of(value)), (), name, value)
+    return Fault(model.option(name, text_of(value)), (), name, value) if falling(model.simulation) else None
 
 
 @kind("timestep-too-long", harms=("unstable", "faster", "sinks"))

@@ -91,7 +91,7 @@ def range_not_applied(model: ReaderModel, random: Random) -> Fault | None:
     return _set(model, random.choice(found), "limited", "false", 1)
 
 
-@kind("twin-joint-differs", "axis-along-gravity", "parallel-axes", harms=ENDS)
+@kind("axis-wrong", "twin-joint-differs", harms=ENDS)
 def axis_wrong(model: ReaderModel, random: Random) -> Fault | None:
     """A joint's axis of the other sign, or along another direction of its body."""
     if not (found := _single(model)):

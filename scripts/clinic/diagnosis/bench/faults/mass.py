@@ -111,7 +111,7 @@ def mass_doubled(model: ReaderModel, random: Random) -> Fault | None:
     return _fault(model, body, _inertial(model, body, mass=factor, moments=(factor,) * 3), "mass", factor)
 
 
-@kind(*INERTIA, harms=FELT)
+@kind("whole-mass", *INERTIA, harms=FELT)
 def mass_without_its_inertia(model: ReaderModel, random: Random) -> Fault | None:
     """A body's mass 3 to 1,000 times too large or too small, its inertia as it was."""
     if not (found := _bodies(model)):

@@ -50,7 +50,7 @@ FAMILIES = ("explodes", "oscillates", "stuck", "drifts")
 SINCE = "0.2"
 
 USUAL = (0.4, 2.5)  # radius of gyration over that of the geoms
-FAR = (0.15, 6.0)  # the same, for an inertia that is not equal about all axes, which nobody types in
+FAR = (0.25, 4.0)  # the same, for an inertia that is not equal about all axes, which nobody types in
 LIMIT, ALIKE = 2.5, 1.5  # times the inertia at the joint; where several bodies have the same inertia
 ABSURD, FELT = 6.0, 1.3  # a placeholder with a radius this far off, and what is felt of it at the joint
 FEW = 0.25  # of the bodies: where more are so, the geoms show little of them

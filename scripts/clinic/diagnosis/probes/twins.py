@@ -40,6 +40,7 @@ class Comparison:
             "axis": 20.0,
             "ctrlrange": 20.0,
             "forcerange": 40.0,
+            "pos": 4 * self.limit,
         }.get(self.quantity, 45.0 if self.unit == "%" and self.limit > 1 else 2 * self.limit)
 
 

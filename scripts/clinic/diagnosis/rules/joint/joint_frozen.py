@@ -59,7 +59,7 @@ SINCE = "0.2"
 FIELDS = ("damping", "frictionloss")
 SLOW = 0.5  # rad/s or m/s that full force reaches
 LEFT = 0.7
-STILL = 0.1  # rad/s or m/s that its own weight gives what nothing drives
+STILL = 0.03  # rad/s or m/s that its own weight gives what nothing drives
 HEAVY = 0.05  # of weight times size: a joint that is balanced has less
 
 
@@ -120,7 +120,7 @@ def _hung(model: ReaderModel) -> Iterator[Suspect]:
 
 def _held(simulation: Simulation) -> dict[int, float]:
     """What holds each joint that nothing drives over what its weight gives, where it hangs on one side."""
-    if simulation.count("tendon") or simulation.count("equality"):
+    if not simulation.count("actuator") or simulation.count("tendon") or simulation.count("equality"):
         return {}
     driven = {simulation.driven_joint(actuator) for actuator in range(simulation.count("actuator"))}
     gravity = math.hypot(*simulation.model("opt.gravity"))

@@ -38,7 +38,7 @@ def judge(model: ReaderModel, rule: Rule, suspect: Suspect) -> Judged | None:
     before = model.measured(suspect.probe)
     if not before > suspect.limit:
         return None
-    if not suspect.edits or suspect.level == "hint":
+    if not suspect.edits or "hint" in (suspect.level, rule.level):
         return Judged(rule, suspect, "hint", before, None)
     after = model.measured(suspect.probe, suspect.edits)
     helps = after <= suspect.limit or after <= suspect.share * before

@@ -19,7 +19,7 @@ from clinic.diagnosis.bench.faults.servo import with_servos
 from clinic.diagnosis.bench.harm import HARMS
 from clinic.diagnosis.bench.healthy import Healthy
 from clinic.diagnosis.diagnose import examine, read_file
-from clinic.diagnosis.edit import apply
+from clinic.diagnosis.edit import apply, diff
 from clinic.diagnosis.finding import Finding
 from clinic.diagnosis.native import NativeEngine, NativeModel
 from clinic.diagnosis.reader_model import ReaderModel
@@ -63,6 +63,7 @@ class Plant:
         harm: The name of the first harm that is measured; empty where none is measured: then it is not diagnosed.
         harmless: How many plants of this kind, in other models or strengths, did no harm before this one.
         told: What was found.
+        patch: What was changed in the healthy model's text, as a unified diff.
     """
 
     kind: str
@@ -74,6 +75,7 @@ class Plant:
     harm: str
     harmless: int
     told: Told
+    patch: str = ""
 
     @property
     def outcome(self) -> str:
@@ -155,6 +157,7 @@ def _planted(model: Healthy, kind: Kind, random: Random, harmless: int) -> Plant
         harm,
         harmless,
         told,
+        diff(_texts(model), texts) if harm else "",
     )
 
 

@@ -134,7 +134,15 @@ def exclude_removed(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((delete(gone),), (f'body "{gone.get("body1")}"', f'body "{gone.get("body2")}"'), "")
 
 
-@kind("gravity-upwards", "gravity", harms=MOVES)
+@kind("springy-contact", harms=MOVES)
+def contacts_springy(model: ReaderModel, random: Random) -> Fault | None:
+    """The contacts of all geoms by stiffness and damping: 3 to 3,000 times as stiff as the timestep bears."""
+    stiffness = between(random, 3, 3000) / model.simulation.timestep**2
+    damping = between(random, 0.001, 0.3) * 2 * stiffness**0.5
+    return _of_all(model, _colliding(model), stiffness, solref=text_of(-stiffness, -damping))
+
+
+@kind("gravity", harms=MOVES)
 def gravity_wrong(model: ReaderModel, random: Random) -> Fault | None:
     """Gravity of the other sign, along another axis, in millimetres, or none."""
     g = model.simulation.model("opt.gravity")

@@ -52,10 +52,12 @@ DIAGONAL = ("ixx", "iyy", "izz")
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Moments that a body can have, or one of two inertias that is taken off."""
     said = sentence(model)
-    if model.source is None or not re.search("A \\+ B|inertia|eigenvalue", said) or "mjMINVAL" in said:
+    if model.source is None or not re.search("A \\+ B|inertia|eigenvalue", said):
         return
     for element in meant(model):
         inertial = element if element.tag == "inertial" else element.first("inertial") or element
+        if "mjMINVAL" in said and "-" not in inertial.get("diaginertia").replace("e-", ""):
+            continue  # too little of it, which another rule tells
         if model.source.urdf:
             yield from _in_urdf(inertial, said)
         elif "fullinertia" in inertial.attributes:

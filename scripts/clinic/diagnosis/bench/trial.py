@@ -64,6 +64,7 @@ class Plant:
         harmless: How many plants of this kind, in other models or strengths, did no harm before this one.
         told: What was found.
         patch: What was changed in the healthy model's text, as a unified diff.
+        number: Which plant of its kind and side it is.
     """
 
     kind: str
@@ -76,6 +77,7 @@ class Plant:
     harmless: int
     told: Told
     patch: str = ""
+    number: int = 0
 
     @property
     def outcome(self) -> str:

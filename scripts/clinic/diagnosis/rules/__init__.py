@@ -70,11 +70,15 @@ def rules() -> dict[str, Rule]:
             continue
         module = importlib.import_module(found.name)
         name = found.name.rpartition(".")[2].replace("_", "-")
-        case, level, unplanted = (
-            getattr(module, *each) for each in (("CASE", None), ("LEVEL", "cause"), ("UNPLANTED", ""))
-        )
-        text = (module.__doc__ or "").strip()
         made[name] = Rule(
-            name, module.TITLE, module.FAMILIES, module.SINCE, case, level, unplanted, text, module.suspects
+            id=name,
+            title=module.TITLE,
+            families=module.FAMILIES,
+            since=module.SINCE,
+            case=getattr(module, "CASE", None),
+            level=getattr(module, "LEVEL", "cause"),
+            unplanted=getattr(module, "UNPLANTED", ""),
+            text=(module.__doc__ or "").strip(),
+            suspects=module.suspects,
         )
     return dict(sorted(made.items()))

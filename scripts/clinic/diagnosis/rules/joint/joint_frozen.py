@@ -112,8 +112,8 @@ def _hung(model: ReaderModel) -> Iterator[Suspect]:
             edits,
             Probe("what holds the joint, times its own weight", "", _most_held, (joint,), dynamic=False),
             1.0,
-            f"Nothing drives {simulation.name('joint', joint)}, and its own weight, {loads(simulation)[simulation.dof(joint)]:.3g} "
-            f"N m (N) at most, does not move it.",
+            f"Nothing drives {simulation.name('joint', joint)}, and its own weight, "
+            f"{loads(simulation)[simulation.dof(joint)]:.3g} N m (N) at most, does not move it.",
             "a joint that swings where nothing drives it",
         )
 

@@ -52,12 +52,12 @@ class Kept(Strict):
         kinds: By name.
     """
 
-    engine: str
-    seed: int
-    healthy: dict[str, int]
-    false: dict[str, list[str]]
-    seconds: dict[str, float]
-    kinds: dict[str, KindKept]
+    engine: str = ""
+    seed: int = 0
+    healthy: dict[str, int] = Field(default={})
+    false: dict[str, list[str]] = Field(default={})
+    seconds: dict[str, float] = Field(default={})
+    kinds: dict[str, KindKept] = Field(default={})
 
 
 @dataclass(frozen=True)
@@ -125,13 +125,13 @@ def with_kinds(old: Kept, new: Kept) -> Kept:
 
 
 def read_lock(root: Path) -> Kept:
-    """The lock file of a checkout.
+    """The lock file of a checkout; empty where there is none.
 
     Raises:
-        OSError: If there is none.
         ValueError: If it is not one.
     """
-    return Kept.model_validate_json((root / LOCK).read_text(encoding="utf-8"))
+    path = root / LOCK
+    return Kept.model_validate_json(path.read_bytes()) if path.is_file() else Kept()
 
 
 def lock_text(of: Kept) -> str:
@@ -175,7 +175,7 @@ def _unlawful(rule: Rule, found: Score) -> Iterator[str]:
     if planted and rule.unplanted:
         yield "faults are planted for it, and UNPLANTED in its module says why not: take that out"
     if not planted and not rule.unplanted:
-        yield "no fault is planted for it: plant some in diagnosis/bench/faults, or say why not as UNPLANTED in its module"
+        yield "no fault is planted for it: plant some in bench/faults, or say why not as UNPLANTED in its module"
     if not planted or rule.level == "hint":
         return
     if found.harmful < ENOUGH:

@@ -21,6 +21,7 @@ from clinic.work.parallel import parallel
 
 MOST_DOFS = 64  # of a model that faults are planted in; a larger one takes minutes to measure the harm
 SIDES = {"seen": False, "held_out": True}
+SIDE = {out: side for side, out in SIDES.items()}
 OUTCOMES = ("cause", "later", "hint", "missed")
 
 
@@ -146,6 +147,18 @@ def data(bench: Bench) -> dict[str, Any]:
         "untried": sorted({model.name for model, told in bench.healthy if told.untried}),
         "stumbled": sorted({said for told in _all(bench) for said in told.stumbled}),
     }
+
+
+def plants_text(bench: Bench) -> str:
+    """The plants that do harm, a line of JSON each: what is wrong where, and the patch of the healthy model."""
+    lines = []
+    for plant in bench.plants:
+        if plant.harm:
+            truth: dict[str, Any] = {"id": f"{plant.kind}-{SIDE[plant.held_out]}-{plant.number}", "model": plant.model}
+            truth |= {name: getattr(plant, name) for name in ("kind", "elements", "attribute", "strength", "harm")}
+            truth |= {"rules": list(kinds()[plant.kind].rules), "found": plant.outcome, "patch": plant.patch}
+            lines.append(json.dumps(truth, ensure_ascii=False) + "\n")
+    return "".join(lines)
 
 
 def _all(bench: Bench) -> list[Told]:

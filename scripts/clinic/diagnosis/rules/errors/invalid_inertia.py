@@ -100,7 +100,7 @@ def possible(moments: list[float]) -> list[float]:
     """Three moments that a body can have, with as few changed as may be.
 
     A negative one loses its sign, one of zero is the mean of the others, and one above the sum of the others loses
-    decimal places until it fits, or becomes that sum.
+    decimal places until it fits, or becomes that sum, or the larger of them where that is too little.
     """
     made = [abs(each) for each in moments]
     for index, each in enumerate(made):
@@ -111,5 +111,8 @@ def possible(moments: list[float]) -> list[float]:
     rest_sum = sum(made) - made[largest]
     while made[largest] > 3 * rest_sum:
         made[largest] /= 10
+    others = [each for k, each in enumerate(made) if k != largest]
     made[largest] = min(made[largest], 0.999 * rest_sum)
+    if made[largest] <= max(others) - min(others):
+        made[largest] = max(others)
     return made

@@ -1,7 +1,8 @@
 """Pairs of elements, left and right, and what makes one side the image of the other.
 
-Pairs are found by name (`left_knee`, `knee_L`, `FL_hip`), then by place in the tree. Mirrored are they across the
-plane that fits most of what hangs on both sides, or turned by half a turn, or shifted, whatever fits best.
+Pairs are found by name (`left_knee`, `knee_L`, `FL_hip`, `foot_left` beside `foot`), then by place in the tree.
+Mirrored are they across the plane that fits most of what hangs on both sides, or turned by half a turn, or shifted,
+whatever fits best.
 """
 
 from __future__ import annotations
@@ -35,6 +36,8 @@ def right_of(name: str) -> Iterator[str]:
         other = SIDES[side.lower()]
         other = other.upper() if side.isupper() else other.title() if side[0].isupper() else other
         yield name[: found.start()] + other + name[found.end() :]
+    if (bare := re.sub(r"_left(?![a-z])|(?<![a-z])left_", "", name)) != name:
+        yield bare
 
 
 @dataclass(frozen=True)
@@ -56,7 +59,8 @@ class Pairs:
     Attributes:
         pairs: Left and right index, by kind.
         images: By the index of the left body, how the left side becomes the right.
-        share: By the index of the left body, the share of its side's points that the image fits.
+        share: By the index of the left body, the share of its side's points that the image fits, as their bodies
+            see them.
         size: By the index of the left body, the size in m of what hangs on its side.
         common: By the index of the left body, the body that both sides hang on.
     """
@@ -147,7 +151,8 @@ class Pairs:
             points = self._points(pairs)
             here, there = points[0]
             size = max(1e-4, *(norm(sub(p, here)) for p, _ in points), *(norm(sub(q, there)) for _, q in points))
-            image, share = self._best(common, pairs, points, FITS * size)
+            image = self._best(common, pairs, points, FITS * size)
+            share = self._fits(image, pairs, FITS * size)
             for left, _ in pairs:
                 self.images[left], self.share[left], self.size[left], self.common[left] = image, share, size, common
 
@@ -162,7 +167,7 @@ class Pairs:
 
     def _best(
         self, common: int, pairs: list[tuple[int, int]], points: list[tuple[Vector, Vector]], near: float
-    ) -> tuple[Image, float]:
+    ) -> Image:
         frame = self.at("xmat", common, 9)
         axes = [tuple(frame[column + 3 * row] for row in range(3)) for column in range(3)]
         axes += [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
@@ -179,7 +184,20 @@ class Pairs:
             fit = sum(norm(sub(each, offset)) <= near for each in offsets) / len(points)
             if fit > most + (0.15 if sign > 0 and best.sign < 0 else 1e-9):
                 best, most = Image(matrix, offset, sign), fit
-        return best, most
+        return best
+
+    def _fits(self, image: Image, pairs: list[tuple[int, int]], near: float) -> float:
+        """The share of points that an image fits as seen from their bodies, so that one body astray is one point."""
+        offs, parents = [], self.of.model("body_parentid")
+        for left, right in pairs:
+            above = int(parents[left]), int(parents[right])
+            ends = [self.at("xpos", left), self.at("xpos", right)]
+            roots = [ends[0], image.of(ends[0])] if above[0] == above[1] else [self.at("xpos", each) for each in above]
+            offs.append((sub(ends[0], roots[0]), sub(ends[1], roots[1])))
+            offs.append((sub(self.at("xipos", left), ends[0]), sub(self.at("xipos", right), ends[1])))
+            joints = zip(self.of.joints_of(left), self.of.joints_of(right), strict=False)
+            offs += [(sub(self.at("xanchor", a), ends[0]), sub(self.at("xanchor", b), ends[1])) for a, b in joints]
+        return sum(norm(sub(times(image.matrix, one), other)) <= near for one, other in offs) / len(offs)
 
 
 def _reflection(axis: Vector) -> Vector:

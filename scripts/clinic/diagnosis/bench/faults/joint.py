@@ -83,6 +83,16 @@ def range_narrow(model: ReaderModel, random: Random) -> Fault | None:
     return _range(model, joint, low * share, high * share, share)
 
 
+@kind("range-empty", harms=ENDS)
+def range_emptied(model: ReaderModel, random: Random) -> Fault | None:
+    """A range from its upper end to its lower, or of nothing."""
+    if not (found := _limited(model)):
+        return None
+    joint = random.choice(found)
+    low, high = numbers(model.value("joint", joint, "range"))[:2]
+    return _range(model, joint, *random.choice(((high, low), (0.0, 0.0))), strength=1.0)
+
+
 @kind("range-not-applied", harms=ENDS)
 def range_not_applied(model: ReaderModel, random: Random) -> Fault | None:
     """A joint's range is written, and not applied."""

@@ -123,7 +123,8 @@ def legs(calf: str = "0.02 0.02 0.06", mass: str = "0.2", knee: str = "0 0 -0.21
             f'<joint name="{name}_knee" axis="0 1 0" range="-90 0"/>'
             f'<geom type="box" size="{own[0]}" pos="0 0 -0.06"/></body></body>'
         )
-    return f'<mujoco><worldbody><body pos="0 0 1"><freejoint/><geom size="0.1"/>{made}</body></worldbody></mujoco>'
+    trunk = '<freejoint/><geom size="0.1" mass="5"/>'
+    return f'<mujoco><worldbody><body pos="0 0 1">{trunk}{made}</body></worldbody></mujoco>'
 
 
 @pytest.mark.parametrize(
@@ -153,3 +154,19 @@ def test_where_nothing_tells_which_side_is_wrong_both_are_named():
     (cause,) = diagnosed(robot(change, right="-60 30")).causes
     assert cause.elements == ('joint "left_rear"', 'joint "right_rear"')
     assert cause.says.endswith("Nothing here tells which of the two is wrong.")
+
+
+def test_a_hip_out_of_place_does_not_move_the_mirror():
+    legs_of_two = robot({'left_rear:pos="-0.2 0.1 0"': 'pos="-0.2 0.15 0"'}, right="-60 30")
+    (cause,) = diagnosed(legs_of_two).causes
+    assert (cause.attribute, cause.elements) == ("pos", ('body "left_rear"', 'body "right_rear"'))
+
+
+def test_a_motor_that_turns_the_other_way_is_the_one_with_the_rare_sign():
+    names = [f"{side}_{part}" for part in PARTS for side in ("left", "right")]
+    motors = "".join(
+        f'<motor name="{name}" joint="{name}" gear="{-5 if name == "left_rear" else 5}"/>' for name in names
+    )
+    text = robot(right="-60 30").replace("</mujoco>", f"<actuator>{motors}</actuator></mujoco>")
+    (cause,) = diagnosed(text).causes
+    assert (cause.attribute, cause.elements, cause.value) == ("gear sign", ('actuator "left_rear"',), "5")

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from clinic.diagnosis.engine import SLIDE
 from clinic.diagnosis.probes.vector import Vector, add, dot, norm, sub, times, transpose, unit
@@ -22,6 +22,7 @@ SIDES = {"l": "r", "fl": "fr", "hl": "hr", "bl": "br", "ml": "mr", "rl": "rr"} |
 WORDS = (("left", "right"), ("Left", "Right"), ("LEFT", "RIGHT"))
 TOKEN = re.compile(r"[A-Z](?=[A-Z][a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 KINDS = ("body", "joint", "geom", "site", "camera", "actuator", "sensor")
+SYMMETRIC = 0.85  # of the points fit their image: the parts are meant to be mirrored
 FITS = 0.02  # of the size of what hangs on both sides: as far may a point be from its image
 
 
@@ -153,6 +154,11 @@ class Pairs:
             size = max(1e-4, *(norm(sub(p, here)) for p, _ in points), *(norm(sub(q, there)) for _, q in points))
             image = self._best(common, pairs, points, FITS * size)
             share = self._fits(image, pairs, FITS * size)
+            # one pair astray would else move the plane: it goes through the body that both sides hang on
+            fixed = (self.at("xpos", common),) * 2 if image.sign < 0 else points[0]
+            through = replace(image, offset=sub(fixed[1], times(image.matrix, fixed[0])))
+            if (fits := self._fits(through, pairs, FITS * size)) >= SYMMETRIC:
+                image, share = through, fits
             for left, _ in pairs:
                 self.images[left], self.share[left], self.size[left], self.common[left] = image, share, size, common
 

@@ -95,7 +95,10 @@ def _depth(simulation: Simulation, body: int) -> int:
 def odd_ones(simulation: Simulation, kind: str, more: float = UNLIKE) -> Iterator[Odd]:
     """The one of each group that differs by more than so many % where all others agree."""
     seen = set()
+    least = 4 if kind in ("body", "geom") else 3  # the middle one of three is elsewhere
     for group in groups(simulation, kind):
+        if len(group) < least:
+            continue
         for attribute in FIELDS[kind]:
             rows = {index: _row(simulation, kind, attribute, index) for index in group}
             for index in group:

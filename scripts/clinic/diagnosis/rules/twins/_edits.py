@@ -17,6 +17,7 @@ COPIED = {  # attributes that are the same on both sides
         for name in ("stiffness", "damping", "armature", "frictionloss", "type", "gravcomp", "fovy", "gear")
     },
     **{name: (name,) for name in ("contype", "conaffinity", "condim", "friction", "size")},
+    "gear sign": ("gear",),
     "gain": ("kp", "kv", "dampratio", "gainprm", "biasprm"),
     "bias": ("kp", "kv", "dampratio", "gainprm", "biasprm"),
 }

@@ -59,8 +59,8 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
 def siblings(model: ReaderModel, kind: str) -> Iterator[Suspect]:
     """One of three or more that are alike but for a number or a finger in their names, where its twin tells nothing."""
     of = model.simulation
-    told = [each for found, _ in odd(model, (kind,), tuple(FIELDS[kind])) for each in found]
-    paired = {(each.quantity, side) for each in told for side in (each.left, each.right)}
+    told = [each for found, _ in odd(model, (kind,), (*FIELDS[kind], "gear sign")) for each in found]
+    paired = {(each.quantity.removesuffix(" sign"), side) for each in told for side in (each.left, each.right)}
     found = [
         each
         for each in odd_ones(of, kind, 2 * LIKE)
@@ -118,7 +118,7 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
     digits = len(alone) == 1 and swapped(
         *(model.value(first.kind, side, first.quantity) or "" for side in (first.left, first.right))
     )
-    clear = (clear or digits or _outvoted(model, first, sides[0])) and not _absent(model, found)
+    clear = (clear or digits or _outvoted(model, first, sides[0])) and not (_absent(model, found) or _led(model, first))
     if edits and not model.measured(probe, edits) <= limit:
         edits = ()
     quantities = " and ".join(dict.fromkeys(each.quantity for each in found))
@@ -142,6 +142,13 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
         f"at most {limit:.3g} {first.unit}: of the models of 14 robots all but a few pairs agree to less",
         level="cause" if clear and edits else "hint",
     )
+
+
+def _led(model: ReaderModel, each: Comparison) -> bool:
+    """Whether the range is of a pair of which one joint is driven, so that the other is led."""
+    of = model.simulation
+    driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
+    return each.quantity == "range" and each.kind == "joint" and (each.left in driven) != (each.right in driven)
 
 
 def _outvoted(model: ReaderModel, each: Comparison, side: int) -> bool:

@@ -36,6 +36,9 @@ def _strange(model: ReaderModel, each: Comparison, side: int) -> float:
     if each.quantity == "axis sign":
         axes = [simulation.row("jnt_axis", joint, 3) for joint in _same_side(simulation, each, side)]
         return -sum(round(dot(axis, simulation.row("jnt_axis", side, 3))) for axis in axes)
+    if each.quantity == "gear sign":
+        gears = [simulation.model("actuator_gear")[6 * index] for index in range(simulation.count("actuator"))]
+        return -float(sum(gear * gears[side] > 0 for gear in gears))
     if each.quantity == "ctrlrange" and len({_in_reach(simulation, one) for one in (each.left, each.right)}) > 1:
         return -_in_reach(simulation, side)
     if each.kind == "joint" and each.quantity == "range":

@@ -133,3 +133,28 @@ def test_the_range_of_a_urdf_is_mended_in_its_limit():
         ("limit", "lower", "-0.8"),
         ("limit", "upper", "0"),
     ]
+
+
+def test_a_light_foot_without_armature_is_not_the_timesteps_fault():
+    text = """
+<mujoco>
+  <option timestep="0.004"/>
+  <worldbody>
+    <geom type="plane" size="2 2 0.1"/>
+    <body pos="0 0 0.5">
+      <freejoint/>
+      <geom type="box" size="0.1 0.1 0.05" mass="10"/>
+      <body pos="0 0 -0.1">
+        <joint name="ankle" axis="0 1 0" range="-30 30"/>
+        <inertial pos="0 0 0" mass="0.02" diaginertia="1e-5 1e-5 1e-5"/>
+        <geom type="box" size="0.08 0.02 0.005" pos="0.02 0 -0.3"/>
+      </body>
+    </body>
+  </worldbody>
+  <actuator><motor joint="ankle"/></actuator>
+</mujoco>
+"""
+    found = diagnosed(text)
+    assert "no-armature" in causes(found)
+    assert "timestep-too-long" not in causes(found)
+    assert "no-armature" not in causes(diagnosed(text.replace('range="-30 30"', 'range="-30 30" armature="0.01"')))

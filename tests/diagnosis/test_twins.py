@@ -51,6 +51,7 @@ def simulated(text: str) -> Simulation:
         ("RL_calf", "RR_calf"),
         ("l_finger", "r_finger"),
         ("kneeLeft", "kneeRight"),
+        ("foot_left_geom", "foot_geom"),
     ],
 )
 def test_the_right_twin_of_a_name(left, right):
@@ -107,3 +108,65 @@ def test_one_finger_of_three_is_odd_and_links_of_a_chain_are_no_siblings():
     for i in (3, 2, 1, 0):
         chain = finger.format(i=i, d=0.1 if i != 2 else 3, inner=chain)
     assert not list(odd_ones(simulated(f"<mujoco><worldbody>{chain}</worldbody></mujoco>"), "joint"))
+
+
+def legs(calf: str = "0.02 0.02 0.06", mass: str = "0.2", knee: str = "0 0 -0.21") -> str:
+    """A dog of four legs, of which one may have another calf."""
+    made = ""
+    for name, x, y in (("FL", 0.2, 0.1), ("FR", 0.2, -0.1), ("RL", -0.2, 0.1), ("RR", -0.2, -0.1)):
+        own = (calf, mass, knee) if name == "RL" else ("0.02 0.02 0.06", "0.2", "0 0 -0.21")
+        inertial = 'pos="0 0 -0.05" mass="{}" diaginertia="2e-4 2e-4 3e-5"'
+        made += (
+            f'<body name="{name}_thigh" pos="{x} {y} 0"><inertial {inertial.format(0.4)}/>'
+            f'<joint name="{name}_hip" axis="0 1 0" range="-60 60"/><geom size="0.02" pos="0 0 -0.1"/>'
+            f'<body name="{name}_calf" pos="{own[2]}"><inertial {inertial.format(own[1])}/>'
+            f'<joint name="{name}_knee" axis="0 1 0" range="-90 0"/>'
+            f'<geom type="box" size="{own[0]}" pos="0 0 -0.06"/></body></body>'
+        )
+    trunk = '<freejoint/><geom size="0.1" mass="5"/>'
+    return f'<mujoco><worldbody><body pos="0 0 1">{trunk}{made}</body></worldbody></mujoco>'
+
+
+@pytest.mark.parametrize(
+    ("change", "attribute"),
+    [({"calf": "0.02 0.02 0.09"}, "size"), ({"mass": "0.24"}, "mass"), ({"knee": "0 0 -0.29"}, "pos")],
+)
+def test_the_leg_that_three_others_outvote_is_the_odd_one(change, attribute):
+    (cause,) = diagnosed(legs(**change)).causes
+    assert cause.attribute == attribute
+    assert "RL_calf" in " ".join(cause.elements)
+    assert len(cause.elements) == 1
+
+
+def test_digits_in_another_order_are_told_and_a_length_that_hardly_differs_is_a_hint():
+    (cause,) = diagnosed(legs(knee="0 0 -0.12")).causes
+    assert "same digits" in cause.says
+    slightly = diagnosed(legs(calf="0.02 0.02 0.066"))
+    assert not slightly.causes
+    assert [each.attribute for each in slightly.hints] == ["size"]
+    assert not diagnosed(legs(knee="0 0 -0.201")).hints
+
+
+def test_where_nothing_tells_which_side_is_wrong_both_are_named():
+    ranges = {"left_front": "-31 61", "right_front": "-61 31", "left_rear": "-32 62", "right_rear": "-30 32"}
+    written = {"left": "-30 60", "right": "-60 30"}
+    change = {f'{name}:range="{written[name.partition("_")[0]]}"': f'range="{new}"' for name, new in ranges.items()}
+    (cause,) = diagnosed(robot(change, right="-60 30")).causes
+    assert cause.elements == ('joint "left_rear"', 'joint "right_rear"')
+    assert cause.says.endswith("Nothing here tells which of the two is wrong.")
+
+
+def test_a_hip_out_of_place_does_not_move_the_mirror():
+    legs_of_two = robot({'left_rear:pos="-0.2 0.1 0"': 'pos="-0.2 0.15 0"'}, right="-60 30")
+    (cause,) = diagnosed(legs_of_two).causes
+    assert (cause.attribute, cause.elements) == ("pos", ('body "left_rear"', 'body "right_rear"'))
+
+
+def test_a_motor_that_turns_the_other_way_is_the_one_with_the_rare_sign():
+    names = [f"{side}_{part}" for part in PARTS for side in ("left", "right")]
+    motors = "".join(
+        f'<motor name="{name}" joint="{name}" gear="{-5 if name == "left_rear" else 5}"/>' for name in names
+    )
+    text = robot(right="-60 30").replace("</mujoco>", f"<actuator>{motors}</actuator></mujoco>")
+    (cause,) = diagnosed(text).causes
+    assert (cause.attribute, cause.elements, cause.value) == ("gear sign", ('actuator "left_rear"',), "5")

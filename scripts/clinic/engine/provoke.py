@@ -44,9 +44,12 @@ def provoke(codes: Mapping[str, str], python: str = sys.executable) -> dict[str,
 
 
 def tidied(text: str) -> str:
-    """The first LINES lines that are not empty, without addresses in memory."""
+    """The first LINES lines that are not empty, each once, without addresses in memory.
+
+    A warning is said twice where the compiler meets what a step meets again.
+    """
     lines = [line.rstrip() for line in re.sub(r"0x[0-9a-f]{6,}", "0x…", text).splitlines() if line.strip()]
-    return "\n".join(lines[:LINES])
+    return "\n".join(list(dict.fromkeys(lines))[:LINES])
 
 
 def _said(code: str, seconds: float) -> str:

@@ -1,7 +1,8 @@
 """Pairs of elements, left and right, and what makes one side the image of the other.
 
-Pairs are found by name (`left_knee`, `knee_L`, `FL_hip`), then by place in the tree. Mirrored are they across the
-plane that fits most of what hangs on both sides, or turned by half a turn, or shifted, whatever fits best.
+Pairs are found by name (`left_knee`, `knee_L`, `FL_hip`, `foot_left` beside `foot`), then by place in the tree.
+Mirrored are they across the plane that fits most of what hangs on both sides, or turned by half a turn, or shifted,
+whatever fits best.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from clinic.diagnosis.engine import SLIDE
 from clinic.diagnosis.probes.vector import Vector, add, dot, norm, sub, times, transpose, unit
@@ -21,6 +22,7 @@ SIDES = {"l": "r", "fl": "fr", "hl": "hr", "bl": "br", "ml": "mr", "rl": "rr"} |
 WORDS = (("left", "right"), ("Left", "Right"), ("LEFT", "RIGHT"))
 TOKEN = re.compile(r"[A-Z](?=[A-Z][a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 KINDS = ("body", "joint", "geom", "site", "camera", "actuator", "sensor")
+SYMMETRIC = 0.85  # of the points fit their image: the parts are meant to be mirrored
 FITS = 0.02  # of the size of what hangs on both sides: as far may a point be from its image
 
 
@@ -35,6 +37,8 @@ def right_of(name: str) -> Iterator[str]:
         other = SIDES[side.lower()]
         other = other.upper() if side.isupper() else other.title() if side[0].isupper() else other
         yield name[: found.start()] + other + name[found.end() :]
+    if (bare := re.sub(r"_left(?![a-z])|(?<![a-z])left_", "", name)) != name:
+        yield bare
 
 
 @dataclass(frozen=True)
@@ -56,7 +60,8 @@ class Pairs:
     Attributes:
         pairs: Left and right index, by kind.
         images: By the index of the left body, how the left side becomes the right.
-        share: By the index of the left body, the share of its side's points that the image fits.
+        share: By the index of the left body, the share of its side's points that the image fits, as their bodies
+            see them.
         size: By the index of the left body, the size in m of what hangs on its side.
         common: By the index of the left body, the body that both sides hang on.
     """
@@ -149,6 +154,11 @@ class Pairs:
             size = max(1e-4, *(norm(sub(p, here)) for p, _ in points), *(norm(sub(q, there)) for _, q in points))
             image = self._best(common, pairs, points, FITS * size)
             share = self._fit(pairs, image, FITS * size)
+            # one pair astray would else move the plane: it goes through the body that both sides hang on
+            fixed = (self.at("xpos", common),) * 2 if image.sign < 0 else points[0]
+            through = replace(image, offset=sub(fixed[1], times(image.matrix, fixed[0])))
+            if (fits := self._fit(pairs, through, FITS * size)) >= SYMMETRIC:
+                image, share = through, fits
             for left, _ in pairs:
                 self.images[left], self.share[left], self.size[left], self.common[left] = image, share, size, common
         self._through_origins()

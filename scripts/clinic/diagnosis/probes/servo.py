@@ -13,7 +13,7 @@ from clinic.diagnosis.suspect import Probe
 
 FIXED, AFFINE = 0, 1  # mjtGain; mjtBias: none, affine
 INTEGRATOR, USER = 1, 4  # first mjtDyn that integrates its control
-CONTACTS_OFF = 1 << 4  # mjtDisableBit
+CONTACTS_OFF, SPRINGS_OFF, ACTUATORS_OFF = 1 << 4, 1 << 5, 1 << 11  # mjtDisableBit
 STEP = {True: 0.1, False: 0.01}  # of a hinge in rad, of a slide in m
 
 
@@ -128,11 +128,12 @@ def command(simulation: Simulation, servo: Servo, position: float) -> None:
 
 
 @contextmanager
-def alone(simulation: Simulation, *, gravity: bool = False) -> Iterator[None]:
-    """Without contacts, and without gravity, for as long as the block takes."""
+def alone(simulation: Simulation, *, gravity: bool = False, limp: bool = False) -> Iterator[None]:
+    """Without contacts and gravity, and where `limp` without actuators and springs, for as long as the block takes."""
     engine = simulation.engine
     flags, pull = simulation.model("opt.disableflags")[0], list(simulation.model("opt.gravity"))
-    engine.write_model("opt.disableflags", [int(flags) | CONTACTS_OFF])
+    off = CONTACTS_OFF | (SPRINGS_OFF | ACTUATORS_OFF if limp else 0)
+    engine.write_model("opt.disableflags", [int(flags) | off])
     if not gravity:
         engine.write_model("opt.gravity", [0.0, 0.0, 0.0])
     try:

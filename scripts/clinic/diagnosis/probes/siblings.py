@@ -29,8 +29,17 @@ FIELDS = {  # attribute: field, width of a row, columns compared
         "ctrlrange": ("actuator_ctrlrange", 2, (0, 1)),
         "forcerange": ("actuator_forcerange", 2, (0, 1)),
     },
+    "geom": {
+        "size": ("geom_size", 3, (0, 1, 2)),
+        "pos": ("geom_pos", 3, (0, 1, 2)),
+        "friction": ("geom_friction", 3, (0,)),
+        "condim": ("geom_condim", 1, (0,)),
+        "contype": ("geom_contype", 1, (0,)),
+        "conaffinity": ("geom_conaffinity", 1, (0,)),
+    },
+    "body": {"mass": ("body_mass", 1, (0,)), "pos": ("body_pos", 3, (0, 1, 2))},
 }
-UNLIKE, LIKE = 25.0, 0.1  # %
+UNLIKE, SOME, LIKE = 25.0, 8.0, 0.1  # %
 
 
 @dataclass(frozen=True)
@@ -43,11 +52,25 @@ class Odd:
     siblings: tuple[int, ...]
     unlike: float
 
+    @property
+    def clear(self) -> bool:
+        """Whether it is no matter of taste: the odd geom of four differs by up to 22 % in healthy models."""
+        return self.unlike > (UNLIKE if self.attribute in ("size", "pos") or len(self.siblings) < 3 else SOME)
+
 
 def groups(simulation: Simulation, kind: str) -> list[list[int]]:
-    """Siblings of a kind, three at least."""
+    """Siblings of a kind, three at least; geoms are siblings where their bodies are, and have as many."""
+    if kind == "geom":
+        geoms = [[simulation.geoms_of(body) for body in bodies] for bodies in groups(simulation, "body")]
+        return [list(row) for some in geoms if len({len(each) for each in some}) == 1 for row in zip(*some, strict=True)
+                if len({simulation.model("geom_type")[geom] for geom in row}) == 1]  # fmt: skip
     made: dict[tuple[object, ...], list[tuple[int, int]]] = {}
     for index, name in enumerate(simulation.names(kind)):
+        if kind == "body":
+            for found in WHICH.finditer(name):
+                key = (name[: found.start()], name[found.end() :], int(simulation.model("body_jntnum")[index]))
+                made.setdefault(key, []).append((index, _depth(simulation, index)))
+            continue
         joint = index if kind == "joint" else simulation.driven_joint(index)
         if joint is None or (kind == "joint" and simulation.joint_type(joint) < 2):
             continue
@@ -69,10 +92,13 @@ def _depth(simulation: Simulation, body: int) -> int:
     return depth
 
 
-def odd_ones(simulation: Simulation, kind: str) -> Iterator[Odd]:
-    """The one of each group that differs where all others agree."""
+def odd_ones(simulation: Simulation, kind: str, more: float = UNLIKE) -> Iterator[Odd]:
+    """The one of each group that differs by more than so many % where all others agree."""
     seen = set()
+    least = 4 if kind in ("body", "geom") else 3  # the middle one of three is elsewhere
     for group in groups(simulation, kind):
+        if len(group) < least:
+            continue
         for attribute in FIELDS[kind]:
             rows = {index: _row(simulation, kind, attribute, index) for index in group}
             for index in group:
@@ -80,7 +106,7 @@ def odd_ones(simulation: Simulation, kind: str) -> Iterator[Odd]:
                 first = rows[others[0]]
                 if any(_apart(rows[each], first) > LIKE for each in others) or (index, attribute) in seen:
                     continue
-                if (unlike := _apart(rows[index], first)) > UNLIKE:
+                if (unlike := _apart(rows[index], first)) > more:
                     seen.add((index, attribute))
                     yield Odd(kind, attribute, index, tuple(others), unlike)
 
@@ -89,7 +115,19 @@ def _row(simulation: Simulation, kind: str, attribute: str, index: int) -> tuple
     field, width, columns = FIELDS[kind][attribute]
     place = simulation.dof(index) if field.startswith("dof") else index
     row = simulation.row(field, place, width)
-    return tuple(row[column] for column in columns)
+    return tuple(abs(row[column]) if attribute == "pos" else row[column] for column in columns)  # mirrored or not
+
+
+def swapped(one: str, other: str) -> bool:
+    """Whether one of the numbers of two texts has the digits of the other in another order: 0.12 and 0.21."""
+    pairs = zip(one.split(), other.split(), strict=False)
+    try:
+        differ = [
+            (f"{abs(float(a)):.12g}", f"{abs(float(b)):.12g}") for a, b in pairs if float(a) ** 2 != float(b) ** 2
+        ]
+    except ValueError:
+        return False
+    return len(differ) == 1 and sorted(differ[0][0]) == sorted(differ[0][1]) and "e" not in differ[0][0]
 
 
 def _apart(one: tuple[float, ...], other: tuple[float, ...]) -> float:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from clinic.diagnosis.engine import BALL, FREE, HINGE, MESH, SLIDE
-from clinic.diagnosis.probes.pairs import FITS, Pairs
+from clinic.diagnosis.probes.pairs import FITS, SYMMETRIC, Pairs
 from clinic.diagnosis.probes.vector import Vector, add, apart, diagonal, dot, norm, sub, times, turned
 from clinic.diagnosis.simulation import Simulation
 
@@ -73,7 +73,7 @@ class Twins(Pairs):
     def trusted(self, group: int, compared: list[Comparison]) -> bool:
         """Whether what hangs on a body on both sides is the other's image but for little."""
         fits = next((self.share[left] for left, body in self.common.items() if body == group), 1.0)
-        return fits >= 0.85 and sum(each.odd for each in compared) <= max(2, 0.2 * len(compared))
+        return fits >= SYMMETRIC and sum(each.odd for each in compared) <= max(2, 0.2 * len(compared))
 
     def interval_sign(self, each: Comparison) -> float:
         """Whether a range of the pair is the same on both sides (1) or mirrored (-1)."""
@@ -279,6 +279,8 @@ class Twins(Pairs):
         joints = of.driven_joint(left), of.driven_joint(right)
         gears = of.row("actuator_gear", left, 6), of.row("actuator_gear", right, 6)
         yield Comparison("actuator", "gear", left, right, apart(norm(gears[0]), norm(gears[1])), 30)
+        if all(any(gear) for gear in gears):
+            yield Comparison("actuator", "gear sign", left, right, 100 * (dot(gears[0], gears[1]) < 0), 1)
         for quantity, field in (("gain", "actuator_gainprm"), ("bias", "actuator_biasprm")):
             width = len(of.model(field)) // max(1, of.count("actuator"))
             rows = of.row(field, left, width), of.row(field, right, width)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from random import Random
 
 from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, text_of, written
@@ -81,6 +82,18 @@ def range_narrow(model: ReaderModel, random: Random) -> Fault | None:
     joint, share = random.choice(found), between(random, 0.001, 0.1)
     low, high = numbers(model.value("joint", joint, "range"))[:2]
     return _range(model, joint, low * share, high * share, share)
+
+
+@kind("range-empty", harms=ENDS)
+def range_emptied(model: ReaderModel, random: Random) -> Fault | None:
+    """A range from its upper end to its lower, or of nothing; `limited` is left to the compiler."""
+    if not (found := _limited(model)):
+        return None
+    joint = random.choice(found)
+    low, high = numbers(model.value("joint", joint, "range"))[:2]
+    fault, element = _range(model, joint, *random.choice(((high, low), (0.0, 0.0))), 1.0), model.element("joint", joint)
+    assert element is not None
+    return replace(fault, edits=(*fault.edits, set_attribute(element, "limited", "auto")))
 
 
 @kind("range-not-applied", harms=ENDS)

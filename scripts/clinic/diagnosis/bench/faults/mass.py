@@ -67,6 +67,15 @@ def inertia_of_another_size(model: ReaderModel, random: Random) -> Fault | None:
     return _fault(model, body, _inertial(model, body, moments=(factor,) * 3), "diaginertia", factor)
 
 
+@kind("inertia-in-another-unit", *INERTIA, harms=FELT)
+def inertias_in_another_unit(model: ReaderModel, random: Random) -> Fault | None:
+    """All bodies' inertias in g m2, kg mm2, g cm2 or g mm2."""
+    factor = random.choice((1e3, 1e6, 1e7, 1e9))
+    edits = tuple(edit for body in _bodies(model) for edit in _inertial(model, body, moments=(factor,) * 3))
+    names = tuple(model.simulation.name("body", body) for body in _bodies(model))
+    return Fault(edits, names, "diaginertia", factor) if len(names) > 1 else None
+
+
 @kind("inertia-across-geoms", *INERTIA, harms=FELT)
 def inertia_not_turned(model: ReaderModel, random: Random) -> Fault | None:
     """A body's principal moments without the rotation of their axes, or in another order."""
@@ -161,7 +170,7 @@ def visual_geom_with_mass(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((insert(element, xml),), (name, own), "mass", factor)
 
 
-@kind("inertial-missing", "visual-mass", "denser-than-metal", *INERTIA, harms=FELT)
+@kind("inertial-forgotten", "visual-mass", "denser-than-metal", *INERTIA, harms=FELT)
 def inertial_forgotten(model: ReaderModel, random: Random) -> Fault | None:
     """A body without the `<inertial>` that it and at least three others had: its geoms weigh as water does."""
     found = [(b, model.element("body", b)) for b in _bodies(model)]

@@ -71,7 +71,7 @@ Coupling = tuple[int, int, tuple[float, ...]]  # follower, leader, factors of th
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Followers whose range leaves out most of what they are led to, all together."""
     simulation = model.simulation
-    found = [each for each in _equalities(simulation) if _lost(simulation, (each,)) > LOST]
+    found = [each for _, each in couplings(simulation) if lost(simulation, (each,)) > LOST]
     if not found:
         return
     edits: tuple[Edit, ...] = ()
@@ -88,7 +88,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         f"{low:.3g} {high:.3g}",
         f"{min(led):.3g} {max(led):.3g}",
         edits,
-        Probe("share of a leader's range that leads a joint out of its own", "", _lost, (tuple(found),), dynamic=False),
+        Probe("share of a leader's range that leads a joint out of its own", "", lost, (tuple(found),), dynamic=False),
         LOST,
         f"{simulation.name('joint', leader)} leads {simulation.name('joint', follower)} to {min(led):.3g} to "
         f"{max(led):.3g}, and its range is {low:.3g} to {high:.3g}.",
@@ -96,12 +96,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     )
 
 
-def _equalities(simulation: Simulation) -> Iterator[Coupling]:
+def couplings(simulation: Simulation) -> Iterator[tuple[int, Coupling]]:
+    """The equalities that couple two joints, and how."""
     count = simulation.count("equality")
     for each in range(count):
         follower, leader = (int(simulation.model(f"eq_obj{side}id")[each]) for side in (1, 2))
         if int(simulation.model("eq_type")[each]) == JOINT and leader >= 0 and simulation.model("eq_active0")[each]:
-            yield follower, leader, simulation.row("eq_data", each, len(simulation.model("eq_data")) // count)[:5]
+            factors = simulation.row("eq_data", each, len(simulation.model("eq_data")) // count)[:5]
+            yield each, (follower, leader, factors)
 
 
 def _led(simulation: Simulation, coupling: Coupling) -> list[float]:
@@ -113,9 +115,10 @@ def _led(simulation: Simulation, coupling: Coupling) -> list[float]:
     return [begins[0] + sum(factor * way**power for power, factor in enumerate(factors)) for way in ways]
 
 
-def _lost(simulation: Simulation, couplings: tuple[Coupling, ...]) -> float:
+def lost(simulation: Simulation, found: tuple[Coupling, ...]) -> float:
+    """The largest share of a leader's range that leads its follower out of its own."""
     most = 0.0
-    for coupling in couplings:
+    for coupling in found:
         if all(simulation.model("jnt_limited")[joint] for joint in coupling[:2]):
             low, high = simulation.row("jnt_range", coupling[0], 2)
             slack = SLACK * (high - low)

@@ -82,7 +82,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _unstopped(simulation: Simulation, joints: tuple[int, ...]) -> float:
     simulation.begin()
     free = 0.0
-    with alone(simulation):
+    with alone(simulation, limp=True):
         for joint in joints:
             low, high = simulation.row("jnt_range", joint, 2)
             simulation.begin(forward=False)

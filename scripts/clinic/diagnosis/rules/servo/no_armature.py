@@ -33,7 +33,8 @@ Good:
 
 The number: with the timestep h and the inertia M a velocity gain is stable below h kv / M = 2, a position gain below
 h^2 kp / M = 4 (explicit integration of a spring and a damper). A model that keeps these at 2 ms, and not at its own
-timestep, has a timestep that is too long, but where one joint is ten times as far beyond as the others.
+timestep, has a timestep that is too long, but where one joint is ten times as far beyond as the others. Where no gain
+is the reason and something is faster than 100 rad/s, driven joints below 0.01 kg m2 are told.
 
 When it is wrong: a gain that is a hundred times too high shakes as well; then the gain is the fault.
 """
@@ -58,6 +59,7 @@ USUAL = 0.002  # s
 IMPLICIT = (2, 3)  # mjtIntegrator that treats an actuator's damping implicitly
 FAST = 100.0
 NEAR = 0.5  # of what one joint alone bears: in a chain it is less
+ROTOR = 0.01  # kg m2
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -70,6 +72,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         usual = sorted(_excess(each, step) for each in gains.values())[(len(gains) - 1) // 2]
         found = {joint: each for joint, each in gains.items() if _excess(each, step) > max(NEAR, 10 * usual)}
     if not found:
+        yield from _bare(model)
         return
     edits: list[Edit] = []
     for joint, (kp, kv, inertia) in found.items():
@@ -91,6 +94,32 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         "h kv / M < 2, h^2 kp / M < 4 (explicit integration)",
         share=0.1,
         excess=_excess(worst, step),
+    )
+
+
+def _bare(model: ReaderModel) -> Iterator[Suspect]:
+    """Driven joints of light links without armature, where something gets too fast and no gain is the reason."""
+    of, inertia = model.simulation, model.simulation.mass_diagonal
+    driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))} - {None}
+    bare = [joint for joint in driven if joint is not None and of.model("dof_armature")[of.dof(joint)] == 0]
+    light = sorted(joint for joint in bare if inertia[of.dof(joint)] < ROTOR and not of.model("jnt_stiffness")[joint])
+    probe = next((each for each in (fastest(), shake()) if model.measured(each) > FAST), None)
+    if not light or probe is None or of.timestep > 2 * USUAL:
+        return
+    least = min(inertia[of.dof(joint)] for joint in light)
+    yield Suspect(
+        tuple(of.name("joint", joint) for joint in light),
+        "armature",
+        "0",
+        f"{ROTOR:g}",
+        model.set("joint", light, "armature", f"{ROTOR:g}"),
+        probe,
+        FAST,
+        f"{len(light)} driven joints have no armature and as little inertia as {least:.2g}: less than the rotor of a "
+        "motor behind its gear has.",
+        "0.01 kg m2 and more for the joint of a walking robot",
+        share=0.1,
+        excess=2.0,
     )
 
 

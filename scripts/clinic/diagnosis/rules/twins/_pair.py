@@ -2,39 +2,24 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
-from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
-from clinic.diagnosis.probes.inertia import inertial, set_inertial
-from clinic.diagnosis.probes.siblings import UNLIKE, Odd, odd_ones
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.inertia import inertial
+from clinic.diagnosis.probes.siblings import FIELDS, LIKE, SOME, Odd, odd_ones, swapped
 from clinic.diagnosis.probes.siblings import unlike as alike
 from clinic.diagnosis.probes.twins import Comparison, Twins, twins
-from clinic.diagnosis.probes.vector import norm, sub, times, transpose, turned, written
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.twins._edits import COPIED, copied, edits_of
+from clinic.diagnosis.rules.twins._side import odd_side
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Level, Probe, Suspect
 
 ODD_SHARE = 0.12  # of all comparisons: more of them, and the model is not meant to be its own mirror image
 FEW = 0.2  # of the comparisons of one quantity
+SWAPPED = " It has the same digits in another order."
+EITHER = " Nothing here tells which of the two is wrong."
 ENOUGH = 12  # comparisons that make a model one of pairs
-COPIED = {  # attributes that are the same on both sides
-    **{
-        name: (name,)
-        for name in ("stiffness", "damping", "armature", "frictionloss", "type", "gravcomp", "fovy", "gear")
-    },
-    **{name: (name,) for name in ("contype", "conaffinity", "condim", "friction", "size")},
-    "gain": ("kp", "kv", "dampratio", "gainprm", "biasprm"),
-    "bias": ("kp", "kv", "dampratio", "gainprm", "biasprm"),
-}
-FRAMES = {
-    "body": "body_parentid",
-    "geom": "geom_bodyid",
-    "site": "site_bodyid",
-    "camera": "cam_bodyid",
-    "joint": "jnt_bodyid",
-}
-PLACES = {"body": "xpos", "geom": "geom_xpos", "site": "site_xpos", "camera": "cam_xpos", "joint": "xanchor"}
 
 
 def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> Iterator[tuple[list[Comparison], bool]]:
@@ -73,26 +58,38 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
 
 def siblings(model: ReaderModel, kind: str) -> Iterator[Suspect]:
     """One of three or more that are alike but for a number or a finger in their names, where its twin tells nothing."""
-    of, pairs = model.simulation, twins(model.simulation).comparisons
-    paired = {
-        (each.quantity, side) for each in pairs if each.kind == kind and each.odd for side in (each.left, each.right)
-    }
-    found = [each for each in odd_ones(of, kind) if (each.attribute, each.index) not in paired]
+    of = model.simulation
+    told = [each for found, _ in odd(model, (kind,), (*FIELDS[kind], "gear sign")) for each in found]
+    paired = {(each.quantity.removesuffix(" sign"), side) for each in told for side in (each.left, each.right)}
+    found = [
+        each
+        for each in odd_ones(of, kind, 2 * LIKE)
+        if (each.attribute, each.index) not in paired
+        and (each.clear or (len(each.siblings) >= 3 and each.unlike > SOME) or _swapped(model, each))
+    ]
     if len({each.index for each in found}) > 1:  # two that differ alike, left and right, are meant
         return
     for each in found:
         names = COPIED.get(each.attribute, (each.attribute,))
-        edits = _copied(model, kind, each.index, each.siblings[0], names)
-        if edits and not model.measured(alike(each), edits) <= UNLIKE:
+        edits = copied(model, kind, each.index, each.siblings[0], names)
+        if edits and not model.measured(alike(each), edits) <= LIKE:
             edits = ()
         others = ", ".join(of.name(kind, other) for other in each.siblings[:3])
         now = next((text for name in names if (text := model.value(kind, each.index, name))), "")
         says = f"{others} agree in their {each.attribute}, and it differs by {each.unlike:.3g} %."
         probe, value = alike(each), edits[0].value if edits else "that of its siblings"
-        level: Level = "cause" if edits and len(each.siblings) >= 2 and not _none(of, each) else "hint"
+        digits = _swapped(model, each)
+        says += SWAPPED * digits
+        level: Level = "cause" if edits and (each.clear or digits) and not _none(of, each) else "hint"
         healthy = "siblings alike"
         elements = (of.name(kind, each.index),)
-        yield Suspect(elements, each.attribute, now, value, edits, probe, UNLIKE, says, healthy, level=level)
+        yield Suspect(elements, each.attribute, now, value, edits, probe, LIKE, says, healthy, level=level)
+
+
+def _swapped(model: ReaderModel, each: Odd) -> bool:
+    """Whether a number of the odd one has the digits of its sibling's in another order."""
+    texts = [model.value(each.kind, index, each.attribute) or "" for index in (each.index, each.siblings[0])]
+    return swapped(*texts)
 
 
 def _none(of: Simulation, each: Odd) -> bool:
@@ -104,7 +101,8 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
     """The suspect that makes the pairs alike; a hint where it stands out little or no edit does it."""
     first, simulation = found[0], model.simulation
     alone = [each for each in found if each.quantity == first.quantity]
-    sides = [_odd_side(model, each) for each in found]
+    judged = [odd_side(model, each) for each in found]
+    sides, sure = [side for side, _ in judged], all(sure for _, sure in judged)
     probe = Probe(
         f"{first.quantity} of {first.kind} and twin, unlike by",
         first.unit,
@@ -117,20 +115,23 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
     if any(each.quantity == "axis sign" for each in found):  # the axis turned, a range that differs is mirrored too
         turned_axes = [(each, side) for each, side in zip(found, sides, strict=True) if each.quantity == "axis sign"]
         edits = _together(edit for each, side in turned_axes for edit in edits_of(model, each, side))
-    if _absent(model, found):
-        clear = False
+    digits = len(alone) == 1 and swapped(
+        *(model.value(first.kind, side, first.quantity) or "" for side in (first.left, first.right))
+    )
+    clear = (clear or digits or _outvoted(model, first, sides[0])) and not (_absent(model, found) or _led(model, first))
     if edits and not model.measured(probe, edits) <= limit:
         edits = ()
     quantities = " and ".join(dict.fromkeys(each.quantity for each in found))
-    names = tuple(simulation.name(first.kind, side) for side in sides)
+    names = [simulation.name(first.kind, side) for side in sides]
     others = [
         simulation.name(first.kind, each.left + each.right - side) for each, side in zip(found, sides, strict=True)
     ]
     compared = twins(simulation).comparisons
     alike = sum((each.kind, each.quantity) == (first.kind, first.quantity) and not each.odd for each in compared)
     says = f"It differs from its twin, {others[0]}, in a model where {alike} other pairs agree in their {quantities}."
+    says += SWAPPED * digits + EITHER * (not sure)
     return Suspect(
-        tuple(dict.fromkeys(names)),
+        tuple(dict.fromkeys(names if sure else names + others)),
         first.quantity,
         _told(model, first, sides[0]),
         edits[0].value if edits else f"that of {others[0]}",
@@ -141,6 +142,19 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
         f"at most {limit:.3g} {first.unit}: of the models of 14 robots all but a few pairs agree to less",
         level="cause" if clear and edits else "hint",
     )
+
+
+def _led(model: ReaderModel, each: Comparison) -> bool:
+    """Whether the range is of a pair of which one joint is driven, so that the other is led."""
+    of = model.simulation
+    driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
+    return each.quantity == "range" and each.kind == "joint" and (each.left in driven) != (each.right in driven)
+
+
+def _outvoted(model: ReaderModel, each: Comparison, side: int) -> bool:
+    """Whether the side differs clearly from three or more that agree, its twin among them."""
+    ones = odd_ones(model.simulation, each.kind, SOME) if each.kind in FIELDS else ()
+    return any((one.attribute, one.index) == (each.quantity, side) and one.clear for one in ones)
 
 
 def _of_geoms(model: ReaderModel, found: Twins, each: Comparison) -> bool:
@@ -180,181 +194,3 @@ def _told(model: ReaderModel, each: Comparison, side: int) -> str:
         (text for name in COPIED.get(each.quantity, (each.quantity,)) if (text := model.value(each.kind, side, name))),
         "",
     )
-
-
-def _odd_side(model: ReaderModel, each: Comparison) -> int:
-    """Which of a pair is the odd one: the one whose value fewer elements have; the left one when both have as many."""
-    simulation = model.simulation
-
-    def key(index: int) -> tuple[object, ...]:
-        names = COPIED.get(each.quantity, (each.quantity,))
-        texts = [model.value(each.kind, index, name) or "" for name in names]
-        try:
-            return tuple(sorted(round(abs(float(number)), 6) for text in texts for number in text.split()))
-        except ValueError:
-            return tuple(texts)
-
-    if each.kind == "body" and inertial(model, each.left) is not None:
-        far = [_centre_off(simulation, body) for body in (each.left, each.right)]
-        return each.left if far[0] >= far[1] else each.right
-    if each.kind in ("joint", "actuator"):
-        for one in odd_ones(simulation, each.kind):
-            if one.attribute == each.quantity and one.index in (each.left, each.right):
-                return one.index
-    if each.quantity == "ctrlrange":
-        shares = [_in_reach(simulation, actuator) for actuator in (each.left, each.right)]
-        if shares[0] != shares[1]:
-            return each.left if shares[0] < shares[1] else each.right
-    if each.quantity == "joint":
-        joints = [simulation.driven_joint(actuator) for actuator in range(simulation.count("actuator"))]
-        names = [
-            simulation.engine.name("joint", joint) if (joint := joints[side]) is not None else ""
-            for side in (each.left, each.right)
-        ]
-        own = [simulation.engine.name("actuator", side) for side in (each.left, each.right)]
-        alike = [len(set(_pieces(a)) ^ set(_pieces(b))) for a, b in zip(names, own, strict=True)]
-        return each.right if alike[1] > alike[0] else each.left
-    counts = Counter(key(index) for index in range(simulation.count(each.kind)))
-    return each.right if counts[key(each.right)] < counts[key(each.left)] else each.left
-
-
-def _in_reach(simulation: Simulation, actuator: int) -> float:
-    """The share of an actuator's control range that is in its joint's range."""
-    joint = simulation.driven_joint(actuator)
-    if joint is None or not simulation.model("jnt_limited")[joint]:
-        return 1.0
-    low, high = simulation.row("actuator_ctrlrange", actuator, 2)
-    bottom, top = simulation.row("jnt_range", joint, 2)
-    return max(0.0, min(high, top) - max(low, bottom)) / max(high - low, 1e-9)
-
-
-def _pieces(name: str) -> list[str]:
-    return name.lower().replace("-", "_").replace("/", "_").split("_")
-
-
-def _centre_off(simulation: Simulation, body: int) -> float:
-    """How far the centre of mass is from the middle of the body's geoms, in m."""
-    places = [simulation.row("geom_pos", geom, 3) for geom in simulation.geoms_of(body)]
-    if not places:
-        return 0.0
-    middle = tuple(sum(each) / len(places) for each in zip(*places, strict=True))
-    off = sub(simulation.row("body_ipos", body, 3), middle)
-    return norm(off)
-
-
-def edits_of(model: ReaderModel, each: Comparison, side: int) -> tuple[Edit, ...]:
-    """The edit of one side that makes it its twin's image; empty where none is known."""
-    found = twins(model.simulation)
-    twin = each.left + each.right - side
-    if each.quantity in COPIED:
-        return _copied(model, each.kind, side, twin, COPIED[each.quantity])
-    if each.quantity in ("range", "ctrlrange", "forcerange", "limited"):
-        return _range(model, found, each, side, twin)
-    if each.quantity == "joint":
-        return _other_joint(model, found, side, twin)
-    if each.kind == "body" and each.quantity in ("mass", "center of mass", "inertia"):
-        return _inertial(model, found, each, side, twin)
-    if each.quantity == "pos":
-        return _place(model, found, each, side, twin)
-    if each.quantity == "axis":
-        return _axis(model, found, each, side, twin)
-    if each.quantity == "axis sign":
-        return _turned_axis(model, side)
-    return ()
-
-
-def _copied(model: ReaderModel, kind: str, side: int, twin: int, names: Sequence[str]) -> tuple[Edit, ...]:
-    made: list[Edit] = []
-    element = model.element(kind, side)
-    for name in names:
-        own, other = model.value(kind, side, name), model.value(kind, twin, name)
-        if element is None or own == other:
-            continue
-        if other is not None:
-            made.append(set_attribute(element, name, other))
-        elif name in element.attributes:
-            made.append(remove_attribute(element, name))
-    return tuple(made)
-
-
-def _range(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:
-    name = "range" if each.quantity == "limited" else each.quantity
-    text, element = model.value(each.kind, twin, name), model.element(each.kind, side)
-    if element is None:
-        return ()
-    if model.source is not None and model.source.urdf:
-        low, high = model.simulation.row("jnt_range", twin, 2)
-        if found.interval_sign(each) < 0:
-            low, high = -high, -low
-        limit = element.first("limit")
-        return tuple(
-            set_attribute(limit, name, f"{value:.6g}") for name, value in (("lower", low), ("upper", high)) if limit
-        )
-    if text is None:
-        return ()
-    low, high = (float(number) for number in text.split())
-    if found.interval_sign(each) < 0:
-        low, high = -high, -low
-    made = [set_attribute(element, name, written((low, high)))]
-    if each.quantity == "limited" and (limited := model.value(each.kind, twin, "limited")):
-        made.append(set_attribute(element, "limited", limited))
-    return tuple(made)
-
-
-def _other_joint(model: ReaderModel, found: Twins, side: int, twin: int) -> tuple[Edit, ...]:
-    driven, element = model.simulation.driven_joint(twin), model.element("actuator", side)
-    partner = found.partner("joint", driven) if driven is not None else None
-    if partner is None or element is None:
-        return ()
-    return (set_attribute(element, "joint", model.simulation.engine.name("joint", partner)),)
-
-
-def _inertial(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:
-    if inertial(model, side) is None:
-        geoms = [(found.partner("geom", geom), geom) for geom in model.simulation.geoms_of(side)]
-        pairs = [(partner, geom) for partner, geom in geoms if partner is not None]
-        return tuple(
-            made for partner, geom in pairs for made in _copied(model, "geom", geom, partner, ("mass", "density"))
-        )
-    simulation, image = model.simulation, found.image(each.left, side)
-    frame = transpose(found.at("xmat", side, 9))
-    centre = times(frame, times(image.matrix, sub(found.at("xipos", twin), found.at("xpos", twin))))
-    about = turned(frame, turned(image.matrix, found.tensor(twin)))
-    return set_inertial(model, side, simulation.model("body_mass")[twin], centre, about)
-
-
-def _place(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:
-    element, simulation = model.element(each.kind, side), model.simulation
-    if element is None or "fromto" in element.attributes:
-        return ()
-    owners = simulation.model(FRAMES[each.kind])
-    here, there = int(owners[side]), int(owners[twin])
-    left_body = each.left if each.kind == "body" else int(owners[each.left])
-    image = found.image(left_body, here if each.kind != "body" else side)
-    seen = times(image.matrix, sub(found.at(PLACES[each.kind], twin), found.at("xpos", there)))
-    if here == there:
-        seen = sub(image.of(found.at(PLACES[each.kind], twin)), found.at("xpos", here))
-    return (set_attribute(element, "pos", written(times(transpose(found.at("xmat", here, 9)), seen))),)
-
-
-def _turned_axis(model: ReaderModel, side: int) -> tuple[Edit, ...]:
-    element = model.element("joint", side)
-    if element is None:
-        return ()
-    if model.source is not None and model.source.urdf:
-        axis = element.first("axis")
-        turned_axis = written(tuple(-float(x) for x in axis.get("xyz").split())) if axis is not None else ""
-        return (set_attribute(axis, "xyz", turned_axis),) if axis is not None else ()
-    text = model.value("joint", side, "axis") or "0 0 1"
-    return (set_attribute(element, "axis", written(tuple(-float(x) for x in text.split()))),)
-
-
-def _axis(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:
-    element, body = model.element("joint", side), int(model.simulation.model("jnt_bodyid")[side])
-    if element is None:
-        return ()
-    image = found.image(int(model.simulation.model("jnt_bodyid")[each.left]), body)
-    axis = times(transpose(found.at("xmat", body, 9)), times(image.matrix, found.at("xaxis", twin)))
-    own = model.simulation.row("jnt_axis", side, 3)
-    sign = 1.0 if sum(a * b for a, b in zip(axis, own, strict=True)) >= 0 else -1.0
-    return (set_attribute(element, "axis", written(tuple(sign * x for x in axis))),)

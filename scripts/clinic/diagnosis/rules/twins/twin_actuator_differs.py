@@ -113,6 +113,8 @@ SINCE = "0.2"
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """What differs in a pair, a suspect for each quantity."""
-    for found, clear in odd(model, ("actuator",), ("joint", "gear", "gain", "bias", "ctrlrange", "forcerange")):
+    for found, clear in odd(
+        model, ("actuator",), ("joint", "gear", "gear sign", "gain", "bias", "ctrlrange", "forcerange")
+    ):
         yield suspect(model, found, clear)
     yield from siblings(model, "actuator")

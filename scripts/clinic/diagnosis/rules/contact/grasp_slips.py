@@ -1,0 +1,101 @@
+"""Fingers press firmly, and the friction of what they hold is too low to carry it.
+
+A grasp holds while friction times the normal forces is more than the weight. Which friction counts is decided by
+`priority`, and else the larger of the two: a slippery surface of high priority undoes the best pads.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="left" pos="-0.04 0 0.06">
+          <joint name="left" type="slide" axis="1 0 0"/>
+          <geom type="box" size="0.005 0.015 0.04" mass="0.1"/>
+        </body>
+        <body name="right" pos="0.04 0 0.06">
+          <joint name="right" type="slide" axis="-1 0 0"/>
+          <geom type="box" size="0.005 0.015 0.04" mass="0.1"/>
+        </body>
+        <body name="cube" pos="0 0 0.025">
+          <freejoint/>
+          <geom name="cube" type="box" size="0.025 0.025 0.025" mass="0.4" friction="0.15" priority="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="left" kp="400" kv="10" ctrlrange="0 0.03"/>
+        <position joint="right" kp="400" kv="10" ctrlrange="0 0.03"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="left" pos="-0.04 0 0.06">
+          <joint name="left" type="slide" axis="1 0 0"/>
+          <geom type="box" size="0.005 0.015 0.04" mass="0.1"/>
+        </body>
+        <body name="right" pos="0.04 0 0.06">
+          <joint name="right" type="slide" axis="-1 0 0"/>
+          <geom type="box" size="0.005 0.015 0.04" mass="0.1"/>
+        </body>
+        <body name="cube" pos="0 0 0.025">
+          <freejoint/>
+          <geom name="cube" type="box" size="0.025 0.025 0.025" mass="0.4" friction="1" priority="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="left" kp="400" kv="10" ctrlrange="0 0.03"/>
+        <position joint="right" kp="400" kv="10" ctrlrange="0 0.03"/>
+      </actuator>
+    </mujoco>
+
+The number: the weight of what lies between the fingers over what friction carries, once all fingers went to one end of
+their controls for 1 s; above 1 it slips. Only friction below 0.5 is told: rubber on a solid has 0.5 to 1.
+
+When it is wrong: a thing that is to slip. Fingers that are too weak need force, not friction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.grasp import grasps, needed
+from clinic.diagnosis.probes.touch import edits_of, names_of
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "A grasp that friction cannot hold"
+FAMILIES = ("slips",)
+SINCE = "0.2"
+CASE = "grasp-slips"
+
+LOW = 0.5
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """What decides the contacts of a body that fingers hold with too little friction."""
+    of = model.simulation
+    for found in grasps(of):
+        low = [each for each in found.deciding if each.friction < LOW]
+        if found.weight <= found.carries or not low or model.measured(needed(found.body)) <= 1:
+            continue
+        least = min(each.friction for each in low)
+        says = (
+            f"The fingers press with {found.force:.3g} N in all, of which friction {least:g} carries "
+            f"{found.carries:.3g} N; {of.name('body', found.body)} weighs {found.weight:.3g} N."
+        )
+        value = "1 1 0.005 0.0001 0.0001" if any(each.kind == "pair" for each in low) else "1 0.005 0.0001"
+        edits = edits_of(model, low, "friction", value)
+        yield Suspect(
+            names_of(of, low),
+            "friction",
+            f"{least:g}",
+            "1",
+            edits,
+            needed(found.body),
+            1.0,
+            says,
+            "0.5 to 1 for rubber",
+        )

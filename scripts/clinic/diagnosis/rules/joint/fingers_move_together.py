@@ -1,0 +1,102 @@
+"""Two fingers that are coupled move the same way, so that the gap between them never changes.
+
+The factor of the coupling and the axes of two slides belong together: with opposite axes it is 1, with the same axis
+-1. With one of the signs wrong a gripper carries its fingers to and fro, and grasps nothing.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="left" pos="0.03 0 1">
+          <joint name="left" type="slide" axis="1 0 0" range="0 0.04"/>
+          <geom type="box" size="0.01 0.01 0.04"/>
+        </body>
+        <body name="right" pos="-0.03 0 1">
+          <joint name="right" type="slide" axis="1 0 0" range="0 0.04"/>
+          <geom type="box" size="0.01 0.01 0.04"/>
+        </body>
+      </worldbody>
+      <equality>
+        <joint joint1="left" joint2="right"/>
+      </equality>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="left" pos="0.03 0 1">
+          <joint name="left" type="slide" axis="1 0 0" range="0 0.04"/>
+          <geom type="box" size="0.01 0.01 0.04"/>
+        </body>
+        <body name="right" pos="-0.03 0 1">
+          <joint name="right" type="slide" axis="-1 0 0" range="0 0.04"/>
+          <geom type="box" size="0.01 0.01 0.04"/>
+        </body>
+      </worldbody>
+      <equality>
+        <joint joint1="left" joint2="right"/>
+      </equality>
+    </mujoco>
+
+The number: how far the two move the same way, as a share of how far they move; 0 for fingers that close, 1 for two that
+keep their distance. The axis is turned where the coupling leads within the range, and else the factor.
+
+When it is wrong: a telescope, whose stages follow each other; they do not hang on one body.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.engine import SLIDE
+from clinic.diagnosis.probes.vector import add, norm, sub, written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.joint.follower_out_of_range import couplings, lost
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "Fingers that move the same way"
+FAMILIES = ("stuck", "slips")
+SINCE = "0.2"
+
+MOST = 0.9
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Coupled slides of one body that do not change their distance."""
+    of = model.simulation
+    parents, bodies = of.model("body_parentid"), of.model("jnt_bodyid")
+    for each, coupling in couplings(of):
+        follower, leader, factors = coupling
+        hang = {parents[int(bodies[joint])] for joint in (follower, leader)}
+        kinds = {of.joint_type(joint) for joint in (follower, leader)}
+        if len(hang) > 1 or kinds != {SLIDE} or _together(of, each) <= MOST:
+            continue
+        element, joint = model.element("equality", each), model.element("joint", follower)
+        if element is None or joint is None:
+            continue
+        turned = written([-x for x in of.row("jnt_axis", follower, 3)])
+        coefficients = written([factors[0], *(-x for x in factors[1:])])
+        within = lost(of, (coupling,)) <= 0.5
+        edit = set_attribute(joint, "axis", turned) if within else set_attribute(element, "polycoef", coefficients)
+        yield Suspect(
+            tuple(of.name("joint", joint) for joint in (follower, leader)),
+            edit.attribute,
+            "",
+            edit.value,
+            (edit,),
+            Probe("share of their way that two fingers go together", "", _together, (each,), dynamic=False),
+            MOST,
+            f"{of.name('joint', follower)} goes where {of.name('joint', leader)} goes: the gap never changes.",
+            "fingers that close",
+        )
+
+
+def _together(simulation: Simulation, equality: int) -> float:
+    follower, leader, factors = next(found for each, found in couplings(simulation) if each == equality)
+    simulation.begin()
+    ways = [simulation.data_row("xaxis", joint, 3) for joint in (follower, leader)]
+    own = tuple(factors[1] * x for x in ways[0])
+    return norm(add(own, ways[1])) / max(norm(add(own, ways[1])) + norm(sub(own, ways[1])), 1e-9)

@@ -1,0 +1,102 @@
+"""Gravity compensation is on some links of an arm and not on the others.
+
+`gravcomp="1"` stands on a body, and is not inherited by what hangs on it. Where some links of an arm have it, the
+joints still carry the others, and the arm sags. `actuatorgravcomp` on a joint says through what the compensation acts;
+without `gravcomp` on any body there is none.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="upper" pos="0 0 1" gravcomp="1">
+          <joint axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="1"/>
+          <body name="fore" pos="0.3 0 0">
+            <joint axis="0 1 0"/>
+            <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="1"/>
+            <body name="wrist" pos="0.3 0 0" gravcomp="1">
+              <joint axis="0 1 0"/>
+              <geom type="capsule" fromto="0 0 0 0.1 0 0" size="0.02" mass="0.5"/>
+            </body>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="upper" pos="0 0 1" gravcomp="1">
+          <joint axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="1"/>
+          <body name="fore" pos="0.3 0 0" gravcomp="1">
+            <joint axis="0 1 0"/>
+            <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="1"/>
+            <body name="wrist" pos="0.3 0 0" gravcomp="1">
+              <joint axis="0 1 0"/>
+              <geom type="capsule" fromto="0 0 0 0.1 0 0" size="0.02" mass="0.5"/>
+            </body>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the share of the moving mass of a mechanism on a fixed base that is not compensated; above 2 % is told.
+
+When it is wrong: an arm that is to feel what it holds. Where only the last links lack it, or half of
+the mass does, it is a hint.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import FREE
+from clinic.diagnosis.probes.shape import root_of, roots
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "Gravity compensation on some links alone"
+FAMILIES = ("sags", "drifts")
+SINCE = "0.2"
+
+LEFT = 0.02  # of the mass
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Mechanisms of which a part is compensated; those whose joints say how, and no body that it is."""
+    of, owner = model.simulation, root_of(model.simulation)
+    masses, compensated = of.model("body_mass"), of.model("body_gravcomp")
+    for root in roots(of):
+        tree = [body for body, top in enumerate(owner) if top == root and masses[body] > 0]
+        if any(of.joint_type(joint) == FREE for joint in of.joints_of(root)):
+            continue
+        bare = [body for body in tree if compensated[body] == 0]
+        joints = [joint for body in tree for joint in of.joints_of(body)]
+        asked = bool(joints) and all(of.model("jnt_actgravcomp")[joint] for joint in joints)
+        if not bare or (len(bare) == len(tree) and not asked):
+            continue
+        some = [body for body in tree if body not in bare]
+        inner = any(max(some, default=-1) > body for body in bare)
+        value = f"{max((compensated[body] for body in some), default=1.0):g}"
+        kilograms = sum(masses[body] for body in bare)
+        says = f"{len(bare)} of {len(tree)} links have no gravcomp, {kilograms:.3g} kg in all."
+        yield Suspect(
+            tuple(of.name("body", body) for body in bare),
+            "gravcomp",
+            "0",
+            value,
+            model.set("body", bare, "gravcomp", value),
+            Probe("share of the mass that nothing compensates", "", _left, tuple(tree), dynamic=False),
+            LEFT,
+            says + " All joints have actuatorgravcomp." * (not some),
+            "all links of a mechanism, or none",
+            level="cause" if not some or (inner and kilograms < sum(masses[body] for body in tree) / 2) else "hint",
+        )
+
+
+def _left(simulation: Simulation, *bodies: int) -> float:
+    masses, compensated = simulation.model("body_mass"), simulation.model("body_gravcomp")
+    return sum(masses[body] for body in bodies if compensated[body] == 0) / sum(masses[body] for body in bodies)

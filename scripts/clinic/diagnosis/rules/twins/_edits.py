@@ -1,0 +1,152 @@
+"""The edit of one of a pair that makes it its twin's image."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
+from clinic.diagnosis.probes.inertia import inertial, set_inertial
+from clinic.diagnosis.probes.twins import Comparison, Twins, twins
+from clinic.diagnosis.probes.vector import sub, times, transpose, turned, written
+from clinic.diagnosis.reader_model import ReaderModel
+
+COPIED = {  # attributes that are the same on both sides
+    **{
+        name: (name,)
+        for name in ("stiffness", "damping", "armature", "frictionloss", "type", "gravcomp", "fovy", "gear")
+    },
+    **{name: (name,) for name in ("contype", "conaffinity", "condim", "friction", "size")},
+    "gear sign": ("gear",),
+    "gain": ("kp", "kv", "dampratio", "gainprm", "biasprm"),
+    "bias": ("kp", "kv", "dampratio", "gainprm", "biasprm"),
+}
+FRAMES = {
+    "body": "body_parentid",
+    "geom": "geom_bodyid",
+    "site": "site_bodyid",
+    "camera": "cam_bodyid",
+    "joint": "jnt_bodyid",
+}
+PLACES = {"body": "xpos", "geom": "geom_xpos", "site": "site_xpos", "camera": "cam_xpos", "joint": "xanchor"}
+
+
+def edits_of(model: ReaderModel, each: Comparison, side: int) -> tuple[Edit, ...]:
+    """The edit of one side that makes it its twin's image; empty where none is known."""
+    found = twins(model.simulation)
+    twin = each.left + each.right - side
+    if each.quantity in COPIED:
+        return copied(model, each.kind, side, twin, COPIED[each.quantity])
+    if each.quantity in ("range", "ctrlrange", "forcerange", "limited"):
+        return _range(model, found, each, side, twin)
+    if each.quantity == "joint":
+        return _other_joint(model, found, side, twin)
+    if each.kind == "body" and each.quantity in ("mass", "center of mass", "inertia"):
+        return _inertial(model, found, each, side, twin)
+    if each.quantity == "pos":
+        return _place(model, found, each, side, twin)
+    if each.quantity == "axis":
+        return _axis(model, found, each, side, twin)
+    if each.quantity == "axis sign":
+        return _turned_axis(model, side)
+    return ()
+
+
+def copied(model: ReaderModel, kind: str, side: int, twin: int, names: Sequence[str]) -> tuple[Edit, ...]:
+    made: list[Edit] = []
+    element = model.element(kind, side)
+    for name in names:
+        own, other = model.value(kind, side, name), model.value(kind, twin, name)
+        if element is None or own == other:
+            continue
+        if name == "pos" and own and other:
+            pairs = zip(own.split(), other.split(), strict=True)
+            other = written([math.copysign(float(there), float(here)) for here, there in pairs])
+        if other is not None:
+            made.append(set_attribute(element, name, other))
+        elif name in element.attributes:
+            made.append(remove_attribute(element, name))
+    return tuple(made)
+
+
+def _range(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:
+    name = "range" if each.quantity == "limited" else each.quantity
+    text, element = model.value(each.kind, twin, name), model.element(each.kind, side)
+    if element is None:
+        return ()
+    if model.source is not None and model.source.urdf:
+        low, high = model.simulation.row("jnt_range", twin, 2)
+        if found.interval_sign(each) < 0:
+            low, high = -high, -low
+        limit = element.first("limit")
+        return tuple(
+            set_attribute(limit, name, f"{value:.6g}") for name, value in (("lower", low), ("upper", high)) if limit
+        )
+    if text is None:
+        return ()
+    low, high = (float(number) for number in text.split())
+    if found.interval_sign(each) < 0:
+        low, high = -high, -low
+    made = [set_attribute(element, name, written((low, high)))]
+    if each.quantity == "limited" and (limited := model.value(each.kind, twin, "limited")):
+        made.append(set_attribute(element, "limited", limited))
+    return tuple(made)
+
+
+def _other_joint(model: ReaderModel, found: Twins, side: int, twin: int) -> tuple[Edit, ...]:
+    driven, element = model.simulation.driven_joint(twin), model.element("actuator", side)
+    partner = found.partner("joint", driven) if driven is not None else None
+    if partner is None or element is None:
+        return ()
+    return (set_attribute(element, "joint", model.simulation.engine.name("joint", partner)),)
+
+
+def _inertial(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:
+    if inertial(model, side) is None:
+        geoms = [(found.partner("geom", geom), geom) for geom in model.simulation.geoms_of(side)]
+        pairs = [(partner, geom) for partner, geom in geoms if partner is not None]
+        return tuple(
+            made for partner, geom in pairs for made in copied(model, "geom", geom, partner, ("mass", "density"))
+        )
+    simulation, image = model.simulation, found.image(each.left, side)
+    frame = transpose(found.at("xmat", side, 9))
+    centre = times(frame, times(image.matrix, sub(found.at("xipos", twin), found.at("xpos", twin))))
+    about = turned(frame, turned(image.matrix, found.tensor(twin)))
+    return set_inertial(model, side, simulation.model("body_mass")[twin], centre, about)
+
+
+def _place(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:
+    element, simulation = model.element(each.kind, side), model.simulation
+    if element is None or "fromto" in element.attributes:
+        return ()
+    owners = simulation.model(FRAMES[each.kind])
+    here, there = int(owners[side]), int(owners[twin])
+    left_body = each.left if each.kind == "body" else int(owners[each.left])
+    image = found.image(left_body, here if each.kind != "body" else side)
+    seen = times(image.matrix, sub(found.at(PLACES[each.kind], twin), found.at("xpos", there)))
+    if here == there:
+        seen = sub(image.of(found.at(PLACES[each.kind], twin)), found.at("xpos", here))
+    return (set_attribute(element, "pos", written(times(transpose(found.at("xmat", here, 9)), seen))),)
+
+
+def _turned_axis(model: ReaderModel, side: int) -> tuple[Edit, ...]:
+    element = model.element("joint", side)
+    if element is None:
+        return ()
+    if model.source is not None and model.source.urdf:
+        axis = element.first("axis")
+        turned_axis = written(tuple(-float(x) for x in axis.get("xyz").split())) if axis is not None else ""
+        return (set_attribute(axis, "xyz", turned_axis),) if axis is not None else ()
+    text = model.value("joint", side, "axis") or "0 0 1"
+    return (set_attribute(element, "axis", written(tuple(-float(x) for x in text.split()))),)
+
+
+def _axis(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:
+    element, body = model.element("joint", side), int(model.simulation.model("jnt_bodyid")[side])
+    if element is None:
+        return ()
+    image = found.image(int(model.simulation.model("jnt_bodyid")[each.left]), body)
+    axis = times(transpose(found.at("xmat", body, 9)), times(image.matrix, found.at("xaxis", twin)))
+    own = model.simulation.row("jnt_axis", side, 3)
+    sign = 1.0 if sum(a * b for a, b in zip(axis, own, strict=True)) >= 0 else -1.0
+    return (set_attribute(element, "axis", written(tuple(sign * x for x in axis))),)

@@ -1,0 +1,95 @@
+"""Which of a pair is the odd one: what outvotes it, and what in it is strange by itself."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+
+from clinic.diagnosis.probes.inertia import inertial
+from clinic.diagnosis.probes.matter import matter
+from clinic.diagnosis.probes.siblings import FIELDS, LIKE, odd_ones
+from clinic.diagnosis.probes.twins import Comparison, twins
+from clinic.diagnosis.probes.vector import dot, norm, sub
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.twins._edits import COPIED
+from clinic.diagnosis.simulation import Simulation
+
+
+def odd_side(model: ReaderModel, each: Comparison) -> tuple[int, bool]:
+    """Which of a pair is the odd one, the left one where nothing tells; and whether something does."""
+    simulation, pair = model.simulation, (each.left, each.right)
+    for one in odd_ones(simulation, each.kind, 2 * LIKE) if each.kind in FIELDS else ():
+        if one.attribute == each.quantity and one.index in pair:
+            return one.index, True
+    strange = [_strange(model, each, side) for side in pair]
+    return each.right if strange[1] > strange[0] else each.left, abs(strange[0] - strange[1]) > 1e-6
+
+
+def _strange(model: ReaderModel, each: Comparison, side: int) -> float:
+    """How far a side is from what else the model has, to be compared with its twin's alone."""
+    simulation = model.simulation
+    if each.kind == "body" and inertial(model, each.left) is not None:
+        found = matter(simulation, side)
+        if each.quantity == "inertia":
+            return round(abs(math.log(found.radius)), 1) if found else 0.0
+        return round(_centre_off(simulation, side), 3) if each.quantity == "center of mass" else 0.0
+    if each.quantity == "axis sign":
+        axes = [simulation.row("jnt_axis", joint, 3) for joint in _same_side(simulation, each, side)]
+        return -sum(round(dot(axis, simulation.row("jnt_axis", side, 3))) for axis in axes)
+    if each.quantity == "gear sign":
+        gears = [simulation.model("actuator_gear")[6 * index] for index in range(simulation.count("actuator"))]
+        return -float(sum(gear * gears[side] > 0 for gear in gears))
+    if each.quantity == "ctrlrange" and len({_in_reach(simulation, one) for one in (each.left, each.right)}) > 1:
+        return -_in_reach(simulation, side)
+    if each.kind == "joint" and each.quantity == "range":
+        place, (low, high) = int(simulation.model("jnt_qposadr")[side]), simulation.row("jnt_range", side, 2)
+        start = simulation.model("qpos0")[place]
+        if not low - 0.01 <= start <= high + 0.01:
+            return 1e6
+    if each.quantity == "joint":
+        joint = simulation.driven_joint(side)
+        names = (
+            simulation.engine.name("actuator", side),
+            "" if joint is None else simulation.engine.name("joint", joint),
+        )
+        return len(set(_pieces(names[0])) ^ set(_pieces(names[1])))
+    values = Counter(_value(model, each, index) for index in range(simulation.count(each.kind)))
+    return -values[_value(model, each, side)]
+
+
+def _value(model: ReaderModel, each: Comparison, index: int) -> tuple[object, ...]:
+    """What is written for the quantity, without signs."""
+    texts = [model.value(each.kind, index, name) or "" for name in COPIED.get(each.quantity, (each.quantity,))]
+    try:
+        return tuple(sorted(round(abs(float(number)), 6) for text in texts for number in text.split()))
+    except ValueError:
+        return tuple(texts)
+
+
+def _same_side(simulation: Simulation, each: Comparison, side: int) -> list[int]:
+    """The joints of pairs that are on the same side."""
+    return [pair[side == each.right] for pair in twins(simulation).pairs["joint"] if side not in pair]
+
+
+def _in_reach(simulation: Simulation, actuator: int) -> float:
+    """The share of an actuator's control range that is in its joint's range."""
+    joint = simulation.driven_joint(actuator)
+    if joint is None or not simulation.model("jnt_limited")[joint]:
+        return 1.0
+    low, high = simulation.row("actuator_ctrlrange", actuator, 2)
+    bottom, top = simulation.row("jnt_range", joint, 2)
+    return max(0.0, min(high, top) - max(low, bottom)) / max(high - low, 1e-9)
+
+
+def _pieces(name: str) -> list[str]:
+    return name.lower().replace("-", "_").replace("/", "_").split("_")
+
+
+def _centre_off(simulation: Simulation, body: int) -> float:
+    """How far the centre of mass is from the middle of the body's geoms, in m."""
+    places = [simulation.row("geom_pos", geom, 3) for geom in simulation.geoms_of(body)]
+    if not places:
+        return 0.0
+    middle = tuple(sum(each) / len(places) for each in zip(*places, strict=True))
+    off = sub(simulation.row("body_ipos", body, 3), middle)
+    return norm(off)

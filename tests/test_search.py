@@ -80,6 +80,10 @@ QUERIES = {
         "controller works in viewer but not headless",
         "falls when run faster than real time",
     ],
+    "joint-snaps-at-start": ["joint jumps when simulation starts", "unexpected contact between parent and child body"],
+    "drone-will-not-hover": ["robot is too heavy", "visual mesh adds mass"],
+    "box-sinks-into-floor": ["object sinks into the floor", "high friction penetration"],
+    "crate-slides-off-table": ["friction does nothing", "object slides like on ice", "frictionless contact condim"],
 }
 TEXTS = [
     "WARNING: Pre-allocated contact buffer is full. Increase nconmax above 100. Time = 0.0000.",

@@ -6,6 +6,7 @@ import tempfile
 from pathlib import Path
 
 import pytest
+from clinic.diagnosis.bench.lock import Kept
 from clinic.pages.rules import rule_pages
 from clinic.work.cache import Cache
 
@@ -13,5 +14,5 @@ from clinic.work.cache import Cache
 def test_files_that_lie_around_are_no_part_of_an_example(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "wood.png").write_bytes(b"")
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    page = rule_pages({}, Cache(tmp_path / "cache"))["rules/missing-file.md"].decode()
+    page = rule_pages({}, Cache(tmp_path / "cache"), Kept())["rules/missing-file.md"].decode()
     assert "wood.png is not there, and no file called wood.png" in page

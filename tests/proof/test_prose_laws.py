@@ -97,9 +97,8 @@ def test_quotations_are_given_as_they_are_written(tmp_path) -> None:
 
 
 def test_a_quoted_attribute_may_have_an_underscore(tmp_path) -> None:
-    option = ('timestep="0.002"', 'timestep="0.002" noslip_iterations="3"')
-    case, _ = case_with(tmp_path, "The model has {{ small.option.noslip_iterations }}.", option)
-    print(case.text)
+    words = "With the small-step, {{ small-step.option.noslip_iterations }}."
+    case, _ = case_with(tmp_path, words, ("replace: 'timestep=\"0.001\"'", "replace: 'noslip_iterations=\"3\"'"))
     assert list(quotations(case)) == [(("lesson",), 'noslip_iterations="3"')]
 
 

@@ -29,7 +29,7 @@ export function readersRecord({ text: main, name, files }, made, index) {
     signals: { contacts: { path: "ncon", columns: [], unit: "", label: "number of contacts" } },
     checks: { broken: [], fixed: [] },
     fixes: [{ id: "edit", title, edits: [{ find: text, replace: after }], needs: "" }],
-    ...{ trials: [], task: { may: [] }, refuted: [], camera: "", speed: 1, telling: [], hints: [], explained: {} },
+    ...{ trials: [], task: { may: [] }, refuted: [], camera: null, speed: 1, telling: [], hints: [], explained: {} },
   };
 }
 

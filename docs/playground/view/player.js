@@ -210,7 +210,8 @@ export class Player {
 
   /** The camera that the record names, by number. */
   ownCamera() {
-    return this.assets?.cameras.indexOf(this.record.camera) ?? -1;
+    const { camera } = this.record;
+    return camera === null ? -1 : (this.assets?.cameras.indexOf(camera) ?? -1);
   }
 
   /** @param {number} camera */

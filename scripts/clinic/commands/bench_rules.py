@@ -23,6 +23,13 @@ def bench_rules(
     kind: Annotated[list[str], typer.Option(help="Only this kind of fault; may be repeated.")] = [],  # noqa: B006
     robot: Annotated[list[str], typer.Option(help="Only models whose path has this in it; may be repeated.")] = [],  # noqa: B006
     as_json: Annotated[bool, typer.Option("--json", help="Print data for a program.")] = False,
+    write: Annotated[
+        bool,
+        typer.Option("--write", help="Write bench.lock.json: all of it, or what --kind names; implies --held-out."),
+    ] = False,
+    export: Annotated[
+        Path | None, typer.Option(help="Also write the plants that do harm into this file, for another tool.")
+    ] = None,
     every: Annotated[
         bool, typer.Option("--all", help="Print every plant that was missed, and what was named.")
     ] = False,
@@ -30,13 +37,17 @@ def bench_rules(
     """Measure the rules on healthy models and on faults planted in them; CLINIC_HEALTHY names more folders."""
     from clinic.commands import terminal
     from clinic.diagnosis.bench.faults import kinds
-    from clinic.diagnosis.bench.table import data, measure, tasks
+    from clinic.diagnosis.bench.lock import LOCK, kept, lock_text, read_lock, unlawful, with_kinds
+    from clinic.diagnosis.bench.table import data, measure, plants_text, tasks
     from clinic.record.checkout import cache_folder, project_root
     from clinic.work.cache import Cache
 
     if unknown := set(kind) - set(kinds()):
         raise typer.BadParameter(f"no kind of fault: {', '.join(sorted(unknown))}; there are {', '.join(kinds())}")
+    if write and robot:
+        raise typer.BadParameter("--write measures all models: leave --robot out")
     root: Path = project_root()
+    held_out = held_out or write
     with terminal.console(stderr=True).status("measuring") as status:
         made = measure(
             root,
@@ -45,6 +56,13 @@ def bench_rules(
             seed,
             lambda done, of: status.update(f"{done} of {of}"),
         )
+    if write:
+        new = kept(made, plants)
+        (root / LOCK).write_text(lock_text(with_kinds(read_lock(root), new) if kind else new), encoding="utf-8")
+        for said in unlawful(read_lock(root)):
+            print(said)
+    if export is not None:
+        export.write_text(plants_text(made), encoding="utf-8")
     table = data(made)
     if as_json:
         print(json.dumps(table, indent=1, ensure_ascii=False))

@@ -31,6 +31,7 @@ def examine(
     select: Collection[str] = (),
     ignore: Collection[str] = (),
     tell: Callable[[str], None] = lambda _: None,
+    limit: float = LIMIT,
 ) -> Diagnosis:
     """Diagnoses a model, given as texts; what it names besides is found from the current folder.
 
@@ -42,6 +43,7 @@ def examine(
         select: Rules to try; all where empty.
         ignore: Rules not to try.
         tell: Is called with the id of each rule before it is tried.
+        limit: How long rules are tried for each start, in s.
 
     Raises:
         StartError: If the model compiles and does not have the start.
@@ -53,10 +55,10 @@ def examine(
     if model.error:
         found, fixed = mended(model, tried, tell)
     else:
-        found, fixed, tried = _found(model, tried, ignores, tell)
-        if start is None and model.simulation.count("key") and not any(each.proved for each in found):
+        found, fixed, tried = _found(model, tried, ignores, tell, limit)
+        if start is None and model.simulation.count("key") and not any(each.level == "cause" and not each.silenced for each in found):
             model, before = ReaderModel(engine, texts, model.source, Start(key=0)), found
-            found, fixed, tried = _found(model, tried, ignores, tell)
+            found, fixed, tried = _found(model, tried, ignores, tell, limit)
             again = {each.rule.id for each in found}
             found += [each for each in before if each.rule.id not in again]
         found = order(found, (symptom,) if symptom else ())
@@ -77,12 +79,12 @@ def examine(
 
 
 def _found(
-    model: ReaderModel, wanted: Iterable[Rule], ignores: Ignores, tell: Callable[[str], None]
+    model: ReaderModel, wanted: Iterable[Rule], ignores: Ignores, tell: Callable[[str], None], limit: float
 ) -> tuple[list[Judged], Mapping[str, str], list[Rule]]:
     """What is found in a model that compiles, its texts with the edits of causes that go together, and who looked."""
     found: list[Judged] = []
     tried: list[Rule] = []
-    until = time.monotonic() + LIMIT
+    until = time.monotonic() + limit
     for rule in wanted:
         if time.monotonic() > until:
             break

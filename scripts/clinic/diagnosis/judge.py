@@ -49,7 +49,7 @@ def judge(model: ReaderModel, rule: Rule, suspect: Suspect) -> Judged | None:
     before, key = model.measured(suspect.probe), model.start.key if model.start.key >= 0 else None
     if not before > suspect.limit:
         return None
-    if not suspect.edits or suspect.level == "hint":
+    if not suspect.edits or "hint" in (suspect.level, rule.level):
         return Judged(rule, suspect, "hint", before, None, key)
     after = model.measured(suspect.probe, suspect.edits)
     helps = after <= suspect.limit or after <= suspect.share * before

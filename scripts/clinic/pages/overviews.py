@@ -8,6 +8,7 @@ from pathlib import Path
 
 import mujoco
 
+from clinic.diagnosis.bench.lock import read_lock
 from clinic.pages.cases import CasePage, Differentials
 from clinic.pages.code_fences import NAMED, run_fences
 from clinic.pages.error_page import error_page
@@ -46,7 +47,7 @@ def overviews(
     screenings, problems = run_tasks(list(screening_tasks(cases)), cache)
     made = {f"cases/{slug}/{name}": text for slug, files in screenings.items() for name, text in files.items()}
     made["index.md"] = render("home", shown=shown, families=families(), engine=mujoco.__version__).encode()
-    made |= rule_pages(known, cache)
+    made |= rule_pages(known, cache, read_lock(root))
     made |= symptom_pages(shown, told)
     screened = [case for case in cases if case.record.run is None or case.slug in screenings]
     parts = {

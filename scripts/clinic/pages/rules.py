@@ -13,10 +13,12 @@ from typing import Any
 import mujoco
 from pydantic import TypeAdapter
 
+from clinic.diagnosis.bench.lock import Kept, score
 from clinic.diagnosis.diagnose import examine
 from clinic.diagnosis.finding import Diagnosis, Finding
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import Rule, rules
+from clinic.pages.benchmark import benchmark
 from clinic.pages.text.template import render
 from clinic.record.case import Case
 from clinic.record.families import families
@@ -27,15 +29,16 @@ PAGE = "rules/{rule}.md"
 EXAMPLE = re.compile(r"^(Bad|Good):\n\n((?: {4}.*\n|\n)+)", re.M)
 
 
-def rule_pages(cases: Mapping[str, Case], cache: Cache) -> Files:
-    """The page of every rule, the list of all, the same as data, and the schema of a diagnosis."""
+def rule_pages(cases: Mapping[str, Case], cache: Cache, kept: Kept) -> Files:
+    """The page of every rule, the list of all, how well they do, the same as data, and the schema of a diagnosis."""
     told = json.loads(cache.remember(key_of("rules", "examples", of="diagnosis"), _told)[TOLD])
-    made = {PAGE.format(rule=rule.id): _page(rule, told[rule.id], cases).encode() for rule in rules().values()}
+    made = {PAGE.format(rule=rule.id): _page(rule, told[rule.id], cases, kept).encode() for rule in rules().values()}
+    made |= benchmark(kept)
     by_family = {name: [rule for rule in rules().values() if rule.families[0] == name] for name in families()}
     listed = render("rules", by_family=by_family, families=families(), engine=mujoco.__version__)
     made["rules/index.md"] = listed.encode()
     data = [
-        {"id": rule.id, "title": rule.title, "families": rule.families, "since": rule.since, "case": rule.case}
+        {name: getattr(rule, name) for name in ("id", "title", "families", "since", "case", "level")}
         for rule in rules().values()
     ]
     made["rules.json"] = (json.dumps(data, indent=1, ensure_ascii=False) + "\n").encode()
@@ -92,7 +95,7 @@ def _diagnosed(text: str) -> str:
     return found.text().partition("\nruled out")[0] if found.causes or found.hints else "Nothing found."
 
 
-def _page(rule: Rule, told: Mapping[str, str], cases: Mapping[str, Case]) -> str:
+def _page(rule: Rule, told: Mapping[str, str], cases: Mapping[str, Case], kept: Kept) -> str:
     def example(found: re.Match[str]) -> str:
         model = rule.example(found[1]).rstrip()
         return (
@@ -103,4 +106,7 @@ def _page(rule: Rule, told: Mapping[str, str], cases: Mapping[str, Case]) -> str
     first, _, rest = text.partition("\n\n")
     own = [families()[name].title for name in rule.families]
     case = cases.get(rule.case or "")
-    return render("rule", rule=rule, first=first, rest=rest, families=own, case=case, engine=mujoco.__version__)
+    found = score(kept, rule.id)
+    return render(
+        "rule", rule=rule, first=first, rest=rest, families=own, case=case, found=found, engine=mujoco.__version__
+    )

@@ -20,6 +20,7 @@ INPUTS = (
     "scripts/bundle.mjs",
     "releases.lock.json",
     "messages.lock.json",
+    "bench.lock.json",
     "node_modules/.package-lock.json",
 )
 ABOUT = "site.json"

@@ -139,7 +139,7 @@ def reads(was: Behaviour, now: Behaviour) -> float:
 
 def keys(was: Behaviour, now: Behaviour) -> float:
     """A keyframe, where the healthy model has none, begins elsewhere than it by 0.2, in rad or m."""
-    if was.model.nkey or was.model.nq != now.model.nq:
+    if (was.model.key_qpos != was.model.qpos0).any() or was.model.nq != now.model.nq:
         return 0.0
     return _size(float(np.abs(now.model.key_qpos - was.model.qpos0).max(initial=0)) / 0.2)
 

@@ -21,6 +21,7 @@ from clinic.work.parallel import parallel
 
 MOST_DOFS = 64  # of a model that faults are planted in; a larger one takes minutes to measure the harm
 SIDES = {"seen": False, "held_out": True}
+SIDE = {out: side for side, out in SIDES.items()}
 OUTCOMES = ("cause", "later", "hint", "missed")
 
 
@@ -53,8 +54,13 @@ class Bench:
     seed: int
     healthy: list[tuple[Healthy, Told]]
     plants: list[Plant]
-    no_place: list[tuple[str, bool]]
+    no_place: list[tuple[str, bool, int]]
     left_out: dict[str, str]
+    engine: str = mujoco.__version__
+
+    def longest(self, rule: str) -> float:
+        """The longest that a rule took in one model, in s."""
+        return max((told.seconds[rule] for told in _all(self) if rule in told.seconds), default=0.0)
 
 
 def tasks(models: Sequence[Healthy], seed: int, plants: int, held_out: bool = True) -> list[Task]:
@@ -93,9 +99,9 @@ def measure(
             assert result is not None
             made.healthy.append((task.models[0], Told(**result)))
         elif result is None:
-            made.no_place.append((task.kind, task.models[0].held_out))
+            made.no_place.append((task.kind, task.models[0].held_out, task.number))
         else:
-            made.plants.append(Plant(**{**result, "told": Told(**result["told"])}))
+            made.plants.append(Plant(**{**result, "told": Told(**result["told"]), "number": task.number}))
     return made
 
 
@@ -121,9 +127,9 @@ def _run(task: Task) -> tuple[Task, dict[str, Any] | None]:
 
 def data(bench: Bench) -> dict[str, Any]:
     """The whole table, as JSON has it. Seconds are those of the machine that ran it; all else is the same anywhere."""
-    own = {model.name: _false(model, told) for model, told in bench.healthy}
+    own = {model.name: false(model, told) for model, told in bench.healthy}
     return {
-        "engine": mujoco.__version__,
+        "engine": bench.engine,
         "seed": bench.seed,
         "healthy": {
             side: _healthy([pair for pair in bench.healthy if pair[0].held_out == out]) for side, out in SIDES.items()
@@ -134,7 +140,7 @@ def data(bench: Bench) -> dict[str, Any]:
         "rules": [_rule(bench, rule, own) for rule in rules()],
         "kinds": [_kind(bench, kind, own) for kind in kinds().values()],
         "models": {
-            model.name: {"held_out": model.held_out, "causes": _false(model, told), "hints": told.rules("hint")}
+            model.name: {"held_out": model.held_out, "causes": false(model, told), "hints": told.rules("hint")}
             for model, told in bench.healthy
         },
         "left_out": bench.left_out,
@@ -143,18 +149,30 @@ def data(bench: Bench) -> dict[str, Any]:
     }
 
 
+def plants_text(bench: Bench) -> str:
+    """The plants that do harm, a line of JSON each: what is wrong where, and the patch of the healthy model."""
+    lines = []
+    for plant in bench.plants:
+        if plant.harm:
+            truth: dict[str, Any] = {"id": f"{plant.kind}-{SIDE[plant.held_out]}-{plant.number}", "model": plant.model}
+            truth |= {name: getattr(plant, name) for name in ("kind", "elements", "attribute", "strength", "harm")}
+            truth |= {"rules": list(kinds()[plant.kind].rules), "found": plant.outcome, "patch": plant.patch}
+            lines.append(json.dumps(truth, ensure_ascii=False) + "\n")
+    return "".join(lines)
+
+
 def _all(bench: Bench) -> list[Told]:
     return [*(told for _, told in bench.healthy), *(plant.told for plant in bench.plants)]
 
 
-def _false(model: Healthy, told: Told) -> list[str]:
+def false(model: Healthy, told: Told) -> list[str]:
     """The rules that name a cause in a healthy model, but for the faults that it is known to have."""
     return [rule for rule in told.rules("cause") if rule not in model.known]
 
 
 def _healthy(told: Sequence[tuple[Healthy, Told]]) -> dict[str, Any]:
     counts = [len(each.findings) for _, each in told]
-    named = sum(1 for model, each in told if _false(model, each))
+    named = sum(1 for model, each in told if false(model, each))
     return {"models": len(told), "with_a_cause": named, "median_findings": median(counts) if counts else 0}
 
 
@@ -170,7 +188,6 @@ def _counts(plants: Iterable[Plant]) -> dict[str, int]:
 
 def _rule(bench: Bench, rule: str, own: dict[str, list[str]]) -> dict[str, Any]:
     by_it = {name for name, kind in kinds().items() if kind.rules[0] == rule}
-    seconds = [told.seconds[rule] for told in _all(bench) if rule in told.seconds]
     sides = {
         side: _counts(plant for plant in bench.plants if plant.kind in by_it and plant.held_out == out)
         for side, out in SIDES.items()
@@ -180,25 +197,25 @@ def _rule(bench: Bench, rule: str, own: dict[str, list[str]]) -> dict[str, Any]:
         "kinds": sorted(by_it),
         **sides,
         "false": [model for model, named in own.items() if rule in named],
-        "beside": sum(_beside(plant, own)[rule] for plant in bench.plants),
-        "seconds": round(max(seconds, default=0.0), 3),
+        "beside": sum(beside(plant, own)[rule] for plant in bench.plants),
+        "seconds": round(bench.longest(rule), 3),
     }
 
 
 def _kind(bench: Bench, kind: Kind, own: dict[str, list[str]]) -> dict[str, Any]:
     planted = [plant for plant in bench.plants if plant.kind == kind.name]
-    beside = sum((_beside(plant, own) for plant in planted), Counter[str]())
+    beside = sum((beside(plant, own) for plant in planted), Counter[str]())
     return {
         "kind": kind.name,
         "text": kind.text,
         "rule": kind.rules[0],
         **{side: _counts(plant for plant in planted if plant.held_out == out) for side, out in SIDES.items()},
-        "no_place": sum(name == kind.name for name, _ in bench.no_place),
+        "no_place": sum(name == kind.name for name, _, _ in bench.no_place),
         "beside": dict(beside.most_common()),
     }
 
 
-def _beside(plant: Plant, own: dict[str, list[str]]) -> Counter[str]:
+def beside(plant: Plant, own: dict[str, list[str]]) -> Counter[str]:
     """The causes named on a plant that are not the fault, and that the healthy model does not get anyway."""
     right = {each["rule"] for each in plant.told.findings if each["right"]}
     return Counter(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -19,7 +20,7 @@ from clinic.diagnosis.bench.faults.servo import with_servos
 from clinic.diagnosis.bench.harm import HARMS
 from clinic.diagnosis.bench.healthy import Healthy
 from clinic.diagnosis.diagnose import examine, read_file
-from clinic.diagnosis.edit import apply
+from clinic.diagnosis.edit import apply, diff
 from clinic.diagnosis.finding import Finding
 from clinic.diagnosis.native import NativeEngine, NativeModel
 from clinic.diagnosis.reader_model import ReaderModel
@@ -63,6 +64,8 @@ class Plant:
         harm: The name of the first harm that is measured; empty where none is measured: then it is not diagnosed.
         harmless: How many plants of this kind, in other models or strengths, did no harm before this one.
         told: What was found.
+        patch: What was changed in the healthy model's text, as a unified diff.
+        number: Which plant of its kind and side it is.
     """
 
     kind: str
@@ -74,6 +77,8 @@ class Plant:
     harm: str
     harmless: int
     told: Told
+    patch: str = ""
+    number: int = 0
 
     @property
     def outcome(self) -> str:
@@ -155,6 +160,7 @@ def _planted(model: Healthy, kind: Kind, random: Random, harmless: int) -> Plant
         harm,
         harmless,
         told,
+        diff(_texts(model), texts) if harm else "",
     )
 
 
@@ -178,7 +184,7 @@ def _diagnosed(texts: Mapping[str, str]) -> Told:
         running, since = said, perf_counter()
 
     try:
-        found = examine(NativeEngine(), dict(texts), tell=tell)
+        found = examine(NativeEngine(), dict(texts), tell=tell, limit=math.inf)
     except Exception as error:  # a rule in the making leaves the others measurable
         made.stumbled.append(f"{running}: {type(error).__name__}: {error}")
         return made

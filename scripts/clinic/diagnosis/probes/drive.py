@@ -54,3 +54,22 @@ def way_left(joints: tuple[int, ...]) -> Probe:
     """How much is left of 1 rad (0.1 m), or of the way to the far limit, after driving a joint there for 2 s."""
     title = "share of the way to 1 rad (0.1 m) or the far limit that is left after 2 s of all that the actuators give"
     return Probe(title, "", _left, (joints,))
+
+
+def _commanded(simulation: Simulation) -> float:
+    made = 0.0
+    for end in (1, 0):
+        simulation.begin()
+        for actuator, limited in enumerate(simulation.model("actuator_ctrllimited")):
+            ends = simulation.row("actuator_ctrlrange", actuator, 2) if limited else (-1.0, 1.0)
+            simulation.engine.write("ctrl", [ends[end]], actuator)
+        for _ in simulation.run(SECONDS, samples=20):
+            if simulation.unstable():
+                return math.inf
+            made = max([made, *map(abs, simulation.data("qvel"))])
+    return made
+
+
+def commanded() -> Probe:
+    """The highest speed while all controls are at the upper ends of their ranges, then at the lower ones."""
+    return Probe("fastest joint with all controls at the ends of their ranges", "rad/s", _commanded)

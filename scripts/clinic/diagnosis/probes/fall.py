@@ -52,12 +52,12 @@ def _fallen(simulation: Simulation) -> Iterator[tuple[int, int]]:
 
 
 def bare(simulation: Simulation) -> list[int]:
-    """The one body of a tree that can fall whose geoms collide with nothing, where all others do."""
+    """The one body of a tree that can fall whose geoms collide with nothing, where all others do; the root too."""
     made, owner = [], root_of(simulation)
     for root in falling(simulation):
         bodies = [body for body in range(len(owner)) if owner[body] == root and simulation.geoms_of(body)]
         empty = [body for body in bodies if not any(solid(simulation, geom) for geom in simulation.geoms_of(body))]
-        if len(bodies) > len(empty) == 1 and empty != [root]:
+        if len(bodies) > len(empty) == 1:
             made += empty
     return made
 

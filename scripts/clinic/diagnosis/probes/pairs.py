@@ -147,9 +147,52 @@ class Pairs:
             points = self._points(pairs)
             here, there = points[0]
             size = max(1e-4, *(norm(sub(p, here)) for p, _ in points), *(norm(sub(q, there)) for _, q in points))
-            image, share = self._best(common, pairs, points, FITS * size)
+            image = self._best(common, pairs, points, FITS * size)
+            share = self._fit(pairs, image, FITS * size)
             for left, _ in pairs:
                 self.images[left], self.share[left], self.size[left], self.common[left] = image, share, size, common
+        self._through_origins()
+
+    def _through_origins(self) -> None:
+        """Moves the mirror of a group into that of another group, where it lies beside the body that it hangs on."""
+        lefts = {common: left for left, common in self.common.items()}
+        beside = {common: self._beside(common, self.images[left]) for common, left in lefts.items()}
+        for common, left in lefts.items():
+            image, near = self.images[left], FITS * self.size[left]
+            for other, first in lefts.items():
+                plane = self.images[first]
+                if other == common or plane.sign > 0 or beside[other] > FITS * self.size[first]:
+                    continue
+                alike = image.sign < 0 and norm(sub(plane.matrix, image.matrix)) < 1e-3
+                if alike and beside[common] > near >= self._beside(common, plane):
+                    moved = Image(image.matrix, plane.offset, image.sign)
+                    self.images |= {each: moved for each, body in self.common.items() if body == common}
+
+    def _beside(self, common: int, image: Image) -> float:
+        """How far a body is from its own image in m."""
+        return norm(sub(image.of(self.at("xpos", common)), self.at("xpos", common)))
+
+    def _fit(self, pairs: list[tuple[int, int]], image: Image, near: float) -> float:
+        """The share of bodies, centres of mass and joints that are where the image has them, but for one that is odd.
+
+        Each is seen from the body it hangs on, so that what hangs on the odd one is not odd, too.
+        """
+        made, parents = [], self.of.model("body_parentid")
+        for left, right in pairs:
+            above = int(parents[left]), int(parents[right])
+            whole = image.of(self.at("xpos", left)), self.at("xpos", right)
+            seen = [sub(self.at("xpos", b), self.at("xpos", p)) for b, p in zip((left, right), above, strict=True)]
+            made.append(whole if above[0] == above[1] else (times(image.matrix, seen[0]), seen[1]))
+            inner = [sub(self.at("xipos", each), self.at("xpos", each)) for each in (left, right)]
+            made.append((times(image.matrix, inner[0]), inner[1]))
+        inside = {left for left, _ in pairs}
+        for left, right in self.pairs["joint"]:
+            bodies = [int(self.of.model("jnt_bodyid")[each]) for each in (left, right)]
+            if bodies[0] in inside:
+                anchors = zip((left, right), bodies, strict=True)
+                inner = [sub(self.at("xanchor", joint), self.at("xpos", body)) for joint, body in anchors]
+                made.append((times(image.matrix, inner[0]), inner[1]))
+        return 1 - max(0, sum(norm(sub(a, b)) > near for a, b in made) - 1) / len(made)
 
     def _points(self, pairs: list[tuple[int, int]]) -> list[tuple[Vector, Vector]]:
         inside = {left for left, _ in pairs}
@@ -162,7 +205,7 @@ class Pairs:
 
     def _best(
         self, common: int, pairs: list[tuple[int, int]], points: list[tuple[Vector, Vector]], near: float
-    ) -> tuple[Image, float]:
+    ) -> Image:
         frame = self.at("xmat", common, 9)
         axes = [tuple(frame[column + 3 * row] for row in range(3)) for column in range(3)]
         axes += [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
@@ -179,7 +222,7 @@ class Pairs:
             fit = sum(norm(sub(each, offset)) <= near for each in offsets) / len(points)
             if fit > most + (0.15 if sign > 0 and best.sign < 0 else 1e-9):
                 best, most = Image(matrix, offset, sign), fit
-        return best, most
+        return best
 
 
 def _reflection(axis: Vector) -> Vector:

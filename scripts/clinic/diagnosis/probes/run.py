@@ -103,3 +103,12 @@ def _fastest(simulation: Simulation) -> float:
 def fastest() -> Probe:
     """The highest speed of a degree of freedom."""
     return Probe("fastest joint after letting go", "rad/s", _fastest)
+
+
+def _sunk(simulation: Simulation) -> float:
+    return let_go(simulation).deepest / max(simulation.model("stat.extent")[0], 1e-9)
+
+
+def sunk() -> Probe:
+    """How deep the deepest contact is while the model is let go, as a share of its extent."""
+    return Probe("deepest contact after letting go", "of the model's extent", _sunk)

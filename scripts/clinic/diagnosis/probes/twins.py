@@ -36,10 +36,11 @@ class Comparison:
             "axis sign": math.inf,
             "mass": 40.0,
             "inertia": 60.0,
-            "range": 20.0,
+            "range": 12.0,
             "axis": 20.0,
-            "ctrlrange": 20.0,
+            "ctrlrange": 12.0,
             "forcerange": 40.0,
+            "pos": 3.2 * self.limit,
         }.get(self.quantity, 45.0 if self.unit == "%" and self.limit > 1 else 2 * self.limit)
 
 

@@ -5,6 +5,8 @@ A rule's name is its module's, with hyphens. The module has
 TITLE      the fault, in a few words
 FAMILIES   the symptoms that it explains, by their names in `families.toml`; the first is the likeliest
 SINCE      the release of the clinic that brought it
+LEVEL      "hint", where it finds less than four in five of the faults that the bench plants for it
+UNPLANTED  why the bench plants none for it, where it plants none
 CASE       the case that shows it, where there is one
 suspects   a function that takes a `ReaderModel` and gives `Suspect`s; for a model that does not compile, with FAMILIES
            `will-not-compile`, it reads `model.error`
@@ -24,7 +26,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from clinic.diagnosis.reader_model import ReaderModel
-    from clinic.diagnosis.suspect import Suspect
+    from clinic.diagnosis.suspect import Level, Suspect
 
 COMPILES_NOT = "will-not-compile"
 
@@ -38,6 +40,8 @@ class Rule:
     families: tuple[str, ...]
     since: str
     case: str | None
+    level: Level
+    unplanted: str
     text: str
     suspects: Callable[[ReaderModel], Iterable[Suspect]]
 
@@ -66,6 +70,15 @@ def rules() -> dict[str, Rule]:
             continue
         module = importlib.import_module(found.name)
         name = found.name.rpartition(".")[2].replace("_", "-")
-        case, text = getattr(module, "CASE", None), (module.__doc__ or "").strip()
-        made[name] = Rule(name, module.TITLE, module.FAMILIES, module.SINCE, case, text, module.suspects)
+        made[name] = Rule(
+            id=name,
+            title=module.TITLE,
+            families=module.FAMILIES,
+            since=module.SINCE,
+            case=getattr(module, "CASE", None),
+            level=getattr(module, "LEVEL", "cause"),
+            unplanted=getattr(module, "UNPLANTED", ""),
+            text=(module.__doc__ or "").strip(),
+            suspects=module.suspects,
+        )
     return dict(sorted(made.items()))

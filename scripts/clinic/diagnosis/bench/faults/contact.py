@@ -7,6 +7,7 @@ from random import Random
 from clinic.diagnosis.bench.faults import Fault, between, kind, text_of
 from clinic.diagnosis.edit import delete, set_attribute
 from clinic.diagnosis.engine import PLANE
+from clinic.diagnosis.probes.shape import falling, root_of
 from clinic.diagnosis.reader_model import ReaderModel
 
 MOVES = ("strays", "sinks", "faster", "unstable")
@@ -17,10 +18,22 @@ def _colliding(model: ReaderModel) -> list[int]:
     return [i for i, (one, other) in enumerate(masks) if one or other]
 
 
+def _rests(model: ReaderModel) -> bool:
+    """Whether something that can fall lies or stands on something after a second."""
+    simulation = model.simulation
+    owner, falls, bodies = root_of(simulation), falling(simulation), simulation.model("geom_bodyid")
+    simulation.begin()
+    for _ in simulation.run(1.0, samples=2):
+        pass
+    touching = [each for each in simulation.engine.contacts() if each.force > 0 and min(each.geoms) >= 0]
+    trees = [{owner[int(bodies[geom])] for geom in each.geoms} for each in touching]
+    return any(len(each) == 2 and each & set(falls) for each in trees)
+
+
 def _of_all(model: ReaderModel, geoms: list[int], strength: float, **values: str) -> Fault | None:
-    """Attributes of geoms set to the same value, in a default class where it is theirs alone."""
+    """Attributes of geoms set to the same value where something rests, in a default class where it is theirs alone."""
     edits = [edit for name, value in values.items() for edit in model.set("geom", geoms, name, value)]
-    if not geoms or not edits:
+    if not geoms or not edits or not _rests(model):
         return None
     names = tuple(model.simulation.name("geom", i) for i in geoms)
     return Fault(tuple(edits), names, next(iter(values)), strength)
@@ -62,7 +75,7 @@ def masks_of_the_floor(model: ReaderModel, random: Random) -> Fault | None:
     return _of_all(model, floors[:1], 1, contype=bit, conaffinity=bit)
 
 
-@kind("masks", harms=MOVES)
+@kind("masks", "twin-place-differs", harms=MOVES)
 def masks_of_a_body(model: ReaderModel, random: Random) -> Fault | None:
     """The geoms of one moving body collide with nothing."""
     simulation, colliding = model.simulation, set(_colliding(model))
@@ -121,7 +134,15 @@ def exclude_removed(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((delete(gone),), (f'body "{gone.get("body1")}"', f'body "{gone.get("body2")}"'), "")
 
 
-@kind("gravity-upwards", "gravity", harms=MOVES)
+@kind("springy-contact", harms=MOVES)
+def contacts_springy(model: ReaderModel, random: Random) -> Fault | None:
+    """The contacts of all geoms by stiffness and damping: 3 to 3,000 times as stiff as the timestep bears."""
+    stiffness = between(random, 3, 3000) / model.simulation.timestep**2
+    damping = between(random, 0.001, 0.3) * 2 * stiffness**0.5
+    return _of_all(model, _colliding(model), stiffness, solref=text_of(-stiffness, -damping))
+
+
+@kind("gravity", harms=MOVES)
 def gravity_wrong(model: ReaderModel, random: Random) -> Fault | None:
     """Gravity of the other sign, along another axis, in millimetres, or none."""
     g = model.simulation.model("opt.gravity")
@@ -147,10 +168,10 @@ def few_iterations(model: ReaderModel, random: Random) -> Fault | None:
 
 @kind("fluid", harms=MOVES)
 def fluid_thick(model: ReaderModel, random: Random) -> Fault | None:
-    """The air is as dense as water, or as viscous as honey."""
+    """The air in which something can fall is as dense as water, or as viscous as honey."""
     name, low, high = random.choice((("density", 10.0, 1e4), ("viscosity", 0.1, 100.0)))
     value = between(random, low, high)
-    return Fault(model.option(name, text_of(value)), (), name, value)
+    return Fault(model.option(name, text_of(value)), (), name, value) if falling(model.simulation) else None
 
 
 @kind("timestep-too-long", harms=("unstable", "faster", "sinks"))

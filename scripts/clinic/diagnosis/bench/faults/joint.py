@@ -91,7 +91,7 @@ def range_not_applied(model: ReaderModel, random: Random) -> Fault | None:
     return _set(model, random.choice(found), "limited", "false", 1)
 
 
-@kind("twin-joint-differs", "axis-along-gravity", "parallel-axes", harms=ENDS)
+@kind("axis-wrong", "twin-joint-differs", harms=ENDS)
 def axis_wrong(model: ReaderModel, random: Random) -> Fault | None:
     """A joint's axis of the other sign, or along another direction of its body."""
     if not (found := _single(model)):
@@ -110,8 +110,9 @@ def spring_stiff(model: ReaderModel, random: Random) -> Fault | None:
     mass = model.simulation.mass_diagonal[model.simulation.dof(joint)]
     made = _set(model, joint, "stiffness", text_of(factor * mass * (2 / model.simulation.timestep) ** 2), factor)
     more = _set(model, joint, "damping", "0", factor)
-    off = _set(model, joint, "springref", "5", factor)  # degrees or rad: somewhere else than the start
-    return Fault((*made.edits, *more.edits, *off.edits), made.elements, "stiffness", factor)
+    rest = "5" if model.simulation.joint_type(joint) == HINGE else "0.05"  # somewhere else than the start
+    off = _set(model, joint, "springref", rest, factor)
+    return Fault((*made.edits, *more.edits, *off.edits), (*made.elements, "the timestep"), "stiffness", factor)
 
 
 @kind("spring-far-off", "springref", "spring-too-stiff", harms=("strays", *BURSTS))

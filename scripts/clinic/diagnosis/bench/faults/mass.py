@@ -111,7 +111,7 @@ def mass_doubled(model: ReaderModel, random: Random) -> Fault | None:
     return _fault(model, body, _inertial(model, body, mass=factor, moments=(factor,) * 3), "mass", factor)
 
 
-@kind(*INERTIA, harms=FELT)
+@kind("whole-mass", *INERTIA, harms=FELT)
 def mass_without_its_inertia(model: ReaderModel, random: Random) -> Fault | None:
     """A body's mass 3 to 1,000 times too large or too small, its inertia as it was."""
     if not (found := _bodies(model)):
@@ -140,7 +140,9 @@ def visual_geom_with_mass(model: ReaderModel, random: Random) -> Fault | None:
         element = model.element("body", body)
         if element is not None and element.first("inertial") is None:
             found += [
-                (body, g) for g in simulation.geoms_of(body) if simulation.model("geom_type")[g] in (2, 3, 4, 5, 6)
+                (body, g)
+                for g in simulation.geoms_of(body)
+                if simulation.model("geom_type")[g] in (2, 3, 4, 5, 6) and simulation.model("geom_contype")[g]
             ]
     if not found:
         return None
@@ -226,11 +228,33 @@ def gravity_compensated(model: ReaderModel, random: Random) -> Fault | None:
     return Fault(edits, names, "gravcomp") if edits else None
 
 
+def _keyless(model: ReaderModel) -> bool:
+    """Whether no keyframe is written: `nkey` alone makes some that are the model's start."""
+    return model.source is not None and not any(True for _ in model.source.elements("key"))
+
+
+@kind("key-outside-range", harms=("keys",))
+def key_outside_of_the_range(model: ReaderModel, random: Random) -> Fault | None:
+    """A keyframe with a hinge or slide beyond its range by 10 to 300 % of the range."""
+    simulation = model.simulation
+    joints = [j for j in range(simulation.count("joint")) if simulation.joint_type(j) > 1]
+    joints = [j for j in joints if simulation.model("jnt_limited")[j]]
+    if not joints or not _keyless(model):
+        return None
+    joint, share = random.choice(joints), between(random, 0.1, 3)
+    low, high = simulation.row("jnt_range", joint, 2)
+    way = share * (high - low)
+    positions = list(simulation.model("qpos0"))
+    positions[int(simulation.model("jnt_qposadr")[joint])] = random.choice((low - way, high + way))
+    xml = f'<key name="planted" qpos="{text_of(*positions)}"/>'
+    return Fault(model.add("keyframe", xml), (), "qpos", share)
+
+
 @kind("key-in-the-floor", "key-overlap", "overlap-at-start", "overlap", harms=("keys",))
 def key_in_the_floor(model: ReaderModel, random: Random) -> Fault | None:
     """A keyframe in which a free body stands lower by 5 to 100 % of the model's size."""
     free = [j for j in range(model.simulation.count("joint")) if model.simulation.joint_type(j) == 0]
-    if not free or model.simulation.count("key"):
+    if not free or not _keyless(model):
         return None
     depth = model.simulation.model("stat.extent")[0] * between(random, 0.05, 1)
     positions = list(model.simulation.model("qpos0"))
@@ -243,7 +267,7 @@ def key_in_the_floor(model: ReaderModel, random: Random) -> Fault | None:
 def key_with_w_last(model: ReaderModel, random: Random) -> Fault | None:
     """A keyframe with the quaternion of a free body as x y z w."""
     free = [j for j in range(model.simulation.count("joint")) if model.simulation.joint_type(j) == 0]
-    if not free or model.simulation.count("key"):
+    if not free or not _keyless(model):
         return None
     positions = list(model.simulation.model("qpos0"))
     at = int(model.simulation.model("jnt_qposadr")[random.choice(free)]) + 3

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace as replace_
 from random import Random
 
 from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, text_of, written
@@ -13,6 +14,7 @@ from clinic.diagnosis.source import Element
 
 SWAYS = ("misses", "unstable", "faster")
 GOES = ("commands", "unstable", "faster")
+TIMESTEP = "the timestep"  # what is too much for it may be said of either
 PACE = 20.0  # rad/s: how fast a servo is that takes a motor's place
 
 
@@ -82,7 +84,8 @@ def servo_undamped(model: ReaderModel, random: Random) -> Fault | None:
 @kind("no-armature", "timestep-too-long", "undamped-servo", harms=SWAYS, servos=True)
 def servo_stiff(model: ReaderModel, random: Random) -> Fault | None:
     """A position servo 10 to 10,000 times as stiff, its damping as it was."""
-    return _gains(model, random, between(random, 10, 1e4))
+    made = _gains(model, random, between(random, 10, 1e4))
+    return replace_(made, elements=(*made.elements, TIMESTEP)) if made else None
 
 
 @kind("weak-servo", harms=SWAYS, servos=True)
@@ -100,7 +103,7 @@ def servo_damped_too_much(model: ReaderModel, random: Random) -> Fault | None:
     mass = model.simulation.mass_diagonal[model.simulation.dof(model.simulation.driven_joint(i) or 0)]
     kv = max(2 * math.sqrt(_gain(model, i) * mass) * between(random, 10, 1e4), 1e-9)
     edits = (set_attribute(element, "kv", text_of(kv)), remove_attribute(element, "dampratio"))
-    return Fault(edits, _names(model, i), "kv", kv)
+    return Fault(edits, (*_names(model, i), TIMESTEP), "kv", kv)
 
 
 @kind("target-not-held", harms=SWAYS, servos=True)
@@ -188,7 +191,7 @@ def gear_of_a_servo(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((set_attribute(element, "gear", text_of(factor)),), _names(model, i), "gear", factor)
 
 
-@kind("twin-actuator-differs", "twin-joint-differs", "gear", "gear-sign", harms=("strays", *GOES))
+@kind("gear-of-a-motor", "twin-actuator-differs", harms=("strays", *GOES))
 def gear_of_a_motor(model: ReaderModel, random: Random) -> Fault | None:
     """A motor's gear 0.02 to 50 times what it was, or of the other sign."""
     simulation = model.simulation
@@ -206,9 +209,10 @@ def gear_of_a_motor(model: ReaderModel, random: Random) -> Fault | None:
 
 @kind("actuator-on-another-joint", "twin-actuator-differs", harms=("strays", *GOES))
 def actuators_swapped(model: ReaderModel, random: Random) -> Fault | None:
-    """Two actuators that drive each other's joint."""
+    """Two actuators with names that drive each other's joint."""
     found = [(i, model.element("actuator", i)) for i in written(model, "actuator")]
-    with_joints = [(i, element) for i, element in found if element is not None and "joint" in element.attributes]
+    named = [(i, element) for i, element in found if element is not None and element.get("name")]
+    with_joints = [(i, element) for i, element in named if "joint" in element.attributes]
     if len(with_joints) < 2:
         return None
     (i, one), (k, other) = random.sample(with_joints, 2)
@@ -227,4 +231,4 @@ def armature_removed(model: ReaderModel, random: Random) -> Fault | None:
     driven = [i for i in written(model, "actuator") if model.simulation.driven_joint(i) in with_it]
     names += tuple(model.simulation.name("actuator", i) for i in driven)
     hinges = [i for i in with_it if model.simulation.joint_type(i) == HINGE]
-    return Fault(edits, names, "armature") if edits and hinges else None
+    return Fault(edits, (*names, TIMESTEP), "armature") if edits and hinges else None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from random import Random
 
-from clinic.diagnosis.bench.faults import DOES_NOT_COMPILE, Fault, kind, text_of, written
+from clinic.diagnosis.bench.faults import DOES_NOT_COMPILE, Fault, between, kind, text_of, written
 from clinic.diagnosis.edit import delete, insert, remove_attribute, replace, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.source import Element
@@ -166,6 +166,43 @@ def body_without_mass(model: ReaderModel, random: Random) -> Fault | None:
     assert element is not None
     gone = [each for each in element.children if each.tag in ("geom", "inertial")]
     return Fault(tuple(delete(each) for each in gone), (), "mass") if gone else None
+
+
+@kind("invalid-value", harms=DOES_NOT_COMPILE)
+def value_invalid(model: ReaderModel, random: Random) -> Fault | None:
+    """A range that is reversed, a size or an axis of zero, a type that MuJoCo does not know."""
+    found = [(e, n) for e in _elements(model, "geom", "joint") for n in ("size", "axis", "type", "range") if e.get(n)]
+    if not found:
+        return None
+    element, name = random.choice(found)
+    words = element.get(name).split()
+    if name == "range" and float(words[0]) == float(words[1]):
+        return None
+    swapped = {"range": " ".join(reversed(words)), "type": words[0][0] + words[0]}
+    value = swapped.get(name, " ".join("0" for _ in words))
+    return Fault((set_attribute(element, name, value),), (), name)
+
+
+@kind("invalid-inertia", harms=DOES_NOT_COMPILE)
+def inertia_impossible(model: ReaderModel, random: Random) -> Fault | None:
+    """A body's inertia with a negative moment, or with one above the sum of the others by 1.2 to 1,000 times."""
+    simulation = model.simulation
+    bodies = [b for b in written(model, "body") if b and simulation.model("body_mass")[b] > 0]
+    if not bodies:
+        return None
+    body = random.choice(bodies)
+    moments = list(simulation.row("body_inertia", body, 3))
+    at = random.randrange(3)
+    largest = (sum(moments) - moments[at]) * between(random, 1.2, 1000)
+    moments[at] = random.choice((-moments[at], largest))
+    element = model.element("body", body)
+    assert element is not None
+    old = element.first("inertial")
+    place = text_of(*simulation.row("body_ipos", body, 3))
+    xml = (
+        f'<inertial pos="{place}" mass="{simulation.model("body_mass")[body]:.6g}" diaginertia="{text_of(*moments)}"/>'
+    )
+    return Fault((*((delete(old),) if old else ()), insert(element, xml)), (), "diaginertia")
 
 
 @kind("keyframe-size", harms=DOES_NOT_COMPILE)

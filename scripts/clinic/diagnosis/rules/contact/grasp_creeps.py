@@ -77,6 +77,8 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "A grasp that creeps"
 FAMILIES = ("slips", "drifts")
 SINCE = "0.2"
+CASE = "box-creeps-out-of-grasp"
+UNPLANTED = "nothing is held in a grasp at the start of a healthy model"
 
 OPPOSITE = 0.7
 MOST = 0.05  # radii a second

@@ -41,7 +41,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import PLANE
-from clinic.diagnosis.probes.fall import below, fallen, limit
+from clinic.diagnosis.probes.fall import bare, below, fallen, limit
 from clinic.diagnosis.probes.shape import collides, geoms_of_tree, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -59,7 +59,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     simulation = model.simulation
     told: set[tuple[Edit, ...]] = set()
     for root, surface in fallen(simulation):
-        whole = root_of(simulation)[root] == root
+        whole = root_of(simulation)[root] == root and root not in bare(simulation)
         tree = geoms_of_tree(simulation, root) if whole else simulation.geoms_of(root)
         if not tree or any(collides(simulation, geom, surface) for geom in tree):
             continue

@@ -106,11 +106,11 @@ def _halved(model: ReaderModel, roots: Iterable[int]) -> tuple[Edit, ...]:
 def _raised(model: ReaderModel, root: int, lift: float) -> tuple[Edit, ...]:
     simulation, key = model.simulation, model.start.key
     joint = next(iter(simulation.joints_of(root)), -1)
-    if key >= 0:
-        element = model.element("key", key)
+    element = model.element("key", key)
+    if key >= 0 and element is not None and "qpos" in element.attributes:  # one without begins as the model does
         at = int(simulation.model("jnt_qposadr")[joint]) + 2
-        qpos = element.get("qpos").split() if element is not None else []
-        if element is None or len(qpos) <= at or simulation.joint_type(joint) != FREE:
+        qpos = element.get("qpos").split()
+        if len(qpos) <= at or simulation.joint_type(joint) != FREE:
             return ()
         qpos[at] = f"{float(qpos[at]) + lift:.6g}"
         return (set_attribute(element, "qpos", " ".join(qpos)),)

@@ -47,6 +47,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "Too fast for a thin contact"
 FAMILIES = ("falls-through", "sinks")
 SINCE = "0.2"
+UNPLANTED = "nothing in the healthy models is thrown at something thin"
 CASE = "ball-passes-through-shelf"
 
 BURIED = 0.1  # what begins inside of something has another fault

@@ -36,8 +36,14 @@ def meant(model: ReaderModel, *tags: str) -> list[Element]:
 
 
 def told(element: Element) -> str:
-    """`<joint name="elbow">`."""
-    return f'<{element.tag} name="{element.get("name")}">' if element.get("name") else f"<{element.tag}>"
+    """`<joint name="elbow">`; of an inertia, which has no name, whose it is: `<inertial> of body "hand"`."""
+    if element.get("name"):
+        return f'<{element.tag} name="{element.get("name")}">'
+    around = element.parent
+    while around is not None and not around.get("name"):
+        around = around.parent
+    owned = element.tag in ("inertial", "inertia", "mass") and around is not None
+    return f"<{element.tag}>" + (f' of {around.tag} "{around.get("name")}"' if owned and around else "")
 
 
 def mends(

@@ -52,10 +52,12 @@ DIAGONAL = ("ixx", "iyy", "izz")
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Moments that a body can have, or one of two inertias that is taken off."""
     said = sentence(model)
-    if model.source is None or not re.search("A \\+ B|inertia|eigenvalue", said) or "mjMINVAL" in said:
+    if model.source is None or not re.search("A \\+ B|inertia|eigenvalue", said):
         return
     for element in meant(model):
         inertial = element if element.tag == "inertial" else element.first("inertial") or element
+        if "mjMINVAL" in said and "-" not in inertial.get("diaginertia").replace("e-", ""):
+            continue  # too little of it, which another rule tells
         if model.source.urdf:
             yield from _in_urdf(inertial, said)
         elif "fullinertia" in inertial.attributes:
@@ -98,7 +100,7 @@ def possible(moments: list[float]) -> list[float]:
     """Three moments that a body can have, with as few changed as may be.
 
     A negative one loses its sign, one of zero is the mean of the others, and one above the sum of the others loses
-    decimal places until it fits, or becomes that sum.
+    decimal places until it fits, or becomes that sum, or the larger of them where that is too little.
     """
     made = [abs(each) for each in moments]
     for index, each in enumerate(made):
@@ -109,5 +111,8 @@ def possible(moments: list[float]) -> list[float]:
     rest_sum = sum(made) - made[largest]
     while made[largest] > 3 * rest_sum:
         made[largest] /= 10
+    others = [each for k, each in enumerate(made) if k != largest]
     made[largest] = min(made[largest], 0.999 * rest_sum)
+    if made[largest] <= max(others) - min(others):
+        made[largest] = max(others)
     return made

@@ -39,21 +39,28 @@ When it is wrong: a brake, or a worm gear that is meant to hold.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.drive import way_left
+from clinic.diagnosis.probes.load import loads
 from clinic.diagnosis.probes.servo import servos
+from clinic.diagnosis.probes.shape import size
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Damping or friction holds a joint"
 FAMILIES = ("stuck", "sags")
 SINCE = "0.2"
 
+FIELDS = ("damping", "frictionloss")
 SLOW = 0.5  # rad/s or m/s that full force reaches
-LEFT = 0.8
+LEFT = 0.7
+STILL = 0.03  # rad/s or m/s that its own weight gives what nothing drives
+HEAVY = 0.05  # of weight times size: a joint that is balanced has less
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -86,6 +93,52 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"which moves it with {can}.",
             "full force that reaches 1 rad/s and more",
         )
+    yield from _hung(model)
+
+
+def _hung(model: ReaderModel) -> Iterator[Suspect]:
+    """Joints that nothing drives, and that their own weight does not move."""
+    simulation = model.simulation
+    held = {joint: held for joint, held in _held(simulation).items() if held > 1}
+    for joint in held:
+        damping, friction = (simulation.model(f"dof_{name}")[simulation.dof(joint)] for name in FIELDS)
+        attribute = "damping" if STILL * damping >= friction else "frictionloss"
+        edits = model.set("joint", [joint], attribute, "0")
+        yield Suspect(
+            (simulation.name("joint", joint),),
+            attribute,
+            f"{max(damping, friction) if attribute == 'damping' else friction:.3g}",
+            "0",
+            edits,
+            Probe("what holds the joint, times its own weight", "", _most_held, (joint,), dynamic=False),
+            1.0,
+            f"Nothing drives {simulation.name('joint', joint)}, and its own weight, "
+            f"{loads(simulation)[simulation.dof(joint)]:.3g} N m (N) at most, does not move it.",
+            "a joint that swings where nothing drives it",
+        )
+
+
+def _held(simulation: Simulation) -> dict[int, float]:
+    """What holds each joint that nothing drives over what its weight gives, where it hangs on one side."""
+    if not simulation.count("actuator") or simulation.count("tendon") or simulation.count("equality"):
+        return {}
+    driven = {simulation.driven_joint(actuator) for actuator in range(simulation.count("actuator"))}
+    gravity = math.hypot(*simulation.model("opt.gravity"))
+    made = {}
+    for joint in range(simulation.count("joint")):
+        if joint in driven or simulation.joint_type(joint) not in (HINGE, SLIDE):
+            continue
+        dof, body = simulation.dof(joint), int(simulation.model("jnt_bodyid")[joint])
+        lever = size(simulation, body) if simulation.joint_type(joint) == HINGE else 1.0
+        load = loads(simulation)[dof]
+        if load > HEAVY * gravity * simulation.model("body_subtreemass")[body] * lever > 0:
+            damping, friction = (simulation.model(f"dof_{name}")[dof] for name in FIELDS)
+            made[joint] = max(STILL * damping, friction) / load
+    return made
+
+
+def _most_held(simulation: Simulation, joint: int) -> float:
+    return _held(simulation).get(joint, 0.0)
 
 
 def _forces(simulation: Simulation) -> dict[int, float]:

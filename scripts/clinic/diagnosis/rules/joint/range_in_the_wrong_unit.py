@@ -88,12 +88,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         meant = [joint for joint in few if 0.3 <= spans[joint] * factor <= 12.7]
         if not meant:
             continue
-        most = 2 * len(few) >= len(spans) and len(meant) == len(few)
-        if not most and (unit == "radian" or not all(_round(model, each) for each in meant)):
-            continue
+        most = len(meant) == len(few) and (2 * len(few) > len(spans) or len(spans) == 1)
+        in_degrees = model.angle_unit != 1.0
+        if not most and unit == "radian" and (not in_degrees or any(_round(model, each) for each in meant)):
+            continue  # a narrow range in whole degrees is one
         edits: tuple[Edit, ...] = model.option("angle", unit, "compiler") if most else ()
         for joint in () if most else meant:
-            now = [each * factor for each in simulation.row("jnt_range", joint, 2)]
+            now = [each * factor / model.angle_unit for each in simulation.row("jnt_range", joint, 2)]
             edits += model.set("joint", [joint], "range", " ".join(f"{each:.4g}" for each in now))
         low, high = simulation.row("jnt_range", meant[0], 2)
         yield Suspect(

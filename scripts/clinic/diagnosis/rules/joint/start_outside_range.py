@@ -42,11 +42,12 @@ from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.servo import alone, hold
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Level, Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A joint starts outside of its range"
 FAMILIES = ("jumps-at-start", "explodes")
 SINCE = "0.2"
+LEVEL = "hint"
 
 OUTSIDE = 0.05  # of the range
 KICK = 1.0  # rad/s or m/s
@@ -57,7 +58,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     simulation = model.simulation
     if simulation.begin_with.key < 0 and simulation.count("key"):
         return  # a model that has keyframes begins with one
-    level: Level = "cause" if simulation.begin_with.key >= 0 else "hint"
     found = []
     for joint, (low, high, begin) in _limited(simulation).items():
         if max(low - begin, begin - high) > OUTSIDE * (high - low):
@@ -87,7 +87,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         KICK,
         f"{simulation.name('joint', joint)} starts at {begin:.3g}, and its range is {low:.3g} to {high:.3g}.",
         "inside of the range",
-        level=level,
     )
 
 

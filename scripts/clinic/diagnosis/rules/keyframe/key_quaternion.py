@@ -69,7 +69,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             w, x, y, z = qpos[at : at + 4]
             start = of.model("qpos0")[at : at + 4]
             tilted = _tilt((w, x, y, z), start) > TILTED and _tilt((z, w, x, y), start) < UPRIGHT
-            if element is None or not (tilted or (z > 0.995 and abs(start[0]) > 0.9)):
+            if element is None or not (tilted or (_back((w, x, y, z)) and abs(start[0]) > 0.9)):
                 continue
             changed = [*qpos[:at], z, w, x, y, *qpos[at + 4 :]]
             yield Suspect(
@@ -85,6 +85,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             )
 
 
+def _back(turn: Sequence[float]) -> bool:
+    """Whether it is half a turn about z or near it, as a small turn about z is with w last."""
+    w, x, _, z = turn
+    return z > 0.995 or (z > 0.5 and abs(w) < 1e-6 and abs(x) < 1e-6)
+
+
 def _tilt(now: Sequence[float], start: Sequence[float]) -> float:
     """The angle between the z axes of two orientations in degrees."""
     cosine = dot(of_quaternion(now)[2::3], of_quaternion(start)[2::3])
@@ -95,4 +101,4 @@ def _angle(simulation: Simulation, key: int, at: int) -> float:
     start_at(simulation, key)
     now, start = simulation.data("qpos")[at : at + 4], simulation.model("qpos0")[at : at + 4]
     turned = math.degrees(2 * math.acos(min(1.0, abs(sum(a * b for a, b in zip(now, start, strict=True))))))
-    return max(_tilt(now, start), turned if now[3] > 0.995 else 0.0)
+    return max(_tilt(now, start), turned if _back(now) else 0.0)

@@ -66,6 +66,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "A keyframe's targets are not its pose"
 FAMILIES = ("drifts", "jumps-at-start", "sags")
 SINCE = "0.2"
+UNPLANTED = "no healthy model has a keyframe with controls"
 
 LIMIT = 0.1  # rad or m
 

@@ -59,6 +59,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "A keyframe is too short"
 FAMILIES = ("jumps-at-start", "drifts")
 SINCE = "0.2"
+UNPLANTED = "no healthy model has a free body that stands before its robot"
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -49,7 +49,7 @@ FAMILIES = ("drifts", "sags")
 SINCE = "0.2"
 
 LIMIT, LIGHT = 0.5, 0.01
-FAR = 2.5  # where a unit is wrong, whatever the other bodies are like
+FAR = 1.5  # where a unit is wrong, whatever the other bodies are like
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

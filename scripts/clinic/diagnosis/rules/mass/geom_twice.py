@@ -77,9 +77,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _copies(of: Simulation, body: int) -> Iterator[tuple[int, int]]:
-    """Colliding geoms of a body that are like one before them, and that one."""
+    """Geoms of a body that are like one before them, and that one."""
     first: dict[tuple[float, ...], int] = {}
     for geom in of.geoms_of(body):
         key = tuple(round(x, 6) for name, width in FIELDS.items() for x in of.row(f"geom_{name}", geom, width))
-        if of.model("geom_contype")[geom] and first.setdefault(key, geom) != geom:
+        if first.setdefault(key, geom) != geom:
             yield geom, first[key]

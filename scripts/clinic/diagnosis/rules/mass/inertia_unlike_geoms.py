@@ -50,8 +50,9 @@ FAMILIES = ("explodes", "oscillates", "stuck", "drifts")
 SINCE = "0.2"
 
 USUAL = (0.4, 2.5)  # radius of gyration over that of the geoms
-FAR = (0.15, 6.0)  # the same, for an inertia that is not equal about all axes, which nobody types in
+FAR = (0.25, 4.0)  # the same, for an inertia that is not equal about all axes, which nobody types in
 LIMIT, ALIKE = 2.5, 1.5  # times the inertia at the joint; where several bodies have the same inertia
+ABSURD, FELT = 6.0, 1.3  # a placeholder with a radius this far off, and what is felt of it at the joint
 FEW = 0.25  # of the bodies: where more are so, the geoms show little of them
 
 
@@ -66,11 +67,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for inertia, bodies in groups.items():
         placeholder = max(inertia) < 1.03 * min(inertia)
         worst = max((found[body] for body in bodies), key=lambda each: max(each.radius, 1 / each.radius))
-        if not placeholder and (FAR[0] < worst.radius < FAR[1] or unusual > FEW * len(found)):
+        if not placeholder and (FAR[0] < worst.radius < FAR[1] or unusual > max(1, FEW * len(found))):
             continue
         probe, limit = joint_inertia(tuple(bodies)), 2 * LIMIT
         if placeholder:
             limit = ALIKE if len(bodies) > 1 else LIMIT
+            if max(worst.radius, 1 / worst.radius) > ABSURD:
+                limit = FELT
         edits = tuple(
             edit
             for body in bodies
@@ -87,5 +90,5 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"The radius of gyration is {worst.radius:.3g} times that of its geoms, filled with {worst.mass:.3g} kg.",
             "0.4 to 2.5 times: 90 % of 1475 bodies in healthy models lie between 0.53 and 1.7",
             excess=max(worst.radius, 1 / worst.radius),
-            level="cause" if model.measured(probe) > LIMIT else "hint",
+            level="cause" if model.measured(probe) > (limit if placeholder else LIMIT) else "hint",
         )

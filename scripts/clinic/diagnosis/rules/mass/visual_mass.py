@@ -100,4 +100,8 @@ def _is_skin(of: Simulation, geom: int, others: list[int]) -> bool:
 
 
 def _written(model: ReaderModel, geom: int) -> bool:
-    return model.element("geom", geom) is None or any(model.value("geom", geom, name) for name in ("mass", "density"))
+    """Whether somebody gave it a mass: itself, or as a member of a class."""
+    element = model.element("geom", geom)
+    if element is None or element.get("class"):
+        return element is None or any(model.value("geom", geom, name) for name in ("mass", "density"))
+    return any(name in element.attributes for name in ("mass", "density"))

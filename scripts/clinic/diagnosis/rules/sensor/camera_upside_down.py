@@ -50,13 +50,13 @@ FAMILIES = ("camera",)
 SINCE = "0.2"
 CASE = "camera-upside-down"
 
-MOST, LEVEL = 100.0, 0.9  # degrees; of the view's direction along the vertical
+MOST, UPSIDE = 100.0, 0.9  # degrees; of the view's direction along the vertical
 
 
 def _tilt(simulation: Simulation, camera: int) -> float:
     simulation.begin()
     _, up, forward = axes(simulation, camera)
-    return math.degrees(math.acos(max(-1.0, min(1.0, up[2])))) if abs(forward[2]) < LEVEL else 0.0
+    return math.degrees(math.acos(max(-1.0, min(1.0, up[2])))) if abs(forward[2]) < UPSIDE else 0.0
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -1,6 +1,7 @@
-"""An actuator drives another joint than the one of its name, which no actuator drives.
+"""An actuator drives another joint than the one of its name, which none drives, or the one of that joint's name.
 
-A name that was copied and not changed: the joint that was meant is never driven, and the other gets two commands.
+A name that was copied and not changed: the joint that was meant is never driven, and the other gets two commands. Or
+two that were swapped: each moves what the other should.
 
 Bad:
 
@@ -40,7 +41,7 @@ Good:
       </actuator>
     </mujoco>
 
-The number: how many of the joints that actuators are named after are driven by none.
+The number: how many actuators drive another joint than the one that they are named after.
 
 When it is wrong: an actuator that drives another joint than the one of its name on purpose.
 """
@@ -68,18 +69,24 @@ def _key(name: str) -> tuple[str, ...]:
 
 
 def _meant(simulation: Simulation) -> dict[int, tuple[int, int]]:
-    """For an actuator: the joint that it drives, and the undriven one of its name, where these differ."""
+    """For an actuator: the joint that it drives, and that of its name, where these differ.
+
+    The joint of its name is undriven, or driven by one that has the name of this one's joint.
+    """
     joints: dict[tuple[str, ...], list[int]] = {}
     for joint, name in enumerate(simulation.names("joint")):
         if name and simulation.joint_type(joint) in (HINGE, SLIDE):
             joints.setdefault(_key(name), []).append(joint)
     drives = {each: simulation.driven_joint(each) for each in range(simulation.count("actuator"))}
-    made = {}
+    made, undriven = {}, set(range(simulation.count("joint"))) - set(drives.values())
     for actuator, name in enumerate(simulation.names("actuator")):
-        found, driven = joints.get(_key(name), []), drives[actuator]
-        if name and _key(name) and len(found) == 1 and driven is not None and found[0] not in drives.values():
+        key, driven = _key(name), drives[actuator]
+        within = [each for words, some in joints.items() if set(key) <= set(words) for each in some]
+        found = joints.get(key) or [each for each in within if each not in undriven]
+        if key and len(found) == 1 and driven not in (None, found[0]):
             made[actuator] = (driven, found[0])
-    return made
+    wrong = {meant: driven for driven, meant in made.values()}
+    return {each: pair for each, pair in made.items() if pair[1] in undriven or wrong.get(pair[0]) == pair[1]}
 
 
 def _undriven(simulation: Simulation) -> float:
@@ -87,20 +94,28 @@ def _undriven(simulation: Simulation) -> float:
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Actuators that leave the joint of their name alone, each by itself."""
+    """Actuators that leave the joint of their name alone, each by itself; two that are swapped together."""
     simulation = model.simulation
-    for actuator, (driven, meant) in _meant(simulation).items():
+    found = _meant(simulation)
+    for actuator, (driven, meant) in found.items():
         name = simulation.names("joint")[meant]
+        other = next((each for each, pair in found.items() if pair == (meant, driven)), None)
+        edits = model.set("actuator", [actuator], "joint", name)
+        if other is not None:
+            edits += model.set("actuator", [other], "joint", simulation.names("joint")[driven])
+            if other < actuator:
+                continue
         yield Suspect(
             (simulation.name("actuator", actuator),),
             "joint",
             simulation.names("joint")[driven],
             name,
-            model.set("actuator", [actuator], "joint", name),
-            Probe("joints that no actuator drives although one has their name", "", _undriven, dynamic=False),
+            edits,
+            Probe("actuators that drive another joint than that of their name", "", _undriven, dynamic=False),
             0.5,
             f"{simulation.name('actuator', actuator)} drives {simulation.name('joint', driven)}, and "
-            f"{simulation.name('joint', meant)} is driven by none.",
+            f"{simulation.name('joint', meant)} is driven by "
+            + ("none." if other is None else f"{simulation.name('actuator', other)}."),
             "an actuator drives the joint of its name",
             share=0.99,
         )

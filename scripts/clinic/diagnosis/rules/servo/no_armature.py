@@ -57,6 +57,7 @@ CASE = "hand-shakes-at-once"
 USUAL = 0.002  # s
 IMPLICIT = (2, 3)  # mjtIntegrator that treats an actuator's damping implicitly
 FAST = 100.0
+NEAR = 0.5  # of what one joint alone bears: in a chain it is less
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -64,10 +65,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     simulation = model.simulation
     step = simulation.timestep
     gains = _gains(simulation)
-    found = {joint: each for joint, each in gains.items() if _excess(each, min(step, USUAL)) > 1}
-    if not found and len(gains) > 2 and step <= 5 * USUAL:
-        usual = sorted(_excess(each, step) for each in gains.values())[len(gains) // 2]
-        found = {joint: each for joint, each in gains.items() if _excess(each, step) > max(1, 10 * usual)}
+    found = {joint: each for joint, each in gains.items() if _excess(each, min(step, USUAL)) > NEAR}
+    if not found and len(gains) > 1 and step <= 5 * USUAL:
+        usual = sorted(_excess(each, step) for each in gains.values())[(len(gains) - 1) // 2]
+        found = {joint: each for joint, each in gains.items() if _excess(each, step) > max(NEAR, 10 * usual)}
     if not found:
         return
     edits: list[Edit] = []

@@ -82,7 +82,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for actuator, gain, bias in found:
         element = model.element("actuator", actuator)
         if element is not None and element.tag == "general":
-            text = f"{bias[0]:g} {-(abs(bias[1]) or gain):g} {-(abs(bias[2]) or 0.1 * abs(gain)):g}"
+            mass = simulation.mass_diagonal[simulation.dof(simulation.driven_joint(actuator) or 0)]
+            damping = abs(bias[2]) or min(0.1 * abs(gain), 2 * (abs(gain) * mass) ** 0.5)
+            text = f"{bias[0]:g} {-(abs(bias[1]) or gain):g} {-damping:g}"
             edits += model.set("actuator", [actuator], "biasprm", text)
             if gain < 0:
                 edits += model.set("actuator", [actuator], "gainprm", f"{-gain:g}")

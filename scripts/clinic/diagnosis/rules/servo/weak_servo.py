@@ -43,6 +43,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.load import loads, sag, sags
+from clinic.diagnosis.probes.run import resets
 from clinic.diagnosis.probes.servo import Servo, remaining, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -56,7 +57,7 @@ LATE = 0.6  # s: the time constant above which a step is tried
 SLOW = 4.0  # rad/s: the natural frequency below which it is
 LEFT = 0.45
 SAG = 0.3  # rad of a hinge, m of a slide
-GOOD = {True: 0.02, False: 0.002}
+GOOD = {True: (0.02, 0.08, 0.2), False: (0.002, 0.008, 0.02)}  # rad or m that may be left, the best first
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -68,12 +69,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if not weak:
             continue
         worst, load = weak[0], loads(simulation)
+        for good in GOOD[hinge]:  # what holds still may be too stiff for the timestep
+            edits = tuple(edit for each in weak for edit in _stronger(model, each, load[each.dof] / good))
+            if model.measured(resets(), edits) <= model.measured(resets()):
+                break
         yield Suspect(
             tuple(simulation.name("actuator", each.actuator) for each in weak),
             "kp",
             f"{worst.stiffness:.3g}",
-            f"{load[worst.dof] / GOOD[hinge]:.2g}",
-            tuple(edit for each in weak for edit in _stronger(model, each, load[each.dof] / GOOD[hinge])),
+            f"{load[worst.dof] / good:.2g}",
+            edits,
             sag([each.actuator for each in weak]),
             SAG,
             f"The weight at {simulation.name('joint', worst.joint)} is up to {load[worst.dof]:.3g} "

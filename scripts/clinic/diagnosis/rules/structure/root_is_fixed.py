@@ -62,6 +62,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "The robot is fixed to the world"
 FAMILIES = ("stuck",)
 SINCE = "0.2"
+LEVEL = "hint"
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -38,7 +38,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.run import fastest
+from clinic.diagnosis.probes.drive import commanded
+from clinic.diagnosis.probes.run import fastest, sunk
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -48,16 +49,17 @@ FAMILIES = ("explodes", "oscillates", "falls-through")
 SINCE = "0.2"
 
 FAST = 100.0  # rad/s
+SUNK = 0.05  # of the model's extent
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The timestep, where letting go makes something fast, or a nudge makes it rattle."""
     step = model.simulation.timestep
-    for probe, limit in ((fastest(), FAST), (shake(), SHAKES)):
+    for probe, limit in ((fastest(), FAST), (shake(), SHAKES), (commanded(), FAST), (sunk(), SUNK)):
         before = model.measured(probe)
         if before <= limit:
             continue
-        for divisor in (2, 4, 8, 16):
+        for divisor in (2, 4, 8, 16, 32, 64):
             edits = model.option("timestep", f"{step / divisor:g}")
             if model.measured(probe, edits) <= min(limit, 0.1 * before):
                 says = f"At {step / divisor:g} s the same motion stays calm."

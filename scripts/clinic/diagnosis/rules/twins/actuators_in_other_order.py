@@ -87,6 +87,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "The actuators are in another order than the joints"
 FAMILIES = ("drifts",)
 SINCE = "0.2"
+UNPLANTED = "a model has one order, and only names tell that another was meant"
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

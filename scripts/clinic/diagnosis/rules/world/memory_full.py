@@ -62,6 +62,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "The memory is full"
 FAMILIES = ("falls-through", "explodes")
 SINCE = "0.2"
+UNPLANTED = "no single edit of a healthy model makes so many contacts"
 
 
 def _full(simulation: Simulation) -> float:

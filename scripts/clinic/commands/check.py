@@ -13,6 +13,7 @@ from clinic.pages.symptoms import symptom_problems
 from clinic.pages.text.manual import manual_problems
 from clinic.proof.evidence import Evidence
 from clinic.proof.experiments import ALL, compare_alike, measure_case
+from clinic.proof.filing import filing_problems
 from clinic.proof.laws import LAWS, breaches
 from clinic.proof.lookalike import alike_problems
 from clinic.record.case import Case, read_cases
@@ -52,7 +53,7 @@ def check_cases(root: Path, slugs: Iterable[str], cache: Cache) -> Iterator[Repo
     """Reads, runs and judges the cases of a checkout, one after the other."""
     read, problems = read_cases(root / "cases")
     known = {case.slug: case for case in read}
-    found = problems_by_case([*problems, *alike_problems(known)])
+    found = problems_by_case([*problems, *alike_problems(known), *filing_problems(known)])
     for slug in slugs:
         yield _check(slug, known, found.get(slug, []), cache)
 

@@ -18,6 +18,7 @@ from clinic.proof.prose.formulas import formulas
 from clinic.proof.prose.labels import entitled, labelled
 from clinic.proof.prose.numbers import titled, typed
 from clinic.proof.prose.signals import called, counted, within_its_sweep
+from clinic.proof.prose.units import in_units
 from clinic.proof.prose_laws import owned, quoted, stated, taken
 from clinic.proof.releases import differing, release_problems
 from clinic.proof.sweep import errors_at, format_values, unjudged_sides
@@ -199,6 +200,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         counted,
         within_its_sweep,
         labelled,
+        in_units,
         entitled,
         stated,
         formulas,

@@ -13,6 +13,7 @@ from typing import Literal
 from clinic.engine.checks import expected
 from clinic.engine.simulate import compile_model
 from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
+from clinic.proof.bounds import bounded, differing, varied
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.proof.prose.formulas import formulas
 from clinic.proof.prose.labels import entitled, labelled
@@ -20,7 +21,8 @@ from clinic.proof.prose.numbers import titled, typed
 from clinic.proof.prose.signals import called, counted, within_its_sweep
 from clinic.proof.prose.units import in_units
 from clinic.proof.prose_laws import owned, quoted, stated, taken
-from clinic.proof.releases import differing, release_problems
+from clinic.proof.releases import differing as differing_releases
+from clinic.proof.releases import release_problems
 from clinic.proof.sweep import errors_at, format_values, unjudged_sides
 from clinic.proof.task import changes
 from clinic.proof.tightness import covers, value_of, words_of
@@ -182,13 +184,15 @@ def same_task(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 def released(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 9. Every release of MuJoCo that was measured does the same, or `older` says why not."""
-    yield from release_problems(case, differing(evidence))
+    yield from release_problems(case, differing_releases(evidence))
 
 
 LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
     law.__name__: law
     for law in (
         verdicts,
+        bounded,
+        differing,
         ablation,
         small_edits,
         repeatable,
@@ -209,6 +213,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         lasting,
         steady,
         swept,
+        varied,
         tightness,
         filmed,
         same_task,

@@ -15,10 +15,12 @@ from clinic.engine.simulate import compile_model
 from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
 from clinic.proof.bounds import bounded, differing, varied
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
+from clinic.proof.prose.absences import bold, commented, denied, functional
 from clinic.proof.prose.formulas import formulas
 from clinic.proof.prose.labels import entitled, labelled
 from clinic.proof.prose.numbers import titled, typed
 from clinic.proof.prose.signals import called, counted, within_its_sweep
+from clinic.proof.prose.titles import performed
 from clinic.proof.prose.units import in_units
 from clinic.proof.prose_laws import owned, quoted, stated, taken
 from clinic.proof.releases import differing as differing_releases
@@ -210,6 +212,11 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         formulas,
         owned,
         titled,
+        performed,
+        denied,
+        functional,
+        bold,
+        commented,
         lasting,
         steady,
         swept,

@@ -27,7 +27,8 @@ NUMBER = re.compile(
     rf"\b(?:one|two|zero) {SIZE}\b|\b(?:at|by) (?:zero|one|two)\b(?! (?:most|least))",
     re.IGNORECASE,
 )
-TITLE = re.compile(rf"{NUMBER.pattern}|\bdouble the\b|\bhalf the\b", re.IGNORECASE)
+TITLE = re.compile(rf"{NUMBER.pattern}|\bdouble the\b|\bhalf the\b|\btwo\b", re.IGNORECASE)
+STEPS = re.compile(r"\b(?:earlier|later|more|fewer|less|further|ahead)\b", re.IGNORECASE)
 LESS = re.compile(r"\b(?:half the|hal(?:ve|ving)|divide|lighter|thinner|softer|lower)\b", re.IGNORECASE)
 MORE = re.compile(r"\b(?:twice the|doubl(?:e|ing)|heavier|thicker|harder|raise)\b", re.IGNORECASE)
 OPERATOR = re.compile(r"[\d/*=^√()+·]")
@@ -75,7 +76,11 @@ def titled(case: Case, evidence: Evidence) -> Iterator[Problem]:
         titles.append((("trials", index, "title"), trial.title, changed))
     for where, title, changed in titles:
         code = case.record.run is None  # its number may stand for the inverse: a count of steps for a timestep
-        allowed = _and_ratios(changed, up=code or not LESS.search(title), down=code or not MORE.search(title))
+        counted = bool(STEPS.search(title)) and not re.search(r"times|twice|half|divide", title, re.IGNORECASE)
+        ratios = [] if counted else changed
+        allowed = {abs(after) for _, after in changed} | _and_ratios(ratios, up=code or not LESS.search(title), down=code or not MORE.search(title))
+        if counted:
+            allowed = {abs(after - before) for before, after in changed}
         if LESS.search(title) and "times" in title:
             allowed -= {abs(after) for _, after in changed}
         for number in TITLE.finditer(title):
@@ -110,7 +115,7 @@ def _and_ratios(changed: Iterable[tuple[float, float]], up: bool, down: bool) ->
 def _values(number: str) -> list[float]:
     """What a number in a title may stand for: itself, in thousandths, or the factor that it names."""
     words = {"twice": 2.0, "double": 2.0, "halve": 2.0, "halving": 2.0, "doubling": 2.0, "dozen": 12.0}
-    words |= {word: float(n) for n, word in enumerate(SMALL.split()[:12], 3)} | {"hundred": 100.0, "thousand": 1000.0}
+    words |= {word: float(n) for n, word in enumerate(["two", *SMALL.split()[:12]], 2)} | {"hundred": 100.0, "thousand": 1000.0}
     words |= {"fourth": 4.0, "fifth": 5.0, "tenth": 10.0, "hundredth": 100.0, "thousandth": 1000.0, "half": 2.0}
     if number.lower().startswith("half a"):
         return [0.5]

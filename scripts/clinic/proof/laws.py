@@ -16,6 +16,7 @@ from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
 from clinic.proof.bounds import bounded, differing, varied
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.proof.prose.absences import bold, commented, denied, functional
+from clinic.proof.prose.comparisons import compared
 from clinic.proof.prose.formulas import formulas
 from clinic.proof.prose.labels import entitled, labelled
 from clinic.proof.prose.numbers import titled, typed
@@ -204,6 +205,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         taken,
         called,
         counted,
+        compared,
         within_its_sweep,
         labelled,
         in_units,

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import combinations
 from typing import TYPE_CHECKING, Literal
 
@@ -22,6 +21,7 @@ if TYPE_CHECKING:
 
 Kind = Literal["broken", "fixed"]
 REACH = 12.0  # how many times the number that it admits a bound may be
+SEEN = 0.01  # the share by which the outcome of a sweep changes
 MOVED = 0.1  # the share by which a trial changes some number that is checked
 
 
@@ -98,8 +98,5 @@ def _apart(sweep: Sweep, here: Point, there: Point, name: str) -> bool:
         return False
     if sweep.holds is not None or here.outcome is None or there.outcome is None:
         return here.holds != there.holds if sweep.holds is not None else here.outcome != there.outcome
-    return abs(here.outcome - there.outcome) > 2 * sweep.prediction.within * _scale(sweep, (here.outcome, there.outcome))
-
-
-def _scale(sweep: Sweep, outcomes: Sequence[float]) -> float:
-    return max(map(abs, outcomes), default=math.nan) if sweep.prediction.relative else 1.0
+    largest, within = max(abs(here.outcome), abs(there.outcome)), sweep.prediction.within
+    return abs(here.outcome - there.outcome) > max(SEEN * largest, 2 * within * (largest if sweep.prediction.relative else 1))

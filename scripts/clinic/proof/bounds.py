@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 Kind = Literal["broken", "fixed"]
 REACH = 12.0  # how many times the number that it admits a bound may be
 SEEN = 0.01  # the share by which the outcome of a sweep changes
+APART = 0.25  # the share of its range by which a mark's outcome may differ: a sweep may be shorter than the run
 MOVED = 0.1  # the share by which a trial changes some number that is checked
 
 
@@ -64,6 +65,23 @@ def varied(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 found = f"{parameter.name}: the same outcome whatever it is"
                 wanted = "points at which the outcome changes"
                 yield case.problem(("sweep", name, "vary", index), found, wanted, "vary it further, or leave it out")
+
+
+def marked(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """A variant that is marked in a sweep has the outcome that was measured there."""
+    for name, sweep in case.record.sweep.items():
+        found, take = evidence.sweep[name], sweep.outcome.take
+        outcomes = [point.outcome for point in found.points if point.outcome is not None]
+        if sweep.edits or not outcomes or sweep.outcome.window is not None:
+            continue
+        reach = APART * (max(outcomes) - min(outcomes))
+        for variant, at in found.marks.items():
+            own = evidence.variants[variant].values[sweep.outcome.signal].get(take)
+            there = [point.outcome for point in found.points if point.at == at and point.outcome is not None]
+            if own is not None and there and abs(there[0] - own) > reach:
+                said = f"{variant} at {', '.join(f'{value:g}' for value in at.values())}, where {there[0]:.4g} is measured"
+                wanted = f"a place with the outcome of {variant}: {own:.4g}"
+                yield case.problem(("sweep", name, "vary"), said, wanted, "correct `marks`")
 
 
 def _admitted(evidence: Evidence, trial: Trial | None, kind: Kind, index: int) -> list[float]:

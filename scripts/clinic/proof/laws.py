@@ -13,13 +13,14 @@ from typing import Literal
 from clinic.engine.checks import expected
 from clinic.engine.simulate import compile_model
 from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
-from clinic.proof.bounds import bounded, differing, varied
+from clinic.proof.bounds import bounded, differing, marked, varied
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.proof.prose.absences import bold, commented, denied, functional
-from clinic.proof.prose.comparisons import compared
+from clinic.proof.prose.comparisons import compared, ordered
 from clinic.proof.prose.formulas import formulas
-from clinic.proof.prose.labels import entitled, labelled
+from clinic.proof.prose.labels import computed, entitled, labelled
 from clinic.proof.prose.numbers import titled, typed
+from clinic.proof.prose.opposites import indexed, opposed, valued
 from clinic.proof.prose.signals import called, counted, within_its_sweep
 from clinic.proof.prose.titles import performed
 from clinic.proof.prose.units import in_units
@@ -206,8 +207,13 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         called,
         counted,
         compared,
+        ordered,
+        opposed,
+        valued,
+        indexed,
         within_its_sweep,
         labelled,
+        computed,
         in_units,
         entitled,
         stated,
@@ -223,6 +229,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         steady,
         swept,
         varied,
+        marked,
         tightness,
         filmed,
         same_task,

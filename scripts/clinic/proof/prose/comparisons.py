@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
-from clinic.proof.evidence import Evidence
+from clinic.proof.evidence import Evidence, Samples
 from clinic.proof.prose_laws import prose_of
 from clinic.record.case import Case
 from clinic.record.problem import Problem
@@ -25,7 +26,8 @@ TO = re.compile(
     re.IGNORECASE,
 )
 AFTER = re.compile(r"^\s*,?\s*(?:(?P<same>(?:as before|as it was|still|again|all the same)(?=\s*[.,;:]|\s*$)))", re.IGNORECASE)
-NOUN = re.compile(rf"\b(?:(?P<more>{MORE})|(?P<less>{LESS}))\s+(?:the|its|their|this|that)\s+(?P<noun>[a-z]+)", re.IGNORECASE)
+NEXT = re.compile(r"\b(?:next|then|later|afterwards|after that)\b", re.IGNORECASE)
+NOUN = re.compile(rf"\b(?:(?P<more>{MORE})|(?P<less>{LESS}))\s+(?:(?:the|its|their|this|that)\s+(?P<noun>[a-z]+)|\$(?P<symbol>\w+)\$)", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -47,11 +49,32 @@ def compared(case: Case, evidence: Evidence) -> Iterator[Problem]:
     for where, text in prose_of(case):
         for sentence in re.split(r"(?<=[.?!;])\s|\n[ \t]*\n", CODE.sub(_blank, text)):
             said = list(_numbers(sentence, evidence))
-            for left, right in zip(said, said[1:], strict=False):
+            for left, right in pairwise(said):
                 yield from _two(case, where, sentence, left, right)
             for one in said:
                 yield from _of_one(case, where, sentence, one, evidence)
                 yield from _noun(case, where, sentence, one, said, evidence)
+
+
+def ordered(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, order. Of two numbers of a signal with *next* or *later* between them, the second is reached after the first."""
+    for where, text in prose_of(case):
+        for paragraph in re.split(r"\n[ \t]*\n", CODE.sub(_blank, text)):
+            for left, right in pairwise(_numbers(paragraph, evidence)):
+                found = NEXT.search(paragraph[left.end : right.start])
+                if found is None or (left.variant, left.signal) != (right.variant, right.signal):
+                    continue
+                trace = evidence.variants[left.variant].traces[left.signal]
+                here, there = _reached(trace, left), _reached(trace, right)
+                if here is not None and there is not None and here >= there:
+                    said = f"{found[0]}, though it is reached at {there:g} s"
+                    yield _problem(case, where, right, said, f"after {here:g} s, where {left.text} is")
+
+
+def _reached(trace: Samples, one: Said) -> float | None:
+    """When a number of a run is first reached, in s; None for one that no sample has."""
+    pairs = zip(trace.time, trace.value, strict=True)
+    return next((time for time, value in pairs if value is not None and _same(value, one.value)), None)
 
 
 def _two(case: Case, where: Where, sentence: str, left: Said, right: Said) -> Iterator[Problem]:
@@ -94,8 +117,10 @@ def _noun(case: Case, where: Where, sentence: str, one: Said, said: list[Said], 
         if (direct or near)[:1] != [one] or DENIED.search(sentence[max(0, found.start() - 30) : found.start()]):
             continue
         variant = evidence.variants[one.variant]
-        named = [name for name in variant.values if name == found["noun"].lower()]
-        other = variant.timestep if found["noun"].lower() == "timestep" else None
+        noun = (found["noun"] or "").lower()
+        symbols = {each.where.get(found["symbol"] or "") for each in case.record.formulas.values()}
+        named = [name for name in variant.values if name == noun or name in symbols]
+        other = variant.timestep if noun == "timestep" else None
         unit = "s" if other is not None else ""
         if other is None and named and named != [one.signal]:
             other = variant.values[named[0]].get("final")

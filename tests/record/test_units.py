@@ -11,7 +11,13 @@ LENGTH, TIME, FORCE = (0, 1, 0), (0, 0, 1), (1, 1, -2)
 
 @pytest.mark.parametrize(
     ("text", "size", "powers"),
-    [("", 1, (0, 0, 0)), ("mm", 1e-3, LENGTH), ("N m/rad", 1, (1, 2, -2)), ("kg m²", 1, (1, 2, 0)), ("m/s²", 1, (0, 1, -2))],
+    [
+        ("", 1, (0, 0, 0)),
+        ("mm", 1e-3, LENGTH),
+        ("N m/rad", 1, (1, 2, -2)),
+        ("kg m²", 1, (1, 2, 0)),
+        ("m/s²", 1, (0, 1, -2)),
+    ],
 )
 def test_a_unit_is_read(text: str, size: float, powers: tuple[float, float, float]) -> None:
     found = unit(text)
@@ -25,7 +31,13 @@ def test_what_is_no_unit() -> None:
 
 @pytest.mark.parametrize(
     ("expr", "powers"),
-    [("x / t", (0, 1, -1)), ("2 * x", LENGTH), ("sqrt(x ** 2)", LENGTH), ("abs(f) * x", (1, 2, -2)), ("sin(x / x)", (0, 0, 0))],
+    [
+        ("x / t", (0, 1, -1)),
+        ("2 * x", LENGTH),
+        ("sqrt(x ** 2)", LENGTH),
+        ("abs(f) * x", (1, 2, -2)),
+        ("sin(x / x)", (0, 0, 0)),
+    ],
 )
 def test_the_dimension_of_arithmetic(expr: str, powers: tuple[float, float, float]) -> None:
     assert powers_of(parse(expr), {"x": LENGTH, "t": TIME, "f": FORCE}) == powers

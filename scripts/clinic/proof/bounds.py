@@ -48,7 +48,9 @@ def differing(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 7, trials. Each changes a number by a factor of two, or in sign, or else some number that is checked."""
     made = variants(case)
     for index, trial in enumerate(case.record.trials):
-        moved = case.record.run is not None and trial.duration is not None and far(case.record.run.duration, trial.duration)
+        moved = (
+            case.record.run is not None and trial.duration is not None and far(case.record.run.duration, trial.duration)
+        )
         moved = moved or any(far(*pair) for variant in made for pair in changed_numbers(case, variant.text, trial))
         if not moved and not any(_moved(variant, trial) for variant in evidence.variants.values()):
             wanted = "a number twice as large, of the other sign, or a check that measures something else"
@@ -79,7 +81,9 @@ def marked(case: Case, evidence: Evidence) -> Iterator[Problem]:
             own = evidence.variants[variant].values[sweep.outcome.signal].get(take)
             there = [point.outcome for point in found.points if point.at == at and point.outcome is not None]
             if own is not None and there and abs(there[0] - own) > reach:
-                said = f"{variant} at {', '.join(f'{value:g}' for value in at.values())}, where {there[0]:.4g} is measured"
+                said = (
+                    f"{variant} at {', '.join(f'{value:g}' for value in at.values())}, where {there[0]:.4g} is measured"
+                )
                 wanted = f"a place with the outcome of {variant}: {own:.4g}"
                 yield case.problem(("sweep", name, "vary"), said, wanted, "correct `marks`")
 
@@ -117,4 +121,6 @@ def _apart(sweep: Sweep, here: Point, there: Point, name: str) -> bool:
     if sweep.holds is not None or here.outcome is None or there.outcome is None:
         return here.holds != there.holds if sweep.holds is not None else here.outcome != there.outcome
     largest, within = max(abs(here.outcome), abs(there.outcome)), sweep.prediction.within
-    return abs(here.outcome - there.outcome) > max(SEEN * largest, 2 * within * (largest if sweep.prediction.relative else 1))
+    return abs(here.outcome - there.outcome) > max(
+        SEEN * largest, 2 * within * (largest if sweep.prediction.relative else 1)
+    )

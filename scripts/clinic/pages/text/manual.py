@@ -70,8 +70,13 @@ def manual_problems(case: Case) -> Iterator[Problem]:
             repair = f"write {file}#{guess}" if guess else "correct the anchor"
             yield case.problem(("manual", index), found, f"an anchor: {listed(near)}", repair)
         elif anchor and not _spoken(case, file, anchor, known[anchor]):
-            found, wanted = f"#{anchor}, {known[anchor]}: the case speaks of no such thing", "what prose or an edit names"
-            yield case.problem(("manual", index), found, wanted, "correct the anchor, or say what it has to do with this")
+            found, wanted = (
+                f"#{anchor}, {known[anchor]}: the case speaks of no such thing",
+                "what prose or an edit names",
+            )
+            yield case.problem(
+                ("manual", index), found, wanted, "correct the anchor, or say what it has to do with this"
+            )
 
 
 def _spoken(case: Case, file: str, anchor: str, heading: str) -> bool:

@@ -36,9 +36,9 @@ def denied(case: Case, evidence: Evidence) -> Iterator[Problem]:
             sought = f'{name}="' if found[1] else ELEMENT[name]
             if sought in texts:
                 yield case.problem(where, found[0], f"files without {sought}", "correct the sentence", found[0])
-        if case.record.warnings and where == ("symptom",) and (found := NO_WARNING.search(text)):
+        if case.record.warnings and where == ("symptom",) and (silent := NO_WARNING.search(text)):
             wanted = f"the warning that it raises: {case.record.warnings[0]}"
-            yield case.problem(where, found[0], wanted, "correct the sentence", found[0])
+            yield case.problem(where, silent[0], wanted, "correct the sentence", silent[0])
 
 
 def functional(case: Case, evidence: Evidence) -> Iterator[Problem]:

@@ -18,16 +18,24 @@ SAME = 0.05  # the share by which two numbers that are called the same may diffe
 MORE = r"more than|larger than|greater than|longer than|higher than|faster than|above|beyond|exceeds?|over"
 LESS = r"less than|smaller than|shorter than|lower than|slower than|fewer than|below|short of|under|falls short of"
 OTHER = r"instead of|rather than|in place of|where it was|\bnot"
-BETWEEN = re.compile(rf"\b(?:(?P<more>{MORE})|(?P<less>{LESS})|(?P<other>{OTHER}))\s+(?:the\s+|its\s+)?$", re.IGNORECASE)
+BETWEEN = re.compile(
+    rf"\b(?:(?P<more>{MORE})|(?P<less>{LESS})|(?P<other>{OTHER}))\s+(?:the\s+|its\s+)?$", re.IGNORECASE
+)
+AGAINST = re.compile(rf"\b(?:{OTHER}|unlike|as against|compared with|from|without it)\s+(?:the\s+)?$", re.IGNORECASE)
 DENIED = re.compile(r"\b(?:not|never|no|neither|nor|without|cannot)\b", re.IGNORECASE)
 TO = re.compile(
     r"\b(?:(?P<more>rises|grows|climbs|increases|goes up)|(?P<less>falls|drops|shrinks|decreases|goes down)"
     r"|(?P<same>stays|remains|keeps))(?:\s+(?:to|at|on to))\s*$|\b(?P<still>is still|as much as|the same)\s*$",
     re.IGNORECASE,
 )
-AFTER = re.compile(r"^\s*,?\s*(?:(?P<same>(?:as before|as it was|still|again|all the same)(?=\s*[.,;:]|\s*$)))", re.IGNORECASE)
+AFTER = re.compile(
+    r"^\s*,?\s*(?:(?P<same>(?:as before|as it was|still|again|all the same)(?=\s*[.,;:]|\s*$)))", re.IGNORECASE
+)
 NEXT = re.compile(r"\b(?:next|then|later|afterwards|after that)\b", re.IGNORECASE)
-NOUN = re.compile(rf"\b(?:(?P<more>{MORE})|(?P<less>{LESS}))\s+(?:(?:the|its|their|this|that)\s+(?P<noun>[a-z]+)|\$(?P<symbol>\w+)\$)", re.IGNORECASE)
+NOUN = re.compile(
+    rf"\b(?:(?P<more>{MORE})|(?P<less>{LESS}))\s+(?:(?:the|its|their|this|that)\s+(?P<noun>[a-z]+)|\$(?P<symbol>\w+)\$)",
+    re.IGNORECASE,
+)
 
 
 @dataclass(frozen=True)
@@ -52,12 +60,13 @@ def compared(case: Case, evidence: Evidence) -> Iterator[Problem]:
             for left, right in pairwise(said):
                 yield from _two(case, where, sentence, left, right)
             for one in said:
+                yield from _of_broken(case, where, sentence, one, evidence)
                 yield from _of_one(case, where, sentence, one, evidence)
                 yield from _noun(case, where, sentence, one, said, evidence)
 
 
 def ordered(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 5, order. Of two numbers of a signal with *next* or *later* between them, the second is reached after the first."""
+    """Law 5, order. A number of a signal after *next* or *later* is reached after the one before."""
     for where, text in prose_of(case):
         for paragraph in re.split(r"\n[ \t]*\n", CODE.sub(_blank, text)):
             for left, right in pairwise(_numbers(paragraph, evidence)):
@@ -86,12 +95,21 @@ def _two(case: Case, where: Where, sentence: str, left: Said, right: Said) -> It
     if found["other"]:
         if _same(left.value, right.value):
             yield _problem(case, where, right, f"{found[0].strip()}, of two equal numbers", "numbers that differ")
-        elif where[0] == "refuted" and left.variant == "broken" and (left.signal, left.take) == (right.signal, right.take):
-            own = case.record.refuted[where[1]].id
-            if right.variant == own:
-                yield _problem(case, where, right, f"{found[0].strip()}, before the remedy's own number", "broken's there")
     else:
         yield from _held(case, where, found, left, left.value, right.value)
+
+
+def _of_broken(case: Case, where: Where, sentence: str, one: Said, evidence: Evidence) -> Iterator[Problem]:
+    """The broken variant's number in a remedy's `why`: words set it against the remedy's, where the two differ."""
+    index = where[1] if where[0] == "refuted" else None
+    if one.variant != "broken" or not isinstance(index, int):
+        return
+    own = evidence.variants[case.record.refuted[index].id].values[one.signal].get(one.take)
+    if own is not None and not _same(own, one.value) and not AGAINST.search(sentence[: one.start]):
+        wanted = (
+            f"a number of the remedy, or words that set it against that: instead of, not; the remedy's is {own:.4g}"
+        )
+        yield _problem(case, where, one, "a number of broken", wanted)
 
 
 def _of_one(case: Case, where: Where, sentence: str, one: Said, evidence: Evidence) -> Iterator[Problem]:
@@ -102,17 +120,23 @@ def _of_one(case: Case, where: Where, sentence: str, one: Said, evidence: Eviden
         return
     groups = found.groupdict()
     if groups.get("same") or groups.get("still"):
-        others = (each.values[one.signal].get(one.take) for key, each in evidence.variants.items() if key != one.variant)
+        others = (
+            each.values[one.signal].get(one.take) for key, each in evidence.variants.items() if key != one.variant
+        )
         if not any(other is not None and _same(one.value, other) for other in others):
             yield _problem(case, where, one, f"{found[0].strip(' ,')}: {one.value:.4g}", f"broken's, {before:.4g}")
     else:
         yield from _held(case, where, found, one, one.value, before)
 
 
-def _noun(case: Case, where: Where, sentence: str, one: Said, said: list[Said], evidence: Evidence) -> Iterator[Problem]:
+def _noun(
+    case: Case, where: Where, sentence: str, one: Said, said: list[Said], evidence: Evidence
+) -> Iterator[Problem]:
     """*Above the limit*: a number held against the one signal of its variant that bears the name."""
     for found in NOUN.finditer(sentence):
-        near = [each for each in said if each.end <= found.start()][-1:] or [each for each in said if each.start >= found.end()][:1]
+        near = [each for each in said if each.end <= found.start()][-1:] or [
+            each for each in said if each.start >= found.end()
+        ][:1]
         direct = [each for each in said if 0 <= each.start - found.end() <= 6]
         if (direct or near)[:1] != [one] or DENIED.search(sentence[max(0, found.start() - 30) : found.start()]):
             continue
@@ -133,7 +157,9 @@ def _held(case: Case, where: Where, found: re.Match[str], one: Said, here: float
     more = bool(found.groupdict().get("more"))
     if (here <= there) if more else (here >= there):
         said = " ".join(found[0].split())
-        yield _problem(case, where, one, f"{said}, though {here:.4g} is not", f"{'more' if more else 'less'} than {there:.4g}")
+        yield _problem(
+            case, where, one, f"{said}, though {here:.4g} is not", f"{'more' if more else 'less'} than {there:.4g}"
+        )
 
 
 def _problem(case: Case, where: Where, one: Said, found: str, wanted: str) -> Problem:

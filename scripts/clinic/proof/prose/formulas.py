@@ -30,7 +30,7 @@ def sides_as_latex(says: str) -> dict[str, str]:
 
 
 def formulas(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 5, equations. The sides of each agree with what was measured, within what the record says; wrong ones do not."""
+    """Law 5, equations. The sides of each agree with what was measured, those of a wrong one do not."""
     for name, formula in case.record.formulas.items():
         where, repair = ("formulas", name, "says"), "correct the equation or its `where`"
         try:
@@ -57,15 +57,15 @@ def mutants(says: str) -> Iterator[str]:
     for side in sides:
         called = {id(node.func) for node in ast.walk(side) if isinstance(node, ast.Call)}
         for node in ast.walk(side):
-            if isinstance(node, ast.Constant):
-                own, changed = "value", [2 * node.value, node.value / 2]
+            if isinstance(node, ast.Constant) and isinstance(node.value, int | float):
+                own, changed = "value", [str(2 * node.value), str(node.value / 2)]
             elif isinstance(node, ast.Name) and node.id != "pi" and id(node) not in called:
                 own, changed = "id", [f"(1.5 * {node.id})"]
             else:
                 continue
             kept = getattr(node, own)
             for value in changed:
-                setattr(node, own, value)
+                setattr(node, own, float(value) if own == "value" else value)
                 yield "".join(f"{ast.unparse(each)} {sign} " for each, sign in zip(sides, signs, strict=True)).strip()
             setattr(node, own, kept)
 

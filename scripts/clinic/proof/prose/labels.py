@@ -47,7 +47,9 @@ def computed(case: Case, evidence: Evidence) -> Iterator[Problem]:
         used = {type(node.op) for node in ast.walk(tree) if isinstance(node, ast.BinOp)}
         said = [word for word in ARITHMETIC if re.search(rf"\b{word}\b", signal.label)]
         lacking = [word for word in said if ARITHMETIC[word] not in used]
-        if signal.label.startswith("mean of") and not all(_between(tree, name, each.values) for each in evidence.variants.values()):
+        if signal.label.startswith("mean of") and not all(
+            _between(tree, name, each.values) for each in evidence.variants.values()
+        ):
             lacking.append("mean of")
         if lacking:
             wanted = f"arithmetic of which {lacking[0]!r} can be said"

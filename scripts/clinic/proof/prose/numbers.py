@@ -78,7 +78,9 @@ def titled(case: Case, evidence: Evidence) -> Iterator[Problem]:
         code = case.record.run is None  # its number may stand for the inverse: a count of steps for a timestep
         counted = bool(STEPS.search(title)) and not re.search(r"times|twice|half|divide", title, re.IGNORECASE)
         ratios = [] if counted else changed
-        allowed = {abs(after) for _, after in changed} | _and_ratios(ratios, up=code or not LESS.search(title), down=code or not MORE.search(title))
+        allowed = {abs(after) for _, after in changed} | _and_ratios(
+            ratios, up=code or not LESS.search(title), down=code or not MORE.search(title)
+        )
         if counted:
             allowed = {abs(after - before) for before, after in changed}
         if LESS.search(title) and "times" in title:
@@ -115,7 +117,10 @@ def _and_ratios(changed: Iterable[tuple[float, float]], up: bool, down: bool) ->
 def _values(number: str) -> list[float]:
     """What a number in a title may stand for: itself, in thousandths, or the factor that it names."""
     words = {"twice": 2.0, "double": 2.0, "halve": 2.0, "halving": 2.0, "doubling": 2.0, "dozen": 12.0}
-    words |= {word: float(n) for n, word in enumerate(["two", *SMALL.split()[:12]], 2)} | {"hundred": 100.0, "thousand": 1000.0}
+    words |= {word: float(n) for n, word in enumerate(["two", *SMALL.split()[:12]], 2)} | {
+        "hundred": 100.0,
+        "thousand": 1000.0,
+    }
     words |= {"fourth": 4.0, "fifth": 5.0, "tenth": 10.0, "hundredth": 100.0, "thousandth": 1000.0, "half": 2.0}
     if number.lower().startswith("half a"):
         return [0.5]

@@ -44,7 +44,10 @@ OPPOSITES = (
 DEGREE = re.compile(r"\b(?:half|twice|times) as \w+")
 ORDINALS = {"first": 0, "second": 1, "third": 2, "fourth": 3}
 ORDINAL = re.compile(rf"\b({'|'.join(ORDINALS)}) (number|column|row|entry|component|one)\b", re.IGNORECASE)
-AXIS = re.compile(r"\b([xyz])(?:'s)? (?:component|coordinate|part)\b|\b(?:along|of) (?:the world's )?([xyz])(?: axis)?\b|\b(vertical)\b")
+AXIS = re.compile(
+    r"\b([xyz])(?:'s)? (?:component|coordinate|part)\b|\b(?:along|of) (?:the world's )?([xyz])(?: axis)?\b"
+    r"|\b(vertical)\b"
+)
 PRINTED = re.compile(r"printed\(")
 ROWS = ("xmat", "frame", "mat")
 VECTORS = ("xpos", "xipos", "pos", "ipos", "xanchor", "xaxis", "gravity")
@@ -86,7 +89,7 @@ def valued(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 
 def indexed(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 5, components. *Third number*, *z component*, *vertical*: the signal's path has that index, so has a label's."""
+    """Law 5, components. *Third number*, *z component*, *vertical*: the signal's path has that index."""
     for name, signal in case.record.signals.items():
         if isinstance(signal, PathSignal):
             for word in _misplaced(signal, signal.label):
@@ -97,10 +100,10 @@ def indexed(case: Case, evidence: Evidence) -> Iterator[Problem]:
         for paragraph in re.split(r"\n[ \t]*\n", text):
             for field in FIELD.finditer(paragraph):
                 parts = field[1].partition("|")[0].strip().split(".")
-                signal = case.record.signals.get(parts[1]) if len(parts) == 3 else None
-                if isinstance(signal, PathSignal) and parts[0] in evidence.variants:
-                    for word in _misplaced(signal, beside(paragraph, field)):
-                        wanted, repair = f"the component that {signal.path} is", "correct the words or the field"
+                read = case.record.signals.get(parts[1]) if len(parts) == 3 else None
+                if isinstance(read, PathSignal) and parts[0] in evidence.variants:
+                    for word in _misplaced(read, beside(paragraph, field)):
+                        wanted, repair = f"the component that {read.path} is", "correct the words or the field"
                         yield case.problem(where, f"{word}, before {field[0]}", wanted, repair, field[0])
 
 

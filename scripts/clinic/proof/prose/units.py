@@ -104,7 +104,8 @@ def _computed(case: Case, name: str, signal: ExpressionSignal) -> Iterator[Probl
     if powers is None or own is None:
         return
     read = [part for key, part in parts.items() if part is not None and key in _named(tree)]
-    factors = [float(node.value) for node in ast.walk(tree) if isinstance(node, ast.Constant) and node.value in TENS]
+    constants = [node.value for node in ast.walk(tree) if isinstance(node, ast.Constant)]
+    factors = [float(value) for value in constants if isinstance(value, int | float) and value in TENS]
     if own.powers != powers or not _sized(own, read, factors):
         expected = "the unit of " + signal.expr
         yield case.problem(where, signal.unit or "no unit", expected, "correct the unit or the expression")

@@ -7,6 +7,9 @@ import io
 import re
 import tokenize
 from collections.abc import Iterator
+from functools import cache
+
+import mujoco
 
 from clinic.proof.evidence import Evidence
 from clinic.proof.prose.numbers import NUMBER
@@ -22,6 +25,8 @@ NO_WARNING = re.compile(r"\bno\s+(?:error\s+and\s+no\s+)?warning\b", re.IGNORECA
 FUNCTIONS = {"sine": "sin(", "cosine": "cos(", "tangent": "tan(", "logarithm": "log(", "exponential": "exp("}
 FUNCTION = re.compile(rf"\b({'|'.join(FUNCTIONS)})s?\b", re.IGNORECASE)
 EVER = re.compile(r"\b(?:always|never|in (?:each|every|any) case|impossible)\b", re.IGNORECASE)
+NAME = re.compile(r"`((?:(?:data|model|mujoco)\.)?[a-z_]+)`|`(mj[a-z]*_\w+)`")
+ELSEWHERE = ("nan", "undefined", "null", "inf")
 OPEN = ("symptom", "diagnosis", "cause")
 
 
@@ -39,6 +44,28 @@ def denied(case: Case, evidence: Evidence) -> Iterator[Problem]:
         if case.record.warnings and where == ("symptom",) and (silent := NO_WARNING.search(text)):
             wanted = f"the warning that it raises: {case.record.warnings[0]}"
             yield case.problem(where, silent[0], wanted, "correct the sentence", silent[0])
+
+
+def named(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, names. A bare name in code is one of the case's files, its snippet, MuJoCo's interface or of MJCF."""
+    remedies = [*case.record.fixes, *case.record.refuted]
+    written = [*case.texts.values(), case.record.snippet or "", evidence.snippet or "", *case.record.signals]
+    written += [f"{each.id} {' '.join(edit.replace for edit in each.edits)}" for each in remedies]
+    own = {word for text in written for word in re.findall(r"[\w-]+", text)}
+    for where, text in prose_of(case):
+        for span in (found[1] or found[2] for found in NAME.finditer(FIELD.sub("1", text))):
+            word = span.rpartition(".")[2]
+            if word not in own and word not in vocabulary():
+                wanted = "a name of the case's files, of its snippet, of MuJoCo or of MJCF"
+                yield case.problem(where, span, wanted, "correct the name", span)
+
+
+@cache
+def vocabulary() -> frozenset[str]:
+    """The names of MJCF, and of MuJoCo's functions, enumerations, fields and classes; a few of other languages."""
+    classes = (mujoco.MjData, mujoco.MjModel, mujoco.MjOption, mujoco.MjStatistic, mujoco.MjVisual, mujoco.MjContact)
+    known = {*re.findall(r"\w+", mujoco.mj_printSchema(False, False)), *dir(mujoco), *dir(mujoco.Renderer), *ELSEWHERE}
+    return frozenset(known.union(*(dir(each) for each in classes)))
 
 
 def functional(case: Case, evidence: Evidence) -> Iterator[Problem]:

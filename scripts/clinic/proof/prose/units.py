@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import math
+import re
 from collections.abc import Iterator
 
 import mujoco
@@ -14,7 +15,7 @@ from clinic.proof.evidence import Evidence
 from clinic.record.case import Case
 from clinic.record.expression import parse
 from clinic.record.fields import ExpressionSignal, PathSignal
-from clinic.record.problem import Problem
+from clinic.record.problem import Problem, listed
 from clinic.record.units import Unit, UnitError, powers_of, unit
 
 PLAIN = {
@@ -37,6 +38,26 @@ TURNED = {  # of a hinge, and of a slide
 }
 SENSORS = {"FORCE": "N", "TOUCH": "N", "TORQUE": "N m", "FRAMEPOS": "m", "VELOCIMETER": "m/s", "ACCELEROMETER": "m/s²"}
 SENSORS |= {"GYRO": "rad/s", "CLOCK": "s", "SUBTREECOM": "m", "RANGEFINDER": "m"}
+HINGE, SLIDE = int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE)
+QUANTITIES = {
+    "force": ("N",),
+    "torque": ("N m",),
+    "angle": ("rad", "°"),
+    "speed": ("m/s", "rad/s"),
+    "velocity": ("m/s", "rad/s"),
+    "height": ("m", ""),
+    "distance": ("m",),
+    "depth": ("m",),
+    "thickness": ("m",),
+    "radius": ("m",),
+    "mass": ("kg",),
+    "timestep": ("s",),
+    "time": ("s",),
+    "share": ("",),
+    "ratio": ("",),
+}
+"""The units of what a label says first."""
+QUANTITY = re.compile(rf"^(?:[a-z]+ )*?({'|'.join(QUANTITIES)})\b(?! constant| gain| term)")
 TENS = {10.0**power for power in range(-9, 10)} - {1.0}
 
 
@@ -44,7 +65,11 @@ def in_units(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 5, units. A signal's unit is that of the field it reads, or the one its arithmetic gives."""
     model = compile_model(case.text) if case.record.run is not None else None
     for name, signal in case.record.signals.items():
-        where = ("signals", name, "unit")
+        where, said, own = ("signals", name, "unit"), QUANTITY.search(signal.label), unit(signal.unit)
+        fitting = [unit(each) for each in QUANTITIES[said[1]]] if said else []
+        if said and own and not any(each is not None and each.powers == own.powers for each in fitting):
+            expected = f"a unit of {said[1]}: {listed(QUANTITIES[said[1]])}"
+            yield case.problem(where, signal.unit or "no unit", expected, "correct the unit or the label")
         if isinstance(signal, PathSignal) and model is not None:
             wanted = unit_of(model, parse_path(signal.path))
             if wanted is not None and unit(wanted) != unit(signal.unit):
@@ -68,7 +93,7 @@ def unit_of(model: mujoco.MjModel, path: Path) -> str | None:
     joint = _joint(model, path)
     if field not in TURNED or joint is None:
         return None
-    return TURNED[field][0 if model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_HINGE else 1]
+    return TURNED[field][0 if int(model.jnt_type[joint]) == HINGE else 1]
 
 
 def _joint(model: mujoco.MjModel, path: Path) -> int | None:
@@ -77,7 +102,7 @@ def _joint(model: mujoco.MjModel, path: Path) -> int | None:
         joint = model.joint(path.name).id
     elif path.kind == "actuator":
         moved = model.actuator(path.name)
-        if int(moved.trntype[0]) != mujoco.mjtTrn.mjTRN_JOINT or abs(moved.gear[0]) != 1:
+        if int(moved.trntype[0]) != int(mujoco.mjtTrn.mjTRN_JOINT) or abs(moved.gear[0]) != 1:
             return None
         joint = int(moved.trnid[0])
     elif not path.kind and path.index and path.field != "M" and path.index[0] < model.nv:
@@ -86,10 +111,7 @@ def _joint(model: mujoco.MjModel, path: Path) -> int | None:
         joint = 0
     else:
         return None
-    scalar = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE)
-    if model.jnt_type[joint] in scalar:
-        return int(joint)
-    return None
+    return int(joint) if int(model.jnt_type[joint]) in (HINGE, SLIDE) else None
 
 
 def _computed(case: Case, name: str, signal: ExpressionSignal) -> Iterator[Problem]:

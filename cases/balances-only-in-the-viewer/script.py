@@ -9,7 +9,7 @@ step_ns = round(1e9 * model.opt.timestep)
 
 
 def balance(speed):
-    """Simulates 10 s at so many times real time; returns the time upright and the calls."""
+    """Simulates at so many times real time; returns the time upright and the calls."""
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, model.key("start").id)
     clock = 0  # stands in for time.perf_counter_ns(), so that a run can be repeated

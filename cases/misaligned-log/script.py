@@ -6,7 +6,7 @@ torques = np.random.default_rng(0).uniform(-3, 3, size=100)
 
 
 def apply(data, torque):
-    """Holds the torque for one control period of 20 ms."""
+    """Holds the torque for one control period."""
     data.ctrl[0] = torque
     mujoco.mj_step(model, data, nstep=10)
 

@@ -12,6 +12,7 @@ from clinic.pages.case_page import case_page
 from clinic.pages.text.manual import manual_problems
 from clinic.proof.evidence import Evidence
 from clinic.proof.experiments import ALL, differential, measure_case
+from clinic.proof.filing import filing_problems
 from clinic.proof.laws import LAWS, breaches
 from clinic.proof.model_problems import check_against_model
 from clinic.record.case import Case, Reading, read_case, read_cases
@@ -51,7 +52,7 @@ def check_cases(root: Path, slugs: Iterable[str], cache: Cache) -> Iterator[Repo
     """Reads, runs and judges the cases of a checkout, one after the other."""
     read, problems = read_cases(root / "cases")
     known = {case.slug: case for case in read}
-    found = problems_by_case(problems)
+    found = problems_by_case([*problems, *filing_problems(known)])
     for slug in slugs:
         yield _check(root, slug, known, found.get(slug, []), cache)
 

@@ -13,13 +13,20 @@ from typing import Literal
 from clinic.engine.checks import expected
 from clinic.engine.simulate import compile_model
 from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
+from clinic.proof.bounds import bounded, differing, marked, varied
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
+from clinic.proof.prose.absences import bold, commented, denied, functional, named
+from clinic.proof.prose.comparisons import compared, ordered
 from clinic.proof.prose.formulas import formulas
-from clinic.proof.prose.labels import entitled, labelled
+from clinic.proof.prose.labels import computed, entitled, labelled
 from clinic.proof.prose.numbers import titled, typed
+from clinic.proof.prose.opposites import indexed, opposed, valued
 from clinic.proof.prose.signals import called, counted, within_its_sweep
+from clinic.proof.prose.titles import performed
+from clinic.proof.prose.units import in_units
 from clinic.proof.prose_laws import owned, quoted, stated, taken
-from clinic.proof.releases import differing, release_problems
+from clinic.proof.releases import differing as differing_releases
+from clinic.proof.releases import release_problems
 from clinic.proof.sweep import errors_at, format_values, unjudged_sides
 from clinic.proof.task import changes
 from clinic.proof.tightness import covers, value_of, words_of
@@ -179,13 +186,15 @@ def same_task(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 def released(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 10. Every release of MuJoCo that was measured does the same, or `older` says why not."""
-    yield from release_problems(case, differing(evidence))
+    yield from release_problems(case, differing_releases(evidence))
 
 
 LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
     law.__name__: law
     for law in (
         verdicts,
+        bounded,
+        differing,
         ablation,
         small_edits,
         repeatable,
@@ -195,16 +204,31 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         taken,
         called,
         counted,
+        compared,
+        ordered,
+        opposed,
+        valued,
+        indexed,
         within_its_sweep,
         labelled,
+        computed,
+        in_units,
         entitled,
         stated,
         formulas,
         owned,
         titled,
+        performed,
+        denied,
+        functional,
+        named,
+        bold,
+        commented,
         lasting,
         steady,
         swept,
+        varied,
+        marked,
         tightness,
         filmed,
         same_task,

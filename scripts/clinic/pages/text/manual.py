@@ -12,6 +12,9 @@ import mujoco
 from clinic.record.case import Case
 from clinic.record.problem import Problem, closest, listed
 
+REFERENCE = "XMLreference.html"
+SPAN = re.compile(r"`([^`]+)`")
+CODE_WORD = re.compile(r"[A-Za-z_]{4,}")
 LABEL = re.compile(r"^\.\. _([A-Za-z][\w-]*):\s*$")
 RULE = re.compile(r"^([=\-~^\"'`#*+.])\1{2,}$")
 
@@ -66,3 +69,34 @@ def manual_problems(case: Case) -> Iterator[Problem]:
             near = [name for name in known if name.startswith(anchor[:4])] or list(known)
             repair = f"write {file}#{guess}" if guess else "correct the anchor"
             yield case.problem(("manual", index), found, f"an anchor: {listed(near)}", repair)
+        elif anchor and not _spoken(case, file, anchor, known[anchor]):
+            found, wanted = (
+                f"#{anchor}, {known[anchor]}: the case speaks of no such thing",
+                "what prose or an edit names",
+            )
+            yield case.problem(
+                ("manual", index), found, wanted, "correct the anchor, or say what it has to do with this"
+            )
+
+
+def _spoken(case: Case, file: str, anchor: str, heading: str) -> bool:
+    """Whether the record names the attribute; of a section, a word of its heading, code or a tag that stands in it."""
+    told = case.record.model_dump_json(exclude={"manual", "see", "tags"})
+    if file == REFERENCE:
+        return any(re.search(rf"(?<![a-z]){word}", told) for word in re.findall(r"\w+", heading))
+    named = [word for word in re.findall(r"[a-z]+", heading.lower()) if len(word) > 3]
+    code, passage = set(CODE_WORD.findall(" ".join(SPAN.findall(told)))), passage_words(file, anchor)
+    code |= {*case.record.tags}
+    return not passage or bool(code & passage) or any(word[:6] in told.lower() for word in named)
+
+
+@cache
+def passage_words(page: str, anchor: str) -> set[str]:
+    """The words of what stands at a label, and at the next one; empty if the anchor is that of a heading."""
+    source = (Path(mujoco.__file__).parent / "doc" / Path(page).with_suffix(".rst")).read_text(encoding="utf-8")
+    passages = re.split(r"^\.\. _", source, flags=re.MULTILINE)[1:]
+    labels = [re.sub(r"[^a-z0-9]+", "-", passage.partition(":")[0].lower()).strip("-") for passage in passages]
+    if anchor not in labels:
+        return set()
+    place = labels.index(anchor)
+    return set(CODE_WORD.findall(" ".join(passages[place : place + 2])))

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
+
+import numpy as np
 
 from clinic.proof.evidence import Evidence
 from clinic.record.case import Case
@@ -26,7 +30,7 @@ def sides_as_latex(says: str) -> dict[str, str]:
 
 
 def formulas(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 5, equations. The sides of each agree with what was measured, within what the record says."""
+    """Law 5, equations. The sides of each agree with what was measured, those of a wrong one do not."""
     for name, formula in case.record.formulas.items():
         where, repair = ("formulas", name, "says"), "correct the equation or its `where`"
         try:
@@ -38,6 +42,32 @@ def formulas(case: Case, evidence: Evidence) -> Iterator[Problem]:
         if not apart <= formula.within:
             found = f"{formula.says}: its sides differ by {100 * apart:.3g} % of the largest"
             yield case.problem(where, found, f"at most {100 * formula.within:g} % for {formula.of}", repair)
+            continue
+        for wrong in mutants(formula.says):
+            with suppress(ExpressionError), np.errstate(invalid="ignore"):
+                if largest_difference(case, evidence, formula.model_copy(update={"says": wrong})) <= formula.within:
+                    found, wanted = f"agrees as well when it says {wrong}", "an equation of which a wrong one disagrees"
+                    repair = "lessen `within`, or choose an `of` that can tell"
+                    yield case.problem((*where[:2], "within"), found, wanted, repair)
+
+
+def mutants(says: str) -> Iterator[str]:
+    """The equation with each of its numbers doubled and halved, and each of its symbols half as large again."""
+    sides, signs = [parse(side) for side in RELATION.split(says)], [*RELATION.findall(says), ""]
+    for side in sides:
+        called = {id(node.func) for node in ast.walk(side) if isinstance(node, ast.Call)}
+        for node in ast.walk(side):
+            if isinstance(node, ast.Constant) and isinstance(node.value, int | float):
+                own, changed = "value", [str(2 * node.value), str(node.value / 2)]
+            elif isinstance(node, ast.Name) and node.id != "pi" and id(node) not in called:
+                own, changed = "id", [f"(1.5 * {node.id})"]
+            else:
+                continue
+            kept = getattr(node, own)
+            for value in changed:
+                setattr(node, own, float(value) if own == "value" else value)
+                yield "".join(f"{ast.unparse(each)} {sign} " for each, sign in zip(sides, signs, strict=True)).strip()
+            setattr(node, own, kept)
 
 
 def largest_difference(case: Case, evidence: Evidence, formula: Formula) -> float:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from xml.etree import ElementTree
 
 from clinic.engine.quotation import attributes
@@ -15,6 +16,8 @@ from clinic.record.fields import ExpressionSignal, PathSignal
 from clinic.record.problem import Problem, listed
 
 NAMED = re.compile(r"\(([^)]*)\)")
+ARITHMETIC = {"minus": ast.Sub, "plus": ast.Add, "ratio": ast.Div, "divided by": ast.Div, "share": ast.Div}
+TINY = 1e-12
 PRINTED = re.compile(r"printed\((.*)\)")
 
 
@@ -33,6 +36,32 @@ def labelled(case: Case, evidence: Evidence) -> Iterator[Problem]:
         if lines and lines[0] and _plain(lines[0]) != _plain(signal.unit):
             expected = f"the unit that is printed: {lines[0]}"
             yield case.problem(("signals", name, "unit"), signal.unit or "no unit", expected, "correct one of them")
+
+
+def computed(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, arithmetic. A label that says *mean of*, *minus*, *ratio*, ... is of an expression that computes it."""
+    for name, signal in case.record.signals.items():
+        if not isinstance(signal, ExpressionSignal):
+            continue
+        tree = parse(signal.expr)
+        used = {type(node.op) for node in ast.walk(tree) if isinstance(node, ast.BinOp)}
+        said = [word for word in ARITHMETIC if re.search(rf"\b{word}\b", signal.label)]
+        lacking = [word for word in said if ARITHMETIC[word] not in used]
+        if signal.label.startswith("mean of") and not all(
+            _between(tree, name, each.values) for each in evidence.variants.values()
+        ):
+            lacking.append("mean of")
+        if lacking:
+            wanted = f"arithmetic of which {lacking[0]!r} can be said"
+            repair = "correct the label or the expression"
+            yield case.problem(("signals", name, "expr"), f"{signal.label}: {signal.expr}", wanted, repair)
+
+
+def _between(tree: ast.expr, name: str, values: Mapping[str, Mapping[str, float | None]]) -> bool:
+    """Whether an expression's last value lies between those of the signals that it reads."""
+    parts, own = [values[part].get("final") for part in names(tree)], values[name].get("final")
+    known = [part for part in parts if part is not None]
+    return own is None or not known or min(known) - TINY <= own <= max(known) + TINY
 
 
 def entitled(case: Case, evidence: Evidence) -> Iterator[Problem]:

@@ -1,0 +1,126 @@
+"""Laws of what a check, a trial and a sweep can tell: bounds near what is measured, situations that differ."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+from typing import TYPE_CHECKING, Literal
+
+from clinic.engine.checks import expected
+from clinic.engine.variant import variants
+from clinic.proof.trials import changed_numbers, checks_in, far
+from clinic.record.case import Case
+from clinic.record.fields import Check, Trial
+from clinic.record.problem import Problem
+from clinic.record.sweep import Sweep
+from clinic.record.yaml_lines import Where
+
+if TYPE_CHECKING:
+    from clinic.proof.evidence import Evidence, VariantEvidence
+    from clinic.proof.sweep import Point
+
+Kind = Literal["broken", "fixed"]
+REACH = 12.0  # how many times the number that it admits a bound may be
+SEEN = 0.01  # the share by which the outcome of a sweep changes
+APART = 0.25  # the share of its range by which a mark's outcome may differ: a sweep may be shorter than the run
+MOVED = 0.1  # the share by which a trial changes some number that is checked
+
+
+def bounded(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 1, bounds. A check's bound is near some number that it admits, for a bound far away admits whatever comes."""
+    for trial in (None, *case.record.trials):
+        kinds: tuple[Kind, Kind] = ("broken", "fixed")
+        for kind in kinds:
+            if trial is not None and (trial.checks is None or getattr(trial.checks, kind) is None):
+                continue
+            for index, check in enumerate(getattr(checks_in(case.record, trial), kind)):
+                admitted = _admitted(evidence, trial, kind, index)
+                if admitted and all(_loose(check, measured) for measured in admitted):
+                    where: Where = ("checks", kind, index)
+                    if trial is not None:
+                        where = ("trials", case.record.trials.index(trial), "checks", kind, index)
+                    shown = " and ".join(f"{measured:.4g}" for measured in admitted)
+                    wanted, repair = f"a bound near what it admits: {shown}", "tighten the bound"
+                    yield case.problem(where, f"{check.signal} ({check.take}) {expected(check)}", wanted, repair)
+
+
+def differing(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 7, trials. Each changes a number by a factor of two, or in sign, or else some number that is checked."""
+    made = variants(case)
+    for index, trial in enumerate(case.record.trials):
+        moved = (
+            case.record.run is not None and trial.duration is not None and far(case.record.run.duration, trial.duration)
+        )
+        moved = moved or any(far(*pair) for variant in made for pair in changed_numbers(case, variant.text, trial))
+        if not moved and not any(_moved(variant, trial) for variant in evidence.variants.values()):
+            wanted = "a number twice as large, of the other sign, or a check that measures something else"
+            found = f"{trial.id}: as the run, to within {100 * MOVED:g} %"
+            yield case.problem(("trials", index), found, wanted, "change the situation further, or remove the trial")
+
+
+def varied(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """A sweep's outcome changes with each of its parameters."""
+    for name, sweep in case.record.sweep.items():
+        points = evidence.sweep[name].points
+        for index, parameter in enumerate(sweep.vary):
+            if not any(_apart(sweep, a, b, parameter.name) for a, b in combinations(points, 2)):
+                found = f"{parameter.name}: the same outcome whatever it is"
+                wanted = "points at which the outcome changes"
+                yield case.problem(("sweep", name, "vary", index), found, wanted, "vary it further, or leave it out")
+
+
+def marked(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """A variant that is marked in a sweep has the outcome that was measured there."""
+    for name, sweep in case.record.sweep.items():
+        found, take = evidence.sweep[name], sweep.outcome.take
+        outcomes = [point.outcome for point in found.points if point.outcome is not None]
+        if sweep.edits or not outcomes or sweep.outcome.window is not None:
+            continue
+        reach = APART * (max(outcomes) - min(outcomes))
+        for variant, at in found.marks.items():
+            own = evidence.variants[variant].values[sweep.outcome.signal].get(take)
+            there = [point.outcome for point in found.points if point.at == at and point.outcome is not None]
+            if own is not None and there and abs(there[0] - own) > reach:
+                said = (
+                    f"{variant} at {', '.join(f'{value:g}' for value in at.values())}, where {there[0]:.4g} is measured"
+                )
+                wanted = f"a place with the outcome of {variant}: {own:.4g}"
+                yield case.problem(("sweep", name, "vary"), said, wanted, "correct `marks`")
+
+
+def _admitted(evidence: Evidence, trial: Trial | None, kind: Kind, index: int) -> list[float]:
+    """What a check measured in the variants of which it is asked."""
+    asked = [each for each in evidence.variants.values() if each.kind == ("broken" if kind == "broken" else "fix")]
+    results = [(each.checks if trial is None else each.trials[trial.id])[kind][index] for each in asked]
+    return [result.measured for result in results if result.measured is not None]
+
+
+def _loose(check: Check, measured: float) -> bool:
+    """Whether the bound is far from a number: more than REACH times it, or less than its part; 0 is near to all."""
+    size = abs(measured)
+    if not size:
+        return False
+    if check.equals is not None:
+        return (check.within or 0.0) > max(size, abs(check.equals)) / 2 and check.equals != 0
+    low, high = check.between or (check.above, check.below)
+    ends = [end for end in (low, high) if end is not None]
+    return any(not size / REACH <= abs(end) <= size * REACH for end in ends)
+
+
+def _moved(variant: VariantEvidence, trial: Trial) -> bool:
+    """Whether a number that a trial checks differs from that of the run."""
+    results = [result for kind in variant.trials[trial.id].values() for result in kind]
+    pairs = [(variant.values[each.signal].get(each.take), each.measured) for each in results if each.window is None]
+    return any(a is None or b is None or abs(a - b) > MOVED * max(abs(a), abs(b)) for a, b in pairs)
+
+
+def _apart(sweep: Sweep, here: Point, there: Point, name: str) -> bool:
+    """Whether two points differ in one parameter alone, and in the outcome by more than the sweep leaves open."""
+    if [key for key in here.at if here.at[key] != there.at[key]] != [name]:
+        return False
+    if sweep.holds is not None or here.outcome is None or there.outcome is None:
+        return here.holds != there.holds if sweep.holds is not None else here.outcome != there.outcome
+    largest, within = max(abs(here.outcome), abs(there.outcome)), sweep.prediction.within
+    return abs(here.outcome - there.outcome) > max(
+        SEEN * largest, 2 * within * (largest if sweep.prediction.relative else 1)
+    )

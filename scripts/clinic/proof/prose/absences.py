@@ -1,0 +1,120 @@
+"""Law 5, what there is and is not: what prose denies, the functions that it names, and what it says of ever."""
+
+from __future__ import annotations
+
+import functools
+import io
+import re
+import tokenize
+from collections.abc import Iterator
+from functools import cache
+
+import mujoco
+
+from clinic.proof.evidence import Evidence
+from clinic.proof.prose.numbers import NUMBER
+from clinic.proof.prose_laws import prose_of
+from clinic.record.case import Case
+from clinic.record.problem import Problem
+from clinic.record.prose import CODE, FIELD
+
+DENIED = re.compile(r"\bno\s+`([a-z_]+)`|\bno\s+(motor|servo|equality|tendon|sensor|keyframe|damper)\b", re.IGNORECASE)
+ELEMENT = {"motor": "<motor", "servo": "<position", "equality": "<equality", "tendon": "<tendon", "sensor": "<sensor"}
+ELEMENT |= {"keyframe": "<keyframe", "damper": 'damping="'}
+NO_WARNING = re.compile(r"\bno\s+(?:error\s+and\s+no\s+)?warning\b", re.IGNORECASE)
+FUNCTIONS = {"sine": "sin(", "cosine": "cos(", "tangent": "tan(", "logarithm": "log(", "exponential": "exp("}
+FUNCTION = re.compile(rf"\b({'|'.join(FUNCTIONS)})s?\b", re.IGNORECASE)
+EVER = re.compile(r"\b(?:always|never|in (?:each|every|any) case|impossible)\b", re.IGNORECASE)
+NAME = re.compile(r"`((?:(?:data|model|mujoco)\.)?[a-z_]+)`|`(mj[a-z]*_\w+)`")
+ELSEWHERE = ("nan", "undefined", "null", "inf")
+OPEN = ("symptom", "diagnosis", "cause")
+
+
+def denied(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, absence. What prose says the broken variant has none of is not in its files, and it raises no warning."""
+    texts = "\n".join(case.texts.values())
+    for where, text in prose_of(case):
+        if where[0] not in OPEN:
+            continue
+        for found in DENIED.finditer(FIELD.sub("", text)):
+            name = (found[1] or found[2]).lower()
+            sought = f'{name}="' if found[1] else ELEMENT[name]
+            if sought in texts:
+                yield case.problem(where, found[0], f"files without {sought}", "correct the sentence", found[0])
+        if case.record.warnings and where == ("symptom",) and (silent := NO_WARNING.search(text)):
+            wanted = f"the warning that it raises: {case.record.warnings[0]}"
+            yield case.problem(where, silent[0], wanted, "correct the sentence", silent[0])
+
+
+def named(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, names. A bare name in code is one of the case's files, its snippet, MuJoCo's interface or of MJCF."""
+    remedies = [*case.record.fixes, *case.record.refuted]
+    written = [*case.texts.values(), case.record.snippet or "", evidence.snippet or "", *case.record.signals]
+    written += [f"{each.id} {' '.join(edit.replace for edit in each.edits)}" for each in remedies]
+    own = {word for text in written for word in re.findall(r"[\w-]+", text)}
+    for where, text in prose_of(case):
+        for span in (found[1] or found[2] for found in NAME.finditer(FIELD.sub("1", text))):
+            word = span.rpartition(".")[2]
+            if word not in own and word not in vocabulary():
+                wanted = "a name of the case's files, of its snippet, of MuJoCo or of MJCF"
+                yield case.problem(where, span, wanted, "correct the name", span)
+
+
+@cache
+def vocabulary() -> frozenset[str]:
+    """The names of MJCF, and of MuJoCo's functions, enumerations, fields and classes; a few of other languages."""
+    classes = (mujoco.MjData, mujoco.MjModel, mujoco.MjOption, mujoco.MjStatistic, mujoco.MjVisual, mujoco.MjContact)
+    known = {*re.findall(r"\w+", mujoco.mj_printSchema(False, False)), *dir(mujoco), *dir(mujoco.Renderer), *ELSEWHERE}
+    return frozenset(known.union(*(dir(each) for each in classes)))
+
+
+def functional(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, functions. A sine, cosine, ... in prose is one that a formula, a sweep, its legend or the snippet has."""
+    record = case.record
+    known = record.model_dump_json(include={"formulas", "signals", "snippet"})
+    known += "".join(sweep.model_dump_json(exclude={"text", "title"}) for sweep in record.sweep.values())
+    known += "".join(case.texts.values())
+    for where, text in prose_of(case):
+        for found in FUNCTION.finditer(CODE.sub("", FIELD.sub("", text))):
+            word = found[1].lower()
+            if not re.search(rf"(?<![a-z]){re.escape(FUNCTIONS[word])}|\b{word}\b", known):
+                wanted = "a function that a formula, a sweep or the snippet computes"
+                yield case.problem(where, found[0], wanted, "correct it, or write it under `formulas`", found[0])
+
+
+def bold(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, no claim wider than what was run. *Always* and *never* stand in a sentence with a number of a run."""
+    for where, text in prose_of(case):
+        for sentence in re.split(r"(?<=[.?!])\s|\n[ \t]*\n", text):
+            if (found := EVER.search(CODE.sub("", FIELD.sub("", sentence)))) and not FIELD.search(sentence):
+                wanted, repair = "a sentence with the number that shows it", "say what was seen, or add the number"
+                yield case.problem(where, found[0], wanted, repair, found[0])
+
+
+def commented(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, comments. A number in a comment or a docstring of the case's files stands in the code as well."""
+    for name, text in case.texts.items():
+        comments = list(_comments(name, text))
+        code = functools.reduce(lambda left, comment: left.replace(comment[1], ""), comments, text)
+        for line, comment in comments:
+            for found in NUMBER.finditer(comment):
+                if re.search(rf"(?<![\w.]){re.escape(found[0])}(?![\w.])", code):
+                    continue
+                wanted, repair = "a number that stands in the code", "say it without a number"
+                said = f"{found[0]!r} in a comment"
+                yield Problem(f"cases/{case.slug}/{name}", line, "", said, wanted, repair)
+
+
+def _comments(name: str, text: str) -> Iterator[tuple[int, str]]:
+    """The comments and docstrings of a file, each with the line where it begins."""
+    if name.endswith(".py"):
+        previous = tokenize.NEWLINE
+        for token in tokenize.generate_tokens(io.StringIO(text).readline):
+            starts = previous in (tokenize.NEWLINE, tokenize.INDENT, tokenize.NL)
+            if token.type == tokenize.COMMENT or (token.type == tokenize.STRING and starts):
+                yield token.start[0], token.string
+            previous = token.type
+        return
+    pattern = r"//[^\n]*|/\*.*?\*/" if name.endswith(".mjs") else r"<!--.*?-->"
+    for found in re.finditer(pattern, text, re.DOTALL):
+        yield text.count("\n", 0, found.start()) + 1, found[0]

@@ -1,0 +1,155 @@
+"""A wheel is not round about its hinge: its cylinder lies across the axis, or its shape is a box.
+
+A cylinder's axis is its own z, whatever the hinge's is. A wheel whose cylinder stands across its hinge bumps along, or
+does not turn at all; so does a box.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="5 5 0.1"/>
+        <body name="cart" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.02" mass="2"/>
+          <body name="wheel" pos="0 0.15 0">
+            <joint name="axle" axis="0 1 0"/>
+            <geom type="cylinder" size="0.1 0.02" mass="0.3"/>
+          </body>
+          <body name="other" pos="0 -0.15 0">
+            <joint name="other" axis="0 1 0"/>
+            <geom type="cylinder" size="0.1 0.02" mass="0.3" zaxis="0 1 0"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="5 5 0.1"/>
+        <body name="cart" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.02" mass="2"/>
+          <body name="wheel" pos="0 0.15 0">
+            <joint name="axle" axis="0 1 0"/>
+            <geom type="cylinder" size="0.1 0.02" mass="0.3" zaxis="0 1 0"/>
+          </body>
+          <body name="other" pos="0 -0.15 0">
+            <joint name="other" axis="0 1 0"/>
+            <geom type="cylinder" size="0.1 0.02" mass="0.3" zaxis="0 1 0"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: how much the wheel's radius varies over a turn about its hinge, as a share of its mean; above 10 % is told.
+A wheel is the last body of a mechanism on a hinge without limits, whose one colliding cylinder or box is centred on the
+hinge. A cylinder is turned; for a box there is only a hint.
+
+When it is wrong: a cam, a propeller, a stirrer.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import product
+
+from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
+from clinic.diagnosis.engine import BOX, CYLINDER, HINGE
+from clinic.diagnosis.probes.shape import solid
+from clinic.diagnosis.probes.vector import Vector, add, cross, dot, norm, of_quaternion, sub, times, unit, written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A wheel that is not round"
+FAMILIES = ("stuck", "drifts", "oscillates")
+SINCE = "0.2"
+
+VARIES, CENTRED = 0.1, 0.2
+ANGLES = 24
+TURNED = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Cylinders and boxes on free-turning hinges that are not round about them."""
+    of = model.simulation
+    for joint, geom in _wheels(of):
+        varies = _varies(of, joint, geom)
+        if varies <= VARIES:
+            continue
+        kind = int(of.model("geom_type")[geom])
+        edits = _edits(model, joint, geom) if kind == CYLINDER else ()
+        what = "cylinder lies across the hinge" if kind == CYLINDER else "shape is a box"
+        yield Suspect(
+            (of.name("geom", geom), of.name("joint", joint)),
+            "zaxis",
+            "",
+            edits[-1].value if edits else "",
+            edits,
+            Probe(
+                "radius over a turn about the hinge, varies by", "of its mean", _varies, (joint, geom), dynamic=False
+            ),
+            VARIES,
+            f"Its {what}: over a turn its radius varies by {100 * varies:.0f} %.",
+            "the cylinder's z along the hinge",
+        )
+
+
+def _wheels(simulation: Simulation) -> Iterator[tuple[int, int]]:
+    parents = {int(body) for body in simulation.model("body_parentid")[1:]}
+    for joint in range(simulation.count("joint")):
+        body = int(simulation.model("jnt_bodyid")[joint])
+        if simulation.joint_type(joint) != HINGE or simulation.model("jnt_limited")[joint] or body in parents:
+            continue
+        geoms = [geom for geom in simulation.geoms_of(body) if solid(simulation, geom)]
+        kinds = [int(simulation.model("geom_type")[geom]) for geom in geoms]
+        if len(simulation.joints_of(body)) == 1 and len(geoms) == 1 and kinds[0] in (CYLINDER, BOX):
+            off = sub(simulation.row("geom_pos", geoms[0], 3), simulation.row("jnt_pos", joint, 3))
+            axis = simulation.row("jnt_axis", joint, 3)
+            aside = norm(sub(off, tuple(dot(off, axis) * x for x in axis)))
+            if aside < CENTRED * simulation.model("geom_rbound")[geoms[0]] and _level(simulation, joint):
+                yield joint, geoms[0]
+
+
+def _level(simulation: Simulation, joint: int) -> bool:
+    """Whether the hinge lies level at the start."""
+    simulation.begin()
+    return abs(simulation.data_row("xaxis", joint, 3)[2]) < 0.3
+
+
+def _varies(simulation: Simulation, joint: int, geom: int) -> float:
+    axis = simulation.row("jnt_axis", joint, 3)
+    frame = of_quaternion(simulation.row("geom_quat", geom, 4))
+    anchor = simulation.row("jnt_pos", joint, 3)
+    place = sub(simulation.row("geom_pos", geom, 3), anchor)
+    points = [add(place, times(frame, point)) for point in _points(simulation, geom)]
+    first = unit(cross(axis, (1.0, 0.0, 0.0) if abs(axis[0]) < 0.9 else (0.0, 1.0, 0.0)))
+    second = cross(axis, first)
+    radii = []
+    for turn in range(ANGLES):
+        angle = 2 * math.pi * turn / ANGLES
+        way = add(tuple(math.cos(angle) * x for x in first), second, math.sin(angle))
+        radii.append(max(dot(point, way) for point in points))
+    return (max(radii) - min(radii)) * len(radii) / sum(radii)
+
+
+def _points(simulation: Simulation, geom: int) -> list[Vector]:
+    a, b, c = simulation.row("geom_size", geom, 3)
+    if int(simulation.model("geom_type")[geom]) == BOX:
+        return [(x * a, y * b, z * c) for x, y, z in product((-1, 1), repeat=3)]
+    rim = [2 * math.pi * i / (2 * ANGLES) for i in range(2 * ANGLES)]
+    return [(a * math.cos(angle), a * math.sin(angle), z) for angle in rim for z in (-b, b)]
+
+
+def _edits(model: ReaderModel, joint: int, geom: int) -> tuple[Edit, ...]:
+    element = model.element("geom", geom)
+    if element is None or model.value("geom", geom, "fromto") or model.source is None or model.source.urdf:
+        return ()
+    if any(name not in element.attributes and model.value("geom", geom, name) for name in TURNED):
+        return ()
+    gone = [remove_attribute(element, name) for name in TURNED if name in element.attributes and name != "zaxis"]
+    axis = model.simulation.row("jnt_axis", joint, 3)
+    return (*gone, set_attribute(element, "zaxis", written(axis)))

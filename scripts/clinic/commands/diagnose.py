@@ -24,9 +24,7 @@ class _Diagnose(TyperCommand):
 
 @app.command(cls=_Diagnose)
 def diagnose(
-    models: Annotated[
-        list[str], typer.Argument(metavar="MODEL...", help="MJCF or URDF files; `-`: standard input.")
-    ] = [],  # noqa: B006
+    models: Annotated[list[str], typer.Argument(metavar="MODEL", help="MJCF or URDF files; `-`: standard input.")] = [],  # noqa: B006
     symptom: Annotated[str, typer.Option(help="What you see, as slips, or in your words: its causes come first.")] = "",
     keyframe: Annotated[str | None, typer.Option(help="Start from this keyframe, by name or number.")] = None,
     ctrl: Annotated[list[str], typer.Option(help="name=value, or a CSV or NPZ with a column `time`.")] = [],  # noqa: B006
@@ -44,7 +42,7 @@ def diagnose(
     select: Rules = [],  # noqa: B006
     ignore: Annotated[list[str], typer.Option(help="Not this rule; may be repeated.")] = [],  # noqa: B006
 ) -> None:
-    """Say what is wrong with your own model; exit code 0 if nothing is found, 1 for a cause, 2 if it cannot be run."""
+    """Say what is wrong with your own model; exit code 0 if no cause is found, 1 for a cause, 2 if it cannot be run."""
     from clinic.commands import terminal
     from clinic.commands.diagnosis_options import STDIN, OptionError, check_rules, family_of, read_source, start_of
     from clinic.commands.diagnosis_output import check_output, printed, write_fix

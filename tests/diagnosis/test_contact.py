@@ -47,7 +47,6 @@ WELL = {
 ILL = {
     "masks": FLOOR + BOX.format(z=0.5, more=' contype="0" conaffinity="0"'),
     "friction-too-high": FLOOR + BOX.format(z=0.05, more=' friction="50"'),
-    "soft-contact": FLOOR + BOX.format(z=0.05, more=' solref="1 1" priority="1"'),
     "margin": FLOOR + BOX.format(z=0.3, more=' margin="0.1"'),
     "overlap-at-start": '<geom type="box" pos="0 0 0.1" size="0.3 0.3 0.1"/>' + BOX.format(z=0.2, more=""),
 }
@@ -70,7 +69,7 @@ def test_all_geoms_of_a_default_class_are_mended_by_one_edit(tmp_path, monkeypat
         '<body pos="0 0 0.05"><freejoint/><geom type="box" size="0.05 0.05 0.05"/></body>'
         '<body pos="1 0 0.05"><freejoint/><geom type="box" size="0.05 0.05 0.05"/></body></worldbody></mujoco>'
     )
-    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["soft-contact"]).causes
+    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["soft-contact"]).hints
     assert [each.element for each in found.edit] == ["geom"]
     assert len(found.elements) == 3
 

@@ -179,7 +179,7 @@ def _unlawful(rule: Rule, found: Score) -> Iterator[str]:
         return
     if found.harmful < ENOUGH:
         yield f'{found.harmful} harmful faults are planted for it, {ENOUGH} are needed: LEVEL = "hint" in its module'
-    elif found.harmful - found.found > max(1, (1 - LEAST) * found.harmful):  # of three or four, one may be missed
+    elif found.share < LEAST and found.harmful - found.found > 1:  # of three or four, one may be missed
         yield (
             f"it finds {found.found} of {found.harmful} harmful faults, a cause finds {LEAST:.0%}: "
             'mend it, or LEVEL = "hint" in its module'

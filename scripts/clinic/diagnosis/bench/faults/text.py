@@ -170,16 +170,13 @@ def body_without_mass(model: ReaderModel, random: Random) -> Fault | None:
 
 @kind("invalid-value", harms=DOES_NOT_COMPILE)
 def value_invalid(model: ReaderModel, random: Random) -> Fault | None:
-    """A range that is reversed, a size or an axis of zero, a type that MuJoCo does not know."""
-    found = [(e, n) for e in _elements(model, "geom", "joint") for n in ("size", "axis", "type", "range") if e.get(n)]
+    """A size or an axis of zero, a type that MuJoCo does not know."""
+    found = [(e, n) for e in _elements(model, "geom", "joint") for n in ("size", "axis", "type") if e.get(n)]
     if not found:
         return None
     element, name = random.choice(found)
     words = element.get(name).split()
-    if name == "range" and float(words[0]) == float(words[1]):
-        return None
-    swapped = {"range": " ".join(reversed(words)), "type": words[0][0] + words[0]}
-    value = swapped.get(name, " ".join("0" for _ in words))
+    value = words[0][0] + words[0] if name == "type" else " ".join("0" for _ in words)
     return Fault((set_attribute(element, name, value),), (), name)
 
 

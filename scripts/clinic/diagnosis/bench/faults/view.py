@@ -29,16 +29,23 @@ def touch_site_small(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((set_attribute(element, "size", size),), names, "size", factor)
 
 
-def _camera(model: ReaderModel, random: Random) -> tuple[int, Element] | None:
+STEEP = 0.9  # of the view along the vertical: then an image has no upper side
+
+
+def _camera(model: ReaderModel, random: Random, *, level: bool = False) -> tuple[int, Element] | None:
     modes = model.simulation.model("cam_mode")
     found = [(i, model.element("camera", i)) for i in written(model, "camera") if modes[i] < 3]
+    if level:
+        model.simulation.begin()
+        views = model.simulation.data("cam_xmat")[8::9]
+        found = [(i, element) for i, element in found if abs(views[i]) < STEEP]
     placed = [(i, element) for i, element in found if element is not None]
     return random.choice(placed) if placed else None
 
 
 def _turned(model: ReaderModel, random: Random, axis: int) -> Fault | None:
     """A camera turned by 180 degrees about an axis of its image."""
-    if (chosen := _camera(model, random)) is None:
+    if (chosen := _camera(model, random, level=axis == 2)) is None:
         return None
     i, element = chosen
     w, x, y, z = model.simulation.row("cam_quat", i, 4)
@@ -50,7 +57,7 @@ def _turned(model: ReaderModel, random: Random, axis: int) -> Fault | None:
 
 @kind("camera-upside-down", harms=("looks",))
 def camera_upside_down(model: ReaderModel, random: Random) -> Fault | None:
-    """A camera with its image upside down."""
+    """A camera that does not look straight up or down, with its image upside down."""
     return _turned(model, random, 2)
 
 

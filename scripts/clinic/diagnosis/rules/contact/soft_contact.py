@@ -47,6 +47,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "Contacts too soft"
 FAMILIES = ("sinks", "falls-through", "slips")
 SINCE = "0.2"
+LEVEL = "hint"
 
 MOST = 0.05  # of the thinner geom's thickness
 TIME, SOFT = 0.02, 400.0  # s, MuJoCo's default; 1/s2 of a negative solref

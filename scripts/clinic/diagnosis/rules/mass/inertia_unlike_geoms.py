@@ -48,6 +48,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "The inertia is not that of the geoms"
 FAMILIES = ("explodes", "oscillates", "stuck", "drifts")
 SINCE = "0.2"
+LEVEL = "hint"
 
 USUAL = (0.4, 2.5)  # radius of gyration over that of the geoms
 FAR = (0.25, 4.0)  # the same, for an inertia that is not equal about all axes, which nobody types in

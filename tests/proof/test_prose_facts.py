@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from clinic.proof.evidence import collect
-from clinic.proof.prose.absences import bold, commented, denied, functional
+from clinic.proof.prose.absences import bold, commented, denied, functional, named
 from clinic.proof.prose.comparisons import compared, ordered
 from clinic.proof.prose.formulas import formulas, mutants
 from clinic.proof.prose.labels import computed
@@ -22,6 +22,7 @@ from helpers import MODEL, script_case, tiny_case
         ('{path: "contact(*).force[0]", unit: kg}', True),
         ('{path: "contact(*).force[3]", unit: N m}', False),
         ('{path: "warning(BADQACC)", unit: s}', True),
+        ('{path: "body(box).xpos[2]", unit: m, label: force of the box}', True),
         ("{expr: 1000 * height, unit: mm}", False),
         ("{expr: 2 * height, unit: mm}", True),
         ("{expr: height * height, unit: m}", True),
@@ -68,6 +69,8 @@ def test_what_prose_denies_is_not_there(tmp_path, text: str, wrong: bool) -> Non
     [
         ("It follows the sine of the angle.", functional, True),
         ("It follows the masks.", functional, False),
+        ("The field is `qfrc_bais`.", named, True),
+        ("The field is `qfrc_bias`, see `mj_forward`.", named, False),
         ("It always falls.", bold, True),
         ("It never rises above {{ broken.height.max }}.", bold, False),
     ],

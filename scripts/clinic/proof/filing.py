@@ -22,7 +22,8 @@ def filing_problems(known: Mapping[str, Case]) -> Iterator[Problem]:
     for slug, case in known.items():
         yield from _unsaid(case, said[slug])
         for index, phrase in enumerate(case.record.phrases):
-            wanted, others = _stems(phrase), {other: heads[other] for other in known if other != slug}
+            wanted = _stems(phrase)
+            others = {key: heads[key] for key, other in known.items() if phrase not in other.record.phrases}
             own = _stems(" ".join([case.record.title, *_but(case, index), *_bodies(case)]))
             nearer = [other for other, words in others.items() if wanted <= words and not wanted <= own]
             if nearer and "not" not in phrase.split() and case.record.family not in likely_families(phrase):

@@ -77,10 +77,11 @@ def largest_difference(case: Case, evidence: Evidence, formula: Formula) -> floa
         ExpressionError, KeyError: If a side reads a name that there is not, or cannot be computed.
     """
     symbols = {symbol: parse(text) for symbol, text in formula.where.items()}
+    sides = [parse(side) for side in RELATION.split(formula.says)]
     rows = []
     for known in _situations(case, evidence, formula.of):
         values = {symbol: evaluate(tree, known) for symbol, tree in symbols.items()}
-        rows.append([float(evaluate(parse(side), values)) for side in RELATION.split(formula.says)])
+        rows.append([float(evaluate(side, values)) for side in sides])
     largest = max((abs(side) for row in rows for side in row), default=0.0)
     apart = max((max(row) - min(row) for row in rows), default=float("nan"))
     return apart / largest if largest else apart

@@ -24,8 +24,8 @@ SIZE = r"(?:metres?|centimetres?|millimetres?|seconds?|milliseconds?|radians?|de
 NUMBER = re.compile(
     rf"(?<![\w.])[-\u2212]?\d[\d_,.]*(?:(?<=\d))(?:[\s\u00a0]?(?:°|%))?|\b(?:{COUNT})(?:-(?:\w+))?\b|\b(?:{SHARE})s?\b|"
     rf"\btwice\b|\bthrice\b|\bdoubl(?:es|ed|ing)\b|\bhal(?:ve[sd]?|ving)\b|\ba third\b|\bhalf (?:an?|of a) {SIZE}\b|"
-    rf"\b(?:one|two|zero|full|whole) {SIZE[:-1]}|minutes?|hours?)\b|"
-    r"\b(?:at|by) (?:zero|one|two)\b(?! (?:most|least))|\b(?:has|had|have) (?:zero|two)\b",
+    rf"\b(?:one|two|zero|full|whole) {SIZE[:-1]}|minutes?|hours?)\b|\b(?:at|by) (?:zero|one|two)\b(?! (?:most|least))|"
+    r"\b(?:has|had|have) (?:zero|two)\b",
     re.IGNORECASE,
 )
 TITLE = re.compile(rf"{NUMBER.pattern}|\bdouble the\b|\bhalf the\b|\btwo\b", re.IGNORECASE)

@@ -56,11 +56,7 @@ def examine(
         found, fixed = mended(model, tried, tell)
     else:
         found, fixed, tried = _found(model, tried, ignores, tell, limit)
-        if (
-            start is None
-            and model.simulation.count("key")
-            and not any(each.proved for each in found)
-        ):
+        if start is None and model.simulation.count("key") and not any(each.proved for each in found):
             model, before = ReaderModel(engine, texts, model.source, Start(key=0)), found
             found, fixed, tried = _found(model, tried, ignores, tell, limit)
             again = {each.rule.id for each in found}

@@ -136,6 +136,7 @@ def _contradictions(text: str, known: str) -> Iterator[tuple[str, str]]:
 def _misplaced(signal: PathSignal, words: str) -> Iterator[str]:
     """Ordinals and axes of which the signal's path has another."""
     path = None if PRINTED.match(signal.path) else parse_path(signal.path)
+    words = " ".join(words.split())
     if path is None or not path.index:
         return
     field, index = path.field.rpartition(".")[2], path.index[-1]

@@ -204,14 +204,14 @@ def _rule(bench: Bench, rule: str, own: dict[str, list[str]]) -> dict[str, Any]:
 
 def _kind(bench: Bench, kind: Kind, own: dict[str, list[str]]) -> dict[str, Any]:
     planted = [plant for plant in bench.plants if plant.kind == kind.name]
-    beside = sum((beside(plant, own) for plant in planted), Counter[str]())
+    others = sum((beside(plant, own) for plant in planted), Counter[str]())
     return {
         "kind": kind.name,
         "text": kind.text,
         "rule": kind.rules[0],
         **{side: _counts(plant for plant in planted if plant.held_out == out) for side, out in SIDES.items()},
         "no_place": sum(name == kind.name for name, _, _ in bench.no_place),
-        "beside": dict(beside.most_common()),
+        "beside": dict(others.most_common()),
     }
 
 

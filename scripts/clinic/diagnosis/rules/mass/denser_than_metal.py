@@ -26,7 +26,7 @@ Good:
     </mujoco>
 
 The number: the body's mass over the volume of its geoms; osmium, the densest metal, has 22,600 kg/m3, and half of 1475
-bodies in healthy models have 243 to 677. A cause has 23,000 and more than a twentieth of the moving mass.
+bodies in healthy models have 243 to 677. A cause has 24,000 and more than a twentieth of the moving mass.
 
 When it is wrong: a body of which a small part is drawn. One that slides by itself, as a point mass does, is not told.
 """
@@ -46,7 +46,7 @@ TITLE = "Denser than metal"
 FAMILIES = ("sags", "wrong-mass", "explodes", "stuck")
 SINCE = "0.2"
 
-METAL, LIGHT = 23000.0, 0.05
+METAL, LIGHT = 24000.0, 0.05
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

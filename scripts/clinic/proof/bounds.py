@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 from itertools import combinations
 from typing import TYPE_CHECKING, Literal
@@ -10,6 +11,7 @@ from clinic.engine.checks import expected
 from clinic.engine.variant import variants
 from clinic.proof.trials import changed_numbers, checks_in, far
 from clinic.record.case import Case
+from clinic.record.expression import parse
 from clinic.record.fields import Check, Trial
 from clinic.record.problem import Problem
 from clinic.record.sweep import Sweep
@@ -27,7 +29,10 @@ MOVED = 0.1  # the share by which a trial changes some number that is checked
 
 
 def bounded(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 1, bounds. A check's bound is near some number that it admits, for a bound far away admits whatever comes."""
+    """Law 1, bounds. A check's bound is near some number that it admits, or parts broken from fixed.
+
+    A bound that is far away and parts nothing admits whatever comes.
+    """
     for trial in (None, *case.record.trials):
         kinds: tuple[Kind, Kind] = ("broken", "fixed")
         for kind in kinds:
@@ -35,7 +40,9 @@ def bounded(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 continue
             for index, check in enumerate(getattr(checks_in(case.record, trial), kind)):
                 admitted = _admitted(evidence, trial, kind, index)
-                if admitted and all(_loose(check, measured) for measured in admitted):
+                if not admitted or _parts(evidence, trial, kind, index):
+                    continue
+                if all(_loose(check, measured) for measured in admitted):
                     where: Where = ("checks", kind, index)
                     if trial is not None:
                         where = ("trials", case.record.trials.index(trial), "checks", kind, index)
@@ -59,11 +66,14 @@ def differing(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 
 def varied(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """A sweep's outcome changes with each of its parameters."""
+    """A sweep's outcome changes with each parameter that its prediction has."""
     for name, sweep in case.record.sweep.items():
         points = evidence.sweep[name].points
+        told = {node.id for node in ast.walk(parse(sweep.prediction.expr)) if isinstance(node, ast.Name)}
         for index, parameter in enumerate(sweep.vary):
-            if not any(_apart(sweep, a, b, parameter.name) for a, b in combinations(points, 2)):
+            if parameter.name in told and not any(
+                _apart(sweep, a, b, parameter.name) for a, b in combinations(points, 2)
+            ):
                 found = f"{parameter.name}: the same outcome whatever it is"
                 wanted = "points at which the outcome changes"
                 yield case.problem(("sweep", name, "vary", index), found, wanted, "vary it further, or leave it out")
@@ -74,7 +84,7 @@ def marked(case: Case, evidence: Evidence) -> Iterator[Problem]:
     for name, sweep in case.record.sweep.items():
         found, take = evidence.sweep[name], sweep.outcome.take
         outcomes = [point.outcome for point in found.points if point.outcome is not None]
-        if sweep.edits or not outcomes or sweep.outcome.window is not None:
+        if sweep.edits or sweep.duration is not None or not outcomes or sweep.outcome.window is not None:
             continue
         reach = APART * (max(outcomes) - min(outcomes))
         for variant, at in found.marks.items():
@@ -93,6 +103,12 @@ def _admitted(evidence: Evidence, trial: Trial | None, kind: Kind, index: int) -
     asked = [each for each in evidence.variants.values() if each.kind == ("broken" if kind == "broken" else "fix")]
     results = [(each.checks if trial is None else each.trials[trial.id])[kind][index] for each in asked]
     return [result.measured for result in results if result.measured is not None]
+
+
+def _parts(evidence: Evidence, trial: Trial | None, kind: Kind, index: int) -> bool:
+    """Whether a check of one kind fails in a variant of the other."""
+    others = [each for each in evidence.variants.values() if each.kind == ("fix" if kind == "broken" else "broken")]
+    return any(not (each.checks if trial is None else each.trials[trial.id])[kind][index].holds for each in others)
 
 
 def _loose(check: Check, measured: float) -> bool:

@@ -86,9 +86,12 @@ def powers_of(tree: ast.expr, known: Mapping[str, Powers]) -> Powers | None:
     return None
 
 
-def _of_two(tree: ast.expr, op: ast.operator, left: Powers | None, right: Powers | None, of: ast.expr) -> Powers | None:
+def _of_two(
+    tree: ast.BinOp, op: ast.operator, left: Powers | None, right: Powers | None, of: ast.expr
+) -> Powers | None:
     if isinstance(op, ast.Add | ast.Sub):
-        return _equal(tree, [left, right])
+        written = [isinstance(side, ast.Constant) for side in (tree.left, tree.right)]  # in whatever unit
+        return left if written[1] else right if written[0] else _equal(tree, [left, right])
     if left is None or right is None:
         return None
     if isinstance(op, ast.Pow):

@@ -22,7 +22,7 @@ DENIED = re.compile(r"\bno\s+`([a-z_]+)`|\bno\s+(motor|servo|equality|tendon|sen
 ELEMENT = {"motor": "<motor", "servo": "<position", "equality": "<equality", "tendon": "<tendon", "sensor": "<sensor"}
 ELEMENT |= {"keyframe": "<keyframe", "damper": 'damping="'}
 NO_WARNING = re.compile(r"\bno\s+(?:error\s+and\s+no\s+)?warning\b", re.IGNORECASE)
-FUNCTIONS = {"sine": "sin(", "cosine": "cos(", "tangent": "tan(", "logarithm": "log(", "exponential": "exp("}
+FUNCTIONS = {"sine": "sin(", "cosine": "cos(", "logarithm": "log(", "exponential": "exp("}
 FUNCTION = re.compile(rf"\b({'|'.join(FUNCTIONS)})s?\b", re.IGNORECASE)
 EVER = re.compile(r"\b(?:always|never|in (?:each|every|any) case|impossible)\b", re.IGNORECASE)
 NAME = re.compile(r"`((?:(?:data|model|mujoco)\.)?[a-z_]+)`|`(mj[a-z]*_\w+)`")

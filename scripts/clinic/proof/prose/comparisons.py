@@ -15,7 +15,7 @@ from clinic.record.prose import CODE, FIELD
 from clinic.record.yaml_lines import Where
 
 SAME = 0.05  # the share by which two numbers that are called the same may differ
-MORE = r"more than|larger than|greater than|longer than|higher than|faster than|above|beyond|exceeds?|over"
+MORE = r"more than|larger than|greater than|longer than|higher than|faster than|above|exceeds?|over"
 LESS = r"less than|smaller than|shorter than|lower than|slower than|fewer than|below|short of|under|falls short of"
 OTHER = r"instead of|rather than|in place of|where it was|\bnot"
 BETWEEN = re.compile(
@@ -119,11 +119,12 @@ def _of_one(case: Case, where: Where, sentence: str, one: Said, evidence: Eviden
     if found is None or before is None or one.variant == "broken" or where[0] not in ("refuted", "fix"):
         return
     groups = found.groupdict()
+    start = evidence.variants[one.variant].values[one.signal].get("first")
     if groups.get("same") or groups.get("still"):
         others = (
             each.values[one.signal].get(one.take) for key, each in evidence.variants.items() if key != one.variant
         )
-        if not any(other is not None and _same(one.value, other) for other in others):
+        if not any(other is not None and _same(one.value, other) for other in (start, *others)):
             yield _problem(case, where, one, f"{found[0].strip(' ,')}: {one.value:.4g}", f"broken's, {before:.4g}")
     else:
         yield from _held(case, where, found, one, one.value, before)

@@ -58,6 +58,7 @@ QUANTITIES = {
 }
 """The units of what a label says first."""
 QUANTITY = re.compile(rf"^(?:[a-z]+ )*?({'|'.join(QUANTITIES)})\b(?! constant| gain| term)")
+RELATIVE = re.compile(r" in [a-z]+s$")  # in edges, in diameters
 TENS = {10.0**power for power in range(-9, 10)} - {1.0}
 
 
@@ -67,7 +68,12 @@ def in_units(case: Case, evidence: Evidence) -> Iterator[Problem]:
     for name, signal in case.record.signals.items():
         where, said, own = ("signals", name, "unit"), QUANTITY.search(signal.label), unit(signal.unit)
         fitting = [unit(each) for each in QUANTITIES[said[1]]] if said else []
-        if said and own and not any(each is not None and each.powers == own.powers for each in fitting):
+        if (
+            said
+            and own
+            and not RELATIVE.search(signal.label)
+            and not any(each is not None and each.powers == own.powers for each in fitting)
+        ):
             expected = f"a unit of {said[1]}: {listed(QUANTITIES[said[1]])}"
             yield case.problem(where, signal.unit or "no unit", expected, "correct the unit or the label")
         if isinstance(signal, PathSignal) and model is not None:

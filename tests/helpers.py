@@ -100,7 +100,7 @@ cause: It says so.
 fix: Write another number.
 lesson: Read the output.
 tags: [code]
-phrases: [script prints error]
+phrases: [script prints wrong value]
 signals:
   error: {path: printed(error), unit: m}
 checks:

@@ -46,8 +46,8 @@ def test_a_marked_page_keeps_all_it_has() -> None:
 def test_relations_to_cases_that_cannot_be_shown_are_left_out(tmp_path: Path) -> None:
     case = tiny_case(tmp_path, ("tags: [contact]", "tags: [contact]\nsee: [one, two]"))
     known = {"falling-box": case, "one": case}
-    assert keep_relations(case, (), known).record.see == ["one"]
-    assert keep_relations(case, (), {**known, "two": case}) == case
+    assert keep_relations(case, known).record.see == ["one"]
+    assert keep_relations(case, {**known, "two": case}) == case
 
 
 @pytest.mark.parametrize(

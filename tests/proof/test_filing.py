@@ -12,8 +12,8 @@ from helpers import tiny_case
     [
         (("tags: [contact]", "tags: [contact, actuator]"), ["tags[1]"]),
         (("tags: [contact]", "tags: [contact, code]"), ["tags[1]"]),
-        (("film:", "looks: [passes-through]\nfilm:"), []),
-        (("film:", "looks: [oscillates]\nfilm:"), ["looks[0]"]),
+        (("film:", "family: falls-through\nfilm:"), []),
+        (("film:", "family: oscillates\nfilm:"), ["family"]),
     ],
 )
 def test_a_case_is_filed_under_its_own_words(tmp_path, change: tuple[str, str], where: list[str]) -> None:

@@ -25,6 +25,7 @@ COPIED = (
     "docs/tags.md",
     "docs/stylesheets",
 )
+CHECK = "# Check your models in CI\n\n## What a model silences { #silence }\n"
 TRIAGE = "# Triage\n\nThe table is made by the build.\n\n```python run\nprint(2 * 3)\n```\n"
 TRIAGE += "".join(f"\n## {title} {{ #{step} }}\n" for step, (title, _) in STEPS.items())
 
@@ -39,7 +40,7 @@ def write_project(folder: Path, *changes: tuple[str, str], kept: Path | None = N
     package = Path(clinic.__file__).parent  # a copy, so that nothing depends on what happens to the checkout meanwhile
     shutil.copytree(package, folder / "scripts" / "clinic")
     (folder / "docs" / "triage.md").write_text(TRIAGE, encoding="utf-8")
-    (folder / "docs" / "check-your-models.md").write_text("# Check your models in CI\n", encoding="utf-8")
+    (folder / "docs" / "check-your-models.md").write_text(CHECK, encoding="utf-8")
     (folder / "docs" / "contribute").mkdir()
     for name in ("add-a-case", "the-record", "work-on-the-code"):
         (folder / "docs" / "contribute" / f"{name}.md").write_text(f"# {name}\n\n{REFERENCE_MARK}\n", encoding="utf-8")

@@ -177,7 +177,13 @@ def test_a_formula_is_computed(tmp_path, text: str, wrong: bool) -> None:
 
 @pytest.mark.parametrize(
     ("says", "apart"),
-    [("z = z_0 - g * t ** 2 / 2", False), ("z = z_0 - g * t ** 2", True), ("z = z_1", True), ("z = (", True)],
+    [
+        ("z = z_0 - g * t ** 2 / 2", False),
+        ("z = z_0 - g * t ** 2", True),
+        ("z = z_1", True),
+        ("z = (", True),
+        ("z = sqrt(0 - t)", True),
+    ],
 )
 def test_an_equation_is_held_against_a_run(tmp_path, says: str, apart: bool) -> None:
     where = "{z: height, z_0: height_first, g: '9.81', t: duration}"

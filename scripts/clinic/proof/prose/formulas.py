@@ -44,7 +44,7 @@ def formulas(case: Case, evidence: Evidence) -> Iterator[Problem]:
             yield case.problem(where, found, f"at most {100 * formula.within:g} % for {formula.of}", repair)
             continue
         for wrong in mutants(formula.says):
-            with suppress(ExpressionError), np.errstate(invalid="ignore"):
+            with suppress(ExpressionError):
                 if largest_difference(case, evidence, formula.model_copy(update={"says": wrong})) <= formula.within:
                     found, wanted = f"agrees as well when it says {wrong}", "an equation of which a wrong one disagrees"
                     repair = "lessen `within`, or choose an `of` that can tell"
@@ -73,6 +73,8 @@ def mutants(says: str) -> Iterator[str]:
 def largest_difference(case: Case, evidence: Evidence, formula: Formula) -> float:
     """The largest difference between sides over the situations of a formula, as a share of the largest side.
 
+    It is NaN where a side is, and without a situation.
+
     Raises:
         ExpressionError, KeyError: If a side reads a name that there is not, or cannot be computed.
     """
@@ -81,9 +83,11 @@ def largest_difference(case: Case, evidence: Evidence, formula: Formula) -> floa
     rows = []
     for known in _situations(case, evidence, formula.of):
         values = {symbol: evaluate(tree, known) for symbol, tree in symbols.items()}
-        rows.append([float(evaluate(side, values)) for side in sides])
-    largest = max((abs(side) for row in rows for side in row), default=0.0)
-    apart = max((max(row) - min(row) for row in rows), default=float("nan"))
+        with np.errstate(invalid="ignore"):
+            rows.append([float(evaluate(side, values)) for side in sides])
+    if not rows:
+        return float("nan")
+    largest, apart = float(np.max(np.abs(rows))), float(np.max(np.ptp(rows, axis=1)))
     return apart / largest if largest else apart
 
 

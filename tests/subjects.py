@@ -23,7 +23,7 @@ def arm(joint: str = "", geom: str = "", servo: str | None = None, more: str = "
     return f"<mujoco>{before}<worldbody>{body}{more}</worldbody>{actuator}</mujoco>"
 
 
-# two legs and an arm: every kind of fault but one has a place in it
+# two legs and an arm: most kinds of faults have a place in it
 LEGS = """
 <mujoco model="two legs">
   <compiler angle="radian"/>

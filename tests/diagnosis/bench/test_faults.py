@@ -16,7 +16,11 @@ from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import Source
 from subjects import LEGS
 
-ELSEWHERE = {"file-missing", "inertial-forgotten"}  # it names no file, and has one `<inertial>`
+ELSEWHERE = {  # the model names no file, and has one `<inertial>` and three servos
+    "control-range-of-one",
+    "file-missing",
+    "inertial-forgotten",
+}
 
 
 def read(text: str) -> ReaderModel:

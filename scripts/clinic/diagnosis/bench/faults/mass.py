@@ -7,6 +7,8 @@ from random import Random
 
 from clinic.diagnosis.bench.faults import Fault, between, kind, text_of, written
 from clinic.diagnosis.edit import Edit, delete, insert, set_attribute
+from clinic.diagnosis.engine import FREE
+from clinic.diagnosis.probes.shape import root_of, roots
 from clinic.diagnosis.reader_model import ReaderModel
 
 FELT = ("weighs", "accelerates", "unstable", "strays")
@@ -235,6 +237,20 @@ def gravity_compensated(model: ReaderModel, random: Random) -> Fault | None:
     edits = tuple(e for b in written(model, "body") if b for e in model.set("body", [b], "gravcomp", "1"))
     names = tuple(model.simulation.name("body", b) for b in written(model, "body") if b)
     return Fault(edits, names, "gravcomp") if edits else None
+
+
+@kind("gravcomp-on-some", harms=("strays", "accelerates"))
+def gravity_compensated_in_part(model: ReaderModel, random: Random) -> Fault | None:
+    """Every link of an arm floats but one, which is not the last."""
+    simulation, owner, masses = model.simulation, root_of(model.simulation), model.simulation.model("body_mass")
+    fixed = [r for r in roots(simulation) if all(simulation.joint_type(j) != FREE for j in simulation.joints_of(r))]
+    arms = [[b for b in written(model, "body") if owner[b] == root and masses[b] > 0] for root in fixed]
+    if not (arms := [arm for arm in arms if len(arm) > 1]):
+        return None
+    arm = random.choice(arms)
+    bare = random.choice(arm[:-1])
+    edits = tuple(edit for b in arm if b != bare for edit in model.set("body", [b], "gravcomp", "1"))
+    return Fault(edits, (simulation.name("body", bare),), "gravcomp")
 
 
 def _keyless(model: ReaderModel) -> bool:

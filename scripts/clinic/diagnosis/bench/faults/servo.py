@@ -149,9 +149,13 @@ def _control_range(model: ReaderModel, random: Random, low: float, high: float) 
     if not (found := _servos(model)):
         return None
     i, factor = random.choice(found), between(random, low, high)
+    return _controlled(model, i, [factor * end for end in model.simulation.row("actuator_ctrlrange", i, 2)], factor)
+
+
+def _controlled(model: ReaderModel, i: int, ends: list[float], strength: float) -> Fault | None:
+    """A servo with another control range; None where that is empty."""
     element = model.element("actuator", i)
     assert element is not None
-    ends = [factor * end for end in model.simulation.row("actuator_ctrlrange", i, 2)]
     if ends[0] >= ends[1]:
         return None
     edits = (
@@ -159,7 +163,7 @@ def _control_range(model: ReaderModel, random: Random, low: float, high: float) 
         set_attribute(element, "ctrlrange", text_of(*ends)),
         set_attribute(element, "ctrllimited", "true"),
     )
-    return Fault(edits, _names(model, i), "ctrlrange", factor)
+    return Fault(edits, _names(model, i), "ctrlrange", strength)
 
 
 @kind("control-range-too-wide", harms=GOES, servos=True)
@@ -178,6 +182,17 @@ def control_range_in_degrees(model: ReaderModel, random: Random) -> Fault | None
 def control_range_narrow(model: ReaderModel, random: Random) -> Fault | None:
     """A servo's control range 0.1 to 20 % of what it was, about zero."""
     return _control_range(model, random, 0.001, 0.2)
+
+
+@kind("control-range-unlike-range", harms=GOES, servos=True)
+def control_range_of_one(model: ReaderModel, random: Random) -> Fault | None:
+    """The control range of one servo of four or more ends short of what it was, by 5 to 80 %."""
+    if len(found := _servos(model)) < 4:
+        return None
+    i, end, share = random.choice(found), random.randrange(2), between(random, 0.05, 0.8)
+    ends = list(model.simulation.row("actuator_ctrlrange", i, 2))
+    ends[end] += share * (ends[1 - end] - ends[end])
+    return _controlled(model, i, ends, share)
 
 
 @kind("gear-divides-target", "gear", harms=("misses", *GOES), servos=True)

@@ -62,6 +62,8 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "Links that jam within the range"
 FAMILIES = ("stuck",)
 SINCE = "0.2"
+LEVEL = "hint"
+UNPLANTED = "a wider range is harm by itself, whether links jam in it or not"
 
 POSES, LINKS, DEEP, JAMMED = 21, 2, 0.1, 0.25
 MOST = 60  # joints

@@ -60,6 +60,8 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "Fingers that move the same way"
 FAMILIES = ("stuck", "slips")
 SINCE = "0.2"
+LEVEL = "hint"
+UNPLANTED = "no healthy model has two slides that are coupled"
 
 MOST = 0.9
 

@@ -46,6 +46,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "A range without any extent"
 FAMILIES = ("passes-limit", "stuck")
 SINCE = "0.2"
+LEVEL = "hint"
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

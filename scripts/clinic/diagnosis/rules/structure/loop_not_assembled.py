@@ -64,6 +64,8 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "A loop that is not closed at the start"
 FAMILIES = ("jumps-at-start", "explodes", "stuck")
 SINCE = "0.2"
+LEVEL = "hint"
+UNPLANTED = "the healthy models connect and weld nothing but what is moved by mocap"
 
 CONNECT, WELD = 0, 1  # mjtEq
 SITE = 6  # mjtObj

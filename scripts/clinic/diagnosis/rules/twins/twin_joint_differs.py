@@ -94,6 +94,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "The joint of a pair is unlike its twin"
 FAMILIES = ("drifts", "stuck", "oscillates")
 SINCE = "0.2"
+LEVEL = "hint"
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -12,6 +12,7 @@ import pytest
 from clinic.commands.diagnosis_options import OptionError
 from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.process import DiagnosisError
+from clinic.diagnosis.simulation import StartError
 from clinic.diagnosis.source import SourceError
 from clinic.engine.mjcf import ModelError
 from clinic.engine.quotation import QuotationError
@@ -23,6 +24,7 @@ from clinic.engine.variant import EditError
 from clinic.pages.text.prose import ProseError
 from clinic.record.expression import ExpressionError
 from clinic.record.problem import CaseError, MissingRequirementError, Problem
+from clinic.record.units import UnitError
 from clinic.work.parallel import ClusterError
 
 EXAMPLES = [
@@ -44,6 +46,8 @@ EXAMPLES = [
     ScriptError("KeyError: 'x'", "mend it"),
     SignalError("bodi(x)", "a path", "write body(x)"),
     SourceError("model.xml", 3, "mismatched tag"),
+    StartError("keyframe home: the model has none"),
+    UnitError("m + s"),
 ]
 
 

@@ -16,8 +16,9 @@ CHECK = "{signal: height, between: [0.045, 0.051]}"
     [
         ("between: [0.04, 0.06]", False),
         ("above: 0.01", False),
-        ("above: 0.001", True),
-        ("between: [0, 100]", True),
+        ("above: 0.001", False),  # where the broken box is not
+        ("between: [0, 100]", False),
+        ("between: [-100, 100]", True),
         ("above: -100", True),
         ("equals: 0.05, within: 0.01", False),
         ("equals: 0.05, within: 1", True),

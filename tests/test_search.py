@@ -117,7 +117,6 @@ FOREIGN = [
     "fluid drag coefficient for a fish",
     "muscle activation dynamics time constant",
     "export a trajectory to csv",
-    "convert sdf to mjcf",
     "lidar point cloud",
 ]
 

@@ -30,7 +30,7 @@ from clinic.record.closed_forms import MODEL_NUMBERS
 from clinic.record.expression import ExpressionError, names, parse
 from clinic.record.field_errors import field_problems
 from clinic.record.fields import ExpressionSignal, PathSignal, Record, StartsSignal
-from clinic.record.folder import RECORD, folder_problems
+from clinic.record.folder import INSTRUMENT, RECORD, folder_problems
 from clinic.record.parts import WARNINGS
 from clinic.record.problem import CaseError, Problem, article, closest, listed
 from clinic.record.salvage import Salvage, salvage
@@ -155,7 +155,8 @@ def _file_problems(case: Case) -> Iterator[Problem]:
             expected = "a name that the site does not use itself"
             yield case.problem(where, f"{name}, which stands beside the page", expected, "rename the file")
     expected = f"{RECORD} and the files it names: {listed(named)}"
-    for name in case.texts.keys() - named.keys():
+    extra = {INSTRUMENT} if record.script else set()
+    for name in case.texts.keys() - named.keys() - extra:
         found, repair = "a file that the record does not name", "name it under `files`, or delete it"
         yield Problem(f"cases/{case.slug}/{name}", 1, "", found, expected, repair)
 

@@ -152,7 +152,7 @@ class Picture(Strict):
 
 
 Overlay = Literal[
-    "contact_points", "contact_forces", "joint_axes", "body_frames", "actuators", "transparent", "cameras"
+    "contact_points", "contact_forces", "joint_axes", "body_frames", "inertia", "actuators", "transparent", "cameras"
 ]
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from clinic.record.problem import Problem
 
 RECORD = "case.yaml"
+INSTRUMENT = "instrument.mjs"  # of a code case: what a reader can press and move on its page
 SLUG = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 
 

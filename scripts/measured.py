@@ -66,7 +66,8 @@ def plain_settings(folder: Path, pages: Path) -> Path:
     given = yaml.load((folder / "mkdocs.yml").read_text(encoding="utf-8"), get_yaml_loader())
     navigation = yaml.safe_load((pages.parent / "nav.yml").read_text(encoding="utf-8"))
     plugins = [plugin for plugin in given["plugins"] if plugin != GENERATOR and GENERATOR not in plugin]
-    changes = {"docs_dir": str(pages), "plugins": plugins, "hooks": [], "watch": [], "nav": navigation}
+    bare: dict[str, object] = {"hooks": [], "watch": [], "extra": {"about": {}}}  # hooks fill the foot of a page
+    changes = {"docs_dir": str(pages), "plugins": plugins, "nav": navigation, **bare}
     made = folder / "plain.yml"
     made.write_text(yaml.safe_dump({"INHERIT": "mkdocs.yml", **changes}, sort_keys=False), encoding="utf-8")
     return made

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
 from typing import Any
 
 from clinic.diagnosis.diagnose import examine
 from clinic.diagnosis.edit import apply
 from clinic.diagnosis.engine import Compiled, CompileError, Contact
-from clinic.diagnosis.finding import death
+from clinic.diagnosis.finding import ending
 from clinic.diagnosis.rules import rules
 from clinic.diagnosis.source import read_texts
 
@@ -104,7 +103,7 @@ def diagnose(
     read: Callable[[str], str | None],
     tell: Callable[[str, str, float], None],
     symptom: str = "",
-    died: Collection[str] = (),
+    died: Mapping[str, str] | None = None,
 ) -> str:
     """Diagnoses a model, and gives what the page shows as JSON: the public contract, and what is made of it.
 
@@ -115,7 +114,7 @@ def diagnose(
         read: Gives the text of a file by its path from the model's folder; None where there is none.
         tell: Is called before a rule is tried: its id, its title, and which share of the rules is done.
         symptom: The family of symptoms that the reader sees.
-        died: Rules of which the engine died before.
+        died: Rules that failed before, each with the clinic's own mistake, or nothing where the engine ended.
     """
 
     def trying(said: str) -> None:
@@ -124,8 +123,7 @@ def diagnose(
             tell(rule.id, rule.title, alike.index(rule.id) / len(alike))
 
     texts = read_texts(text, name, read)
-    made = examine(engine, texts, symptom=symptom, ignore=died, tell=trying)
-    made = replace(made, causes=(*(death(rule, name) for rule in died), *made.causes))
+    made = ending(examine(engine, texts, symptom=symptom, ignore=died or (), tell=trying), died or {}, name)
 
     def changed(after: Mapping[str, str]) -> dict[str, str]:
         return {file: new for file, new in after.items() if new != texts[file]}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from clinic.diagnosis.edit import Edit, diff
@@ -157,13 +157,20 @@ def finding_of(judged: Judged, model: ReaderModel) -> Finding:
     )
 
 
-def failure(rule: str, file: str, said: str) -> Finding:
+def ending(of: Diagnosis, died: Mapping[str, str], file: str) -> Diagnosis:
+    """A diagnosis with what its failed rules say: the clinic's own mistake, or nothing where the engine ended."""
+    ends = [_failure(rule, file, said) if said else _death(rule, file) for rule, said in died.items()]
+    causes, hints = ([each for each in ends if each.level == level] for level in ("cause", "hint"))
+    return replace(of, causes=(*causes, *of.causes), hints=(*hints, *of.hints))
+
+
+def _failure(rule: str, file: str, said: str) -> Finding:
     """That a rule failed on a model file, by a mistake of the clinic."""
     says = f"{rule} failed ({said}): a mistake of the clinic, not of the model."
     return Finding(FAILS, "A rule failed", "hint", (), file, None, "", "", "", (), "", "", 1.0, None, says, "")
 
 
-def death(rule: str, file: str) -> Finding:
+def _death(rule: str, file: str) -> Finding:
     """That the engine ended while a rule was tried on a model file."""
     says = f"MuJoCo ended, or gave no answer, while {rule} was tried on this model."
     title = "The engine does not survive the model"

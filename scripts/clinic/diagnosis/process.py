@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from clinic.diagnosis.diagnose import examine, read_file
-from clinic.diagnosis.finding import Diagnosis, death, failure
+from clinic.diagnosis.finding import Diagnosis, ending
 from clinic.diagnosis.simulation import Start, StartError
 from clinic.diagnosis.source import read_texts
 
@@ -74,9 +74,7 @@ def diagnose(
     while True:
         made, trying, said = _asked(replace(request, ignore=(*request.ignore, *died)), tell)
         if made is not None:
-            ends = [failure(rule, name, said) if said else death(rule, name) for rule, said in died.items()]
-            causes, hints = ([each for each in ends if each.level == level] for level in ("cause", "hint"))
-            return replace(made, causes=(*causes, *made.causes), hints=(*hints, *made.hints))
+            return ending(made, died, name)
         died[trying] = said
         if not trying or len(died) > DEATHS:
             doing = f"while trying {trying}" if trying else "while compiling the model"

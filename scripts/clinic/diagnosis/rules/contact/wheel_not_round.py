@@ -1,4 +1,4 @@
-"""A wheel is not round about its hinge: its cylinder lies across the axis, or its shape is a box.
+"""A wheel is not round about its hinge: its cylinder lies across the axis, or its shape is a box or a bumpy mesh.
 
 A cylinder's axis is its own z, whatever the hinge's is. A wheel whose cylinder stands across its hinge bumps along, or
 does not turn at all; so does a box.
@@ -44,8 +44,8 @@ Good:
     </mujoco>
 
 The number: how much the wheel's radius varies over a turn about its hinge, as a share of its mean; above 10 % is told.
-A wheel is the last body of a mechanism on a hinge without limits, whose one colliding cylinder or box is centred on the
-hinge. A cylinder is turned; for a box there is only a hint.
+A wheel is the last body of a mechanism on a hinge without limits, whose one colliding cylinder, box or mesh is centred
+on the hinge. A cylinder is turned; for a box or a mesh there is only a hint.
 
 When it is wrong: a cam, a propeller, a stirrer.
 """
@@ -57,9 +57,9 @@ from collections.abc import Iterator
 from itertools import product
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
-from clinic.diagnosis.engine import BOX, CYLINDER, HINGE
+from clinic.diagnosis.engine import BOX, CYLINDER, HINGE, MESH
 from clinic.diagnosis.probes.shape import solid
-from clinic.diagnosis.probes.vector import Vector, add, cross, dot, norm, of_quaternion, sub, times, unit, written
+from clinic.diagnosis.probes.vector import Vector, add, at, cross, dot, norm, of_quaternion, sub, times, unit, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -84,7 +84,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         kind = int(of.model("geom_type")[geom])
         edits = _edits(model, joint, geom) if kind == CYLINDER else ()
-        what = "cylinder lies across the hinge" if kind == CYLINDER else "shape is a box"
+        what = {CYLINDER: "cylinder lies across the hinge", BOX: "shape is a box", MESH: "mesh is not round"}[kind]
         yield Suspect(
             (of.name("geom", geom), of.name("joint", joint)),
             "zaxis",
@@ -108,7 +108,7 @@ def _wheels(simulation: Simulation) -> Iterator[tuple[int, int]]:
             continue
         geoms = [geom for geom in simulation.geoms_of(body) if solid(simulation, geom)]
         kinds = [int(simulation.model("geom_type")[geom]) for geom in geoms]
-        if len(simulation.joints_of(body)) == 1 and len(geoms) == 1 and kinds[0] in (CYLINDER, BOX):
+        if len(simulation.joints_of(body)) == 1 and len(geoms) == 1 and kinds[0] in (CYLINDER, BOX, MESH):
             off = sub(simulation.row("geom_pos", geoms[0], 3), simulation.row("jnt_pos", joint, 3))
             axis = simulation.row("jnt_axis", joint, 3)
             aside = norm(sub(off, tuple(dot(off, axis) * x for x in axis)))
@@ -140,6 +140,10 @@ def _varies(simulation: Simulation, joint: int, geom: int) -> float:
 
 def _points(simulation: Simulation, geom: int) -> list[Vector]:
     a, b, c = simulation.row("geom_size", geom, 3)
+    if int(simulation.model("geom_type")[geom]) == MESH:
+        mesh, points = int(simulation.model("geom_dataid")[geom]), simulation.model("mesh_vert")
+        first, count = (int(simulation.model(f"mesh_vert{of}")[mesh]) for of in ("adr", "num"))
+        return [at(points, vertex) for vertex in range(first, first + count)]
     if int(simulation.model("geom_type")[geom]) == BOX:
         return [(x * a, y * b, z * c) for x, y, z in product((-1, 1), repeat=3)]
     rim = [2 * math.pi * i / (2 * ANGLES) for i in range(2 * ANGLES)]

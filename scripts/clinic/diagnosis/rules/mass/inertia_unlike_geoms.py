@@ -46,8 +46,9 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The inertia is not that of the geoms"
-FAMILIES = ("explodes", "oscillates", "stuck", "drifts")
+FAMILIES = ("explodes", "oscillates", "stuck", "drifts", "wrong-mass")
 SINCE = "0.2"
+CASE = "heavy-base-spins"
 LEVEL = "hint"
 
 USUAL = (0.4, 2.5)  # radius of gyration over that of the geoms

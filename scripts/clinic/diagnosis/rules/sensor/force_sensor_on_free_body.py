@@ -53,6 +53,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "A force sensor on a free body"
 FAMILIES = ("sensor-reads-zero",)
 SINCE = "0.2"
+CASE = "force-sensor-reads-zero"
 UNPLANTED = "to set free what carries a healthy model's force sensor breaks more than the sensor"
 
 MOST = 0.99

@@ -1,4 +1,4 @@
-"""There is no light: the image is black.
+"""There is no light: the image is black, or dark and without shades.
 
 MuJoCo has a headlight at the camera unless `<headlight active="0"/>` or zeros for its colours switch it off. Then a
 `<light>` is needed.

@@ -55,6 +55,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "A touch sensor whose site misses the contacts"
 FAMILIES = ("sensor-reads-zero",)
 SINCE = "0.2"
+CASE = "touch-sensor-reads-zero"
 
 MOST = 0.95
 AWAY = 3.0  # sizes of the site; nearer contacts may be beside it on purpose

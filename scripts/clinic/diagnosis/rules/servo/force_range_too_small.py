@@ -49,6 +49,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "A force range too small for the weight"
 FAMILIES = ("sags", "stuck")
 SINCE = "0.2"
+CASE = "arm-stops-short"
 
 STRAIN = 1.2
 

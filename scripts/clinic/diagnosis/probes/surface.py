@@ -1,0 +1,108 @@
+"""How far from its own surface a mesh is touched: MuJoCo collides its convex hull instead."""
+
+from __future__ import annotations
+
+import math
+
+from clinic.diagnosis.engine import MESH
+from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.vector import Vector, add, at, dot, sub, times, transpose
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe
+
+SDF = 8  # mjtGeom
+SAMPLES = 25
+MOST_FACES = 20_000  # of a finer mesh nothing is told
+Triangle = tuple[Vector, Vector, Vector]
+Ball = tuple[Vector, float]
+
+
+def touched_off_surface(simulation: Simulation) -> dict[int, float]:
+    """How far from each mesh geom's surface other mechanisms touched it after letting go, as a share of its radius."""
+    if "off surface" not in simulation.kept:
+        simulation.kept["off surface"] = _run(simulation)
+    return simulation.kept["off surface"]  # type: ignore[return-value]
+
+
+def _run(simulation: Simulation) -> dict[int, float]:
+    kinds, radii = simulation.model("geom_type"), simulation.model("geom_rbound")
+    made: dict[int, float] = {}
+    if not any(int(kind) in (MESH, SDF) for kind in kinds):
+        return made
+    owner, bodies = root_of(simulation), simulation.model("geom_bodyid")
+    simulation.begin()
+    for _ in simulation.run(simulation.begin_with.duration, SAMPLES):
+        places, frames = simulation.data("geom_xpos"), simulation.data("geom_xmat")
+        for contact in simulation.engine.contacts():
+            strangers = min(contact.geoms) >= 0 and len({owner[int(bodies[geom])] for geom in contact.geoms}) == 2
+            for geom in contact.geoms if strangers and contact.force > 0 else ():
+                if int(kinds[geom]) in (MESH, SDF):
+                    seen = times(transpose(frames[9 * geom : 9 * geom + 9]), sub(contact.position, at(places, geom)))
+                    away = _distance(simulation, int(simulation.model("geom_dataid")[geom]), seen)
+                    made[geom] = max(made.get(geom, 0.0), (away - abs(contact.distance)) / radii[geom])
+    return made
+
+
+def _faces(simulation: Simulation, mesh: int) -> list[tuple[Triangle, Ball]]:
+    """A mesh's triangles in the geom's frame, each with a ball around it."""
+    kept = simulation.kept
+    if ("faces", mesh) not in kept:
+        first, count = (int(simulation.model(f"mesh_face{of}")[mesh]) for of in ("adr", "num"))
+        offset, made = int(simulation.model("mesh_vertadr")[mesh]), []
+        if count <= MOST_FACES:
+            points, corners = simulation.model("mesh_vert"), simulation.model("mesh_face")
+            for face in range(first, first + count):
+                one, two, three = (at(points, offset + int(corners[3 * face + k])) for k in range(3))
+                middle = tuple(sum(each) / 3 for each in zip(one, two, three, strict=True))
+                made.append(((one, two, three), (middle, max(math.dist(middle, each) for each in (one, two, three)))))
+        kept["faces", mesh] = made
+    return kept["faces", mesh]  # type: ignore[return-value]
+
+
+def _distance(simulation: Simulation, mesh: int, point: Vector) -> float:
+    """From a point to a mesh's surface in m; 0 for a mesh that is too fine."""
+    best = math.inf
+    for triangle, (middle, radius) in _faces(simulation, mesh):
+        if math.dist(point, middle) - radius < best:
+            best = min(best, math.dist(point, nearest(triangle, point)))
+    return 0.0 if math.isinf(best) else best
+
+
+def nearest(triangle: Triangle, point: Vector) -> Vector:
+    """The point of a triangle that is nearest to another one.
+
+    C. Ericson, Real-Time Collision Detection, section 5.1.5.
+    """
+    a, b, c = triangle
+    ab, ac, ap = sub(b, a), sub(c, a), sub(point, a)
+    d1, d2 = dot(ab, ap), dot(ac, ap)
+    if d1 <= 0 and d2 <= 0:
+        return a
+    bp = sub(point, b)
+    d3, d4 = dot(ab, bp), dot(ac, bp)
+    if d3 >= 0 and d4 <= d3:
+        return b
+    vc = d1 * d4 - d3 * d2
+    if vc <= 0 <= d1 and d3 <= 0:
+        return add(a, ab, d1 / (d1 - d3))
+    cp = sub(point, c)
+    d5, d6 = dot(ab, cp), dot(ac, cp)
+    if d6 >= 0 and d5 <= d6:
+        return c
+    vb = d5 * d2 - d1 * d6
+    if vb <= 0 <= d2 and d6 <= 0:
+        return add(a, ac, d2 / (d2 - d6))
+    va = d3 * d6 - d5 * d4
+    if va <= 0 and d4 >= d3 and d5 >= d6:
+        return add(b, sub(c, b), (d4 - d3) / ((d4 - d3) + (d5 - d6)))
+    total = va + vb + vc
+    return add(add(a, ab, vb / total), ac, vc / total) if total else a
+
+
+def _away(simulation: Simulation, geom: int) -> float:
+    return touched_off_surface(simulation).get(geom, 0.0)
+
+
+def away(geom: int) -> Probe:
+    """How far from its surface a mesh is touched."""
+    return Probe("touched away from the mesh's surface, at most", "of its radius", _away, (geom,))

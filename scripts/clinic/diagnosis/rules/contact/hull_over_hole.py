@@ -1,0 +1,79 @@
+"""A mesh collides as its convex hull, and the hull closes its hole.
+
+Whatever a mesh looks like, what collides is its convex hull: a cup has a lid, a ring is a disc, a bracket is full. What
+should fall in or pass through stops in the air, where nothing is drawn.
+
+Bad:
+
+    <mujoco>
+      <asset>
+        <mesh name="cup" vertex="-6 -6 0  6 -6 0  6 6 0  -6 6 0  -6 -6 8  6 -6 8  6 6 8  -6 6 8
+          -5 -5 8  5 -5 8  5 5 8  -5 5 8  -5 -5 2  5 -5 2  5 5 2  -5 5 2" scale="0.01 0.01 0.01"
+          face="0 2 1  0 3 2  0 1 5  0 5 4  4 5 9  4 9 8  8 9 13  8 13 12  1 2 6  1 6 5  5 6 10  5 10 9  9 10 14
+          9 14 13  2 3 7  2 7 6  6 7 11  6 11 10  10 11 15  10 15 14  3 0 4  3 4 7  7 4 8  7 8 11  11 8 12  11 12 15
+          12 13 14  12 14 15"/>
+      </asset>
+      <worldbody>
+        <geom name="cup" type="mesh" mesh="cup"/>
+        <body pos="0.01 0 0.2">
+          <freejoint/>
+          <geom name="ball" size="0.02"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom name="floor" type="box" size="0.05 0.05 0.01" pos="0 0 0.01"/>
+        <geom name="right" type="box" size="0.005 0.06 0.04" pos="0.055 0 0.04"/>
+        <geom name="left" type="box" size="0.005 0.06 0.04" pos="-0.055 0 0.04"/>
+        <geom name="back" type="box" size="0.05 0.005 0.04" pos="0 0.055 0.04"/>
+        <geom name="front" type="box" size="0.05 0.005 0.04" pos="0 -0.055 0.04"/>
+        <body pos="0.01 0 0.2">
+          <freejoint/>
+          <geom name="ball" size="0.02"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: how far from the mesh's own surface another mechanism touches it within 2 s, as a share of the mesh's
+radius; below 0.15 is well. MuJoCo's manual, Computation, Collision detection: meshes are replaced by their hulls. The
+edit, `type="sdf"`, collides with the surface itself: it is slow and may shake, and proves the cause. What to build
+instead are primitives, or the mesh cut into convex pieces.
+
+When it is wrong: a coarse collision mesh whose hull is meant to be filled. Parts of one mechanism are not looked at.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import MESH
+from clinic.diagnosis.probes.surface import away, touched_off_surface
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "A hull that closes a mesh's hole"
+FAMILIES = ("falls-through", "stuck", "jumps-at-start")
+SINCE = "0.2"
+CASE = "ball-stops-above-cup"
+UNPLANTED = "the healthy models have no hollow mesh that something falls into"
+
+AWAY = 0.15  # of the mesh's radius
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Mesh geoms that are touched where they have no surface."""
+    of = model.simulation
+    for geom, share in touched_off_surface(of).items():
+        if share <= AWAY or int(of.model("geom_type")[geom]) != MESH:
+            continue
+        edits = model.set("geom", [geom], "type", "sdf")
+        says = (
+            f"It is touched {1000 * share * of.model('geom_rbound')[geom]:.3g} mm away from its surface: on the hull."
+        )
+        yield Suspect(
+            (of.name("geom", geom),), "type", "mesh", "sdf", edits, away(geom), AWAY, says, "touched at its surface"
+        )

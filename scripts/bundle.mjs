@@ -16,11 +16,11 @@ const options = /** @type {const} */ ({
   metafile: true,
 });
 const made = [
-  await build({ ...options, entryPoints: ["docs/playground/start.js", "docs/playground/diagnose.js"], splitting: true, chunkNames: "[name]-[hash]" }),
+  await build({ ...options, entryPoints: ["docs/playground/start.js", "docs/playground/script.js", "docs/playground/diagnose.js"], splitting: true, chunkNames: "[name]-[hash]" }),
   await build({ ...options, entryPoints: ["docs/playground/loader.js", "docs/playground/search.js"], format: "iife" }),
   await build({
     ...options,
-    entryPoints: ["docs/playground/worker.js", "docs/playground/diagnosis-worker.js"],
+    entryPoints: ["worker", "script-worker", "diagnosis-worker", "diagnosis-launcher"].map((name) => `docs/playground/${name}.js`),
     external: ["module", "worker_threads", "node:*"],
   }),
 ];

@@ -22,8 +22,10 @@ self.onmessage = async ({ data: { parts, request, died } }) => {
     ]);
     postMessage({ type: "made", made: JSON.parse(diagnoseIn(python, mujoco, rules, request, died, tell)) });
   } catch (error) {
-    const said = (error instanceof Error ? error.message : String(error)).trim().split("\n").at(-1);
-    postMessage({ type: "died", message: said?.replace(/^pyodide\.ffi\.JsException: /, "") });
+    const said = (error instanceof Error ? error.message : String(error)).trim().split("\n").at(-1) ?? "";
+    const engines = said.replace(/^pyodide\.ffi\.JsException: /, "");
+    const ours = error instanceof Error && error.name === "PythonError" && engines === said && !/^(Memory|Recursion)Error/.test(said); // the clinic's own mistake
+    postMessage({ type: "died", message: engines, ours });
   }
 };
 

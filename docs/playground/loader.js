@@ -1,7 +1,10 @@
-// On every page: offers the playground and the search, and ticks what has been solved. What they need is fetched when asked for.
+// On every page: offers the playground and the search, ticks what has been solved, and puts what scrolls in the keyboard's reach. What they need is fetched when asked for.
+
+import { reading } from "./page/reading.js";
+import { tiles } from "./page/tiles.js";
 
 const base = new URL(".", /** @type {HTMLScriptElement} */ (document.currentScript).src);
-const KEY = "mujoco-clinic"; // as in page/solved.js
+const KEY = "mujoco-clinic"; // as in page/solved.js and page/kept.js
 const CHOICES = `<label class="md-button">Choose files<input type="file" multiple accept=".xml,.mjcf,.urdf,.zip,.stl,.obj,.msh,.png"></label>
 <label class="md-button">Choose a folder<input type="file" webkitdirectory></label>
 <label>What do you see? <select><option value="">not sure</select></label>`;
@@ -10,6 +13,12 @@ const SITE = new URL("../../", base).href;
 /** @type {Map<string, Promise<void>>} */
 const scripts = new Map();
 let leave = () => {};
+const scrolls = new ResizeObserver((entries) => {
+  for (const { target } of entries) {
+    if (target.scrollWidth > target.clientWidth) target.setAttribute("tabindex", "0");
+    else target.removeAttribute("tabindex");
+  }
+});
 
 /** @param {string} address @returns {Promise<void>} when the script has run; a module would not be fetched from a file */
 function script(address) {
@@ -95,26 +104,41 @@ function tick() {
   };
 }
 
-/** @param {Element} root */
+/** Whether the reader comes back to a text that was edited here: after a reload, or with the browser's button. */
+function left() {
+  const [, slug] = /([^/]+)\/[^/]*$/.exec(location.pathname) ?? [];
+  const [entry] = performance.getEntriesByType("navigation");
+  try {
+    return /** @type {PerformanceNavigationTiming} */ (entry).type !== "navigate" && `${KEY}-draft:${slug}` in localStorage;
+  } catch {
+    return false;
+  }
+}
+
+/** @param {HTMLElement} root */
 function offer(root) {
-  const [note, button] = /** @type {[HTMLElement, HTMLButtonElement]} */ ([...root.children]);
+  const note = /** @type {HTMLElement} */ (root.querySelector("p"));
+  const button = /** @type {HTMLButtonElement} */ (root.querySelector(".md-button"));
   if (!self.WebAssembly || !self.WebGL2RenderingContext || !self.DecompressionStream || location.protocol === "file:") return;
+  const words = note.textContent;
   note.hidden = true;
   button.hidden = false;
   button.onclick = async () => {
     button.disabled = true;
     try {
-      const { mount } = await import(base + "start.js");
-      const left = await mount(root, base);
-      if (root.isConnected) leave = left;
-      else left();
+      const { mount } = await import(base + (root.dataset.module ?? "start.js"));
+      const end = await mount(root, base);
+      if (root.isConnected) leave = end;
+      else end();
     } catch (error) {
       console.error(error);
-      note.hidden = false;
-      button.hidden = true;
+      const away = error instanceof TypeError || error instanceof Event; // what a fetch fails with
+      note.textContent = away ? "The playground could not be fetched. Are you offline? The button tries again." : words;
+      button.disabled = note.hidden = false;
+      button.hidden = !away;
     }
   };
-  if (location.hash.startsWith("#model=")) button.click();
+  if (location.hash.startsWith("#model=") || left()) button.click();
 }
 
 /** @param {HTMLElement} root where a reader's own model is taken */
@@ -148,10 +172,37 @@ function take(root) {
   };
 }
 
+/** @param {Element} code @returns {HTMLElement} in the theme's clothes */
+function copier(code) {
+  const place = Object.assign(document.createElement("span"), { className: "md-code__nav" });
+  const button = Object.assign(document.createElement("button"), { className: "md-code__button", type: "button", title: "Copy" });
+  button.dataset.mdType = "copy";
+  button.onclick = async () => {
+    await navigator.clipboard.writeText(/** @type {HTMLElement | null} */ (code.closest("[data-copy]"))?.dataset.copy ?? (code.textContent ?? "").trimEnd());
+    button.title = "Copied";
+    button.classList.add("md-code__button--active");
+  };
+  button.onblur = () => {
+    button.title = "Copy";
+    button.classList.remove("md-code__button--active");
+  };
+  place.append(button);
+  return place;
+}
+
+function reach() {
+  for (const wide of document.querySelectorAll(".md-typeset__scrollwrap, .md-typeset pre > code, .md-typeset .formula")) scrolls.observe(wide);
+  if (!navigator.clipboard) return;
+  for (const code of document.querySelectorAll(".highlight pre > code:first-child")) code.before(copier(code));
+}
+
 function arrive() {
   leave();
   leave = () => {};
+  reach();
   tick();
+  tiles();
+  reading();
   for (const form of /** @type {NodeListOf<HTMLFormElement>} */ (document.querySelectorAll("form.search:not([data-heard])"))) {
     form.dataset.heard = "";
     listen(form);
@@ -159,7 +210,7 @@ function arrive() {
   for (const link of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("a[data-ask]"))) example(link);
   const nearest = /** @type {HTMLElement | null} */ (document.querySelector(".nearest"));
   if (nearest) void guess(nearest);
-  const root = document.querySelector(".playground");
+  const root = /** @type {HTMLElement | null} */ (document.querySelector(".playground"));
   if (root) offer(root);
   const reader = /** @type {HTMLElement | null} */ (document.querySelector(".diagnose"));
   if (reader && !reader.querySelector("input")) take(reader);

@@ -1,15 +1,20 @@
 // The playground on a case's page: joins what the reader sees, edits and asks with what the engine answers.
 
 import { compileError, Draft } from "./editor/draft.js";
+import { sentence } from "./engine/errors.js";
 import { verdict } from "./judge/verdict.js";
-import { button, el } from "./page/elements.js";
+import { button, el, group } from "./page/elements.js";
+import { hints } from "./page/hints.js";
+import { kept } from "./page/kept.js";
+import { listen } from "./page/keys.js";
 import { markSolved } from "./page/solved.js";
 import { Player } from "./view/player.js";
 
 export { Beside } from "./view/beside.js";
 
 /** @import {Engine, Loss} from "./engine/client.js" */
-/** @import {Judgement} from "./judge/judgement.js" */
+/** @import {Judgement, Progress} from "./judge/judgement.js" */
+/** @import {Linked} from "./page/link.js" */
 /** @import {CaseRecord} from "./record/types.js" */
 
 const EDITED = "The text was edited during the check. Check again.";
@@ -17,7 +22,7 @@ const MAX_LOSSES = 3; // of engines in a row
 const LOST = {
   crashed: "The engine crashed and was started anew.",
   silent: "The engine did not answer for 6 s; it was ended and started anew.",
-  unavailable: "The engine could not be started.",
+  unavailable: "The engine could not be fetched. Are you offline?",
 };
 
 /** One mounted playground. */
@@ -25,8 +30,8 @@ export class Playground {
   /**
    * @param {HTMLElement} root
    * @param {CaseRecord} record
-   * @param {Engine} engine running, unless there is a text from a link
-   * @param {string | null} linked a text from a link: shown, and not run before the reader asks
+   * @param {Engine} engine running, unless something came with a link
+   * @param {Linked | null} linked what came with a link: its text is shown, and nothing is run before the reader asks
    * @throws {Error} if there is no WebGL
    */
   constructor(root, record, engine, linked) {
@@ -34,24 +39,59 @@ export class Playground {
     this.record = record;
     this.engine = engine;
     this.losses = 0;
+    /** Whether the broken run has been asked for. */
+    this.referred = false;
     /** @type {string | null} the text that is being judged */
     this.judged = null;
     this.status = el("p", { class: "pg-status", role: "status" });
     this.player = new Player(record, engine, () => this.startEngine());
     const act = { changed: () => this.edited(), check: () => this.check(), stop: () => engine.post({ type: "stop" }) };
-    this.draft = new Draft(record, engine, linked ?? record.text, act);
-    const { stage, time, warnings, more, signals } = this.player.controls.parts;
-    const parts = [stage, time, this.status, warnings, more, signals, ...this.draft.controls.parts, ...(record.hints.length > 0 ? [hints(record)] : [])];
+    const own = record.number === 0 ? null : kept(record.case);
+    this.draft = new Draft(record, engine, linked && "text" in linked ? linked.text : (own ?? record.text), act);
     this.before = [...root.childNodes];
-    root.replaceChildren(el("div", { class: "pg" }, ...parts));
-    this.setStatus(linked === null ? "The engine is starting." : "This text came with the link. Nothing runs until you press Run.");
+    const pg = el("div", { class: "pg" }, this.layout());
+    listen(pg, { check: () => this.check(), toggle: () => this.player.toggle(), take: (file) => void this.draft.take(file) });
+    root.replaceChildren(pg);
+    pg.scrollIntoView({ block: "start" });
+    this.setStatus("The engine is starting.");
+    this.greet(linked, own);
+    addEventListener("hashchange", reloadForLink);
     engine.listen(
       (message) => this.receive(message),
       (reason, message) => this.engineLost(reason, message),
     );
     if (linked === null) {
-      this.draft.compile(record.text);
+      this.draft.compile(this.draft.text);
       this.player.play(!matchMedia("(prefers-reduced-motion: reduce)").matches);
+    }
+  }
+
+  /** What is seen stands beside what is edited: the check's button in the middle of the first, so that both are in sight. */
+  layout() {
+    const { stage, time, pace, warnings, sliders, more, signals, legend } = this.player.controls.parts;
+    const { parts, checking } = this.draft.controls;
+    const see = el("div", { class: "pg-see" }, stage, group("Run and check", time, ...checking), signals);
+    const told = el("div", { class: "pg-said" }, legend, this.status, warnings);
+    const asked = this.record.hints.length > 0 ? [hints(this.record.hints)] : [];
+    const edit = el("div", { class: "pg-edit" }, ...parts, ...asked, pace, sliders, more);
+    return el("div", { class: "pg-room" }, el("div", { class: "pg-left" }, see, told), edit);
+  }
+
+  /**
+   * Says where the text in the editor comes from.
+   * @param {Linked | null} linked
+   * @param {string | null} own the text that the reader left here
+   */
+  greet(linked, own) {
+    const { draft } = this;
+    if (linked && "problem" in linked) {
+      const shown = own === null ? "case's own text" : "text that you left here";
+      this.setStatus(`${linked.problem} What you see is the ${shown}. Nothing runs until you press Run.`);
+    } else if (linked) {
+      this.setStatus("This text came with the link. Nothing runs until you press Run.");
+      if (own !== null && own !== draft.text) this.status.append(" ", button("Show the text that I left here", () => (draft.editor.text = own)));
+    } else if (own !== null) {
+      draft.controls.kept.textContent = "Your text, as you left it in this browser.";
     }
   }
 
@@ -69,7 +109,11 @@ export class Playground {
         return this.showVersion(message.version);
       case "opened":
         this.player.load(message.assets);
+        if (!this.referred && this.record.checks.fixed.length > 0) this.engine.post({ type: "refer" });
+        this.referred = true;
         return this.draft.accepted(message.missing);
+      case "referred":
+        return this.player.chart.refer(message);
       case "refused":
         return message.checking ? this.showResult("", compileError(message)) : this.refused(message);
       case "frame":
@@ -78,7 +122,7 @@ export class Playground {
       case "grabbed":
         return this.player.grabbed(message.held);
       case "judging":
-        return this.showResult(null, `Checking ${message.where}${".".repeat(1 + (message.turn % 3))}`);
+        return this.showProgress(message);
       case "judged":
         return this.showJudgement(message.judgement);
       case "unjudged":
@@ -94,6 +138,7 @@ export class Playground {
     const differs = version === engine ? "as was the evidence on this page" : `the evidence on this page was made with ${engine}`;
     this.setStatus(`This runs in MuJoCo ${version}${engine && `; ${differs}`}.`);
     this.draft.controls.tellNeeds(version);
+    if (this.draft.editor.knowledge) this.draft.editor.knowledge.version = version;
   }
 
   /**
@@ -123,17 +168,31 @@ export class Playground {
     this.player.engineLost();
     this.draft.engineLost(suspected);
     if (this.judged !== null) this.showResult("", `${LOST[reason]} Nothing was found out about this text.`);
-    if (suspected) this.draft.editor.showError(message);
+    const said = reason === "silent" ? "" : ` ${sentence(message).replace(/\.?$/, ".")}`;
+    if (suspected) this.draft.editor.showError(said.trim() || LOST[reason]);
     const again = reason !== "unavailable" && this.losses <= MAX_LOSSES;
-    const next = again ? "The last model that worked is back at its start." : "Reload the page to try again.";
-    this.draft.showError(`${LOST[reason]} It said: ${message}. ${next}`);
-    if (!again) return;
+    const next = again ? " The last model that worked is back at its start." : "";
+    this.draft.showError(`${LOST[reason]}${said}${next}`);
+    if (!again) {
+      this.setStatus("The engine is not running.");
+      this.status.append(" ", button("Try again", () => this.retry()));
+      return;
+    }
     this.engine.renew();
     this.draft.compile(this.draft.good);
   }
 
+  /** Starts the engine once more, as the reader asks. */
+  retry() {
+    this.losses = 0;
+    this.setStatus("The engine is starting.");
+    this.draft.showError("");
+    this.startEngine();
+  }
+
   /** Has the text in the editor judged. */
   check() {
+    if (this.draft.controls.check.disabled || this.record.checks.fixed.length === 0) return;
     this.startEngine();
     this.judged = this.draft.text;
     this.engine.post({ type: "check", text: this.judged });
@@ -152,9 +211,25 @@ export class Playground {
   /** @param {Judgement} judgement */
   showJudgement(judgement) {
     if (this.judged !== this.draft.text) return this.showResult("", EDITED);
-    const { summary, parts } = verdict(this.record, judgement, this.draft.isOurs(this.judged));
+    const { summary, parts } = verdict(this.record, judgement, this.judged);
     if (judgement.repaired) markSolved(this.record.case);
     this.showResult(judgement.repaired ? "yes" : "no", summary, ...parts);
+    this.draft.controls.result.scrollIntoView({ block: "nearest" });
+  }
+
+  /** @param {Progress} progress of a check */
+  showProgress({ where, share }) {
+    const { result } = this.draft.controls;
+    const said = `Checking ${where}.`;
+    const percent = `${Math.floor(100 * share)} %`;
+    const bar = result.querySelector("progress");
+    if (result.firstChild?.textContent === said && bar?.nextSibling) {
+      bar.value = share;
+      bar.nextSibling.textContent = percent;
+    } else {
+      const made = el("progress", { max: "1", value: String(share), "aria-label": "Progress" });
+      this.showResult(null, said, el("div", { class: "pg-progress" }, made, el("span", { "aria-hidden": "true" }, percent)));
+    }
   }
 
   /**
@@ -179,6 +254,7 @@ export class Playground {
 
   /** Ends everything and puts back what was there before. */
   leave() {
+    removeEventListener("hashchange", reloadForLink);
     this.engine.end();
     this.player.leave();
     this.draft.leave();
@@ -186,22 +262,7 @@ export class Playground {
   }
 }
 
-/**
- * Hints one by one, the last of which opens the diagnosis.
- * @param {CaseRecord} record
- */
-function hints(record) {
-  const said = el("ol", { "aria-live": "polite" });
-  const ask = button("Give me a hint", () => {
-    const hint = record.hints[said.childElementCount];
-    if (hint) {
-      said.append(el("li", {}, el("strong", {}, `${hint.title}: `), hint.text));
-      ask.textContent = said.childElementCount < record.hints.length ? "Another hint" : "Open the diagnosis";
-      return;
-    }
-    const fold = document.querySelector("details.question");
-    if (fold instanceof HTMLDetailsElement) fold.open = true;
-    fold?.scrollIntoView({ block: "start" });
-  });
-  return el("div", { class: "pg-hints" }, said, ask);
+/** Opens the text of a link that was put into this page's address; the reader's own is kept. */
+function reloadForLink() {
+  if (location.hash.startsWith("#model=")) location.reload();
 }

@@ -2,9 +2,11 @@
 
 import { Engine } from "./engine/client.js";
 import { fromFragment } from "./page/link.js";
+import { stylesheet } from "./page/stylesheet.js";
 import "uplot/dist/uPlot.min.css";
 import "../stylesheets/playground.css";
 
+/** @import {Linked} from "./page/link.js" */
 /** @import {CaseRecord} from "./record/types.js" */
 
 /**
@@ -26,12 +28,12 @@ export async function mount(root, base) {
  * @param {HTMLElement} root
  * @param {URL} base where the playground's files are
  * @param {CaseRecord} record
- * @param {string | null} linked a text from a link
+ * @param {Linked | null} linked what came with a link
  */
 export async function open(root, base, record, linked) {
   const address = (/** @type {string} */ name) => String(new URL(name, base));
   const rest = Promise.all([import("./playground.js"), stylesheet(new URL("start.css", base))]);
-  const source = { worker: address("worker.js"), wasm: address("mujoco.wasm.gz"), record };
+  const source = { worker: address("worker.js"), wasm: address("mujoco.wasm.gz"), schema: address("mjcf.json"), record };
   const engine = new Engine(source);
   if (linked === null) engine.renew();
   try {
@@ -43,15 +45,4 @@ export async function open(root, base, record, linked) {
     engine.end();
     throw error;
   }
-}
-
-/** @param {URL} address */
-function stylesheet(address) {
-  const href = String(address);
-  if ([...document.styleSheets].some((sheet) => sheet.href === href)) return;
-  const link = document.createElement("link");
-  return new Promise((resolve, reject) => {
-    Object.assign(link, { rel: "stylesheet", href, onload: resolve, onerror: reject });
-    document.head.append(link);
-  });
 }

@@ -3,6 +3,8 @@
 import loadMujoco from "@mujoco/mujoco";
 import { assets } from "./engine/assets.js";
 import { InteractiveSimulation } from "./engine/interactive.js";
+import { lineOf, sentence } from "./engine/errors.js";
+import { measure } from "./engine/measure.js";
 import { newer } from "./engine/mjcf.js";
 import { judgeText } from "./judge/judgement.js";
 import { fetchBytes } from "./page/fetch.js";
@@ -12,6 +14,7 @@ import { fetchBytes } from "./page/fetch.js";
 
 const TURN = 25; // ms of judging between two looks at the messages
 const MAX_STEPS_A_TURN = 1000;
+const MAX_SAMPLES = 1000; // of the broken run, a signal
 
 /** @type {Promise<MainModule>} */
 let booted;
@@ -44,6 +47,28 @@ const HANDLERS = {
     return null;
   },
 
+  /** Holds actuators at controls of the reader's, by name; the others are driven as the record says. */
+  control: (_, { controls }) => {
+    simulation?.control(controls);
+    return null;
+  },
+
+  /** Runs the broken model as the record says, in turns, for the chart. */
+  refer: async (mujoco) => {
+    const model = mujoco.MjModel.from_xml_string(record.text);
+    const read = Object.keys(record.signals).filter((name) => !("measure" in record.signals[name]));
+    const work = measure(mujoco, model, record, new Set(read));
+    try {
+      const found = await inTurns(work, () => true, () => {});
+      const traces = found?.traces ?? {};
+      const step = Math.ceil((found?.run.steps ?? 0) / MAX_SAMPLES);
+      const thin = (/** @type {ArrayLike<number>} */ all) => Array.from(all).filter((_, i) => (i + 1) % step === 0);
+      return { type: "referred", time: thin(traces[read[0]].time), values: Object.fromEntries(read.map((name) => [name, thin(traces[name].value)])) };
+    } finally {
+      model.delete();
+    }
+  },
+
   /** Moves on and gives what is to be drawn. */
   frame: (_, { seconds, steps, overlays, camera }) => {
     if (!simulation) return { type: "frame", frame: null };
@@ -68,21 +93,16 @@ const HANDLERS = {
   check: async (mujoco, { text, generation }) => {
     const id = ++judging;
     const work = judgeText(mujoco, text, record);
-    let where = ""; // nowhere until the text has compiled
+    let compiled = false;
+    const tell = (/** @type {import("./judge/judgement.js").Progress} */ progress) => {
+      compiled = true;
+      postMessage({ type: "judging", generation, ...progress });
+    };
     try {
-      for (let turn = 1; ; turn++) {
-        const end = performance.now() + TURN;
-        for (let i = 0; i < MAX_STEPS_A_TURN && performance.now() < end; i++) {
-          const { done, value } = work.next();
-          if (done) return { type: "judged", judgement: value };
-          where = value ?? where;
-        }
-        postMessage({ type: "judging", generation, turn, where });
-        await new Promise((resolve) => setTimeout(resolve));
-        if (id !== judging) return { type: "stopped" };
-      }
+      const judgement = await inTurns(work, () => id === judging, tell);
+      return judgement ? { type: "judged", judgement } : { type: "stopped" };
     } catch (error) {
-      if (where === "") return { ...refusal(mujoco, error), checking: true };
+      if (!compiled) return { ...refusal(mujoco, error), checking: true };
       if (fatal(error)) throw error;
       return { type: "unjudged", message: said(error) };
     } finally {
@@ -117,6 +137,31 @@ async function boot(url) {
 }
 
 /**
+ * Does work in turns, between which messages are answered.
+ * @template P, T
+ * @param {Generator<P | undefined, T>} work
+ * @param {() => boolean} wanted asked after each turn
+ * @param {(progress: P) => void} tell called with what was yielded first, and with what was yielded last in each turn
+ * @returns {Promise<T | null>} null if it is no longer wanted
+ */
+async function inTurns(work, wanted, tell) {
+  for (let turn = 0; ; turn++) {
+    const end = performance.now() + TURN;
+    /** @type {P | undefined} */
+    let last;
+    for (let i = 0; i < MAX_STEPS_A_TURN && performance.now() < end; i++) {
+      const { done, value } = work.next();
+      if (done) return value;
+      if (turn === 0 && i === 0 && value) tell(value);
+      last = value ?? last;
+    }
+    if (last) tell(last);
+    await new Promise((resolve) => setTimeout(resolve));
+    if (!wanted()) return null;
+  }
+}
+
+/**
  * Why a text does not compile.
  * @param {MainModule} mujoco
  * @param {unknown} error
@@ -124,20 +169,18 @@ async function boot(url) {
 function refusal(mujoco, error) {
   failures += 1;
   if (fatal(error)) throw error;
-  const message = said(error);
-  const line = /line(?: number)?[ =](\d+)/i.exec(message);
-  return { type: "refused", message, line: line && Number(line[1]), newer: newer(message, mujoco.mj_versionString()) };
+  const message = error instanceof Error ? error.message : "";
+  return { type: "refused", message: sentence(message), line: lineOf(message), newer: newer(message, mujoco.mj_versionString()) };
 }
 
 /** Whether the module cannot be trusted any longer. @param {unknown} error */
 function fatal(error) {
-  return error instanceof WebAssembly.RuntimeError || error instanceof RangeError || /Aborted|stack/.test(said(error));
+  return error instanceof WebAssembly.RuntimeError || error instanceof RangeError || /Aborted|stack/.test(error instanceof Error ? error.message : "");
 }
 
 /** @param {unknown} error */
 function said(error) {
-  const message = error instanceof Error ? error.message : "";
-  return message.replace(/^MuJoCo Error: (Loading error: )?/, "").trim() || "MuJoCo refused it without saying why";
+  return sentence(error instanceof Error ? error.message : "");
 }
 
 /** @param {any} answer */

@@ -88,3 +88,43 @@ def test_the_text_is_downloaded_as_it_stands(page: Page, served: str) -> None:
         page.get_by_role("button", name="Download XML").click()
 
     assert Path(download.value.path()).read_text(encoding="utf-8") == WRONG
+
+
+def test_elements_and_attributes_are_offered_with_the_manual_s_sentence(page: Page, served: str) -> None:
+    open_playground(page, served)
+    page.set_viewport_size({"width": 1280, "height": 900})
+    options = page.locator(".cm-tooltip-autocomplete li")
+    page.locator(".cm-line", has_text="<freejoint").click()
+    page.keyboard.press("End")
+    page.keyboard.press("Enter")
+
+    page.keyboard.type("<")
+    expect(options.get_by_text("geom", exact=True)).to_be_attached()
+    page.keyboard.type("geo")
+    expect(options).to_have_text(["geom"])
+    page.keyboard.press("Enter")
+    page.keyboard.type("cont")
+    expect(options.first).to_contain_text("contype")
+    expect(page.locator(".cm-completionInfo")).to_contain_text("32-bit integer bitmasks used for contact filtering")
+    page.keyboard.press("Enter")
+    page.keyboard.type("1")
+
+    expect(page.locator(".cm-line", has_text='contype="1"')).to_have_text('      <geom contype="1"/>')
+
+
+def test_a_value_of_a_few_is_offered_and_what_the_engine_is_too_old_for_is_named(page: Page, served: str) -> None:
+    open_playground(page, served)
+    options = page.locator(".cm-tooltip-autocomplete li")
+    type_text(page, "")
+    page.keyboard.type('<mujoco><option integrator="imp')
+    expect(options).to_have_text(["implicit", "implicitfast"])
+    page.keyboard.press("Escape")
+    type_text(page, "")
+    page.keyboard.type("<mujoco><option><flag specul")
+    expect(options).to_contain_text(["needs MuJoCo 4.0; this page runs 3."])
+
+
+def test_the_manual_s_sentence_stands_under_the_pointer(page: Page, served: str) -> None:
+    open_playground(page, served)
+    page.locator(".cm-line", has_text="<freejoint").get_by_text("freejoint", exact=True).hover()
+    expect(page.locator(".cm-tooltip-hover")).to_contain_text("This element creates a free joint")

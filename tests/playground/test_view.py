@@ -65,7 +65,7 @@ def test_a_body_is_pulled_with_buttons_and_with_the_pointer(page: Page, served: 
     page.get_by_label("Signal", exact=True).select_option("height")
     page.get_by_role("button", name="Run", exact=True).click()
     page.wait_for_function("parseFloat(document.querySelector('.pg-newest').value) < 0.051", timeout=LIMIT)
-    page.locator(".pg-fold summary").click()
+    page.locator(".pg-more summary").click()
     risen = "parseFloat(document.querySelector('.pg-newest').value) > 0.06"
 
     page.get_by_role("button", name="Pull the body up").click()
@@ -94,7 +94,7 @@ def test_a_body_is_pulled_with_buttons_and_with_the_pointer(page: Page, served: 
 
 def test_the_view_is_turned_with_buttons_and_with_the_pointer(page: Page, served: str) -> None:
     open_playground(page, served)
-    page.locator(".pg-fold summary").click()
+    page.locator(".pg-more summary").click()
     canvas = page.locator(".pg-stage canvas")
     seen = [canvas.screenshot()]
 
@@ -110,7 +110,7 @@ def test_the_view_is_turned_with_buttons_and_with_the_pointer(page: Page, served
 
 def test_overlays_are_off_until_asked_for(page: Page, served: str) -> None:
     open_playground(page, served, "grasp-slips")
-    page.locator(".pg-fold summary").click()
+    page.locator(".pg-more summary").click()
     boxes = page.get_by_role("group", name="Overlays").get_by_role("checkbox")
     assert not any(box.is_checked() for box in boxes.all())
 
@@ -146,7 +146,7 @@ def test_it_fits_and_has_no_serious_finding(page: Page, served: str, width: int,
     page.set_viewport_size({"width": width, "height": 800})
     page.emulate_media(color_scheme=scheme)
     open_playground(page, served, "ball-passes-through-shelf")
-    page.locator(".pg-fold summary").click()
+    page.locator(".pg-more summary").click()
     page.get_by_role("button", name="Give me a hint").click()
     page.get_by_label("Show the fix").select_option(index=1)
     check(page)

@@ -7,6 +7,7 @@ const LIMIT = 60_000; // ms without a sign of life
 const SILENT = `MuJoCo gave no answer for ${LIMIT / 1000} s`;
 const DEATHS = 5;
 const ROOM = "A page has less room than a terminal, for nested bodies above all: try `clinic diagnose` there.";
+const LAUNCHER = "diagnosis-launcher.js";
 const FILES = {
   worker: "diagnosis-worker.js",
   mujoco: "mujoco.wasm.gz",
@@ -67,6 +68,9 @@ const FILES = {
  * @typedef {(what: string, share: number) => void} Tell what is being done, and how much of it is done
  */
 
+/** @type {Worker | undefined} what starts the workers; it stays, since a second diagnosis needs no network */
+let launcher;
+
 /** A model that cannot be diagnosed, in a sentence. */
 export class DiagnosisError extends Error {}
 
@@ -81,17 +85,18 @@ export class DiagnosisError extends Error {}
  */
 export async function diagnose(base, request, tell, stop) {
   const parts = await load(base, tell);
-  /** @type {string[]} */
+  launcher ??= new Worker(new URL(LAUNCHER, base), { type: "module" });
+  /** @type {[string, string][]} rules, each with the clinic's own mistake, or nothing where the engine ended */
   const died = [];
   for (;;) {
     stop.throwIfAborted();
-    const { made, trying, message } = await ask({ parts, request, died }, tell, stop);
+    const { made, trying, message, ours } = await ask(launcher, { parts, request, died }, tell, stop);
     if (made) return made;
     if (trying === null) throw new DiagnosisError(`MuJoCo and Python could not be started: ${message}.`);
-    const ended = message === SILENT ? SILENT : `MuJoCo ended (${message})`;
+    const ended = message === SILENT ? SILENT : ours ? message : `MuJoCo ended (${message})`;
     if (!trying) throw new DiagnosisError(`${ended} while it compiled the model. ${ROOM}`);
-    if (died.length >= DEATHS) throw new DiagnosisError(`${ended} while ${trying} was tried, as while ${died.join(", ")} were. ${ROOM}`);
-    died.push(trying);
+    if (died.length >= DEATHS) throw new DiagnosisError(`${ended} while ${trying} was tried, as while ${died.map(([rule]) => rule).join(", ")} were. ${ROOM}`);
+    died.push([trying, ours ? message : ""]);
   }
 }
 
@@ -112,23 +117,24 @@ export async function load(base, tell) {
 }
 
 /**
- * @param {{parts: Parts, request: Request, died: string[]}} asked
+ * @param {Worker} launcher
+ * @param {{parts: Parts, request: Request, died: [string, string][]}} asked
  * @param {Tell} tell
  * @param {AbortSignal} stop
- * @returns {Promise<{made: Diagnosis | null, trying: string | null, message: string}>} trying: a rule, "" for the compiler,
- *   null before it is reached
+ * @returns {Promise<{made: Diagnosis | null, trying: string | null, message: string, ours: boolean}>} trying: a rule, "" for the
+ *   compiler, null before it is reached; ours: the clinic's own mistake, not the engine's
  */
-function ask(asked, tell, stop) {
-  const worker = new Worker(asked.parts.worker, { type: "module" });
+function ask(launcher, asked, tell, stop) {
+  const { port1: worker, port2: given } = new MessageChannel();
   /** @type {string | null} */
   let trying = null;
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
   return new Promise((resolve, reject) => {
-    const end = (/** @type {Diagnosis | null} */ made, /** @type {string} */ message) => {
+    const end = (/** @type {Diagnosis | null} */ made, /** @type {string} */ message, ours = false) => {
       clearTimeout(timer);
-      worker.terminate();
-      resolve({ made, trying, message });
+      worker.postMessage("end");
+      resolve({ made, trying, message, ours });
     };
     const watch = () => {
       clearTimeout(timer);
@@ -138,19 +144,15 @@ function ask(asked, tell, stop) {
       reject(stop.reason);
       end(null, "");
     });
-    worker.onerror = (event) => {
-      event.preventDefault();
-      end(null, event.message || "the worker could not be started");
-    };
     worker.onmessage = ({ data }) => {
       watch();
       if (data.type === "made") end(data.made, "");
-      else if (data.type === "died") end(null, data.message);
+      else if (data.type === "died") end(null, data.message, data.ours);
       else tell(data.title, data.share);
       trying = data.rule ?? trying;
     };
     watch();
     tell("Starting MuJoCo and Python", 0);
-    worker.postMessage(asked);
+    launcher.postMessage(asked, [given]);
   });
 }

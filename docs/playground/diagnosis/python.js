@@ -10,7 +10,7 @@ const FOLDER = "/model/of/a/reader/in/some/folders"; // so deep that `../..` sta
 const SCRIPT = `
 from pyodide.ffi import to_js
 from clinic.diagnosis.browser import BrowserEngine, diagnose
-lambda js, text, name, read, tell, symptom, died: diagnose(BrowserEngine(js, to_js), text, name, read, tell, symptom, list(died))
+lambda js, text, name, read, tell, symptom, died: diagnose(BrowserEngine(js, to_js), text, name, read, tell, symptom, dict(died.to_py()))
 `;
 
 /**
@@ -19,7 +19,7 @@ lambda js, text, name, read, tell, symptom, died: diagnose(BrowserEngine(js, to_
  * @param {MainModule} mujoco
  * @param {ArrayBuffer} rules zipped
  * @param {Request} request
- * @param {string[]} died rules of which the engine died before
+ * @param {[string, string][]} died rules that failed before, each with the clinic's own mistake, or nothing where the engine ended
  * @param {(rule: string, title: string, share: number) => void} tell
  * @returns {string} a `Diagnosis` as JSON
  */

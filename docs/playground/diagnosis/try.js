@@ -26,10 +26,10 @@ export function readersRecord({ text: main, name, files }, made, index) {
     ...{ case: name.replace(/\.\w+$/, ""), number: 0, title, engine: "", name: file, text, files },
     ...(file === name ? {} : { main }),
     run: { duration: 1, keyframe, qpos: {}, qvel: {}, ctrl: {} },
-    signals: { contacts: { path: "ncon", columns: [], unit: "", label: "number of contacts" } },
+    signals: { contacts: { path: "ncon", columns: [], unit: "", label: "number of contacts", seen: true } },
     checks: { broken: [], fixed: [] },
     fixes: [{ id: "edit", title, edits: [{ find: text, replace: after }], needs: "" }],
-    ...{ trials: [], task: { may: [] }, refuted: [], camera: null, speed: 1, telling: [], hints: [], explained: {} },
+    ...{ trials: [], task: { may: [] }, refuted: [], camera: null, speed: 1, telling: [], hints: [], guards: [], explained: {} },
   };
 }
 

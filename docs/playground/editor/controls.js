@@ -17,36 +17,51 @@ export function editorControls(record, draft, { check: startCheck, stop: stopChe
   const help = `pg-help-${record.case}`;
   const editor = el("div", { class: "pg-editor" });
   const error = el("p", { class: "pg-complaint", role: "alert" });
-  const check = button("Check my fix", startCheck, { class: "pg-check" });
+  const check = button("Check my fix", startCheck, { class: "pg-check", title: "Ctrl+Enter", "aria-keyshortcuts": "Control+Enter" });
   const stop = button("Stop checking", stopCheck, { hidden: true });
   const result = el("div", { class: "pg-result", role: "status" });
   const linked = el("p", { role: "status" });
   const address = el("input", { class: "pg-address", readonly: true, hidden: true, "aria-label": "Link to this text" });
+  const judged = record.checks.fixed.length > 0; // a reader's own model has no checks
+  const why = el("p", { class: "pg-why" });
+  const kept = el("span", { class: "pg-kept", role: "status" });
   const remedies = /** @type {[string, string][]} */ ([
     ["", "choose one"],
-    ...record.fixes.map(({ id, title }) => [id, title]),
-    ...record.refuted.map(({ id, title }) => [id, `does not help: ${title}`]),
+    ...record.fixes.map(({ id, title }, i) => [id, judged ? `fix ${i + 1} of ${record.fixes.length}` : title]), // titles would tell the cause
+    ...record.refuted.map(({ id }, i) => [id, `what does not help, ${i + 1} of ${record.refuted.length}`]),
   ]);
-  const judged = record.checks.fixed.length > 0; // a reader's own model has no checks
   const fix = choice(judged ? "Show the fix" : "Show the edit", remedies, "", (id) => id && draft.showRemedy(id));
   /** Marks the remedies that a version of MuJoCo is too old for. @param {string} version */
   const tellNeeds = (version) => {
-    for (const { id, title, needs } of [...record.fixes, ...record.refuted]) {
+    for (const { id, needs } of [...record.fixes, ...record.refuted]) {
       const option = [...fix.select.options].find(({ value }) => value === id);
-      if (option && needs && isNewer(needs, version)) option.textContent = `${title} (needs MuJoCo ${needs})`;
+      if (option && needs && isNewer(needs, version)) option.textContent += ` (needs MuJoCo ${needs})`;
     }
   };
+  const changes = button("My changes", () => draft.compare(changes.getAttribute("aria-pressed") !== "true"), { "aria-pressed": "false", disabled: true });
+  const share = judged ? [button("Copy link", () => void draft.copyLink()), ...openElsewhere(record)] : [];
+  const text = group(
+    "Text",
+    button("Undo", () => draft.editor.undo(), { title: "Ctrl+Z" }),
+    changes,
+    button("Format", () => draft.editor.format()),
+    button("Restore", () => draft.restore(), { title: "The case's own text" }),
+    button("Download XML", () => draft.download()),
+    ...share,
+  );
   const parts = [
-    el("p", { class: "pg-file" }, el("strong", {}, record.name), el("span", { id: help }, " Edit it; Tab leaves the editor, as does Escape and then Tab.")),
+    el("p", { class: "pg-file" }, el("strong", {}, record.name), " ", kept, el("span", { id: help, class: "pg-help" }, "Tab leaves the editor, as does Escape and then Tab. Ctrl+Enter checks.")),
     editor,
     error,
-    group("Repair", ...(judged ? [check, stop] : []), fix.whole),
     result,
-    group("Text", button("Restore", () => draft.restore()), button("Download XML", () => draft.download()), ...(judged ? [button("Copy link", () => void draft.copyLink()), ...openElsewhere(record)] : [])),
+    text,
+    group("Repair", fix.whole),
+    why,
     address,
     linked,
   ];
-  return { parts, tellNeeds, editor, error, check, stop, result, address, linked, fix, help };
+  const checking = judged ? [check, stop] : [];
+  return { parts, checking, tellNeeds, editor, error, check, stop, result, address, linked, fix, why, kept, changes, help };
 }
 
 /**

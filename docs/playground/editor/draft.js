@@ -2,6 +2,7 @@
 
 import { applyEdits } from "../engine/variant.js";
 import { el } from "../page/elements.js";
+import { keep } from "../page/kept.js";
 import { toFragment } from "../page/link.js";
 import { editorControls } from "./controls.js";
 import { Editor } from "./editor.js";
@@ -9,6 +10,7 @@ import { Editor } from "./editor.js";
 /** @import {Engine} from "../engine/client.js" */
 /** @import {CaseRecord} from "../record/types.js" */
 
+const MAX_FILE = 1_000_000; // bytes
 const TYPING = 350; // ms without a key before a text is compiled
 
 /** The text in the editor and what the engine makes of it. */
@@ -32,24 +34,33 @@ export class Draft {
     this.next = null;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.typing = undefined;
-    const options = { label: `${record.name}, the model's XML`, describedBy: this.controls.help, changed: () => this.edited() };
+    const options = { label: `${record.name}, the model's XML`, describedBy: this.controls.help, schema: engine.source.schema, changed: () => this.edited(), check: act.check };
     this.editor = new Editor(this.controls.editor, text, options);
+    this.controls.changes.disabled = text === record.text;
   }
 
   get text() {
     return this.editor.text;
   }
 
-  /** Whether a text is one of the record's fixes. @param {string} text */
-  isOurs(text) {
-    return this.record.fixes.some(({ edits }) => applyEdits(this.record.text, edits) === text);
-  }
-
   edited() {
     clearTimeout(this.typing);
     this.changed();
+    this.keep();
+    if (location.hash.startsWith("#model=")) history.replaceState(history.state, "", location.pathname + location.search); // a reload brings this text
     this.controls.fix.select.value = "";
+    this.controls.why.textContent = "";
     this.typing = setTimeout(() => this.engine.worker && this.compile(this.text), TYPING);
+  }
+
+  /** Keeps the text in this browser for the next visit, if it is not the case's own. */
+  keep() {
+    const { number, case: slug, text } = this.record;
+    const same = this.text === text;
+    this.controls.changes.disabled = same;
+    if (number === 0) return; // the reader's own model, whose file the reader has
+    const done = keep(slug, same ? null : this.text);
+    this.controls.kept.textContent = same ? "" : done ? "Kept in this browser." : "This browser keeps nothing: copy the link or download the text before you leave.";
   }
 
   /**
@@ -57,6 +68,7 @@ export class Draft {
    * @param {string} text
    */
   compile(text) {
+    if (!this.engine.worker) return; // the engine was lost before; it compiles the text when it is started again
     if (this.compiling !== null) {
       this.next = text;
       return;
@@ -108,16 +120,42 @@ export class Draft {
     const { text, fixes, refuted } = this.record;
     const remedy = [...fixes, ...refuted].find((one) => one.id === id);
     if (!remedy) return;
-    this.editor.compare(null);
+    this.compare(false);
     this.editor.text = applyEdits(text, remedy.edits);
-    this.editor.compare(text);
+    this.compare(true);
     this.controls.fix.select.value = id;
+    this.controls.why.textContent = `${remedy.title}.`;
+  }
+
+  /** @param {boolean} compared whether what differs from the case's own text is marked */
+  compare(compared) {
+    this.controls.changes.setAttribute("aria-pressed", String(compared));
+    this.editor.compare(compared ? this.record.text : null);
   }
 
   /** Puts the case's own text back. */
   restore() {
-    this.editor.compare(null);
+    this.compare(false);
     this.editor.text = this.record.text;
+  }
+
+  /**
+   * Puts a model from a file into the editor.
+   * @param {File} file
+   */
+  async take(file) {
+    if (file.size > MAX_FILE) return this.say(`${file.name} is larger than ${MAX_FILE / 1e6} MB, too large for this editor.`);
+    const text = await file.text();
+    if (!/<(mujoco|robot)[\s>]/.test(text)) return this.say(`${file.name} is no model: there is no <mujoco> in it.`);
+    this.compare(false);
+    this.editor.text = text;
+    const instead = this.record.checks.fixed.length > 0 ? " The checks are still those of this case." : "";
+    this.say(`${file.name} is in the editor; Undo takes it out again.${instead}`);
+  }
+
+  /** @param {string} text about what was done with the text */
+  say(text) {
+    this.controls.linked.textContent = text;
   }
 
   /** @param {string} text about what is wrong with the text in the editor; empty when nothing is */
@@ -133,15 +171,17 @@ export class Draft {
 
   /** Puts a link to the text into the field below and, where the browser lets it, into the clipboard. */
   async copyLink() {
-    const { address, linked } = this.controls;
-    address.value = new URL(await toFragment(this.text), location.href).href;
+    const { address } = this.controls;
+    const fragment = await toFragment(this.text);
+    if (fragment === null) return this.say("This text is too long for a link. Download it instead.");
+    address.value = new URL(fragment, location.href).href;
     address.hidden = false;
     address.select();
     const copied = await navigator.clipboard?.writeText(address.value).then(
       () => true,
       () => false,
     );
-    linked.textContent = copied ? "The link to this text is copied." : "Copy the link to this text from the field above.";
+    this.say(copied ? "The link to this text is copied." : "Copy the link to this text from the field above.");
   }
 
   leave() {

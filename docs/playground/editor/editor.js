@@ -1,13 +1,14 @@
 // The editor for the model's XML. Tab leaves it; Enter, undo and search keys are CodeMirror's own.
 
-import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap, undo } from "@codemirror/commands";
 import { xml } from "@codemirror/lang-xml";
-import { bracketMatching, HighlightStyle, indentOnInput, syntaxHighlighting } from "@codemirror/language";
+import { bracketMatching, HighlightStyle, indentOnInput, indentRange, syntaxHighlighting } from "@codemirror/language";
 import { lintGutter, setDiagnostics } from "@codemirror/lint";
 import { unifiedMergeView } from "@codemirror/merge";
 import { Compartment, EditorState } from "@codemirror/state";
 import { drawSelection, EditorView, keymap, lineNumbers } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
+import { Knowledge } from "./completion.js";
 
 const COLOURS = HighlightStyle.define([
   { tag: tags.tagName, color: "var(--pg-tag)" },
@@ -21,10 +22,16 @@ export class Editor {
   /**
    * @param {HTMLElement} parent
    * @param {string} text
-   * @param {{label: string, describedBy: string, changed: () => void}} options
+   * @param {{label: string, describedBy: string, schema?: string, changed: () => void, check: () => void}} options schema: of the
+   *   XML, its address; without one the text is no XML
    */
-  constructor(parent, text, { label, describedBy, changed }) {
+  constructor(parent, text, { label, describedBy, schema, changed, check }) {
+    this.knowledge = schema === undefined ? null : new Knowledge(schema);
     this.comparison = new Compartment();
+    const run = () => {
+      check();
+      return true;
+    };
     this.view = new EditorView({
       parent,
       state: EditorState.create({
@@ -37,9 +44,9 @@ export class Editor {
           drawSelection(),
           indentOnInput(),
           bracketMatching(),
-          xml({ autoCloseTags: false }),
+          this.knowledge ? [xml({ autoCloseTags: false }), this.knowledge.extensions] : [],
           syntaxHighlighting(COLOURS),
-          keymap.of([...defaultKeymap, ...historyKeymap]),
+          keymap.of([{ key: "Mod-Enter", run }, ...defaultKeymap, ...historyKeymap]),
           this.comparison.of([]),
           EditorView.contentAttributes.of({ "aria-label": label, "aria-describedby": describedBy, tabindex: "0" }),
           EditorView.updateListener.of((update) => update.docChanged && changed()),
@@ -56,6 +63,26 @@ export class Editor {
   set text(text) {
     if (text === this.text) return;
     this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text } });
+  }
+
+  /** Takes the last change back. */
+  undo() {
+    undo(this.view);
+    this.view.focus();
+  }
+
+  /** Indents every line as its elements are nested, and drops spaces at the ends of lines. */
+  format() {
+    const { doc } = this.view.state;
+    const ends = [];
+    for (let n = 1; n <= doc.lines; n++) {
+      const { from, to, text } = doc.line(n);
+      const blank = text.length - text.trimEnd().length;
+      if (blank > 0) ends.push({ from: Math.max(to - blank, from), to });
+    }
+    const trimmed = this.view.state.update({ changes: ends }).state;
+    const indented = trimmed.update({ changes: indentRange(trimmed, 0, trimmed.doc.length) }).state;
+    this.text = indented.doc.toString();
   }
 
   /**

@@ -23,8 +23,10 @@ const MAX_SIDE = 200; // of a height field, in drawn points
  * @property {Light[]} lights
  * @property {string[]} cameras
  * @property {{id: number, name: string}[]} movable bodies that can be pulled
+ * @property {{id: number, name: string, range: number[]}[]} actuators that have a name; the range of one without limits is 0 0
  * @property {{centre: number[], extent: number}} size of the model
  * @property {{near: number, far: number}} map in extents
+ * @property {number} timestep in s
  * @property {number} fovy of the free camera, in degrees
  */
 
@@ -37,7 +39,7 @@ const MAX_SIDE = 200; // of a height field, in drawn points
  */
 export function assets(mujoco, model, scene) {
   const name = (/** @type {{value: number}} */ kind, /** @type {number} */ id) => nameOf(mujoco, model, kind.value, id);
-  const { mjOBJ_BODY, mjOBJ_CAMERA } = mujoco.mjtObj;
+  const { mjOBJ_ACTUATOR, mjOBJ_BODY, mjOBJ_CAMERA } = mujoco.mjtObj;
   const textures = range(model.ntex).map((i) => texture(model, i));
   const sky = range(model.ntex).find((i) => model.tex_type[i] === mujoco.mjtTexture.mjTEXTURE_SKYBOX.value);
   const { map, global } = model.vis;
@@ -53,7 +55,11 @@ export function assets(mujoco, model, scene) {
     movable: range(model.nbody)
       .filter((id) => model.body_weldid[id] !== 0)
       .map((id) => ({ id, name: name(mjOBJ_BODY, id) || `body ${id}` })),
+    actuators: range(model.nu)
+      .map((id) => ({ id, name: name(mjOBJ_ACTUATOR, id), range: Array.from(part(model.actuator_ctrlrange, id, 2)) }))
+      .filter(({ name }) => name !== ""),
     size: { centre: Array.from(model.stat.center), extent: model.stat.extent },
+    timestep: model.opt.timestep,
     map: { near: map.znear, far: map.zfar },
     fovy: global.fovy,
   };

@@ -9,6 +9,17 @@
  * @typedef {{check: Check, measured: number, holds: boolean}} Verdict
  */
 
+/** What is taken of a signal, in words. */
+export const TAKES = /** @type {const} */ ({
+  final: "at the end",
+  first: "after one step",
+  min: "lowest",
+  max: "highest",
+  mean: "mean",
+  span: "span",
+  onset: "first differs from zero at",
+});
+
 /**
  * One number of a trace; NaN when there is no sample to take it from.
  *
@@ -18,31 +29,27 @@
  * @param {[number, number]} [window] only samples with t0 <= time <= t1, in s
  * @returns {number}
  */
-export function take(trace, which, window) {
-  let samples = Array.from(trace.value, (value, i) => ({ time: trace.time[i], value }));
-  if (window) samples = samples.filter(({ time }) => time >= window[0] && time <= window[1]);
-  if (which === "final") return samples.at(-1)?.value ?? NaN;
-  if (which === "first") return samples.at(0)?.value ?? NaN;
-  samples = samples.filter(({ value }) => !Number.isNaN(value));
-  if (samples.length === 0) return NaN;
-  let [low, high, sum] = [Infinity, -Infinity, 0];
-  for (const { value } of samples) {
-    low = Math.min(low, value);
-    high = Math.max(high, value);
-    sum += value;
+export function take({ time, value }, which, window) {
+  let [from, to] = [0, value.length - 1];
+  if (window) {
+    while (from <= to && time[from] < window[0]) from += 1;
+    while (to >= from && time[to] > window[1]) to -= 1;
   }
-  switch (which) {
-    case "min":
-      return low;
-    case "max":
-      return high;
-    case "mean":
-      return sum / samples.length;
-    case "span":
-      return high - low;
-    case "onset":
-      return samples.find(({ value }) => value !== 0)?.time ?? NaN;
+  if (from > to) return NaN;
+  if (which === "final") return value[to];
+  if (which === "first") return value[from];
+  let [low, high, sum, count] = [Infinity, -Infinity, 0, 0];
+  for (let i = from; i <= to; i++) {
+    const number = value[i];
+    if (Number.isNaN(number)) continue;
+    if (which === "onset" && number !== 0) return time[i];
+    if (number < low) low = number;
+    if (number > high) high = number;
+    sum += number;
+    count += 1;
   }
+  if (count === 0 || which === "onset") return NaN;
+  return { min: low, max: high, mean: sum / count, span: high - low }[which];
 }
 
 /**

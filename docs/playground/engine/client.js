@@ -3,14 +3,14 @@
 const LIMIT = 6000; // ms without a sign of life
 const BOOT_LIMIT = 60000; // the engine is fetched over the reader's network
 const MAX_FAILURES = 200; // failed compiles: each leaves a little of the module's stack behind
-const ANSWERED = new Set(["boot", "open", "frame", "grab", "hold", "check"]);
+const ANSWERED = new Set(["boot", "open", "frame", "grab", "hold", "check", "refer"]);
 const PROGRESS = new Set(["judging"]);
 
 /** @typedef {"crashed" | "silent" | "unavailable"} Loss */
 
 /** The worker in which MuJoCo runs. */
 export class Engine {
-  /** @param {{worker: string, wasm: string, record: object}} source */
+  /** @param {{worker: string, wasm: string, schema: string, record: object}} source addresses, and what the worker is told */
   constructor(source) {
     this.source = source;
     /** @type {((message: any) => void) | null} called with every answer of the present generation */

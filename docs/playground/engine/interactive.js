@@ -3,6 +3,7 @@
 import { evaluate, parse } from "../record/expression.js";
 import { compile, encoded } from "./compile.js";
 import { pathSignals } from "./measure.js";
+import { cameraPose, pack } from "./pack.js";
 import { bind, nameOf } from "./signals.js";
 import { controls, raised, start, step } from "./simulate.js";
 
@@ -13,19 +14,6 @@ import { controls, raised, start, step } from "./simulate.js";
 const MAX_GEOMS = 2000;
 const SAMPLES_A_FRAME = 20;
 const STEPPING = 12; // ms a frame
-
-/** The numbers of a packed geom, in this order; see `pack`. */
-export const GEOM = {
-  TYPE: 0,
-  DATA: 1,
-  MATERIAL: 2,
-  UNIFORM: 3,
-  SIZE: 4,
-  POS: 7,
-  MAT: 10,
-  RGBA: 19,
-  LENGTH: 23,
-};
 
 /** The overlays, each with the flag of MuJoCo's visualisation that draws it. */
 export const OVERLAYS = /** @type {const} */ ({
@@ -51,6 +39,7 @@ export const OVERLAYS = /** @type {const} */ ({
  * @property {boolean} late whether the engine could not keep up with the speed asked for
  * @property {{name: string, text: string}[]} warnings
  * @property {{time: number[], values: Record<string, number[]>}} samples since the last frame
+ * @property {number[]} ctrl the control of every actuator
  */
 
 /** A compiled model with its data and everything that draws it. */
@@ -85,6 +74,8 @@ export class InteractiveSimulation {
     this.data = new mujoco.MjData(this.model);
     /** @type {Drive} */
     this.drive = [];
+    /** @type {Record<string, number>} controls that the reader holds, by the actuator's name */
+    this.taken = {};
     /** @type {{name: string, read: () => number}[]} */
     this.signals = [];
     /** @type {{delete: () => void}[]} what the signals' readers hold */
@@ -100,7 +91,7 @@ export class InteractiveSimulation {
     this.steps = 0;
     this.debt = 0;
     this.data = this.attempt(() => start(mujoco, model, record.run)) ?? new mujoco.MjData(model);
-    this.drive = this.attempt(() => controls(mujoco, model, record.run)) ?? [];
+    this.control(this.taken);
     this.signals = this.readers();
     this.release();
     mujoco.mj_forward(model, this.data);
@@ -172,6 +163,7 @@ export class InteractiveSimulation {
       camera: camera < 0 ? null : cameraPose(model, data, camera),
       time: this.steps * model.opt.timestep,
       steps: this.steps,
+      ctrl: Array.from(data.ctrl),
       warnings: raised(mujoco, data).map(({ name, id, info }) => ({ name, text: mujoco.mju_warningText(id, info) })),
     };
   }
@@ -226,6 +218,21 @@ export class InteractiveSimulation {
     this.data.xfrc_applied.fill(0);
   }
 
+  /**
+   * Holds actuators at controls of the reader's; the others are driven as the record says.
+   * @param {Record<string, number>} wanted by the actuator's name
+   */
+  control(wanted) {
+    this.taken = wanted;
+    const { mujoco, model, record } = this;
+    const type = mujoco.mjtObj.mjOBJ_ACTUATOR.value;
+    const given = Object.entries(wanted).map(([name, value]) => ({ id: mujoco.mj_name2id(model, type, name), value }));
+    const taken = given.filter(({ id }) => id >= 0);
+    const driven = this.attempt(() => controls(mujoco, model, record.run)) ?? [];
+    this.drive = [...driven, ...taken.map(({ id, value }) => ({ id, at: () => value }))];
+    for (const { id, value } of taken) this.data.ctrl[id] = value;
+  }
+
   /** Frees everything. */
   delete() {
     this.free();
@@ -267,38 +274,4 @@ export class InteractiveSimulation {
       return null;
     }
   }
-}
-
-/** @param {MjvScene} scene */
-function pack(scene) {
-  const geoms = scene.geoms; // a copy, as is every geom taken from it
-  const packed = new Float32Array(scene.ngeom * GEOM.LENGTH);
-  for (let i = 0; i < scene.ngeom; i++) {
-    const geom = /** @type {any} */ (geoms.get(i));
-    const at = i * GEOM.LENGTH;
-    packed[at + GEOM.TYPE] = geom.type;
-    packed[at + GEOM.DATA] = geom.dataid;
-    packed[at + GEOM.MATERIAL] = geom.matid;
-    packed[at + GEOM.UNIFORM] = geom.texuniform;
-    packed.set(geom.size, at + GEOM.SIZE);
-    packed.set(geom.pos, at + GEOM.POS);
-    packed.set(geom.mat, at + GEOM.MAT);
-    packed.set(geom.rgba, at + GEOM.RGBA);
-    geom.delete();
-  }
-  geoms.delete();
-  return packed;
-}
-
-/**
- * @param {MjModel} model
- * @param {MjData} data
- * @param {number} camera
- */
-function cameraPose(model, data, camera) {
-  return {
-    pos: Array.from(data.cam_xpos.slice(3 * camera, 3 * camera + 3)),
-    mat: Array.from(data.cam_xmat.slice(9 * camera, 9 * camera + 9)),
-    fovy: model.cam_fovy[camera],
-  };
 }

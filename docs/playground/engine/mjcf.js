@@ -12,10 +12,18 @@ export function newer(message, version) {
   const found = /unrecognized (?:attribute: '([^']*)'|element)\s+Element '([^']*)'/.exec(message);
   if (!found) return "";
   const [, attribute, element] = found;
-  const [release] = Object.entries(SINCE).find(([, names]) => names.includes(attribute ? `${element}.${attribute}` : element)) ?? [];
+  const release = sinceOf(attribute ? `${element}.${attribute}` : element);
   if (!release || !isNewer(release, version)) return "";
   const name = attribute ?? element;
   return `This page runs MuJoCo ${version}, which does not know \`${name}\`; \`clinic judge\` with MuJoCo ${release} does.`;
+}
+
+/**
+ * The first release that reads a name; empty if all that this site knows do.
+ * @param {string} name an element, or `element.attribute`
+ */
+export function sinceOf(name) {
+  return Object.entries(SINCE).find(([, names]) => names.includes(name))?.[0] ?? "";
 }
 
 /**

@@ -7,7 +7,7 @@ import { bind, requireId, warningStat } from "./signals.js";
 /** @import {Trace} from "./checks.js" */
 
 export const MAX_STEPS = 2_000_000;
-const STEPS_A_TURN = 100;
+export const STEPS_A_TURN = 100;
 const STEPS_A_LOOK = 10; // at MuJoCo's warnings: a counter stays until another warning resets the state
 
 /** A run that cannot start. */

@@ -3,7 +3,7 @@
 import { expected, general, judge } from "../engine/checks.js";
 import { measure } from "../engine/measure.js";
 import { SignalError } from "../engine/signals.js";
-import { RunError } from "../engine/simulate.js";
+import { RunError, STEPS_A_TURN } from "../engine/simulate.js";
 import { changes } from "./task.js";
 import { inTrial, prepare } from "./trials.js";
 
@@ -19,6 +19,9 @@ import { inTrial, prepare } from "./trials.js";
  * @property {string[]} warnings that MuJoCo raised
  * @property {string[]} failed what does not hold, a sentence each
  *
+ * How far a judgement is.
+ * @typedef {{where: string, share: number}} Progress what is being done, in words, and how much of all is done, 0 to 1
+ *
  * What `Check my fix` finds.
  * @typedef {object} Judgement
  * @property {string[]} changes what was changed of the task, a sentence each
@@ -27,12 +30,11 @@ import { inTrial, prepare } from "./trials.js";
  */
 
 /**
- * Judges a text. It yields now and then, so that the caller can do other work, or stop: what it is about to do, in words,
- * or nothing.
+ * Judges a text. It yields now and then, so that the caller can do other work, or stop; first when the text has compiled.
  * @param {MainModule} mujoco
  * @param {string} text
  * @param {CaseRecord} record
- * @returns {Generator<string | undefined, Judgement>}
+ * @returns {Generator<Progress, Judgement>}
  * @throws {Error} before the first yield with MuJoCo's message, if the text does not compile
  * @throws {RunError | SignalError} if it cannot be run, though the task is the same
  */
@@ -42,8 +44,10 @@ export function* judgeText(mujoco, text, record) {
   let changed = [];
   /** @type {Situation[]} */
   const situations = [];
+  const all = 1 + record.trials.length;
+  const progress = (/** @type {number} */ share) => ({ where: "the case's own run", share: share / all });
   try {
-    yield "the case's own run";
+    yield progress(0);
     const broken = mujoco.MjModel.from_xml_string(record.text);
     try {
       changed = changes(mujoco, broken, model, record.task.may);
@@ -51,7 +55,7 @@ export function* judgeText(mujoco, text, record) {
       broken.delete();
     }
     try {
-      situations.push(yield* situation(mujoco, model, record, null));
+      situations.push(yield* told(situation(mujoco, model, record, null), turns(model, record, null), progress));
     } catch (error) {
       if (changed.length === 0 || !cannotRun(error)) throw error;
     }
@@ -59,10 +63,12 @@ export function* judgeText(mujoco, text, record) {
     model.delete();
   }
   for (const [k, trial] of record.trials.entries()) {
-    yield `the trial '${trial.title}' (${k + 1} of ${record.trials.length})`;
+    const where = `the trial '${trial.title}' (${k + 1} of ${record.trials.length})`;
+    const inTrials = (/** @type {number} */ share) => ({ where, share: (1 + k + share) / all });
+    yield inTrials(0);
     const other = mujoco.MjModel.from_xml_string(text);
     try {
-      situations.push(yield* situation(mujoco, other, record, trial));
+      situations.push(yield* told(situation(mujoco, other, record, trial), turns(other, record, trial), inTrials));
     } catch (error) {
       if (!cannotRun(error)) throw error;
       const failed = [`In the trial '${trial.title}' it cannot be run: ${error.message}.`];
@@ -73,6 +79,39 @@ export function* judgeText(mujoco, text, record) {
   }
   const repaired = changed.length === 0 && situations.every(({ failed }) => failed.length === 0);
   return { changes: changed, situations, repaired };
+}
+
+/**
+ * Work that tells how far it is.
+ * @template T
+ * @param {Generator<undefined, T>} work
+ * @param {number} length how often it will yield, about
+ * @param {(share: number) => Progress} progress
+ * @returns {Generator<Progress, T>}
+ */
+function* told(work, length, progress) {
+  try {
+    for (let done = 1; ; done++) {
+      const turn = work.next();
+      if (turn.done) return turn.value;
+      yield progress(Math.min(done / length, 1));
+    }
+  } finally {
+    work.return(/** @type {any} */ (undefined)); // frees what it holds, if it was stopped
+  }
+}
+
+/**
+ * How often the measurements of a situation yield, about.
+ * @param {MjModel} model
+ * @param {CaseRecord} record
+ * @param {Trial | null} trial
+ */
+function turns({ opt }, record, trial) {
+  const here = trial ? inTrial(record, trial) : record;
+  const wanted = new Set([...here.checks.broken, ...here.checks.fixed].map(({ signal }) => signal));
+  const again = [...wanted].map((name) => record.signals[name]).reduce((sum, signal) => sum + ("count" in signal ? signal.count : 0), 0);
+  return Math.max(1, ((1 + again) * here.run.duration) / (STEPS_A_TURN * opt.timestep));
 }
 
 /** @param {unknown} error @returns {error is RunError | SignalError} */
@@ -103,10 +142,10 @@ function* situation(mujoco, model, record, trial) {
 
 /**
  * A check that does not hold, in a sentence.
- * @param {CaseRecord} record
+ * @param {Pick<CaseRecord, "signals">} record
  * @param {Verdict} verdict
  */
-function missed(record, { check, measured }) {
+export function missed(record, { check, measured }) {
   const { label, unit: its } = record.signals[check.signal];
   const unit = check.take === "onset" ? "s" : its;
   const span = check.window ? `, ${general(check.window[0])} to ${general(check.window[1])} s` : "";

@@ -1,41 +1,73 @@
 // The answer to `Check my fix`: what holds and what does not in sentences, and a table of all that was measured.
 
-import { expected, shown } from "../engine/checks.js";
+import { expected, shown, TAKES } from "../engine/checks.js";
+import { applyEdits } from "../engine/variant.js";
 import { el } from "../page/elements.js";
 
 /** @import {Verdict} from "../engine/checks.js" */
-/** @import {Check, CaseRecord} from "../record/types.js" */
+/** @import {Check, CaseRecord, Remedy} from "../record/types.js" */
 /** @import {Judgement, Situation} from "./judgement.js" */
 
-const TAKES = {
-  final: "at the end",
-  first: "after one step",
-  min: "lowest",
-  max: "highest",
-  mean: "mean",
-  span: "span",
-  onset: "first differs from zero at",
-};
+/** @typedef {Pick<CaseRecord, "text" | "signals" | "checks" | "fixes" | "refuted" | "guards"> & {trials: readonly unknown[]}} Judged */
+
 
 /**
- * @param {CaseRecord} record
+ * @param {Judged} record
  * @param {Judgement} judgement
- * @param {boolean} ours whether the text is a fix of the record
+ * @param {string} text that was judged
  * @returns {{summary: string, parts: HTMLElement[]}}
  */
-export function verdict(record, judgement, ours) {
+export function verdict(record, judgement, text) {
   const { changes, situations, repaired } = judgement;
-  const told = [...changes, ...situations.flatMap(({ failed }) => failed)];
-  const list = el("ul", { class: "pg-told" }, ...told.map((sentence) => el("li", {}, sentence)));
+  const isText = (/** @type {Remedy} */ { edits }) => applyEdits(record.text, edits) === text;
+  const tried = record.refuted.find(isText);
+  const why = tried?.why ? [el("p", { class: "pg-refuted" }, el("strong", {}, `${tried.title}: `), ...code(tried.why))] : [];
+  const told = [...changes.map((text) => ({ text, guard: "" })), ...failures(record, situations)];
+  const list = el("ul", { class: "pg-told" }, ...told.map(({ text, guard }) => el("li", {}, text, ...(guard ? [el("span", { class: "pg-guard" }, guard)] : []))));
   const measured = el("details", { class: "pg-fold" }, el("summary", {}, "All that was measured"), table(record, situations));
   return {
-    summary: repaired ? accepted(record, ours) : refused(judgement),
-    parts: [...(told.length > 0 ? [list] : []), ...(situations.length > 0 ? [measured] : [])],
+    summary: repaired ? accepted(record, record.fixes.some(isText)) : refused(judgement),
+    parts: [...why, ...(told.length > 0 ? [list] : []), ...(situations.length > 0 ? [measured] : [])],
   };
 }
 
 /**
- * @param {CaseRecord} record
+ * What failed, and once for each check what it is there for.
+ * @param {Judged} record
+ * @param {Situation[]} situations
+ */
+function failures({ checks, guards }, situations) {
+  /** @type {Set<number>} */
+  const said = new Set();
+  return situations.flatMap(({ failed, fixed, warnings }) => {
+    const missed = fixed.filter(({ holds }) => !holds);
+    return failed.map((text, i) => {
+      const check = missed[i - warnings.length]?.check;
+      const k = check ? checks.fixed.findIndex(({ signal, take }) => signal === check.signal && take === check.take) : -1;
+      if (!guards[k] || said.has(k)) return { text, guard: "" };
+      said.add(k);
+      return { text, guard: guarded(guards[k]) };
+    });
+  });
+}
+
+/** @param {CaseRecord["guards"][number]} guard */
+function guarded({ symptom, against }) {
+  if (symptom) return " This is the symptom: the broken model fails it as well.";
+  const such = against.length > 0 ? `, such as “${against[0]}”` : "";
+  return ` The broken model passes this: it guards against repairs that spoil something else${such}.`;
+}
+
+/**
+ * A text with what stands between backticks as code.
+ * @param {string} text
+ */
+function code(text) {
+  return text.split("`").map((part, i) => (i % 2 === 1 ? el("code", {}, part) : part));
+}
+
+/**
+ * @param {Judged} record
  * @param {boolean} ours
  */
 function accepted({ trials }, ours) {
@@ -56,7 +88,7 @@ function refused({ changes, situations }) {
 }
 
 /**
- * @param {CaseRecord} record
+ * @param {Judged} record
  * @param {Situation[]} situations
  */
 function table(record, situations) {
@@ -73,7 +105,7 @@ function table(record, situations) {
 }
 
 /**
- * @param {CaseRecord} record
+ * @param {Judged} record
  * @param {Verdict} made
  */
 function measuredRow(record, { check, measured, holds }) {
@@ -82,7 +114,7 @@ function measuredRow(record, { check, measured, holds }) {
 }
 
 /**
- * @param {CaseRecord} record
+ * @param {Judged} record
  * @param {Check} check
  */
 function what(record, check) {

@@ -39,7 +39,7 @@ export function button(label, pressed, attributes = {}) {
  */
 export function choice(label, options, chosen, changed) {
   const id = `pg-choice-${label.toLowerCase().replaceAll(" ", "-")}`;
-  const select = el("select", { id }, ...options.map(([value, text]) => el("option", { value }, text)));
+  const select = el("select", { id, "aria-label": label }, ...options.map(([value, text]) => el("option", { value }, text)));
   select.value = chosen;
   select.addEventListener("change", () => changed(select.value));
   return { select, whole: el("span", { class: "pg-choice" }, el("label", { for: id }, label), select) };

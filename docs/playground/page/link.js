@@ -1,23 +1,29 @@
 // An edited text in the fragment of an address: deflated, in base64 for URLs.
 
 const KEY = "#model=";
-const MAX_TEXT = 1_000_000; // characters: a longer one is not read
+const MAX_TEXT = 1_000_000; // characters: a longer one is neither written nor read
 
 /**
  * Packs a text into a fragment.
  * @param {string} text
- * @returns {Promise<string>} the fragment, with its `#`
+ * @returns {Promise<string | null>} the fragment, with its `#`; null if the text is too long for a link
  */
 export async function toFragment(text) {
+  if (text.length > MAX_TEXT) return null;
   const packed = await new Response(new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw"))).arrayBuffer();
   const binary = Array.from(new Uint8Array(packed), (byte) => String.fromCharCode(byte)).join("");
   return KEY + btoa(binary).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 
 /**
+ * What came with an address: a text, or why it cannot be read, in a sentence.
+ * @typedef {{text: string} | {problem: string}} Linked
+ */
+
+/**
  * Unpacks the text of a fragment.
  * @param {string} fragment
- * @returns {Promise<string | null>} the text; null if there is none that can be read
+ * @returns {Promise<Linked | null>} null if there is none
  */
 export async function fromFragment(fragment) {
   if (!fragment.startsWith(KEY)) return null;
@@ -31,11 +37,11 @@ export async function fromFragment(fragment) {
       text += part.value;
       if (text.length > MAX_TEXT) {
         await reader.cancel();
-        return null;
+        return { problem: `The text in this link is too long: more than ${MAX_TEXT.toLocaleString("en")} characters.` };
       }
     }
-    return text;
+    return { text };
   } catch {
-    return null;
+    return { problem: "This link is damaged: the text in it cannot be read. Perhaps its end was cut off when it was copied." };
   }
 }

@@ -2,7 +2,8 @@
 
 /**
  * @typedef {{find: string, replace: string}} Edit
- * @typedef {{id: string, title: string, edits: Edit[], needs: string}} Remedy needs: the release of MuJoCo, if not every one will do
+ * @typedef {{id: string, title: string, edits: Edit[], needs: string, why?: string}} Remedy needs: the release of MuJoCo, if not
+ *   every one will do; why: of what does not help, in words
  * @typedef {"final" | "first" | "min" | "max" | "mean" | "span" | "onset"} Take
  *
  * @typedef {object} Comparison
@@ -17,6 +18,7 @@
  * @typedef {object} Described
  * @property {string} unit
  * @property {string} label
+ * @property {boolean} seen whether it tells what is seen, and not why
  *
  * @typedef {Described & {path: string, columns: number[]}} PathSignal columns: the lengths of all dimensions but the first
  * @typedef {Described & {expr: string}} ExpressionSignal
@@ -60,6 +62,8 @@
  * @property {number} speed simulated seconds a second
  * @property {string[]} telling the overlays that show the cause
  * @property {{title: string, text: string}[]} hints
+ * @property {{symptom: boolean, against: string[]}[]} guards of every check in `checks.fixed`, whether the broken model fails it, and
+ *   which remedies that do not help do; empty if that is not known
  * @property {Record<string, {href: string, title: string}[]>} explained pages that explain a warning
  * @property {[string, Uint8Array][]} [files] what a reader's own model names, by path from its folder
  * @property {string} [main] the text of the reader's model, if `text` is that of a file that it includes

@@ -1,10 +1,12 @@
 // The elements that show the running model, and the buttons and choices that move it.
 
 import { button, choice, el, group, tickbox } from "../page/elements.js";
+import { Actuators } from "./actuators.js";
 
 /** @import {CaseRecord} from "../record/types.js" */
 /** @import {Player} from "./player.js" */
 
+const LEAST_STEPS = 30; // a second: fewer would be seen one by one
 const SPEEDS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
 const OVERLAYS = {
   contact_points: "contacts",
@@ -25,7 +27,8 @@ const TURN = 0.15; // rad a press
  * @param {Player} player
  */
 export function viewControls(record, player) {
-  const canvas = el("canvas", { role: "img", "aria-label": `${record.number ? `The model of case ${record.number}` : record.name}, live: ${record.title}` });
+  const actuators = new Actuators(record, (controls) => player.control(controls));
+  const canvas = el("canvas", { role: "img", tabindex: "0", "aria-label": `${record.number ? `The model of case ${record.number}` : record.name}, live: ${record.title}` });
   const clock = el("output", { class: "pg-clock" });
   const stage = el("div", { class: "pg-stage" }, canvas, clock);
   const warnings = el("ul", { class: "pg-warnings", "aria-live": "polite" });
@@ -39,10 +42,11 @@ export function viewControls(record, player) {
     pulls.setAttribute("aria-pressed", String(!pressed));
     stage.toggleAttribute("data-pulling", !pressed);
   });
-  const run = button("Run", () => player.toggle(), { class: "pg-run" });
-  const speeds = SPEEDS.includes(record.speed) ? SPEEDS : [...SPEEDS, record.speed].sort((a, b) => a - b);
-  const speed = choice("Speed", speeds.map((x) => [String(x), `× ${x}`]), String(record.speed), (value) => (player.speed = Number(value)));
-  const time = group("Time", run, button("Step", () => player.step()), button("Reset", () => player.reset()), speed.whole, ...overlays.telling);
+  const run = button("Run", () => player.toggle(), { class: "pg-run", title: "Space", "aria-keyshortcuts": "Space" });
+  const speeds = [...new Set([...SPEEDS, record.speed])].sort((a, b) => a - b);
+  const speed = choice("Speed", speeds.map((x) => [String(x), `× ${x}`]), String(record.speed), (value) => player.chooseSpeed(Number(value)));
+  const time = group("Time", run, button("Step", () => player.step()), button("Reset", () => player.reset()));
+  const pace = group("Pace", speed.whole, ...overlays.telling);
   const view = group(
     "View",
     button("←", () => player.turn(-TURN, 0), { "aria-label": "Turn the view left" }),
@@ -64,8 +68,18 @@ export function viewControls(record, player) {
     button("↓", () => player.pull(0, -1), { "aria-label": "Pull the body down" }),
   );
   const more = el("summary", {}, "View, overlays, and pulling a body");
-  const parts = { stage, time, warnings, more: el("details", { class: "pg-fold" }, more, view, overlays.whole, pull), signals: signals.whole };
-  return { parts, canvas, clock, warnings, run, camera, body, pulls, signals, overlays };
+  const parts = { stage, time, pace, warnings, sliders: actuators.whole, more: el("details", { class: "pg-fold pg-more" }, more, view, overlays.whole, pull), signals: signals.whole, legend: signals.legend };
+  return { parts, canvas, clock, warnings, run, speed, camera, body, pulls, signals, overlays, actuators };
+}
+
+/**
+ * The speed to begin with: the record's, unless so few steps a second were made that the model would jump.
+ * @param {CaseRecord} record
+ * @param {number} timestep in s
+ */
+export function firstSpeed(record, timestep) {
+  const enough = SPEEDS.find((speed) => speed >= LEAST_STEPS * timestep) ?? 1;
+  return Math.max(record.speed, enough);
 }
 
 /**
@@ -74,12 +88,24 @@ export function viewControls(record, player) {
  */
 function signalChoice(record, player) {
   const shown = Object.entries(record.signals).filter(([, signal]) => !("measure" in signal));
-  const options = shown.map(([name, { label, unit }]) => /** @type {[string, string]} */ ([name, unit ? `${label} in ${unit}` : label]));
-  const made = choice("Signal", options, options[0][0], (name) => player.chart.show(name));
+  const all = shown.map(([name, { label, unit, seen }]) => ({ seen, option: /** @type {[string, string]} */ ([name, unit ? `${label} in ${unit}` : label]) }));
+  const options = all.filter(({ seen }) => seen).map(({ option }) => option);
+  const others = all.filter(({ seen }) => !seen).map(({ option }) => option);
+  const more = /** @type {[string, string][]} */ (others.length > 0 ? [["", "more, which may tell the cause"]] : []);
+  const made = choice("Signal", [...options, ...more], options[0][0], (name) => {
+    if (name) return player.chart.show(name);
+    made.select.replaceChildren(...[...options, ...others].map(([value, text]) => el("option", { value }, text)));
+    made.select.value = player.chart.name;
+  });
   const newest = el("output", { class: "pg-newest" });
-  const chart = el("div", { class: "pg-chart", role: "img", "aria-label": "The signal over simulated time" });
-  const whole = el("div", { class: "pg-signals" }, el("div", { class: "pg-group" }, made.whole, newest), chart);
-  return { whole, chart, newest, first: options[0][0] };
+  const plot = el("div", { class: "pg-chart", role: "img", "aria-label": "The signal over simulated time" });
+  const asked = el("p", { class: "pg-asked" });
+  const judged = record.checks.fixed.length > 0;
+  const broken = tickbox("broken", () => player.chart.compare(broken.box.checked));
+  broken.box.checked = true;
+  const key = el("p", { class: "pg-key" }, el("span", { class: "pg-mine" }, "yours"), ...(judged ? [broken.whole, el("span", { class: "pg-wanted" }, "asked")] : []));
+  const whole = el("div", { class: "pg-signals" }, el("div", { class: "pg-group" }, made.whole, newest), plot);
+  return { whole, legend: el("div", {}, key, asked), places: { plot, newest, asked }, first: options[0][0] };
 }
 
 /**

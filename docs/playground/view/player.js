@@ -2,7 +2,7 @@
 
 import { el } from "../page/elements.js";
 import { Chart } from "./chart.js";
-import { viewControls } from "./controls.js";
+import { firstSpeed, viewControls } from "./controls.js";
 import { listenToPointer } from "./pointer.js";
 import { Scene } from "./scene.js";
 
@@ -30,6 +30,7 @@ export class Player {
     this.controls = viewControls(record, this);
     this.engine = engine;
     this.speed = record.speed;
+    this.speedChosen = false;
     this.running = false;
     /** @type {Assets | null} */
     this.assets = null;
@@ -48,7 +49,7 @@ export class Player {
     this.towards = null;
     this.pulled = 0;
     this.scene = new Scene(this.controls.canvas);
-    this.chart = new Chart(this.controls.signals.chart, record.signals, this.controls.signals.first);
+    this.chart = new Chart(this.controls.signals.places, record, this.controls.signals.first);
     const pull = {
       wanted: () => this.controls.pulls.getAttribute("aria-pressed") === "true",
       grab: (/** @type {object} */ ray) => engine.post({ type: "grab", ...ray }),
@@ -99,12 +100,12 @@ export class Player {
 
   /** @param {Frame} frame */
   draw(frame) {
-    const { clock, signals } = this.controls;
+    const { clock, actuators } = this.controls;
     this.scene.draw(frame);
     this.chart.add(frame.samples);
     if (!this.running || this.scene.draws % CHART_FRAMES === 0) {
       this.chart.draw();
-      signals.newest.value = this.chart.newest;
+      actuators.show(frame.ctrl);
     }
     clock.value = `${frame.time.toFixed(3)} s${frame.late ? ", slower than asked" : ""}`;
     clock.dataset.steps = String(frame.steps);
@@ -122,6 +123,18 @@ export class Player {
   play(running) {
     this.running = running;
     this.controls.run.textContent = running ? "Pause" : "Run";
+  }
+
+  /** @param {number} speed simulated seconds a second */
+  chooseSpeed(speed) {
+    this.speed = speed;
+    this.speedChosen = true;
+  }
+
+  /** @param {Record<string, number>} controls that the reader holds, by actuator */
+  control(controls) {
+    this.engine.post({ type: "control", controls });
+    this.dirty = true;
   }
 
   /** Makes one step and stands still. */
@@ -153,10 +166,16 @@ export class Player {
   load(assets) {
     const first = this.assets === null;
     this.assets = assets;
+    this.arrived = null;
     this.beside?.reset();
     this.scene.load(assets);
     this.clear();
     this.offer(assets);
+    this.controls.actuators.load(assets);
+    if (!this.speedChosen) {
+      this.speed = firstSpeed(this.record, assets.timestep);
+      this.controls.speed.select.value = String(this.speed);
+    }
     if (first || this.looking >= assets.cameras.length) this.lookThrough(this.ownCamera());
   }
 

@@ -1,7 +1,7 @@
 // Draws what MuJoCo's own visualisation lists (mjvScene) with three.js: one instanced mesh for each shape and material.
 
 import * as THREE from "three";
-import { GEOM } from "../engine/interactive.js";
+import { GEOM } from "../engine/pack.js";
 import { ReaderCamera } from "./camera.js";
 import { arrow, geometries } from "./geometries.js";
 import { dataTexture, Lights, sky } from "./lighting.js";

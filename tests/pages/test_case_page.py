@@ -9,15 +9,15 @@ from pathlib import Path
 import pytest
 import yaml
 from clinic.pages.case_page import interim_page
-from clinic.pages.cases import CasePage
-from clinic.pages.text.prose import opening
-from clinic.pages.text.template import render
+from clinic.pages.measured import measure, table
 from clinic.proof.evidence import Evidence, collect
 from clinic.record.case import Case, read_cases
-from clinic.record.families import families
 from helpers import page_of, script_case, tiny_case, write_case
+from lxml.html import fragment_fromstring
+from markup import rendered
 
 SPACE = "\u00a0"
+FOLDS = ["Diagnosis", "Cause", "Fix", "What does not help", "Lesson", "How we know", "Read on"]
 
 
 @pytest.fixture(scope="module")
@@ -33,14 +33,14 @@ def page(made: tuple[Case, Evidence]) -> str:
 
 def test_heading_and_folds_in_order(page: str) -> None:
     assert "\n# 1. A box falls through the floor\n" in page
-    assert re.findall(r'^\?\?\? \w+ "(.*)"$', page, re.MULTILINE) == ["Diagnosis", "Cause", "Fix", "Lesson"]
+    assert re.findall(r"^<summary>([\w ]*)", page, re.MULTILINE) == ["Just tell me ", *FOLDS]
 
 
 def test_an_interim_page_shows_the_numbers_that_are_there(made: tuple[Case, Evidence]) -> None:
     page = interim_page(*made)
     assert "\n# 1. A box falls through the floor\n" in page
     assert "Being measured" in page
-    assert "| fix: `share-a-bit` | 4 | 0.0" in page
+    assert "<th>repaired: share-a-bit</th>" in page
 
 
 def test_no_field_is_left_open(page: str) -> None:
@@ -50,26 +50,55 @@ def test_no_field_is_left_open(page: str) -> None:
 
 def test_symptom_stands_before_the_first_fold_with_its_number(made: tuple[Case, Evidence], page: str) -> None:
     final = made[1].variants["broken"].values["height"]["final"]
-    assert f"It falls to \u2212{abs(final or 0):.3f}{SPACE}m." in page.split("???", 1)[0]
+    assert f"It falls to \u2212{abs(final or 0):.3f}{SPACE}m." in page.split("<details", 1)[0]
 
 
 def test_diff_of_every_remedy(page: str) -> None:
-    fix, refuted = re.findall(r"```diff\n(.*?)```", page, re.DOTALL)
+    told, fix, refuted = re.findall(r"```diff\n(.*?)```", page, re.DOTALL)
+    assert told.splitlines() == [
+        '-<geom name="floor" type="plane" size="1 1 0.1" contype="2" conaffinity="2"/>',
+        '+<geom name="floor" type="plane" size="1 1 0.1"/>',
+    ]
     assert '-    <geom name="floor" type="plane" size="1 1 0.1" contype="2" conaffinity="2"/>' in fix
     assert '+    <geom name="floor" type="plane" size="1 1 0.1"/>' in fix
     assert '+  <option timestep="0.001"/>' in refuted
 
 
-def test_table_has_a_row_for_every_variant_and_as_many_cells_as_heads(page: str) -> None:
-    rows = [line.strip() for line in page.splitlines() if line.lstrip().startswith("| ")]
-    assert len({row.count("|") for row in rows}) == 1
-    assert rows[0] == "| | contacts, highest | height of the box, at the end |"
-    assert rows[2] == "| *well means* |  | between 0.045 and 0.051 m |"
-    assert rows[3].startswith("| **broken** | 0 | \u22120.7")
-    assert rows[3].endswith("\u2717 |")
-    assert rows[4].startswith("| fix: `share-a-bit` | 4 | 0.0")
-    assert rows[4].endswith("\u2713 |")
-    assert rows[5].startswith("| refuted: `small-step` | 0 | \u22120.7")
+def test_table_has_a_row_for_every_outcome_and_says_what_was_the_same(page: str) -> None:
+    table = rendered(page)
+    rows = [[cell.text_content() for cell in row] for row in fragment_fromstring(table, "div").xpath("//table//tr")]
+    assert rows[0] == ["", "contacts, highest", "height of the box, at the end"]
+    assert rows[1] == ["counts as broken", "0", ""]
+    assert rows[2] == ["counts as repaired", "", f"between 0.045 and 0.051{SPACE}m"]
+    assert rows[3][:2] == ["broken", "0"]
+    assert re.fullmatch(rf"\u22120.7\d+{SPACE}m{SPACE}\u2717", rows[3][2])
+    assert rows[4][:2] == ["repaired: share-a-bit", "4"]
+    assert rows[4][2].endswith("\u2713")
+    assert rows[5][0] == "does not help: small-step"
+
+
+def test_variants_that_measure_the_same_share_a_row(made: tuple[Case, Evidence]) -> None:
+    case, evidence = made
+    twin = evidence.variants["broken"].model_copy(update={"kind": "refuted"})
+    twice = evidence.model_copy(update={"variants": {**evidence.variants, "twin": twin}})
+    assert [label for label, _ in table(case, twice).rows[2:]] == [
+        "broken, also after twin",
+        "repaired: share-a-bit",
+        "does not help: small-step",
+    ]
+
+
+def test_what_every_variant_measures_alike_is_said_once(tmp_path: Path) -> None:
+    checks = ("  fixed:\n", "  fixed:\n    - {signal: height, take: first, above: 0}\n")
+    case = tiny_case(tmp_path, checks, ('timestep="0.001"', 'timestep="0.002" gravity="0 0 -9.81"'))
+    found = table(case, collect(case))
+    assert found.same == [f"height of the box, after one step: 0.06000{SPACE}m"]
+    assert len(found.heads) == 2
+
+
+def test_what_rounding_left_of_zero_is_zero(made: tuple[Case, Evidence]) -> None:
+    assert measure(1e-12, "height", made[1]) == f"0{SPACE}m"
+    assert measure(1e-6, "height", made[1]) != f"0{SPACE}m"
 
 
 def test_pictures_are_shown_where_they_could_be_made(made: tuple[Case, Evidence], page: str) -> None:
@@ -83,10 +112,36 @@ def test_alternative_text_states_the_numbers(made: tuple[Case, Evidence], page: 
     assert "share-a-bit 0.0" in text
 
 
-def test_files_and_command_at_the_foot(page: str) -> None:
-    foot = page.split("## Files")[1]
-    assert "`clinic check falling-box`" in foot
-    assert set(re.findall(r"\]\((.*?)\)", foot)) >= {"model.xml", "case.yaml", "evidence.json"}
+def test_files_to_download_and_the_command(page: str) -> None:
+    assert "To download: [model.xml](model.xml)." in page
+    known = page.split("<summary>How we know")[1]
+    assert "`pip install .`, then `clinic show falling-box --answer`" in known
+    assert set(re.findall(r"\]\((.*?)\)", known)) >= {"case.yaml", "evidence.json"}
+
+
+def test_the_broken_source_stands_in_the_open(page: str, made: tuple[Case, Evidence]) -> None:
+    source = f"```xml\n{made[0].text.rstrip()}\n```"
+    assert page.index("</details>") < page.index(source) < page.index("<summary>Diagnosis")
+    taken_over = page_of(*made, {"playground.json": b""}).split('<div class="playground"')[1].split("</div>")[0]
+    assert source in taken_over
+
+
+def test_who_asks_to_be_told_is_given_the_lines_to_copy(made: tuple[Case, Evidence]) -> None:
+    page = fragment_fromstring(rendered(page_of(*made)), "div")
+    (answer,) = page.xpath("//details[@class='answer']//*[@id='answer']")
+    (block,) = answer.xpath(".//*[@data-copy]")
+    assert block.get("data-copy") == '    <geom name="floor" type="plane" size="1 1 0.1"/>'
+    assert block.xpath(".//pre//code")
+    for link in answer.xpath(".//a[starts-with(@href, '#')]"):
+        assert page.xpath("//details//*[@id=$name]", name=link.get("href")[1:]), link.get("href")
+
+
+def test_formulas_stay_in_their_line(tmp_path: Path) -> None:
+    case = tiny_case(
+        tmp_path, ("cause: The masks share no bit.", "cause: |\n  The bit\n  $a$ is\n  none.\n\n  $b$ too.")
+    )
+    page = fragment_fromstring(rendered(page_of(case, collect(case))), "div")
+    assert [p.text_content() for p in page.xpath("//details[@class='bug']/p")] == ["The bit\na is\nnone.", "b too."]
 
 
 def test_a_first_version_tells_what_is_not_known(tmp_path: Path, page: str) -> None:
@@ -109,16 +164,17 @@ def test_related_cases_are_linked(tmp_path: Path) -> None:
 def test_script_with_its_output_before_and_after(tmp_path: Path) -> None:
     case = script_case(tmp_path)
     page = page_of(case, collect(case))
-    assert '    print("error = 0.5")\n' in page
-    assert re.findall(r"^    error = (.*)$", page, re.MULTILINE) == ["0.5"]
-    assert "    | <code>error = 0.5</code> | <code>error = 0.0</code> |\n" in page
+    opened, fix = page.split("<summary>Fix")[0].split("<summary>Diagnosis")[0], page.split("<summary>Fix")[1]
+    assert 'print("error = 0.5")\n' in opened
+    assert re.findall(r"^error = (.*)$", opened, re.MULTILINE) == ["0.5"]
+    assert re.findall(r"^error = (.*)$", fix, re.MULTILINE) == ["0.0"]
 
 
 def test_snippet_with_its_output(tmp_path: Path) -> None:
     case = tiny_case(tmp_path, ("cause:", "snippet: |\n  for k in range(2):\n      print('line', k)\ncause:"))
     page = page_of(case, collect(case))
-    assert "    ```python\n    for k in range(2):\n        print('line', k)\n    ```" in page
-    assert "    ```text\n    line 0\n    line 1\n    ```" in page
+    assert "```python\nfor k in range(2):\n    print('line', k)\n```" in page
+    assert "```text\nline 0\nline 1\n```" in page
 
 
 def test_front_matter_is_yaml_whatever_the_title(tmp_path: Path) -> None:
@@ -132,24 +188,6 @@ def test_front_matter_is_yaml_whatever_the_title(tmp_path: Path) -> None:
     assert front["description"].startswith("It falls to \u2212")
 
 
-def home(case: Case, evidence: Evidence, *files: str) -> str:
-    page = CasePage(case, "", opening(case, evidence), dict.fromkeys(files, b""))
-    return render("home", shown=[page], families=families(), engine="4.0.0")
-
-
-def test_home_page_has_a_card_of_every_case(made: tuple[Case, Evidence]) -> None:
-    drawn, plotted = home(*made, "broken.webp"), home(*made)
-    assert "**[1. A box falls through the floor](cases/falling-box/index.md)**\n\nIt falls to \u2212" in drawn
-    assert "MuJoCo 4.0.0" in drawn
-    assert "](cases/falling-box/broken.webp)" in drawn
-    assert "](cases/falling-box/plot.svg)" in plotted
-
-
-def test_symptom_on_a_card_holds_no_html_of_its_own(tmp_path: Path) -> None:
-    case = tiny_case(tmp_path, ("It falls to", "The <geom/> falls <b>to"))
-    assert "<" not in home(case, collect(case)).split('class="cases"')[1].split("index.md)**")[1].split("</div>")[0]
-
-
 def test_tags_are_words_whatever_yaml_makes_of_them(made: tuple[Case, Evidence]) -> None:
     case, evidence = made
     tags = ["joint", "null", "true", "on"]
@@ -161,4 +199,4 @@ def test_a_backtick_alone_in_a_title_is_no_code(made: tuple[Case, Evidence]) -> 
     case, evidence = made
     fix = case.record.fixes[0].model_copy(update={"title": "Relax ` the mask"})
     page = page_of(replace(case, record=case.record.model_copy(update={"fixes": [fix]})), evidence)
-    assert "**Relax &#96; the mask** (`share-a-bit`)" in page
+    assert "**Relax &#96; the mask**{ #fix-share-a-bit } (`share-a-bit`)" in page

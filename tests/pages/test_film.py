@@ -39,6 +39,10 @@ def test_a_film_shows_both_variants_for_the_filmed_time(tmp_path) -> None:
     assert pictures[0].shape == (HEIGHT, 2 * WIDTH, 3)
     left, right = pictures[-1][30:, :WIDTH].astype(int), pictures[-1][30:, WIDTH:].astype(int)
     assert np.abs(left - right).max() > 50, "the box has fallen on one side alone"
+    clip = decoded(made["clip.mp4"])
+    assert len(clip) == 2 * FPS
+    assert clip[0].shape == (180, 240, 3)
+    assert np.abs(clip[0].astype(int) - clip[-1]).max() > 50, "the box has fallen"
 
 
 def test_the_same_images_give_the_same_bytes() -> None:

@@ -72,7 +72,7 @@ def test_the_page_says_what_was_heard(tmp_path: Path, said: dict[str, str]) -> N
         Heard(said={named.id: {"3.9.0": "once", "3.10.0": "once", "3.11.0": ""}}),
     )
     assert "WARNING: said today" in page
-    assert f"[1. A box falls through the floor](cases/{case.slug}/index.md)" in page
+    assert f"[1. A box falls through the floor](cases/{case.slug}/index.md#answer)" in page
     assert page.count("\n### ") == len(MESSAGES)
     assert "mjWARN_BADQACC" in page
     assert "Not provoked here." in page

@@ -11,18 +11,20 @@ from helpers import MODEL, tiny_case, write_script_case
 from PIL import Image
 
 
-def webp_size(data: bytes) -> tuple[int, int]:
+def webp_size(data: bytes, kind: str = "WEBP") -> tuple[int, int]:
     with Image.open(io.BytesIO(data)) as image:
-        assert image.format == "WEBP"
+        assert image.format == kind
         return image.size
 
 
 def test_pictures_show_the_broken_model_and_the_first_fix(tmp_path: Path) -> None:
     made = pictures(tiny_case(tmp_path, ("camera: side", "camera: side, time: 0.2")))
 
+    assert webp_size(made.pop("card.jpg"), "JPEG") == (1200, 630)
     assert {name: webp_size(data) for name, data in made.items()} == {
         "broken.webp": (480, 360),
         "fixed.webp": (480, 360),
+        "thumb.webp": (192, 144),
     }
     assert made["broken.webp"] != made["fixed.webp"]
 

@@ -20,14 +20,23 @@ def test_the_file_holds_what_the_browser_needs(tmp_path: Path) -> None:
     made = json.loads(playground(case, [case]))
 
     assert made["text"] == case.text
-    assert made["signals"]["spin"] == {"path": "cvel[1][2]", "unit": "rad/s", "label": "spin", "columns": [6]}
+    assert made["signals"]["spin"] == {
+        "path": "cvel[1][2]",
+        "unit": "rad/s",
+        "label": "spin",
+        "columns": [6],
+        "seen": True,
+    }
     assert made["signals"]["contacts"]["columns"] == []
+    assert not made["signals"]["contacts"]["seen"]
     assert made["checks"]["fixed"] == [{"signal": "height", "take": "final", "between": [0.045, 0.051]}]
     assert made["explained"] == {
         "BADQACC": [{"href": "../falling-box/index.html", "title": "1. A box falls through the floor"}]
     }
-    symptom, measure = made["hints"]
-    assert symptom["text"].endswith("Repaired, height of the box, at the end: between 0.045 and 0.051 m.")
+    symptom, measure, found = made["hints"]
+    assert "contacts" not in symptom["text"]
+    assert symptom["text"].endswith("epaired, height of the box, at the end: between 0.045 and 0.051 m.")
+    assert "contacts" in found["text"]
     assert measure["text"] == "after every step, height of the box, body(box).xpos[2]; contacts, ncon."
 
 
@@ -71,3 +80,15 @@ def test_a_late_picture_gets_coarser_and_an_early_one_finer_again() -> None:
     )
 
     assert json.loads(done.stdout) == [1.5, 0.5, 0.5, 1.5, 1.5]
+
+
+def test_the_evidence_tells_what_a_check_guards_and_why_a_remedy_does_not_help(proven) -> None:
+    case, evidence = proven("servo-sags")
+
+    made = json.loads(playground(case, [case], evidence))
+
+    assert [guard["symptom"] for guard in made["guards"]] == [True, True, False]
+    assert "Raise the gain ten times" in made["guards"][0]["against"]
+    whys = [remedy["why"] for remedy in made["refuted"]]
+    assert all(whys)
+    assert not [why for why in whys if "{{" in why or "$" in why]

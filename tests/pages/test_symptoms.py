@@ -48,8 +48,9 @@ def test_a_family_has_its_causes_the_procedure_and_what_it_prints(tmp_path: Path
 def test_a_case_links_to_its_family_in_the_open_and_tells_its_row_folded(tmp_path: Path) -> None:
     case = tiny_case(tmp_path, ("tags: [contact]", f"tags: [contact]\n{TELLS}"))
     told, _ = differential("falls-through", [case], Cache(tmp_path / "cache"))
-    opened, _, folded = case_page(case, collect(case), {}, {case.slug: case}, told).partition("???")
-    assert "**Is it your model?** [It falls or passes through](../../symptoms/falls-through.md)" in opened
+    opened, _, folded = case_page(case, collect(case), {}, {case.slug: case}, told).partition("<summary>Diagnosis")
+    assert "**Is it your model?** [Run this script on it](../../symptoms/falls-through.md#procedure)" in opened
+    assert "[have it diagnosed](../../rules/index.md)" in opened
     assert "ontacts at the start" not in opened
     assert "Contacts at the start: below 1." in folded
     assert "| **this one** | 0\u00a0\u2713 |" in folded

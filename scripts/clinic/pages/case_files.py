@@ -46,7 +46,7 @@ def picture_tasks(case: Case) -> Iterator[Task]:
     """Tasks that draw the film and the pictures, which depend on the case alone."""
     if case.record.filmed is not None:
         yield case_task(case, "film", partial(_film, case), of=DRAWING)
-    yield case_task(case, "pictures", partial(_pictures, case), of=DRAWING)
+    yield case_task(case, "pictures", partial(_pictures, case), case.record.title, of=DRAWING)  # on the card
 
 
 def _film(case: Case) -> Files:

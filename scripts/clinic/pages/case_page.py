@@ -5,31 +5,24 @@ from __future__ import annotations
 import html
 import json
 from collections.abc import Mapping
-from typing import Any
 
-from clinic.engine.checks import expected, satisfies
 from clinic.engine.variant import diff, variants
+from clinic.pages.certainty import releases, smaller_steps, steady, tried
 from clinic.pages.error_page import plain_page
+from clinic.pages.measured import measure, table
 from clinic.pages.text import manual
-from clinic.pages.text.claim import taken
 from clinic.pages.text.prose import markdown, opening, prose_problems
 from clinic.pages.text.template import render
-from clinic.proof.evidence import Evidence, VariantEvidence
+from clinic.proof.evidence import Evidence
 from clinic.proof.procedure import Answer, Differential
 from clinic.proof.prose_laws import PROSE
-from clinic.proof.releases import differing
-from clinic.proof.robustness import NUDGE, STARTS
 from clinic.record.case import Case
 from clinic.record.families import families
-from clinic.record.fields import Check
-from clinic.record.parts import Interval
 from clinic.record.problem import CaseError
 from clinic.record.prose import plain, quantity
 from clinic.work.cache import Files
 
-STILL = 1e-3  # of a signal; less is no motion
-NOTHING = 1e-9  # of what a check allows; less is what rounding left of zero
-Column = tuple[str, str, Interval | None]  # a number taken from a signal: the signal, which number, over which window
+ROUNDING = 1e-9  # of what was measured; a prediction that is as near is right to nine digits
 
 
 def case_page(
@@ -55,16 +48,19 @@ def case_page(
         whys={remedy.id: markdown(remedy.why, evidence, case) for remedy in record.refuted},
         diffs={variant.id: diff(case.text, variant.text, record.source) for variant in variants(case)},
         files=files,
+        change=_change(case),
+        outcome=_outcome(case, evidence),
         summary=_summary(case, evidence),
-        film_alt=f"Film, broken beside {record.fixes[0].id}. {_summary(case, evidence)}",
         sweeps=[_sweep(case, evidence, name) for name in record.sweep],
-        smaller_steps=_smaller_steps(case, evidence),
-        releases=_releases(case, evidence),
-        steady=_steady(case, evidence),
+        smaller_steps=smaller_steps(case, evidence),
+        releases=releases(case, evidence),
+        steady=steady(case, evidence),
+        tried=tried(case, evidence),
         family=None if record.family is None else families()[record.family],
+        procedure=told is not None and told.code,
         telling=telling(case, evidence),
         row=_row(case, told, others),
-        table=_table(case, evidence),
+        table=table(case, evidence),
         manual=[(manual.title(page), manual.address(page)) for page in record.manual],
         others=[others[slug] for slug in record.see],
     )
@@ -73,63 +69,61 @@ def case_page(
 def interim_page(case: Case, evidence: Evidence) -> str:
     """The Markdown of a case's page while what takes long is being measured."""
     text = '!!! info "Being measured"\n\n    Plots, pictures and what else takes longer appear here by themselves.\n\n'
-    table = render("table", table=_table(case, evidence))
-    return plain_page(case.record.heading, f"{text}What was measured:\n\n{table}")
+    measured = render("table", table=table(case, evidence))
+    return plain_page(case.record.heading, f"{text}What was measured:\n\n{measured}")
+
+
+def _change(case: Case) -> dict[str, str]:
+    """The first fix as the lines that differ alone, and those of them that it puts in, to be copied.
+
+    A line that moves or is new is shown with its neighbours.
+    """
+    after = variants(case)[1].text
+    changed = set(_lines(case.text, after, 0))
+    moved = any(line.startswith("+") and f"-{line[1:]}" in changed for line in changed)
+    new = not any(line.startswith("-") for line in changed)
+    shown = [line for line in _lines(case.text, after, 1 if moved or new else 0) if line[1:].strip()]
+    added = [line[1:] for line in shown if line.startswith("+")]
+    indent = min(len(line) - len(line[1:].lstrip()) for line in shown)
+    return {"diff": "\n".join(line[0] + line[indent:] for line in shown), "added": "\n".join(added)}
+
+
+def _lines(before: str, after: str, context: int) -> list[str]:
+    """The lines of a diff, without where they stand."""
+    return [line for line in diff(before, after, "", context).splitlines() if not line.startswith("@@")]
+
+
+def _outcome(case: Case, evidence: Evidence) -> str:
+    """What is seen, with its numbers, naming no remedy."""
+    broken, repaired = (_final(case, evidence, key) for key in ("broken", case.record.fixes[0].id))
+    return f"{_first_label(case)} at the end: broken {broken}, repaired {repaired}."
 
 
 def _summary(case: Case, evidence: Evidence) -> str:
     """The plot in words, with its numbers."""
+    kept = [key for key, variant in evidence.variants.items() if variant.kind != "refuted"]
+    return f"{_first_label(case)} at the end: {', '.join(f'{key} {_final(case, evidence, key)}' for key in kept)}."
+
+
+def _first_label(case: Case) -> str:
     name, signal = next(iter(case.record.signals.items()))
-    parts = []
-    for key, variant in evidence.variants.items():
-        if variant.kind != "refuted":
-            final = variant.values[name]["final"]
-            parts.append(f"{key} {'not measured' if final is None else quantity(final, signal.unit)}")
-    return f"{(signal.label or name).capitalize()} at the end: " + ", ".join(parts) + "."
+    return (signal.label or name).capitalize()
 
 
-def _table(case: Case, evidence: Evidence) -> dict[str, Any]:
-    """The checks as a table: a column for each number taken, a row for each variant."""
-    columns: dict[Column, dict[str, list[Check]]] = {}
-    for kind, checks in case.record.checks:
-        for check in checks:
-            column = columns.setdefault((check.signal, check.take, check.window), {"broken": [], "fixed": []})
-            column[kind].append(check)
-    made: dict[str, Any] = {"heads": [taken(case, *column) for column in columns], "rows": []}
-    for kind in ("broken", "fixed"):
-        made[kind] = ["; ".join(_expected(check, case) for check in column[kind]) for column in columns.values()]
-    for key, variant in evidence.variants.items():
-        cells = [_cell(variant, column, checks["fixed"]) for column, checks in columns.items()]
-        made["rows"].append({"id": key, "kind": variant.kind, "cells": cells})
-    return made
-
-
-def _expected(check: Check, case: Case) -> str:
-    unit = "s" if check.take == "onset" else case.record.signals[check.signal].unit
-    return f"{expected(check, plain)} {unit}".strip()
-
-
-def _cell(variant: VariantEvidence, column: Column, wanted: list[Check]) -> str:
-    """What was measured, and whether it is as the checks `wanted` ask."""
-    signal, take, _ = column
-    results = (result for kind in variant.checks.values() for result in kind)
-    measured = next(result.measured for result in results if (result.signal, result.take, result.window) == column)
-    unit = "s" if take == "onset" else variant.traces[signal].unit
-    if measured is not None and any(abs(measured) < NOTHING * (check.within or 0.0) for check in wanted):
-        measured = 0.0
-    value = "not measured" if measured is None else quantity(measured, unit, 4)
-    if not wanted:
-        return value
-    holds = measured is not None and all(satisfies(check, measured) for check in wanted)
-    return f"{value} {'✓' if holds else '✗'}"
+def _final(case: Case, evidence: Evidence, key: str) -> str:
+    name = next(iter(case.record.signals))
+    return measure(evidence.variants[key].values[name]["final"], name, evidence, 3)
 
 
 def _sweep(case: Case, evidence: Evidence, name: str) -> dict[str, str]:
     """A sweep's title, prose, and its figure in words."""
     sweep, found = case.record.sweep[name], evidence.sweep[name]
     own = found.agreement["prediction"]
+    largest = max((abs(point.outcome) for point in found.points if point.outcome is not None), default=0.0)
     if own.worst is None:
         result = f"{sweep.prediction.label} is right at {own.judged - own.wrong} of {own.judged} points"
+    elif own.worst < ROUNDING * (1 if sweep.prediction.relative else largest):
+        result = f"{sweep.prediction.label} is right to nine digits at all {own.judged} points"
     else:
         relative = sweep.prediction.relative
         error = quantity(100 * own.worst, "%", 2) if relative else quantity(own.worst, own.unit, 2)
@@ -141,56 +135,6 @@ def _sweep(case: Case, evidence: Evidence, name: str) -> dict[str, str]:
         "text": markdown(sweep.text, evidence, case),
         "alt": f"{sweep.title}: {len(found.points)} points. {result}{''.join(rivals)}.",
     }
-
-
-def _smaller_steps(case: Case, evidence: Evidence) -> str:
-    """Whether a smaller timestep helps, from the runs; empty where nothing moves that the symptom is about."""
-    spans = [evidence.variants["broken"].values[check.signal]["span"] or 0.0 for check in case.record.checks.broken]
-    if "broken" not in evidence.robustness or max(spans) < STILL:
-        return ""
-    words = {"broken": "the symptom is the same", "well": "it is gone", "neither": "it is neither the same nor gone"}
-    shrunk, step = evidence.robustness["broken"].shrunk, 1e3 * (evidence.variants["broken"].timestep or 0.0)
-    half, twentieth = shrunk.values()
-    at_half, at_twentieth = (f"({plain(step * float(share))}\u00a0ms)" for share in shrunk)
-    answer = "No" if half == twentieth == "broken" else "Yes" if "well" in (half, twentieth) else "In part"
-    if half == twentieth:
-        return f"{answer}: at half of it {at_half} and at a twentieth {at_twentieth} {words[half]}."
-    return f"{answer}: at half of it {at_half} {words[half]}, at a twentieth {at_twentieth} {words[twentieth]}."
-
-
-def _releases(case: Case, evidence: Evidence) -> str:
-    """On which releases of MuJoCo the case is the same, and why not on the others; empty if that was not measured."""
-    told = differing(evidence)
-    if not told:
-        return ""
-    releases = sorted(told, key=lambda release: [int(part) for part in release.split(".")])
-    last = max((k for k, release in enumerate(releases) if told[release]), default=-1)
-    said = "the same on every release measured" if last < 0 else "the same"
-    reasons = [
-        f"{spec.replace('<', 'Before ')}: {markdown(reason, evidence, case).strip()}"
-        for spec, reason in case.record.older.items()
-    ]
-    return " ".join([f"{said} from {releases[last + 1]} on.", *reasons] if last + 1 < len(releases) else reasons)
-
-
-def _steady(case: Case, evidence: Evidence) -> str:
-    """How firmly the verdicts stand, in a sentence or two."""
-    if not evidence.robustness:
-        return ""
-    total = sum(robust.runs for robust in evidence.robustness.values())
-    same = sum(robust.same for robust in evidence.robustness.values())
-    said = (
-        f"Each variant was run again from {STARTS} starts changed by up to {quantity(NUDGE, 'm', 1)} or rad in "
-        f"position and as much per second in velocity; the broken model and the fixes with half the timestep too: "
-        f"{same} of {total} runs kept their verdict."
-    )
-    if all(robust.longer is not False for robust in evidence.robustness.values()):
-        said += " Every fix still holds after ten times the duration."
-    shaken = [f"`{key}` {one.same} of {one.runs}" for key, one in evidence.robustness.items() if one.same < one.runs]
-    reasons = [
-        markdown(reason, evidence, case) for law, reason in case.record.exempt.items() if law in ("steady", "lasting")
-    ]
-    return " ".join([said, *([f"({', '.join(shaken)}.)"] if shaken else []), *reasons])
 
 
 def telling(case: Case, evidence: Evidence) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Container, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from clinic.pages.brief import Brief, brief
 from clinic.pages.case_files import files_of_cases
 from clinic.pages.case_page import case_page, telling
 from clinic.pages.playground import FILE as PLAYGROUND
@@ -34,6 +35,7 @@ class CasePage:
         symptom: What lists say of the symptom.
         files: The files beside the page by name.
         telling: What tells it from others of its family, in words; empty if nothing does.
+        brief: What was measured of the broken and of the repaired model; None where no number differs.
     """
 
     case: Case
@@ -41,6 +43,12 @@ class CasePage:
     symptom: str
     files: Files
     telling: str = ""
+    brief: Brief | None = None
+
+    @property
+    def playable(self) -> bool:
+        """Whether its model can be run and mended in the page."""
+        return PLAYGROUND in self.files
 
 
 Differentials = dict[str | None, Differential | None]
@@ -70,8 +78,8 @@ def case_pages(
         evidence = evidence_of(made[slug])  # of one case at a time: a thousand would fill the memory
         problems += [*manual_problems(case), *breaches(case, evidence, *BUILD_LAWS)]
         files = dict(made[slug])
-        if with_playground and case.record.model is not None:
-            files[PLAYGROUND] = playground(case, known.values())
+        if with_playground and (content := playground(case, known.values(), evidence)) is not None:
+            files[PLAYGROUND] = content
         try:
             page = case_page(case, evidence, files, known | cases, told[case.record.family])
             sources = {name: (root / "cases" / slug / name).read_bytes() for name in (RECORD, *case.texts)}
@@ -80,7 +88,8 @@ def case_pages(
         except OSError as error:  # renamed or deleted since it was read
             problems.append(case.problem((), type(error).__name__, "the folder as it was read", "build again"))
         else:
-            shown.append(CasePage(case, page, opening(case, evidence), files | sources, telling(case, evidence)))
+            words = opening(case, evidence), files | sources, telling(case, evidence), brief(case, evidence)
+            shown.append(CasePage(case, page, *words))
     return shown, told, problems
 
 

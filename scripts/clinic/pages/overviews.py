@@ -6,19 +6,20 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
-import mujoco
-
 from clinic.diagnosis.bench.lock import read_lock
+from clinic.pages.about import about_pages
 from clinic.pages.cases import CasePage, Differentials
 from clinic.pages.code_fences import NAMED, run_fences
 from clinic.pages.error_page import error_page
+from clinic.pages.home import home
 from clinic.pages.messages import load_messages, messages_page, provoke_messages, read_heard
 from clinic.pages.reference import reference
 from clinic.pages.rules import rule_pages
 from clinic.pages.search_index import search_files
 from clinic.pages.storeys import storeys
 from clinic.pages.symptoms import symptom_pages
-from clinic.pages.text.template import render
+from clinic.pages.text.addresses import MARK as REPOSITORY_MARK
+from clinic.pages.text.addresses import repository
 from clinic.record.case import Case
 from clinic.record.families import families
 from clinic.record.problem import CaseError, Problem
@@ -46,14 +47,16 @@ def overviews(
     cases = [one.case for one in shown]
     screenings, problems = run_tasks(list(screening_tasks(cases)), cache)
     made = {f"cases/{slug}/{name}": text for slug, files in screenings.items() for name, text in files.items()}
-    made["index.md"] = render("home", shown=shown, families=families(), engine=mujoco.__version__).encode()
+    made["index.md"] = home(shown).encode()
     made |= rule_pages(known, cache, read_lock(root))
     made |= symptom_pages(shown, told)
+    made |= about_pages(cases[0].slug if cases else "")
     screened = [case for case in cases if case.record.run is None or case.slug in screenings]
     parts = {
         TRIAGE_MARK: lambda: table(screened, screenings),
         REFERENCE_MARK: reference,
         STOREYS_MARK: lambda: storeys("clinic", STOREYS),
+        REPOSITORY_MARK: lambda: repository() or REPOSITORY_MARK,
     }
     pages: dict[str, tuple[str, Callable[[], str]]] = {
         "messages.md": ("What MuJoCo says", partial(_messages, root, known, cache)),

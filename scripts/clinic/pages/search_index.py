@@ -43,7 +43,7 @@ def search_files(
         *map(_message, messages),
         *_pages(pages),
     ]
-    answers = {_address(one): _answer(one) for one in shown}
+    answers = {_answer_at(one.case.slug): _answer(one) for one in shown}
     index = {"documents": documents, "synonyms": synonyms()}
     return {FILE: _script("clinicIndex", index), ANSWERS: _script("clinicAnswers", answers)}
 
@@ -57,7 +57,7 @@ def synonyms() -> list[list[str]]:
 def _case(one: CasePage) -> Document:
     record = one.case.record
     words = "; ".join([*record.phrases, *record.tags])
-    return {"kind": "case", "at": _address(one), "title": record.title, "words": words, "text": one.symptom}
+    return {"kind": "case", "at": _answer_at(one.case.slug), "title": record.title, "words": words, "text": one.symptom}
 
 
 def _answer(one: CasePage) -> str:
@@ -65,8 +65,9 @@ def _answer(one: CasePage) -> str:
     return FIELD.sub("", " ".join([record.diagnosis, record.cause, record.fix, record.lesson]))
 
 
-def _address(one: CasePage) -> str:
-    return f"{FOLDER.format(slug=one.case.slug)}/index.html"
+def _answer_at(slug: str) -> str:
+    """Where a case tells its answer: who searches has a simulation to mend."""
+    return f"{FOLDER.format(slug=slug)}/index.html#answer"
 
 
 def _families(families: Mapping[str, Family]) -> Iterator[Document]:
@@ -84,7 +85,7 @@ def _message(message: Message) -> Document:
     words = "\n".join([message.says or "", *message.older])
     title, text = (part.replace("`", "") for part in (message.title, message.meaning))
     made = {"kind": "message", "at": f"messages.html#{message.id}", "title": title, "words": words, "text": text}
-    return made | ({"case": f"{FOLDER.format(slug=message.case)}/index.html"} if message.case else {})
+    return made | ({"case": _answer_at(message.case)} if message.case else {})
 
 
 def _pages(pages: Files) -> Iterator[Document]:

@@ -18,6 +18,7 @@ from clinic.engine.render import FREE, Image, renderer
 from clinic.engine.simulate import captured_messages, compile_model, controls, initial_data, step
 from clinic.engine.variant import variants
 from clinic.pages.figures.pictures import picture_time, webp
+from clinic.pages.figures.previews import two_seconds
 from clinic.record.case import Case
 from clinic.record.fields import Film, RunSpec
 from clinic.record.prose import number
@@ -32,6 +33,7 @@ FLAGS = {
     "contact_points": mujoco.mjtVisFlag.mjVIS_CONTACTPOINT,
     "contact_forces": mujoco.mjtVisFlag.mjVIS_CONTACTFORCE,
     "joint_axes": mujoco.mjtVisFlag.mjVIS_JOINT,
+    "inertia": mujoco.mjtVisFlag.mjVIS_INERTIA,
     "actuators": mujoco.mjtVisFlag.mjVIS_ACTUATOR,
     "transparent": mujoco.mjtVisFlag.mjVIS_TRANSPARENT,
     "cameras": mujoco.mjtVisFlag.mjVIS_CAMERA,
@@ -39,7 +41,7 @@ FLAGS = {
 
 
 def film(case: Case) -> Files:
-    """`film.mp4`, its `poster.webp`, and `strip.webp`: four moments for paper and previews.
+    """`film.mp4`, its `poster.webp`, `strip.webp`: four moments for paper, and `clip.mp4`: two seconds of the failure.
 
     Raises:
         RenderError: If images cannot be drawn on this machine.
@@ -59,6 +61,7 @@ def film(case: Case) -> Files:
     return {
         "film.mp4": encode(pictures),
         "poster.webp": webp(pictures[at]),
+        "clip.mp4": encode(two_seconds([image for image, _ in broken])),
         "strip.webp": webp(np.vstack([np.hstack([pictures[i] for i in moments[k : k + 2]]) for k in (0, 2)])),
     }
 

@@ -10,6 +10,7 @@ from PIL import Image as Pictures
 from clinic.engine.render import Image, image
 from clinic.engine.simulate import compile_model, data_at
 from clinic.engine.variant import variants
+from clinic.pages.figures.previews import card, thumb
 from clinic.record.case import Case
 from clinic.record.fields import Picture, RunSpec
 from clinic.work.cache import Files
@@ -18,20 +19,23 @@ from clinic.work.cache import Files
 def pictures(case: Case) -> Files:
     """The still images: `broken.webp`, and `fixed.webp` of the first fix where the model is the case's.
 
+    Of the first of them also `thumb.webp`, for lists, and `card.jpg`, for links.
+
     Raises:
         RenderError: If images cannot be drawn on this machine.
     """
-    record, made = case.record, {}
+    record, drawn = case.record, dict[str, Image]()
     if record.run is not None:
         for name, variant in zip(("broken", "fixed"), variants(case), strict=False):
             model = compile_model(variant.text)
-            made[f"{name}.webp"] = webp(
-                image(
-                    model, data_at(model, record.run, picture_time(record.picture, record.run)), record.picture.camera
-                )
-            )
+            data = data_at(model, record.run, picture_time(record.picture, record.run))
+            drawn[name] = image(model, data, record.picture.camera)
     elif record.picture.scene is not None:
-        made["broken.webp"] = webp(scene_image(case.texts[record.picture.scene], record.picture.camera))
+        drawn["broken"] = scene_image(case.texts[record.picture.scene], record.picture.camera)
+    made = {f"{name}.webp": webp(pixels) for name, pixels in drawn.items()}
+    if "broken" in drawn:
+        above = f"Case {record.number}" if record.number else "A case"
+        made |= {"thumb.webp": thumb(drawn["broken"]), "card.jpg": card(drawn["broken"], record.title, above)}
     return made
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import re
 from collections.abc import Iterator, Mapping
 from typing import Any, TypeVar
@@ -49,15 +50,21 @@ def _part(match: re.Match[str]) -> str:
     if match["block"]:
         return f'\n\n<div class="formula">{_mathml(match["block"], "block")}</div>\n\n'
     if match["inline"]:
-        return _mathml(match["inline"], "inline")
+        return (
+            f"<span>{_mathml(match['inline'], 'inline')}</span>"  # at a line's start Markdown takes <math> for a block
+        )
     return match["code"] or "&lt;"
 
 
 def _mathml(formula: str, display: str) -> str:
-    """The formula as a `block` or `inline`, with nothing in it that Markdown would take for its own."""
+    """The formula as a `block` or `inline`, with nothing in it that Markdown would take for its own.
+
+    Its source stands beside it, for the page's Markdown; cleaning takes that out of the HTML.
+    """
     formula = " ".join(formula.split())
     try:
-        return escaped(latex2mathml.converter.convert(formula, display=display))
+        made: str = latex2mathml.converter.convert(formula, display=display)
+        return escaped(made.replace("<math ", f'<math alttext="{html.escape(formula)}" ', 1))
     except Exception as error:  # the converter raises many kinds
         repair = "correct it; in text write \\lt for < and a formula's braces in pairs"
         raise ProseError(f"${formula}$: {str(error) or type(error).__name__}", "a LaTeX formula", repair) from None

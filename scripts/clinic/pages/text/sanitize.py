@@ -1,10 +1,12 @@
 """Every page's HTML cleaned by an allow-list, as an extension of Python-Markdown that mkdocs.yml names.
 
 The one place where what an author writes is kept from acting: no script, no handler, no style, no address but of the
-web, no picture from another host.
+web, no picture from another host. And a table's empty corner is made a cell: a header without a text heads nothing.
 """
 
 from __future__ import annotations
+
+import re
 
 import nh3
 from markdown import Markdown
@@ -31,15 +33,17 @@ ATTRIBUTES = {
     "source": {"src", "type"},
     "td": {"style"},
     "th": {"style"},
-    "video": {"controls", "height", "muted", "playsinline", "poster", "preload", "width"},
+    "video": {"height", "loop", "muted", "playsinline", "poster", "preload", "width"},
     **{key: set(MATHML_ATTRIBUTES.split()) for key in MATHML.split()},
     **{key: set(DRAWN.split()) for key in ("svg", "path", "rect", "text")},
 }
 
+EMPTY_HEADER = re.compile(r"<th( [^>]*)?>\s*</th>")
+
 
 def sanitized(html: str) -> str:
     """The HTML with nothing but the elements, attributes and addresses above."""
-    return nh3.clean(
+    cleaned = nh3.clean(
         html,
         tags=TAGS,
         attributes=ATTRIBUTES,
@@ -50,6 +54,7 @@ def sanitized(html: str) -> str:
         strip_comments=False,  # Material marks with one where the list of tags goes
         link_rel=None,
     )
+    return EMPTY_HEADER.sub(r"<td\1></td>", cleaned)
 
 
 def _from_here(tag: str, attribute: str, value: str) -> str | None:

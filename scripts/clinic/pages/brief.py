@@ -1,0 +1,49 @@
+"""A case in a line of numbers, for lists: what was measured of the broken model, and what of the repaired one."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from clinic.proof.evidence import Evidence
+from clinic.record.case import Case
+from clinic.record.prose import quantity
+
+WHEN = {
+    "final": "at the end",
+    "first": "at first",
+    "max": "at its highest",
+    "min": "at its lowest",
+    "mean": "on average",
+    "span": "from lowest to highest",
+    "onset": "from",
+}
+NOTHING = 1e-3  # of the other number; less is told as zero
+
+
+class Brief(NamedTuple):
+    """What is measured, and its value in the broken and the repaired variant."""
+
+    measured: str
+    broken: str
+    repaired: str
+
+
+def brief(case: Case, evidence: Evidence) -> Brief | None:
+    """The first number that the repaired model has as it should be and the broken one has not.
+
+    Numbers of the record's first signal come first: it is the one that the plot shows.
+    """
+    broken, fix = evidence.variants["broken"], evidence.variants[case.record.fixes[0].id]
+    plotted = next(iter(case.record.signals))
+    pairs = sorted(
+        zip(broken.checks["fixed"], fix.checks["fixed"], strict=True), key=lambda pair: pair[0].signal != plotted
+    )
+    for was, now in pairs:
+        if was.holds or was.measured is None or now.measured is None:
+            continue
+        signal = case.record.signals[was.signal]
+        unit = "s" if was.take == "onset" else signal.unit
+        large = max(abs(was.measured), abs(now.measured))
+        values = (quantity(v if abs(v) > NOTHING * large else 0.0, unit, 3) for v in (was.measured, now.measured))
+        return Brief(f"{signal.label or was.signal} {WHEN[was.take]}", *values)
+    return None

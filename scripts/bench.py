@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import clinic.engine.measure
+import hosted
 import mujoco
 from clinic.engine.simulate import captured_messages, controls, initial_data, step_count
 from clinic.pages.case_files import drawing_tasks
@@ -30,6 +31,8 @@ from measured import PAGE, copied, finished, machine, markdown, put, python, sho
 REPEATS, PAIRS = 3, 7
 COLD, WARM, EDIT, NUMBERS, TESTS = 90.0, 1.3, 2.0, 4.0, 360.0  # s, times MkDocs alone, s, s, s
 PATIENCE = 300.0  # s
+LOADS, SCORE = 5, 97  # of Lighthouse, whose score of time varies by a few points; of 100
+LOADED = {"the first page": "index.html", "a case": "cases/box-falls-through-floor/index.html"}
 MEASURING = "Being measured"  # as an interim page says
 PARTS = {"film": "rendering", "pictures": "rendering", "plots": "plotting"}
 HEAD = ("what", "measured", "aim")
@@ -178,6 +181,20 @@ def tests(root: Path, folder: Path) -> tuple[str, str, str]:
     return f"`make test`{', which fails' if done[0] else ''}", f"{spent / 60:.1f} min", f"below {TESTS / 60:g} min"
 
 
+def loading(root: Path, site: Path) -> Iterator[tuple[str, str, str]]:
+    """How quickly pages are there on a telephone: the row of each."""
+    with hosted.served(site) as address:
+        for name, page in LOADED.items():
+            said = [hosted.lighthouse(root, address + page, "performance") for _ in range(LOADS)]
+            score = statistics.median(100 * one["categories"]["performance"]["score"] for one in said)
+            times = [
+                statistics.median(one["audits"][audit]["numericValue"] for one in said)
+                for audit in ("largest-contentful-paint", "total-blocking-time")
+            ]
+            shown = f"{score:.0f}; its largest part after {times[0] / 1000:.1f} s, {times[1]:.0f} ms blocked"
+            yield f"Lighthouse of {name}, median of {LOADS}", shown, f"{SCORE} at least"
+
+
 def main() -> None:
     """Prints the tables, and puts them into *Work on the code* when asked to."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -194,6 +211,7 @@ def main() -> None:
         times = f"{physics.ours:.1f} s, {physics.ours / physics.bare:.1f} times `mj_step` alone"
         rows.append((f"physics, {physics.steps:,} steps, in one process", times, ""))
         rows.append(("`mj_step` alone, as many steps", f"{physics.bare:.1f} s", ""))
+        rows += loading(root, Path(folder, "site"))
         if asked.tests:
             rows.append(tests(root, Path(folder)))
     spent["MkDocs alone"] = alone

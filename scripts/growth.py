@@ -20,8 +20,6 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import yaml
@@ -32,6 +30,7 @@ from clinic.record.case import Case, read_cases
 from clinic.record.checkout import project_root
 from clinic.work.cache import Cache, Files
 from clinic.work.task import Task
+from hosted import served
 from measured import PAGE, copied, machine, markdown, put, python, show, write
 from playwright.sync_api import sync_playwright
 
@@ -164,22 +163,6 @@ def resident(pid: int) -> int:
     except OSError:
         return 0
     return int(found[1]) * 1024 if found else 0
-
-
-@contextmanager
-def served(folder: Path) -> Iterator[str]:
-    """The address of a folder's files."""
-
-    class Quiet(SimpleHTTPRequestHandler):
-        def log_message(self, format: str, *args: object) -> None:
-            pass
-
-    with ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=str(folder))) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
-        try:
-            yield f"http://127.0.0.1:{server.server_port}/"
-        finally:
-            server.shutdown()
 
 
 def search(site: Path, queries: list[str]) -> tuple[float, float]:

@@ -15,7 +15,6 @@ from clinic.work.task import log_missing_once
 
 FOLDER = "javascripts/playground"
 START = f"{FOLDER}/start.js"  # which a site without Node's packages does not have
-LOADER = "docs/playground/loader.js"
 STYLE = "docs/stylesheets/playground.css"
 BUNDLER = "scripts/bundle.mjs"
 ENGINE = "node_modules/@mujoco/mujoco/mujoco.wasm"
@@ -38,7 +37,7 @@ HEADER = 8  # bytes: WebAssembly's mark and version
 
 
 def playground_files(root: Path, cache: Cache) -> Files:
-    """The playground's files by their path in the site; without Node or its packages the loader alone.
+    """The playground's files by their path in the site; without Node or its packages a loader that does nothing.
 
     Raises:
         RuntimeError: If the modules do not bundle, with what the bundler says.
@@ -51,7 +50,7 @@ def playground_files(root: Path, cache: Cache) -> Files:
         return {f"{FOLDER}/{name}": content for name, content in made.items()}
     cache.incomplete = True
     log_missing_once("no playground: Node or its packages are not installed; run `make setup`")
-    return {f"{FOLDER}/loader.js": (root / LOADER).read_bytes()} if (root / LOADER).is_file() else {}
+    return {f"{FOLDER}/loader.js": b"// This site was built without Node: no playground, and no search.\n"}
 
 
 def diagnosis_files(root: Path, cache: Cache) -> Files:

@@ -6,11 +6,13 @@ It is found without importing what makes it: MuJoCo, NumPy and pydantic.
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import sys
 from hashlib import sha256
 from pathlib import Path
 
+from clinic.pages.text.addresses import VARIABLES
 from clinic.publish.site_files import Site
 from clinic.work.cache import Cache, key_of
 
@@ -46,10 +48,11 @@ def cached_or_new_site(root: Path, cache: Cache) -> Site:
 
 
 def inputs_digest(root: Path) -> str:
-    """A digest of all that a site is made from: the files of the checkout, the package, what is installed, and Node."""
+    """A digest of all that a site is made from: the checkout, the package, what is installed, Node, the addresses."""
     paths = sorted(path for name in INPUTS for path in (root / name, *(root / name).rglob("*")))
     content = {str(path): sha256(path.read_bytes()).hexdigest() for path in paths if path.is_file()}
     packages = sorted({path.name for place in sys.path for path in Path(place).glob("*.dist-info")})
     program = shutil.which("node")
     made = Path(program).stat().st_mtime_ns if program else 0
-    return key_of(content, [str(path) for path in paths], packages, program, made, of="publish")
+    said = [os.environ.get(name, "") for name in VARIABLES]
+    return key_of(content, [str(path) for path in paths], packages, program, made, said, of="publish")

@@ -6,6 +6,7 @@ from collections.abc import Container, Mapping
 from html import escape
 from pathlib import Path
 
+from clinic.pages import completion
 from clinic.pages.case_files import picture_tasks
 from clinic.pages.case_page import interim_page
 from clinic.pages.cases import FOLDER, PAGE, case_pages
@@ -16,6 +17,7 @@ from clinic.pages.schema import schema_text
 from clinic.proof.evidence import missing_requirement
 from clinic.proof.experiments import EVIDENCE, evidence_of, evidence_task, measuring_tasks
 from clinic.publish import bundle
+from clinic.publish.for_programs import FEED, LLMS, feed, lines, llms_text
 from clinic.publish.site_files import SECTION, Navigation, Site
 from clinic.record.case import read_cases
 from clinic.record.checkout import slugs
@@ -35,6 +37,7 @@ def make_site(root: Path, cache: Cache) -> Site:
     problems += [*wrong, *others]
     made |= files
     made |= bundle.diagnosis_files(root, cache)
+    made |= {f"{bundle.FOLDER}/{completion.FILE}": completion.completion()} if bundle.START in made else {}
     made[SCHEMA] = schema_text().encode()
     for one in shown:
         made |= {f"{FOLDER.format(slug=one.case.slug)}/{name}": content for name, content in one.files.items()}
@@ -49,6 +52,10 @@ def make_site(root: Path, cache: Cache) -> Site:
         else:
             page = unmeasured_page(heading, missing_requirement(known[slug]))
         made[PAGE.format(slug=slug)] = page.encode()
+    listed = lines(made)
+    made[LLMS] = llms_text(listed).encode()
+    if (news := feed(listed, known)) is not None:
+        made[FEED] = news.encode()
     return Site(made, navigation(headings), CaseError(problems).problems)
 
 
@@ -84,7 +91,7 @@ def navigation(headings: Mapping[str, str]) -> Navigation:
         {"Check your models in CI": "check-your-models.md"},
         {"Triage": "triage.md"},
         {"Cases": divided if len(sections) > 1 else cases},
-        {"By thing": "tags.md"},
+        {"Cases by topic": "tags.md"},
         {
             "Contribute": [
                 {"Add a case": "contribute/add-a-case.md"},
@@ -92,4 +99,7 @@ def navigation(headings: Mapping[str, str]) -> Navigation:
                 {"Work on the code": "contribute/work-on-the-code.md"},
             ]
         },
+        {"Words": "words.md"},
+        {"For programs": "programs.md"},
+        {"About": "about.md"},
     ]

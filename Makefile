@@ -2,10 +2,10 @@
 # make serve   the site with live reload at http://localhost:8000, or another PORT=8010
 # make test    every test; sets everything up by itself
 # make site    builds site/ strictly
-# make bench   how long a build takes, cold and warm, and its parts; the table goes into *Work on the code*
+# make bench   how long a build takes, cold and warm, and its parts, how soon a page is there; the table goes into *Work on the code*
 # make growth  how the site grows to 1,000 cases; the table goes into *Work on the code*
 # make releases   what every release of MuJoCo does with every case, and which messages read otherwise; writes the two locks
-# make lint    style, types, order of the storeys
+# make lint    style, types, order of the storeys, spelling
 # make healthy   the robots of other people's packages on which the rules of `clinic diagnose` are measured
 # make lock    renews requirements.txt, requirements-parity.txt and requirements-healthy.txt
 # make audit   asks the registries for known holes in what is locked
@@ -70,6 +70,7 @@ lint: setup
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo
+	$(BIN)/codespell README.md CONTRIBUTING.md CHANGELOG.md cases docs scripts
 	PATH="$(CURDIR)/$(BIN):$$PATH" npx --no-install tsc -b docs/playground
 
 lock: setup

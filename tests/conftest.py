@@ -8,7 +8,7 @@ import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-import growth
+import hosted
 import pytest
 from clinic.proof.evidence import Evidence
 from clinic.proof.experiments import ALL, measure_case
@@ -81,7 +81,7 @@ def site(root: Path, tmp_path_factory: pytest.TempPathFactory, worker_id: str) -
 @pytest.fixture(scope="module")
 def served(site: Path) -> Iterator[str]:
     """The address of the built site."""
-    with growth.served(site) as address:
+    with hosted.served(site) as address:
         yield address
 
 
@@ -98,7 +98,7 @@ def browser() -> Iterator[Browser]:
 
 @pytest.fixture
 def page(browser: Browser) -> Iterator[Page]:
-    """A page without a past."""
-    context = browser.new_context()
+    """A page without a past, and without the policy, which forbids what Playwright waits with: see `test_policy.py`."""
+    context = browser.new_context(bypass_csp=True)
     yield context.new_page()
     context.close()

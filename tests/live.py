@@ -68,13 +68,13 @@ def type_text(page: Page, text: str) -> None:
 
 
 def engines(page: Page) -> list[str]:
-    return [worker.url for worker in page.workers if "playground" in worker.url]
+    return [worker.url for worker in page.workers if "playground/worker" in worker.url]
 
 
 def no_engine(page: Page) -> bool:
     """Whether every engine has ended, or is about to."""
     for worker in page.workers:
-        if "playground" in worker.url:
+        if "playground/worker" in worker.url:
             try:
                 worker.evaluate(f"new Promise((done) => setTimeout(done, {LIMIT}))")
             except Error:  # it was closed
@@ -94,3 +94,10 @@ def check(page: Page) -> str:
     button.click()
     expect(button).to_be_enabled()
     return page.locator(".pg-result").get_attribute("data-well") or ""
+
+
+def edited(page: Page, find: str, replace: str) -> str:
+    """The case's own text with one change."""
+    text: str = page.evaluate("fetch('playground.json').then(response => response.json())")["text"]
+    assert text.count(find) == 1
+    return text.replace(find, replace)

@@ -63,6 +63,21 @@ QUERIES = {
         "xpos is not updated after setting qpos",
         "first observation of episode is wrong gym",
     ],
+    "satellite-turns-about-wrong-axis": [
+        "angular velocity of free joint in world or body frame",
+        "when I add some angular velocity the box rotates with its own coordinate system",
+        "qvel of floating body frame",
+    ],
+    "marker-trails-hand": [
+        "mj_forward modifies jacobian when called after mj_step",
+        "xpos does not match qpos",
+        "site position lags behind by one step",
+    ],
+    "same-action-ends-elsewhere": [
+        "same action from same state can result in different next states",
+        "save and restore simulation state",
+        "are environments deterministic set_state",
+    ],
     "misaligned-log": [
         "replay of recorded actions gives different trajectory",
         "simulation is not reproducible",
@@ -73,6 +88,12 @@ QUERIES = {
         "qpos index of a joint by name",
         "get joint by name",
     ],
+    "log-repeats-one-row": ["only two unique values in the array", "qpos in my list are all the same"],
+    "mug-falls-through-table": [
+        "randomizing the size of box geoms makes them partially penetrable",
+        "geom_rbound not updated",
+    ],
+    "arm-turns-too-fast": ["body_mass changed at runtime", "call mj_setConst after changing body masses"],
     "empty-pixels-have-depth": ["depth image background value", "mean depth is wrong", "depth of the sky"],
     "javascript-view-goes-dead": ["javascript qpos array stops updating", "wasm memory growth typed array detached"],
     "rotation-error-reads-zero": ["arccos of quaternion product is zero", "orientation error is exactly zero"],
@@ -82,7 +103,13 @@ QUERIES = {
     ],
     "joint-snaps-at-start": ["joint jumps when simulation starts", "unexpected contact between parent and child body"],
     "drone-will-not-hover": ["robot is too heavy", "visual mesh adds mass"],
+    "linkage-jumps-at-start": ["connect equality constraints not satisfied", "closed loop mechanism joint disengages"],
+    "first-image-is-black": ["got a totally black image from render", "black pixels from renderer"],
+    "heavy-base-spins": ["base spins at infinite speed with the slightest force", "unrealistic diaginertia of base"],
     "box-sinks-into-floor": ["object sinks into the floor", "high friction penetration"],
+    "arm-stops-short": ["robot arm cannot lift", "raising kp does nothing", "forcerange clamps actuator force"],
+    "force-sensor-reads-zero": ["why is the force sensor value 9.81", "net contact force does not match the weight"],
+    "touch-sensor-reads-zero": ["only getting 0 from touch sensor", "touch sensor does not capture contact force"],
     "crate-slides-off-table": ["friction does nothing", "object slides like on ice", "frictionless contact condim"],
 }
 TEXTS = [

@@ -104,7 +104,7 @@ def test_what_needs_more_says_so_in_a_sentence(installed: Path, tmp_path: Path, 
     (tmp_path / "pyproject.toml").touch()
     done = clinic(installed, tmp_path, *arguments)
     assert done.returncode == 1
-    assert done.stderr.endswith("is not installed; this needs pip install 'mujoco-clinic[site]'\n")
+    assert done.stderr.endswith("is not installed; this needs a checkout, set up by `make setup`\n")
     assert done.stderr.count("\n") == 1
 
 

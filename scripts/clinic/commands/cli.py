@@ -250,6 +250,6 @@ def main() -> None:
     except CaseError as error:
         sys.exit(str(error))
     except ModuleNotFoundError as error:
-        sys.exit(f"clinic: {error.name} is not installed; this needs pip install 'mujoco-clinic[site]'")
+        sys.exit(f"clinic: {error.name} is not installed; this needs a checkout, set up by `make setup`")
     except (ImportError, FileNotFoundError, ConnectionError, MissingRequirementError) as error:
         sys.exit(f"clinic: {error}")  # an ImportError says that the engine is too old

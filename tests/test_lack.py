@@ -116,7 +116,7 @@ def test_its_page_says_so_and_the_others_are_as_ever(tmp_path: Path, cache: Cach
     assert "measured in images" in page
     assert "no display" in page
     assert "cases/odd-script/index.md" in str(site.navigation)
-    assert "## Files" in site.files["cases/falling-box/index.md"].decode()
+    assert "How we know" in site.files["cases/falling-box/index.md"].decode()
 
 
 @pytest.mark.parametrize("gone", ["executable", "version"])

@@ -104,6 +104,7 @@ QUERIES = {
     "joint-snaps-at-start": ["joint jumps when simulation starts", "unexpected contact between parent and child body"],
     "drone-will-not-hover": ["robot is too heavy", "visual mesh adds mass"],
     "linkage-jumps-at-start": ["connect equality constraints not satisfied", "closed loop mechanism joint disengages"],
+    "mug-missing-in-image": ["object not visible in rendered image", "geom has contacts but cannot be seen"],
     "first-image-is-black": ["got a totally black image from render", "black pixels from renderer"],
     "heavy-base-spins": ["base spins at infinite speed with the slightest force", "unrealistic diaginertia of base"],
     "box-sinks-into-floor": ["object sinks into the floor", "high friction penetration"],

@@ -1,0 +1,20 @@
+import mujoco
+import numpy as np
+
+model = mujoco.MjModel.from_xml_path("hand.xml")
+data = mujoco.MjData(model)
+mujoco.mj_forward(model, data)
+mug = model.geom("mug").id
+
+with mujoco.Renderer(model, 120, 160) as renderer:
+    renderer.update_scene(data, camera="front")
+    image = renderer.render().astype(int)
+
+    renderer.enable_segmentation_rendering()
+    seen = renderer.render()
+
+orange = image[:, :, 0] > image[:, :, 2] + 60
+print(f"share of orange pixels = {orange.mean():.4f}")
+print(f"share of pixels that show the mug = {np.mean((seen == [mug, mujoco.mjtObj.mjOBJ_GEOM]).all(axis=2)):.4f}")
+print(f"share of pixels that show a geom = {np.mean(seen[:, :, 0] != -1):.4f}")
+print(f"contacts of the mug = {np.any(data.contact.geom == mug, axis=1).sum()}")

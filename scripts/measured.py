@@ -14,6 +14,7 @@ from pathlib import Path
 
 import mujoco
 import yaml
+from clinic.publish.page_head import about
 from clinic.work.parallel import jobs
 from mkdocs.utils.yaml import get_yaml_loader
 from rich.console import Console
@@ -66,7 +67,7 @@ def plain_settings(folder: Path, pages: Path) -> Path:
     given = yaml.load((folder / "mkdocs.yml").read_text(encoding="utf-8"), get_yaml_loader())
     navigation = yaml.safe_load((pages.parent / "nav.yml").read_text(encoding="utf-8"))
     plugins = [plugin for plugin in given["plugins"] if plugin != GENERATOR and GENERATOR not in plugin]
-    bare: dict[str, object] = {"hooks": [], "watch": [], "extra": {"about": {}}}  # hooks fill the foot of a page
+    bare: dict[str, object] = {"hooks": [], "watch": [], "extra": {"about": about()}}
     changes = {"docs_dir": str(pages), "plugins": plugins, "nav": navigation, **bare}
     made = folder / "plain.yml"
     made.write_text(yaml.safe_dump({"INHERIT": "mkdocs.yml", **changes}, sort_keys=False), encoding="utf-8")

@@ -11,12 +11,11 @@ import pytest
 import yaml
 from clinic.pages.cases import CasePage
 from clinic.pages.figures.plots import plots
+from clinic.pages.home import home
 from clinic.pages.text.prose import ProseError, markdown, opening
 from clinic.pages.text.sanitize import sanitized
-from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence, collect
 from clinic.record.case import load_case
-from clinic.record.families import families
 from helpers import MODEL, RECORD, page_of, script_case, tiny_case, write_folder
 from markup import acting, rendered
 from project import SILENT, run, write_project
@@ -86,8 +85,7 @@ def test_lines_are_shown_on_every_page(proof: Evidence, tmp_path: Path) -> None:
     said = {key: variant.model_copy(update={"messages": [SCRIPTED, "```"]}) for key, variant in proof.variants.items()}
     evidence = proof.model_copy(update={"variants": said})
     shown = [CasePage(case, "", opening(case, evidence), files)]
-    home = render("home", shown=shown, families=families(), engine="4.0.0")
-    for page in (page_of(case, evidence, files, case), home):
+    for page in (page_of(case, evidence, files, case), home(shown)):
         assert acting(rendered(page)) == []
     assert unescape(rendered(page_of(case, evidence, files, case))).count(LINE[:30]) >= 5
     for drawing in plots(case, evidence).values():

@@ -44,7 +44,7 @@ export class Knowledge {
   /** The extensions of an editor that offer and tell what is known. */
   get extensions() {
     return [
-      autocompletion({ override: [(context) => this.complete(context)], icons: false }),
+      autocompletion({ override: [(context) => this.complete(context)], icons: false, interactionDelay: 0 }),
       keymap.of(completionKeymap),
       hoverTooltip((view, at) => this.hover(view, at)),
     ];

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import io
 import math
 from pathlib import Path
 from typing import Any
 
+import av
 import mujoco
 import numpy as np
 import pytest
@@ -250,3 +252,9 @@ def only_problem(folder: Path) -> Problem:
         check_against_model(load_case(folder))
     (found,) = caught.value.problems
     return found
+
+
+def decoded(content: bytes) -> list[np.ndarray]:
+    """The images of a film, shape (height, width, 3) each."""
+    with av.open(io.BytesIO(content)) as container:
+        return [frame.to_ndarray(format="rgb24") for frame in container.decode(video=0)]

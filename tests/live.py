@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from playwright.sync_api import Error, Page, expect
 
 CASE = "box-falls-through-floor"
@@ -25,22 +23,6 @@ def open_playground(page: Page, served: str, slug: str = CASE) -> None:
     page.goto(address(served, slug))
     page.get_by_role("button", name="Run the broken model").click()
     page.wait_for_function("document.querySelector('.pg-clock')?.dataset.steps", timeout=LIMIT)
-
-
-def navigate_instantly(page: Page, served: str, site: Path) -> None:
-    """Gives a page the sitemap that a build with SITE_URL writes: without one the theme loads every page anew."""
-    pages = (path.relative_to(site).as_posix() for path in sorted(site.rglob("*.html")))
-    body = "".join(f"<url><loc>{served}{page}</loc></url>" for page in pages)
-    sitemap = f'<urlset xmlns="http://www.sitemaps.org/schemas/sitemap/0.9">{body}</urlset>'
-    page.route("**/sitemap.xml", lambda route: route.fulfill(body=sitemap, content_type="application/xml"))
-
-
-def follow(page: Page, link: str, heading: str) -> None:
-    """Follows a link of the navigation, within the same document."""
-    page.evaluate("document.stays = true")
-    page.locator(f"a.md-nav__link[href*='{link}']").first.evaluate("a => a.click()")
-    expect(page.locator("h1")).to_contain_text(heading)
-    assert page.evaluate("document.stays"), "the page was loaded anew"
 
 
 def steps(page: Page) -> int:

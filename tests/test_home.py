@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from live import navigate_instantly
 from playwright.sync_api import Browser, Page, expect
 
 pytestmark = pytest.mark.xdist_group("site")
@@ -56,8 +55,7 @@ def test_on_a_phone_the_cards_begin_after_a_screen_and_a_half(page: Page, served
     assert top <= 1.5 * PHONE["height"], "shorten what stands above the cards in home.md.j2 or home.css"
 
 
-def test_a_tile_shows_the_cards_of_its_symptom_and_gives_all_back(page: Page, served: str, site: Path) -> None:
-    navigate_instantly(page, served, site)
+def test_a_tile_shows_the_cards_of_its_symptom_and_gives_all_back(page: Page, served: str) -> None:
     page.goto(served + "index.html")
     count = page.locator(".case:visible").count()
     page.locator(".tile[data-family=falls-through]").click()

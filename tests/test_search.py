@@ -139,7 +139,7 @@ FOREIGN = [
     "reward shaping for quadruped locomotion ppo",
     "blender export animation to video",
     "best gpu for reinforcement learning",
-    "license for commercial use",
+    "price of a commercial seat",
     "pip install fails on windows arm",
     "soft body cloth simulation parameters",
     "fluid drag coefficient for a fish",

@@ -36,6 +36,7 @@ if __name__ == "__main__":
         for row in range(0, len(episode), 20):
             error = np.abs(episode[row] - positions(angle, row)).max()
             print(f"logged angle = {episode[row][0]:.6f} rad")
+            print(f"logged angle below = {episode[row][1]:.6f} rad")
             print(f"error of the row = {error:.9f} rad")
         log.extend(episode)
     print(f"rows = {len(log)}")

@@ -23,12 +23,12 @@ def record():
 
 
 def replay(log):
-    """Starts in the first logged state, applies the logged torques; returns the error of each row."""
+    """Starts in the first logged state, applies the logged torques; returns the errors and the angle of each row."""
     data = mujoco.MjData(model)
     data.qpos[0], data.qvel[0], _ = log[0]
     errors = []
     for angle, speed, torque in log:
-        errors.append((abs(data.qpos[0] - angle), abs(data.qvel[0] - speed)))
+        errors.append((abs(data.qpos[0] - angle), abs(data.qvel[0] - speed), data.qpos[0]))
         apply(data, torque)
     return np.array(errors)
 
@@ -38,6 +38,8 @@ if __name__ == "__main__":
     errors = replay(log)
     for row in range(0, len(log), 10):
         print(f"angle error = {errors[row, 0]:.6g} rad")
+        print(f"logged angle = {log[row][0]:.6g} rad")
+        print(f"replayed angle = {errors[row, 2]:.6g} rad")
     print(f"largest angle error = {errors[:, 0].max():.6g} rad")
     print(f"largest speed error = {errors[:, 1].max():.6g} rad/s")
     print(f"smallest logged angle = {min(angle for angle, _, _ in log):.6g} rad")

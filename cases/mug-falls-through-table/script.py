@@ -21,8 +21,10 @@ if __name__ == "__main__":
     model = scene(scale=3)
     top = model.geom("top").id
     half, count = model.geom_size[top, 0], 10
-    heights = [put_down(model, x) for x in half * (np.arange(count) + 0.5) / count]
-    for height in heights:
+    places = half * (np.arange(count) + 0.5) / count
+    heights = [put_down(model, x) for x in places]
+    for x, height in zip(places, heights):
+        print(f"place of the mug = {x:.6f} m")
         print(f"height of the mug = {height:.6f} m")
     print(f"places that hold = {np.mean(np.array(heights) > 0.5):.6f}")
     print(f"half the width of the top = {half:.6f} m")

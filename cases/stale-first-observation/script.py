@@ -25,5 +25,7 @@ for episode in range(4):
     start = hand_at(data.qpos)
     mujoco.mj_step(model, data, nstep=200)
     end = hand_at(data.qpos)
+    print(f"observed x = {observed[0]:.6f} m")
+    print(f"observed z = {observed[2]:.6f} m")
     print(f"observation error = {1000 * np.linalg.norm(observed - start):.6f} mm")
     print(f"distance travelled = {1000 * np.linalg.norm(end - start):.6f} mm")

@@ -102,10 +102,3 @@ function said(error) {
   console.error(error);
   return `it cannot be read: ${error instanceof Error ? error.message : error}`;
 }
-
-// What is under way ends when the reader goes to another page of the site.
-document$.subscribe(() => {
-  under.abort(null);
-  leave();
-  leave = () => {};
-});

@@ -1,9 +1,6 @@
-// What the bundler and the theme bring.
+// What the bundler brings.
 
 declare module "*.css";
-
-/** Emits the document after every navigation. */
-declare const document$: { subscribe: (listen: () => void) => void };
 
 /** What javascripts/search/ and search.js leave for each other: both are scripts of the old kind, which run from a file too. */
 declare var clinicIndex: { documents: import("./search/index.js").Document[]; synonyms: string[][] };

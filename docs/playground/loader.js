@@ -1,9 +1,11 @@
 // On every page: offers the playground and the search, ticks what has been solved, and puts what scrolls in the keyboard's reach. What they need is fetched when asked for.
 
 import { reading } from "./page/reading.js";
+import { theme } from "./page/theme.js";
 import { tiles } from "./page/tiles.js";
 
-const base = new URL(".", /** @type {HTMLScriptElement} */ (document.currentScript).src);
+const own = /** @type {HTMLScriptElement} */ (document.currentScript);
+const base = new URL(".", own.src);
 const KEY = "mujoco-clinic"; // as in page/solved.js and page/kept.js
 const CHOICES = `<label class="md-button">Choose files<input type="file" multiple accept=".xml,.mjcf,.urdf,.zip,.stl,.obj,.msh,.png"></label>
 <label class="md-button">Choose a folder<input type="file" webkitdirectory></label>
@@ -12,7 +14,6 @@ const SEARCH = new URL("../search/", base).href;
 const SITE = new URL("../../", base).href;
 /** @type {Map<string, Promise<void>>} */
 const scripts = new Map();
-let leave = () => {};
 const scrolls = new ResizeObserver((entries) => {
   for (const { target } of entries) {
     if (target.scrollWidth > target.clientWidth) target.setAttribute("tabindex", "0");
@@ -127,9 +128,7 @@ function offer(root) {
     button.disabled = true;
     try {
       const { mount } = await import(base + (root.dataset.module ?? "start.js"));
-      const end = await mount(root, base);
-      if (root.isConnected) leave = end;
-      else end();
+      await mount(root, base);
     } catch (error) {
       console.error(error);
       const away = error instanceof TypeError || error instanceof Event; // what a fetch fails with
@@ -190,31 +189,31 @@ function copier(code) {
   return place;
 }
 
+/** Puts what scrolls in the keyboard's reach. */
 function reach() {
-  for (const wide of document.querySelectorAll(".md-typeset__scrollwrap, .md-typeset pre > code, .md-typeset .formula")) scrolls.observe(wide);
+  for (const wide of document.querySelectorAll(".md-typeset table, .md-typeset__scrollwrap, .md-typeset pre > code, .md-typeset .formula")) scrolls.observe(wide);
+}
+
+function copiers() {
   if (!navigator.clipboard) return;
   for (const code of document.querySelectorAll(".highlight pre > code:first-child")) code.before(copier(code));
 }
 
-function arrive() {
-  leave();
-  leave = () => {};
-  reach();
-  tick();
-  tiles();
-  reading();
-  for (const form of /** @type {NodeListOf<HTMLFormElement>} */ (document.querySelectorAll("form.search:not([data-heard])"))) {
-    form.dataset.heard = "";
-    listen(form);
-  }
-  for (const link of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("a[data-ask]"))) example(link);
-  const nearest = /** @type {HTMLElement | null} */ (document.querySelector(".nearest"));
-  if (nearest) void guess(nearest);
-  const root = /** @type {HTMLElement | null} */ (document.querySelector(".playground"));
-  if (root) offer(root);
-  const reader = /** @type {HTMLElement | null} */ (document.querySelector(".diagnose"));
-  if (reader && !reader.querySelector("input")) take(reader);
-}
-
-if (location.protocol === "file:") arrive(); // where the theme emits nothing
-else document$.subscribe(arrive);
+reach();
+copiers();
+tick();
+tiles();
+reading();
+theme(async () => {
+  await script(own.dataset.theme ?? "");
+  document.dispatchEvent(new Event("DOMContentLoaded")); // which it waits for
+  reach(); // it has wrapped tables
+});
+for (const form of /** @type {NodeListOf<HTMLFormElement>} */ (document.querySelectorAll("form.search"))) listen(form);
+for (const link of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("a[data-ask]"))) example(link);
+const nearest = /** @type {HTMLElement | null} */ (document.querySelector(".nearest"));
+if (nearest) void guess(nearest);
+const root = /** @type {HTMLElement | null} */ (document.querySelector(".playground"));
+if (root) offer(root);
+const reader = /** @type {HTMLElement | null} */ (document.querySelector(".diagnose"));
+if (reader) take(reader);

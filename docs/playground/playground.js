@@ -95,9 +95,10 @@ export class Playground {
     }
   }
 
-  /** Starts the engine, if the text of a link has kept it from starting. */
+  /** Starts the engine, if the text of a link has kept it from starting, and has it compile what was typed last. */
   startEngine() {
-    if (this.engine.worker || this.losses > MAX_LOSSES) return;
+    if (this.engine.worker) return this.draft.settle();
+    if (this.losses > MAX_LOSSES) return;
     this.engine.renew();
     this.draft.compile(this.draft.text);
   }

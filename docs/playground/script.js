@@ -13,7 +13,6 @@ import "../stylesheets/playground.css";
  * Fills the playground's place.
  * @param {HTMLElement} root with `data-case`, the address of the case's `playground.json`
  * @param {URL} base where the playground's files are
- * @returns {Promise<() => void>} takes everything away again
  */
 export async function mount(root, base) {
   const address = new URL(root.dataset.case ?? "", location.href);
@@ -21,15 +20,8 @@ export async function mount(root, base) {
   if (!response.ok) throw new Error(`${address.pathname}: ${response.status}`);
   /** @type {ScriptRecord} */
   const record = await response.json();
-  const before = [...root.childNodes];
   const edits = record.language === "javascript";
   root.replaceChildren(...(edits ? [] : [...root.children].filter((child) => !child.matches("p, button")))); // a script that stays
-  const made = [
-    ...(edits ? [new Bench(root, record, parts, linked)] : []),
-    ...(record.instrument === null ? [] : [new InstrumentPanel(root, record, parts)]),
-  ];
-  return () => {
-    for (const each of made) each.leave();
-    root.replaceChildren(...before);
-  };
+  if (edits) new Bench(root, record, parts, linked);
+  if (record.instrument !== null) new InstrumentPanel(root, record, parts);
 }

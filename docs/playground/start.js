@@ -13,14 +13,12 @@ import "../stylesheets/playground.css";
  * Fills the playground's place.
  * @param {HTMLElement} root with `data-case`, the address of the case's `playground.json`
  * @param {URL} base where the playground's files are
- * @returns {Promise<() => void>} takes everything away again
  */
 export async function mount(root, base) {
   void import("./playground.js");
   const response = await fetch(new URL(root.dataset.case ?? "", location.href));
   if (!response.ok) throw new Error(`${root.dataset.case}: ${response.status}`);
-  const playground = await open(root, base, await response.json(), await fromFragment(location.hash));
-  return () => playground.leave();
+  await open(root, base, await response.json(), await fromFragment(location.hash));
 }
 
 /**

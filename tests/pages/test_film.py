@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import io
-
-import av
 import numpy as np
 from clinic.engine.simulate import compile_model
 from clinic.pages.figures.film import FPS, HEIGHT, WIDTH, encode, film, frames
 from clinic.record.fields import Film, RunSpec
-from helpers import tiny_case
+from helpers import decoded, tiny_case
 
 EXPLODING = """
 <mujoco>
@@ -24,11 +21,6 @@ EXPLODING = """
   </worldbody>
 </mujoco>
 """
-
-
-def decoded(content: bytes) -> list[np.ndarray]:
-    with av.open(io.BytesIO(content)) as container:
-        return [frame.to_ndarray(format="rgb24") for frame in container.decode(video=0)]
 
 
 def test_a_film_shows_both_variants_for_the_filmed_time(tmp_path) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from clinic.diagnosis.rules import rules
-from live import LIMIT, engines, follow, navigate_instantly, no_engine
+from live import LIMIT, engines
 from playwright.sync_api import Page, expect
 
 pytestmark = pytest.mark.xdist_group("site")
@@ -97,11 +97,7 @@ def test_the_findings_are_copied_and_the_mended_model_is_saved(page: Page, serve
     assert f'stiffness="{cause["value"]}"' in Path(download.value.path()).read_text(encoding="utf-8")
 
 
-def test_an_edit_runs_beside_the_model_as_it_was_until_the_reader_leaves(
-    fresh: Page, served: str, site: Path, tmp_path: Path
-) -> None:
-    page = fresh
-    navigate_instantly(page, served, site)
+def test_an_edit_runs_beside_the_model_as_it_was(page: Page, served: str, tmp_path: Path) -> None:
     opened(page, served)
     give(page, written(tmp_path / "shaking.xml", BAD))
 
@@ -117,19 +113,6 @@ def test_an_edit_runs_beside_the_model_as_it_was_until_the_reader_leaves(
     expect(page.get_by_role("button", name="Check my fix")).to_have_count(0)
 
     assert len(engines(page)) == 2
-    follow(page, "triage", "Six steps of triage")
-    assert no_engine(page)
-
-
-def test_a_diagnosis_ends_where_the_reader_goes_to_another_page(
-    fresh: Page, served: str, site: Path, tmp_path: Path
-) -> None:
-    navigate_instantly(fresh, served, site)
-    opened(fresh, served)
-    fresh.locator(".dg-ask input").first.set_input_files(written(tmp_path / "still.xml", STILL))
-    expect(fresh.get_by_role("button", name="Stop")).to_be_visible()
-    follow(fresh, "triage", "Six steps of triage")
-    assert no_engine(fresh)
 
 
 def test_an_edit_of_two_files_is_tried_and_what_is_silenced_is_told(page: Page, served: str, tmp_path: Path) -> None:
@@ -215,7 +198,7 @@ def test_it_stops(page: Page, served: str, tmp_path: Path) -> None:
 
 
 def test_the_symptom_and_everything_shown_have_names(page: Page, served: str, root: Path, tmp_path: Path) -> None:
-    opened(page, served)
+    page.goto(f"{served}rules/index.html")
     page.get_by_label("What do you see?").select_option("explodes")
     give(page, written(tmp_path / "shaking.xml", BAD))
     page.get_by_role("button", name="Try this edit").click()

@@ -6,29 +6,12 @@ import gzip
 from pathlib import Path
 
 import pytest
-from live import LIMIT, address, engines, follow, navigate_instantly, no_engine, open_playground
+from live import address, no_engine, open_playground
 from playwright.sync_api import Browser, Page, expect
 
 pytestmark = pytest.mark.xdist_group("site")
 BEFORE_THE_CLICK = 9_000  # bytes, with what the search, the tiles of the first page and folds ask of every page
 AFTER_THE_CLICK = 1_700_000
-
-
-def test_leaving_by_instant_navigation_leaves_no_worker_behind(fresh: Page, served: str, site: Path) -> None:
-    page = fresh
-    navigate_instantly(page, served, site)
-    open_playground(page, served)
-    assert len(engines(page)) == 1
-
-    follow(page, "triage", "Six steps of triage")
-    assert page.evaluate("document.querySelector('.pg')") is None
-    assert no_engine(page)
-
-    page.go_back()
-    page.get_by_role("button", name="Run the broken model").click()
-    assert page.evaluate("document.stays")
-    page.wait_for_function("document.querySelector('.pg-clock')?.dataset.steps", timeout=LIMIT)
-    assert len(engines(page)) == 1
 
 
 def test_what_is_fetched_before_and_after_the_click_is_small(fresh: Page, served: str, site: Path) -> None:

@@ -50,7 +50,15 @@ export class Draft {
     if (location.hash.startsWith("#model=")) history.replaceState(history.state, "", location.pathname + location.search); // a reload brings this text
     this.controls.fix.select.value = "";
     this.controls.why.textContent = "";
-    this.typing = setTimeout(() => this.engine.worker && this.compile(this.text), TYPING);
+    this.typing = setTimeout(() => this.settle(), TYPING);
+  }
+
+  /** Has compiled what was typed last, if it waits for that. */
+  settle() {
+    if (this.typing === undefined) return;
+    clearTimeout(this.typing);
+    this.typing = undefined;
+    this.compile(this.text);
   }
 
   /** Keeps the text in this browser for the next visit, if it is not the case's own. */

@@ -139,9 +139,4 @@ export class Bench {
     this.address.select();
     await navigator.clipboard?.writeText(this.address.value).catch(() => {});
   }
-
-  leave() {
-    this.work?.abort();
-    this.editor.destroy();
-  }
 }

@@ -90,8 +90,4 @@ export class InstrumentPanel {
     const made = rows.map(([label, value, agrees]) => el("tr", agrees ? { "data-holds": agrees === "same" ? "yes" : "no" } : {}, el("th", { scope: "row" }, label), el("td", {}, value)));
     this.rows.replaceChildren(...made);
   }
-
-  leave() {
-    this.running.end();
-  }
 }

@@ -39,6 +39,8 @@ def drawing_tasks(case: Case, measured: Files) -> Iterator[Task]:
     """Tasks that draw the film, the pictures and the plots, by what was measured."""
     yield from picture_tasks(case)
     evidence = measured[EVIDENCE].decode()
+    if case.record.picture.shows:
+        yield case_task(case, "replay", partial(_replay, case, measured), evidence, case.record.title, of=DRAWING)
     yield case_task(case, "plots", partial(_plots, case, measured), evidence, of=DRAWING)
 
 
@@ -46,7 +48,8 @@ def picture_tasks(case: Case) -> Iterator[Task]:
     """Tasks that draw the film and the pictures, which depend on the case alone."""
     if case.record.filmed is not None:
         yield case_task(case, "film", partial(_film, case), of=DRAWING)
-    yield case_task(case, "pictures", partial(_pictures, case), case.record.title, of=DRAWING)  # on the card
+    if not case.record.picture.shows:
+        yield case_task(case, "pictures", partial(_pictures, case), case.record.title, of=DRAWING)  # on the card
 
 
 def _film(case: Case) -> Files:
@@ -59,6 +62,12 @@ def _pictures(case: Case) -> Files:
     from clinic.pages.figures.pictures import pictures
 
     return pictures(case)
+
+
+def _replay(case: Case, measured: Files) -> Files:
+    from clinic.pages.figures.replay import replay
+
+    return replay(case, evidence_of(measured))
 
 
 def _plots(case: Case, measured: Files) -> Files:

@@ -64,6 +64,9 @@ def _script_problems(case: Case) -> Iterator[Problem]:
         camera = case.record.picture.camera
         if camera is not None and (missing := missing_element(model, "camera", camera)):
             yield case.problem(("picture", "camera"), *missing)
+        for joint in case.record.picture.shows:
+            if missing := missing_element(model, "joint", joint):
+                yield case.problem(("picture", "shows", joint), *missing)
 
 
 def _variant_problems(case: Case, variant: Variant) -> Iterator[Problem]:

@@ -183,6 +183,8 @@ def _reference_problems(case: Case) -> Iterator[Problem]:
         yield from _unknown(case, ("warnings", index), [name], WARNINGS, "MuJoCo warning")
     if record.picture.scene is not None:
         yield from _unknown(case, ("picture", "scene"), [record.picture.scene], list(case.texts), "file")
+    for joint, shown in record.picture.shows.items():
+        yield from _unknown(case, ("picture", "shows", joint), [shown], record.signals, "signal")
     for name, signal in record.signals.items():
         if isinstance(signal, StartsSignal):
             place = ("signals", name, "holds", "signal")

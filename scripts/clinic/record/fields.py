@@ -149,6 +149,10 @@ class Picture(Strict):
         default=None, ge=0, le=120, description="When, in s of simulated time; half-way through the run when absent."
     )
     scene: FileName | None = Field(default=None, description="Code cases: the scene to render, from its keyframe 0.")
+    shows: dict[Text, Text] = Field(
+        default={},
+        description="Code cases: hinges and slides of the scene, and the signals that give their positions, a picture a sample.",
+    )
 
 
 Overlay = Literal[

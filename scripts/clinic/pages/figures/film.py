@@ -53,11 +53,14 @@ def film(case: Case) -> Files:
     broken, fixed = (
         list(frames(compile_model(variant.text), record.run, spec, camera)) for variant in variants(case)[:2]
     )
+    at = min(picture_time(record.picture, record.run) / film_duration(spec, record.run), 1.0)
+    return films(broken, fixed, round(at * (len(broken) - 1)))
+
+
+def films(broken: list[tuple[Image, str]], fixed: list[tuple[Image, str]], at: int) -> Files:
+    """The files of a film, from its images with their clocks; `at` says which is the poster."""
     pictures = [beside(left, right) for left, right in zip(broken, fixed, strict=True)]
     moments = np.linspace(0, len(pictures) - 1, STRIP).round().astype(int)
-    at = round(
-        min(picture_time(record.picture, record.run) / film_duration(spec, record.run), 1.0) * (len(pictures) - 1)
-    )
     return {
         "film.mp4": encode(pictures),
         "poster.webp": webp(pictures[at]),

@@ -33,10 +33,14 @@ def pictures(case: Case) -> Files:
     elif record.picture.scene is not None:
         drawn["broken"] = scene_image(case.texts[record.picture.scene], record.picture.camera)
     made = {f"{name}.webp": webp(pixels) for name, pixels in drawn.items()}
-    if "broken" in drawn:
-        above = f"Case {record.number}" if record.number else "A case"
-        made |= {"thumb.webp": thumb(drawn["broken"]), "card.jpg": card(drawn["broken"], record.title, above)}
-    return made
+    return made | small(case, drawn["broken"]) if "broken" in drawn else made
+
+
+def small(case: Case, pixels: Image) -> Files:
+    """`thumb.webp`, for lists, and `card.jpg`, for links."""
+    record = case.record
+    above = f"Case {record.number}" if record.number else "A case"
+    return {"thumb.webp": thumb(pixels), "card.jpg": card(pixels, record.title, above)}
 
 
 def picture_time(picture: Picture, run: RunSpec) -> float:

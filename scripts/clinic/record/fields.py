@@ -151,7 +151,7 @@ class Picture(Strict):
     scene: FileName | None = Field(default=None, description="Code cases: the scene to render, from its keyframe 0.")
     shows: dict[Text, Text] = Field(
         default={},
-        description="Code cases: hinges and slides of the scene, and the signals that give their positions, a picture a sample.",
+        description="Code cases: joints of the scene, and the signals that say where they are; an image a sample.",
     )
 
 

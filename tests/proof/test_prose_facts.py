@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 from clinic.proof.evidence import collect
-from clinic.proof.prose.absences import bold, commented, denied, functional, named
+from clinic.proof.prose.absences import bold, commented, denied, functional, jointed, named
 from clinic.proof.prose.comparisons import compared, ordered
 from clinic.proof.prose.formulas import formulas, mutants
 from clinic.proof.prose.labels import computed
 from clinic.proof.prose.opposites import indexed, opposed, valued
 from clinic.proof.prose.titles import performed
-from clinic.proof.prose.units import in_units
+from clinic.proof.prose.units import in_units, written
 from helpers import MODEL, script_case, tiny_case
 
 
@@ -70,7 +70,11 @@ def test_what_prose_denies_is_not_there(tmp_path, text: str, wrong: bool) -> Non
         ("It follows the sine of the angle.", functional, True),
         ("It follows the masks.", functional, False),
         ("The field is `qfrc_bais`.", named, True),
-        ("The field is `qfrc_bias`, see `mj_forward`.", named, False),
+        ("The field is `qfrc_bias`, see `mj_forward`.", named, True),
+        ("The masks are `contype` and `conaffinity`.", named, False),
+        ("It has a ball joint.", jointed, True),
+        ("It has a free joint.", jointed, False),
+        ("Its density is 1 g/cm³.", written, True),
         ("It always falls.", bold, True),
         ("It never rises above {{ broken.height.max }}.", bold, False),
     ],

@@ -13,7 +13,7 @@ from clinic.pages.text.prose import prose_problems
 from clinic.proof.bounds import bounded
 from clinic.proof.evidence import collect
 from clinic.proof.filing import filing_problems
-from clinic.proof.prose.absences import bold, denied, functional, named
+from clinic.proof.prose.absences import bold, denied, functional, jointed, named
 from clinic.proof.prose.comparisons import compared, ordered
 from clinic.proof.prose.formulas import formulas
 from clinic.proof.prose.labels import computed, entitled, labelled
@@ -21,14 +21,29 @@ from clinic.proof.prose.numbers import titled, typed
 from clinic.proof.prose.opposites import indexed, opposed, valued
 from clinic.proof.prose.signals import called, counted, within_its_sweep
 from clinic.proof.prose.titles import performed
-from clinic.proof.prose.units import in_units
+from clinic.proof.prose.units import in_units, written
 from clinic.proof.prose_laws import owned, quotations, quoted, stated, taken
 from clinic.record.case import load_case, read_cases
 from clinic.record.problem import CaseError
 from helpers import SWEEP, script_case, tiny_case
 
 LAWS = (quoted, typed, titled, entitled, labelled, taken, called, counted, within_its_sweep, stated, formulas, owned)
-LAWS += (in_units, computed, performed, denied, functional, named, bold, compared, ordered, opposed, valued, indexed)
+LAWS += (
+    in_units,
+    written,
+    computed,
+    performed,
+    denied,
+    functional,
+    named,
+    jointed,
+    bold,
+    compared,
+    ordered,
+    opposed,
+    valued,
+    indexed,
+)
 LAWS += (bounded, prose_problems)
 PLANTS = yaml.safe_load(Path(__file__).with_name("plants.yaml").read_text(encoding="utf-8"))
 

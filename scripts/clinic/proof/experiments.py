@@ -36,7 +36,7 @@ from clinic.work.task import Task, run_tasks
 
 EVIDENCE = "evidence.json"
 WORDS = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "no_sweep", "formulas"}
-WORDS |= {"tags", "phrases", "family", "manual", "see", "telling", "exempt", "loose"}
+WORDS |= {"tags", "phrases", "family", "manual", "see", "telling", "exempt", "mentions", "loose"}
 ANSWERS = TypeAdapter(dict[str, Answer])
 ROBUST = TypeAdapter(dict[str, Robustness])
 LOOSE = TypeAdapter(list[Loose] | None)

@@ -15,7 +15,7 @@ from clinic.engine.simulate import compile_model
 from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
 from clinic.proof.bounds import bounded, differing, marked, varied
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
-from clinic.proof.prose.absences import bold, commented, denied, functional, named
+from clinic.proof.prose.absences import bold, commented, denied, functional, jointed, named
 from clinic.proof.prose.comparisons import compared, ordered
 from clinic.proof.prose.formulas import formulas
 from clinic.proof.prose.labels import computed, entitled, labelled
@@ -23,7 +23,7 @@ from clinic.proof.prose.numbers import titled, typed
 from clinic.proof.prose.opposites import indexed, opposed, valued
 from clinic.proof.prose.signals import called, counted, within_its_sweep
 from clinic.proof.prose.titles import performed
-from clinic.proof.prose.units import in_units
+from clinic.proof.prose.units import in_units, written
 from clinic.proof.prose_laws import owned, quoted, stated, taken
 from clinic.proof.releases import differing as differing_releases
 from clinic.proof.releases import release_problems
@@ -213,6 +213,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         labelled,
         computed,
         in_units,
+        written,
         entitled,
         stated,
         formulas,
@@ -222,6 +223,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         denied,
         functional,
         named,
+        jointed,
         bold,
         commented,
         lasting,

@@ -36,6 +36,7 @@ TAKES = (
     (r"\b(?:at first|at the first|in the first|in real time|at the start)\b", "first"),
     (r"\b(?:ends? at|rests? at|comes to rest|at the end)\b", "final"),
 )
+SINGLE = ("visual", "option", "compiler")  # elements of which a model has one
 WORD = re.compile(r"[^\W\d_]+")
 
 
@@ -85,9 +86,12 @@ def taken(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 if said and (case.record.run is not None or said == "first") and take in set(TAKEN) - {said}:
                     repair = "correct the field or the words"
                     yield case.problem(where, field[0], f"its `{said}`: so the words say", repair, quoted=field[0])
-                if name.startswith("default.") and take not in paragraph.replace(field[0], ""):
-                    wanted, repair = f"a paragraph that names {take}", "name it, or correct the field"
-                    yield case.problem(where, field[0], wanted, repair, quoted=field[0])
+                if name.startswith("default."):
+                    tag, rest = name.split(".")[1], paragraph.replace(field[0], "")
+                    lacks = [take] * (take not in rest) + [tag] * (tag not in [*_words(rest), *SINGLE])
+                    for lacking in lacks:
+                        wanted, repair = f"a paragraph that names {lacking}", "name it, or correct the field"
+                        yield case.problem(where, field[0], wanted, repair, quoted=field[0])
 
 
 def stated(case: Case, evidence: Evidence) -> Iterator[Problem]:
@@ -101,9 +105,19 @@ def stated(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 
 def owned(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 5, whose number. What belongs to a remedy stands where that remedy is spoken of."""
+    """Law 5, whose number. What belongs to a remedy stands where that remedy is spoken of.
+
+    A sentence with fields of several remedies names each of them.
+    """
     made = {variant.id: variant for variant in variants(case)}
     for where, text in prose_of(case):
+        for sentence in re.split(r"(?<=[.?!])\s|\n[ \t]*\n", text):
+            fields = [field[1].strip() for field in FIELD.finditer(sentence)]
+            several = {field.partition(".")[0] for field in fields} & made.keys() - {"broken"}
+            for name in several if len(several) > 1 else ():
+                if f"{name}.title" not in fields and not said_of(name, FIELD.sub("", sentence)):
+                    found = f"fields of {listed(sorted(several))} in a sentence"
+                    yield case.problem(where, found, f"words of {name}", "name each, or correct the fields", name)
         own = case.record.refuted[where[1]].id if where[0] == "refuted" and isinstance(where[1], int) else "broken"
         for paragraph in re.split(r"\n[ \t]*\n", text):
             spoken = own
@@ -201,7 +215,12 @@ def _named(name: str, paragraph: str, field: re.Match[str]) -> bool:
     begun = max((m.end() for m in re.finditer(r"[.?!:]\s", paragraph[: field.start()])), default=0)
     ended = re.search(r"[.?!](?:\s|$)", paragraph[field.end() :])
     sentence = FIELD.sub("", paragraph[begun : field.end() + (ended.start() if ended else len(paragraph))])
-    return set(_words(name)) <= set(_words(sentence))
+    return said_of(name, sentence)
+
+
+def said_of(name: str, text: str) -> bool:
+    """Whether a text has the words of a remedy's id."""
+    return set(_words(name)) <= set(_words(text))
 
 
 def _same_as_broken(made: dict[str, Variant], field: str) -> bool:

@@ -268,6 +268,9 @@ class Record(Strict):
     see: list[Identifier] = Field(default=[], description="Related cases, by folder name.")
     telling: Telling | None = Field(default=None, description="What tells this case from others of its family.")
     exempt: dict[Law, Text] = Field(default={}, description="Laws that this case need not obey, each with the reason.")
+    mentions: list[Text] = Field(
+        default=[], description="Names of MuJoCo's that prose mentions and that none of the case's files has."
+    )
     loose: dict[Text, Text] | None = Field(
         default=None,
         description="Why no check need notice when a number that matters is halved or doubled, by the attribute or the "

@@ -11,9 +11,10 @@ from functools import cache
 
 import mujoco
 
+from clinic.engine.variant import variants
 from clinic.proof.evidence import Evidence
 from clinic.proof.prose.numbers import NUMBER
-from clinic.proof.prose_laws import prose_of
+from clinic.proof.prose_laws import prose_of, said_of
 from clinic.record.case import Case
 from clinic.record.problem import Problem
 from clinic.record.prose import CODE, FIELD
@@ -25,7 +26,8 @@ NO_WARNING = re.compile(r"\bno\s+(?:error\s+and\s+no\s+)?warning\b", re.IGNORECA
 FUNCTIONS = {"sine": "sin(", "cosine": "cos(", "logarithm": "log(", "exponential": "exp("}
 FUNCTION = re.compile(rf"\b({'|'.join(FUNCTIONS)})s?\b", re.IGNORECASE)
 EVER = re.compile(r"\b(?:always|never|in (?:each|every|any) case|impossible)\b", re.IGNORECASE)
-NAME = re.compile(r"`((?:(?:data|model|mujoco)\.)?[a-z_]+)`|`(mj[a-z]*_\w+)`")
+NAME = re.compile(r"`((?:(?:data|model|mujoco)\.)?[a-z_]+)`|`(mj[A-Za-z]*_\w+)`")
+JOINT = re.compile(r"\b(free|ball|slide)\s+joint", re.IGNORECASE)
 ELSEWHERE = ("nan", "undefined", "null", "inf")
 OPEN = ("symptom", "diagnosis", "cause")
 
@@ -47,23 +49,58 @@ def denied(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 
 def named(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 5, names. A bare name in code is one of the case's files, its snippet, MuJoCo's interface or of MJCF."""
-    remedies = [*case.record.fixes, *case.record.refuted]
-    written = [*case.texts.values(), case.record.snippet or "", evidence.snippet or "", *case.record.signals]
-    written += [f"{each.id} {' '.join(edit.replace for edit in each.edits)}" for each in remedies]
-    own = {word for text in written for word in re.findall(r"[\w-]+", text)}
+    """Law 5, names. A bare name in code is of the case's files, its snippet or what it measures.
+
+    A name that a remedy brings stands where that remedy is spoken of; one of MuJoCo's besides is among `mentions`.
+    """
+    record, used = case.record, set[str]()
+    measured = record.model_dump_json(include={"signals", "telling", "sweep", "trials", "run", "warnings"})
+    own = _names(*case.texts.values(), record.snippet or "", evidence.snippet or "", measured)
+    brought = {
+        each.id: _names(each.id, *(edit.replace for edit in each.edits)) for each in (*record.fixes, *record.refuted)
+    }
     for where, text in prose_of(case):
-        for span in (found[1] or found[2] for found in NAME.finditer(FIELD.sub("1", text))):
-            word = span.rpartition(".")[2]
-            if word not in own and word not in vocabulary():
-                wanted = "a name of the case's files, of its snippet, of MuJoCo or of MJCF"
-                yield case.problem(where, span, wanted, "correct the name", span)
+        told = record.refuted[where[1]].id if where[0] == "refuted" and isinstance(where[1], int) else ""
+        for paragraph in re.split(r"\n[ \t]*\n", text):
+            spoken = {told, *(field[1].strip().partition(".")[0] for field in FIELD.finditer(paragraph))}
+            there = own.union(*(names for key, names in brought.items() if key in spoken or said_of(key, paragraph)))
+            for span in (found[1] or found[2] for found in NAME.finditer(FIELD.sub("1", paragraph))):
+                word = span.rpartition(".")[2]
+                if word in there or word in ELSEWHERE:
+                    continue
+                used.add(word)
+                if word not in vocabulary():
+                    wanted = "a name of the case's files, of its snippet, of MuJoCo or of MJCF"
+                    yield case.problem(where, span, wanted, "correct the name", span)
+                elif word not in record.mentions:
+                    wanted = "a name that the case's files, its snippet or the remedy that is spoken of has"
+                    repair = f"correct the name, or put {word} into `mentions`"
+                    yield case.problem(where, span, wanted, repair, span)
+    for word in record.mentions:
+        if word not in used:
+            yield case.problem(("mentions",), word, "a name in prose that stands in no file", "remove it", word)
+
+
+def _names(*texts: str) -> set[str]:
+    return {word for text in texts for word in re.findall(r"[\w-]+", text)}
+
+
+def jointed(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, joints. A free joint, a ball joint or a slide that prose names is in a file, or in the snippet."""
+    known = "\n".join([*case.texts.values(), case.record.snippet or "", *(variant.text for variant in variants(case))])
+    for where, text in prose_of(case):
+        for found in JOINT.finditer(CODE.sub("", FIELD.sub("", text))):
+            kind = found[1].lower()
+            if f'type="{kind}"' not in known and f"<{kind}joint" not in known:
+                wanted = f'files with type="{kind}"'
+                yield case.problem(where, found[0], wanted, "correct the sentence", found[0])
 
 
 @cache
 def vocabulary() -> frozenset[str]:
     """The names of MJCF, and of MuJoCo's functions, enumerations, fields and classes; a few of other languages."""
-    classes = (mujoco.MjData, mujoco.MjModel, mujoco.MjOption, mujoco.MjStatistic, mujoco.MjVisual, mujoco.MjContact)
+    classes = [mujoco.MjData, mujoco.MjModel, mujoco.MjOption, mujoco.MjStatistic, mujoco.MjVisual, mujoco.MjContact]
+    classes += [getattr(mujoco, name) for name in dir(mujoco) if name.startswith("mjt")]
     known = {*re.findall(r"\w+", mujoco.mj_printSchema(False, False)), *dir(mujoco), *dir(mujoco.Renderer), *ELSEWHERE}
     return frozenset(known.union(*(dir(each) for each in classes)))
 

@@ -12,10 +12,12 @@ import mujoco
 from clinic.engine.signals import Path, parse_path
 from clinic.engine.simulate import compile_model
 from clinic.proof.evidence import Evidence
+from clinic.proof.prose_laws import prose_of
 from clinic.record.case import Case
 from clinic.record.expression import parse
 from clinic.record.fields import ExpressionSignal, PathSignal
 from clinic.record.problem import Problem, listed
+from clinic.record.prose import CODE, FIELD, FORMULA
 from clinic.record.units import Unit, UnitError, powers_of, unit
 
 PLAIN = {
@@ -57,6 +59,10 @@ QUANTITIES = {
     "ratio": ("",),
 }
 """The units of what a label says first."""
+ATTRIBUTES = {"density": "kg/m³", "viscosity": "Pa s"}
+"""The units of attributes of which no signal need be read."""
+BELOW = r"\s?/\s?\(?(?:s|m|cm|mm|kg|rad|N)[²³]?(?: (?:s|m|kg)[²³]?)*\)?"
+COMPOUND = re.compile(rf"(?<![\w/])(?:k?g|mm|cm|k?m|s|ms|m?rad|deg|k?N|J|W)(?:[²³]|{BELOW})+")
 QUANTITY = re.compile(rf"^(?:[a-z]+ )*?({'|'.join(QUANTITIES)})\b(?! constant| gain| term)")
 RELATIVE = re.compile(r" in [a-z]+s$")  # in edges, in diameters
 TENS = {10.0**power for power in range(-9, 10)} - {1.0}
@@ -147,3 +153,14 @@ def _sized(own: Unit, read: list[Unit], factors: list[float]) -> bool:
     """Whether a unit's size fits: that of a unit read, or the SI unit's, by a power of ten that is written."""
     sizes = {1.0, *(part.size for part in read)}
     return any(math.isclose(own.size * factor, size) for factor in (1.0, *factors) for size in sizes)
+
+
+def written(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, units in prose. A compound unit that is typed is that of a signal, or of an attribute that is quoted."""
+    units = {signal.unit for signal in case.record.signals.values()}
+    for where, text in prose_of(case):
+        units_here = units | {unit for name, unit in ATTRIBUTES.items() if f".{name}" in text}
+        for found in COMPOUND.finditer(CODE.sub("", FORMULA.sub("", FIELD.sub("", text)))):
+            if found[0] not in units_here:
+                wanted = f"the unit of a signal: {listed(sorted(filter(None, units_here)))}"
+                yield case.problem(where, found[0], wanted, "correct the unit, or say it by a field", found[0])

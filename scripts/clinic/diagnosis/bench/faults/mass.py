@@ -315,3 +315,23 @@ def geom_too_dense(model: ReaderModel, random: Random) -> Fault | None:
     body = model.simulation.name("body", int(model.simulation.model("geom_bodyid")[geom]))
     edit = set_attribute(element, "density", text_of(density))
     return Fault((edit,), (model.simulation.name("geom", geom), body), "density", density)
+
+
+@kind("key-in-another-order", harms=("keys",))
+def key_with_free_joints_last(model: ReaderModel, random: Random) -> Fault | None:
+    """A keyframe in which the numbers of the free joints stand behind those of all other joints."""
+    simulation = model.simulation
+    at = [int(simulation.model("jnt_qposadr")[j]) for j in range(simulation.count("joint"))]
+    free = [at[j] for j in range(simulation.count("joint")) if simulation.joint_type(j) == 0]
+    hinges = [j for j in range(simulation.count("joint")) if simulation.joint_type(j) > 1]
+    if not free or not hinges or free[0] > at[hinges[-1]] or not _keyless(model):
+        return None
+    positions = list(simulation.model("qpos0"))
+    for joint in hinges:
+        low, high = simulation.row("jnt_range", joint, 2) if simulation.model("jnt_limited")[joint] else (-0.5, 0.5)
+        positions[at[joint]] = random.uniform(low, high)
+    behind = [positions[k + i] for k in free for i in range(7)]
+    taken = {k + i for k in free for i in range(7)}
+    values = [value for i, value in enumerate(positions) if i not in taken] + behind
+    xml = f'<key name="planted" qpos="{text_of(*values)}"/>'
+    return Fault(model.add("keyframe", xml), (), "qpos", 1)

@@ -1,7 +1,8 @@
-"""One body of many has no `<inertial>`, so that its geoms are filled with water.
+"""One body of many has no `<inertial>`, so that its geoms make its mass.
 
-Where a body has no `<inertial>`, MuJoCo makes its mass of its geoms, at 1,000 kg/m3. In a robot whose other bodies all
-have theirs, it is usually the line that was lost, and the mass is that of the collision shapes.
+Where a body has no `<inertial>`, MuJoCo makes its mass of its geoms, at 1,000 kg/m3 or the density of their default
+class. In a robot whose other bodies all have theirs, it is usually the line that was lost, and the mass is that of the
+collision shapes.
 
 Bad:
 
@@ -57,7 +58,7 @@ Good:
     </mujoco>
 
 The number: told are at most two bodies, where three and more in four of their mechanism have an `<inertial>`, and no
-geom of theirs has a mass or a density of its own.
+geom of theirs has a mass or a density written on itself.
 
 When it is wrong: a body that was added by hand, of the density of water.
 """
@@ -90,13 +91,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         for body in bare:
             geoms = of.geoms_of(body)
-            given = {model.value("geom", geom, name) for geom in geoms for name in ("mass", "density")}
-            if not geoms or not given <= {None, "0"}:
+            written = [each.attributes for geom in geoms if (each := model.element("geom", geom)) is not None]
+            if not written or any(each.get(name, "0") != "0" for each in written for name in ("mass", "density")):
                 continue
             mass = of.model("body_mass")[body]
             others = len(jointed) - len(bare)
-            says = f"{others} others have an <inertial>; its {mass:.3g} kg are its geoms full of water."
+            says = f"{others} others have an <inertial>; its {mass:.3g} kg are those of its geoms."
             yield Suspect(
-                (of.name("body", body),), "inertial", "left out", "", (), mass_of((body,)), 1e-6, says, "1,000 kg/m3",
+                (of.name("body", body),), "inertial", "left out", "", (), mass_of((body,)), 0.0, says, "its own <inertial>",
                 level="hint",
             )  # fmt: skip

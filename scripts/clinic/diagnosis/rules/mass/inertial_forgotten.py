@@ -60,7 +60,7 @@ Good:
 The number: told are at most two bodies, where three and more in four of their mechanism have an `<inertial>`, and no
 geom of theirs has a mass or a density written on itself.
 
-When it is wrong: a body that was added by hand, of the density of water.
+When it is wrong: a body that was added by hand and is as heavy as its geoms.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ SHARE, FEW = 0.75, 2
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Jointed bodies of the density of water among bodies that have an `<inertial>`."""
+    """Jointed bodies of their geoms' mass among bodies that have an `<inertial>`."""
     of, owner = model.simulation, root_of(model.simulation)
     for root in roots(of):
         jointed = [body for body, top in enumerate(owner) if top == root and of.joints_of(body)]
@@ -90,14 +90,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if not bare or len(bare) > FEW or len(jointed) - len(bare) < max(3, SHARE * len(jointed)):
             continue
         for body in bare:
-            geoms = of.geoms_of(body)
-            written = [each.attributes for geom in geoms if (each := model.element("geom", geom)) is not None]
-            if not written or any(each.get(name, "0") != "0" for each in written for name in ("mass", "density")):
+            placed = [each for geom in of.geoms_of(body) if (each := model.element("geom", geom)) is not None]
+            if not placed or any((each.get(name) or "0") != "0" for each in placed for name in ("mass", "density")):
                 continue
             mass = of.model("body_mass")[body]
             others = len(jointed) - len(bare)
             says = f"{others} others have an <inertial>; its {mass:.3g} kg are those of its geoms."
             yield Suspect(
-                (of.name("body", body),), "inertial", "left out", "", (), mass_of((body,)), 0.0, says, "its own <inertial>",
-                level="hint",
+                (of.name("body", body),), "inertial", "left out", "", (), mass_of((body,)), 0.0, says,
+                "its own <inertial>", level="hint",
             )  # fmt: skip

@@ -61,24 +61,31 @@ HANGS = 0.005  # m above the floor
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Bodies of the world in the air that have a mass and no joint."""
+    """Bodies of the world in the air that have a mass and no joint, all together."""
     of, parents = model.simulation, model.simulation.model("body_parentid")
     if not of.count("dof") or model.source is None or model.source.urdf or not any(of.model("opt.gravity")):
         return
     carries = {int(parent) for parent in parents} | {int(body) for body in of.model("cam_bodyid")}
-    mocap, collides = of.model("body_mocapid"), of.model("geom_contype")
+    mocap, collides, found = of.model("body_mocapid"), of.model("geom_contype"), {}
     for body in range(1, of.count("body")):
         element = model.element("body", body)
         if parents[body] or body in carries or of.joints_of(body) or mocap[body] >= 0 or element is None:
             continue
         geoms = [geom for geom in of.geoms_of(body) if collides[geom]]
         weighed = any((model.value("geom", geom, "mass") or "0") != "0" for geom in geoms)
-        if not geoms or not (weighed or inertial(model, body)):
-            continue
-        says = f"{of.name('body', body)} has {of.model('body_mass')[body]:.3g} kg and no joint: nothing can move it."
-        edits = (insert(element, "<freejoint/>"),)
-        probe = Probe("height above the floor at which it hangs", "m", _height, (body,), dynamic=False)
-        yield Suspect((of.name("body", body),), "freejoint", "left out", "<freejoint/>", edits, probe, HANGS, says)
+        if geoms and (weighed or inertial(model, body)) and _height(of, body) > HANGS:
+            found[body] = element
+    if found:
+        first = next(iter(found))
+        says = f"{of.name('body', first)} has {of.model('body_mass')[first]:.3g} kg and no joint: nothing can move it."
+        edits = tuple(insert(element, "<freejoint/>") for element in found.values())
+        probe = Probe("height above the floor at which it hangs", "m", _highest, tuple(found), dynamic=False)
+        names = tuple(of.name("body", body) for body in found)
+        yield Suspect(names, "freejoint", "left out", "<freejoint/>", edits, probe, HANGS, says, "a joint")
+
+
+def _highest(of: Simulation, *bodies: int) -> float:
+    return max(_height(of, body) for body in bodies)
 
 
 def _height(of: Simulation, body: int) -> float:

@@ -51,26 +51,46 @@ SINCE = "0.2"
 LEVEL = "hint"
 UNPLANTED = "only intent knows what is scenery"
 
-SCENERY = frozenset("cabinet ceiling conveyor counter desk floor ground pedestal ramp shelf stairs table wall".split())
+SCENERY = frozenset(
+    {
+        "cabinet",
+        "ceiling",
+        "conveyor",
+        "counter",
+        "desk",
+        "floor",
+        "ground",
+        "pedestal",
+        "ramp",
+        "shelf",
+        "table",
+        "wall",
+    }
+)
 DAMPED = (1e3, 1e5)  # N s/m
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Bodies of the world that are scenery and have joints."""
+    """Bodies of the world that are scenery and have joints, all together."""
     of = model.simulation
     driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
+    found = {}
     for body in range(1, of.count("body")):
         joints = list(of.joints_of(body))
         if not joints or of.model("body_parentid")[body] or driven & set(joints):
             continue
-        if not (_called(of, body) and of.joint_type(joints[0]) == FREE) and not _creeps(of, joints):
-            continue
-        found = [model.element("joint", joint) for joint in joints]
-        edits = tuple(delete(each) for each in found if each is not None) if all(found) else ()
-        says = f"{of.name('body', body)} stands in the world; joints let it move and nothing drives it."
-        probe = Probe("joints that let it move", "", _count, (body,), dynamic=False)
-        names = (of.name("body", body), *(of.name("joint", joint) for joint in joints))
-        yield Suspect(names, "joint", "", "none", edits, probe, 0.5, says, "scenery has no joint")
+        if (_called(of, body) and of.joint_type(joints[0]) == FREE) or _creeps(of, joints):
+            found[body] = joints
+    if found:
+        places = [model.element("joint", joint) for joints in found.values() for joint in joints]
+        edits = tuple(delete(each) for each in places if each is not None) if all(places) else ()
+        first = of.name("body", next(iter(found)))
+        says = f"{first} stands in the world, has a joint that lets it move, and nothing drives it."
+        probe = Probe("joints that let it move", "", _count, tuple(found), dynamic=False)
+        names = [
+            name for body, joints in found.items() for name in (of.name("body", body), of.name("joint", joints[0]))
+        ]
+        yield Suspect(tuple(names), "joint", "", "none", edits, probe, 0.5, says, "scenery has no joint")
 
 
 def _called(of: Simulation, body: int) -> bool:
@@ -88,5 +108,5 @@ def _creeps(of: Simulation, joints: list[int]) -> bool:
     )
 
 
-def _count(simulation: Simulation, body: int) -> float:
-    return float(len(list(simulation.joints_of(body))))
+def _count(simulation: Simulation, *bodies: int) -> float:
+    return float(sum(len(list(simulation.joints_of(body))) for body in bodies))

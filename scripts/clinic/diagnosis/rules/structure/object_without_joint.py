@@ -56,6 +56,7 @@ TITLE = "An object without a joint"
 FAMILIES = ("stuck",)
 SINCE = "0.2"
 LEVEL = "hint"
+UNPLANTED = "only intent knows what is to stay where it is"
 
 HANGS = 0.005  # m above the floor
 

@@ -52,7 +52,7 @@ def judge(model: ReaderModel, rule: Rule, suspect: Suspect) -> Judged | None:
     if not suspect.edits or "hint" in (suspect.level, rule.level):
         return Judged(rule, suspect, "hint", before, None, key)
     after = model.measured(suspect.probe, suspect.edits)
-    helps = after <= suspect.limit or after <= suspect.share * before
+    helps = after <= suspect.limit or (after <= suspect.share * before and math.isfinite(after))
     if not helps or not _calm(model, suspect):
         return None
     return Judged(rule, suspect, "cause", before, after, key)

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
-from clinic.diagnosis.engine import HINGE, PLANE, SLIDE
+import math
+from collections.abc import Iterator, Sequence
+from itertools import combinations, permutations
+
+from clinic.diagnosis.engine import BALL, FREE, HINGE, PLANE, SLIDE
 from clinic.diagnosis.probes import servo
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import WIDTH, Simulation
 from clinic.diagnosis.suspect import Probe
+
+UNIT = 0.02  # how far from 1 the length of a quaternion may be
+MOST_PARTS = 5  # of a keyframe that are tried in every order
 
 
 def start_at(simulation: Simulation, key: int) -> None:
@@ -73,3 +81,80 @@ def beyond(simulation: Simulation, key: int) -> dict[int, float]:
 def outside(key: int) -> Probe:
     """How far the worst joint is outside of its range at a keyframe."""
     return Probe("worst joint outside of its range at the keyframe", "rad", _beyond, (key,), dynamic=False)
+
+
+def _astray(simulation: Simulation, key: int, meant: tuple[float, ...]) -> float:
+    simulation.engine.reset(key)
+    return float(sum(abs(a - b) > 1e-5 for a, b in zip(simulation.data("qpos"), meant, strict=True)))
+
+
+def astray(key: int, meant: Sequence[float]) -> Probe:
+    """How many numbers of a keyframe go to another joint than they are meant for."""
+    return Probe("numbers that go to another joint", "", _astray, (key, tuple(meant)), dynamic=False)
+
+
+def reordered(model: ReaderModel, key: int) -> list[float] | None:
+    """A keyframe's `qpos` in the order of the model, where it is written in another one; else None.
+
+    Its quaternions tell: as they are read one is not of length 1, and with the free joints and what stands between
+    them in another order all are.
+    """
+    of, element = model.simulation, model.element("key", key)
+    if ("reordered", key) not in of.kept:
+        values = [float(text) for text in element.get("qpos").split()] if element is not None else []
+        of.kept["reordered", key] = _reordered(of, values)
+    found = of.kept["reordered", key]
+    assert found is None or isinstance(found, list)
+    return found
+
+
+def _reordered(of: Simulation, values: Sequence[float]) -> list[float] | None:
+    parts = _parts(of)
+    if len(values) != len(of.model("qpos0")) or len(parts) > MOST_PARTS or _turns(of, values):
+        return None
+    tried = []
+    for order in permutations(range(len(parts))):
+        made, at = [0.0] * len(values), 0
+        for part in order:
+            first, width = parts[part]
+            made[first : first + width] = values[at : at + width]
+            at += width
+        if _turns(of, made):
+            moved = sum(a > b for a, b in combinations(order, 2))
+            tried.append((_beyond_ranges(of, made), moved, made))
+    return min(tried, key=lambda each: each[:2])[2] if tried else None
+
+
+def _parts(of: Simulation) -> list[tuple[int, int]]:
+    """Address and width in qpos of each free joint, and of all that stands between two of them."""
+    made: list[tuple[int, int]] = []
+    free = True
+    for joint in range(of.count("joint")):
+        was, free = free, of.joint_type(joint) == FREE
+        at, width = int(of.model("jnt_qposadr")[joint]), WIDTH[of.joint_type(joint)][0]
+        if free or was:
+            made.append((at, width))
+        else:
+            made[-1] = (made[-1][0], made[-1][1] + width)
+    return made
+
+
+def _turns(of: Simulation, qpos: Sequence[float]) -> bool:
+    """Whether all quaternions are of length 1."""
+    return all(abs(math.hypot(*qpos[at : at + 4]) - 1) < UNIT for at in _quaternions(of))
+
+
+def _quaternions(of: Simulation) -> Iterator[int]:
+    for joint in range(of.count("joint")):
+        if of.joint_type(joint) in (FREE, BALL):
+            yield int(of.model("jnt_qposadr")[joint]) + 3 * (of.joint_type(joint) == FREE)
+
+
+def _beyond_ranges(of: Simulation, qpos: Sequence[float]) -> int:
+    """How many hinges and slides would be outside of their ranges."""
+    made = 0
+    for joint in range(of.count("joint")):
+        if of.joint_type(joint) in (SLIDE, HINGE) and of.model("jnt_limited")[joint]:
+            low, high = of.row("jnt_range", joint, 2)
+            made += not low - 0.01 <= qpos[int(of.model("jnt_qposadr")[joint])] <= high + 0.01
+    return made

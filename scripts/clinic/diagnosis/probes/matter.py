@@ -25,6 +25,8 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe
 
+ABSURD = 6.0  # a radius of gyration as many times that of the geoms, or that in it
+
 
 @dataclass(frozen=True)
 class Matter:
@@ -64,6 +66,12 @@ class Matter:
         own = (self.about[0] + self.about[4] + self.about[8]) / self.mass
         solid = (self.solid[0] + self.solid[4] + self.solid[8]) / self.mass
         return math.sqrt(own / solid) if solid > 0 else 1.0
+
+    @property
+    def absurd(self) -> bool:
+        """Whether its inertia is equal about all axes, as one types it in, and far from that of the geoms."""
+        moments = (self.about[0], self.about[4], self.about[8])
+        return max(moments) < 1.03 * min(moments) and max(self.radius, 1 / self.radius) > ABSURD
 
     @property
     def along(self) -> tuple[float, float]:
@@ -204,6 +212,16 @@ def _heaviest(simulation: Simulation, *bodies: int) -> float:
 def joint_inertia(bodies: tuple[int, ...]) -> Probe:
     """How many times the joints' inertia is what the geoms would give, or that in it."""
     return Probe("inertia at the joint, times that of the geoms or its inverse", "", _heaviest, bodies, dynamic=False)
+
+
+def _unlike(simulation: Simulation, *bodies: int) -> float:
+    found = [matter(simulation, body) for body in bodies]
+    return max((max(each.radius, 1 / each.radius) for each in found if each is not None), default=1.0)
+
+
+def gyration(bodies: tuple[int, ...]) -> Probe:
+    """How many times the radius of gyration is that of the geoms, or that in it."""
+    return Probe("radius of gyration, times that of the geoms or its inverse", "", _unlike, bodies, dynamic=False)
 
 
 def _mass(simulation: Simulation, *bodies: int) -> float:

@@ -43,7 +43,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.probes.key import start_at, sunk
+from clinic.diagnosis.probes.key import reordered, start_at, sunk
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -63,6 +63,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     joint = of.joints_of(of.free_bodies[0])[0]
     height = int(of.model("jnt_qposadr")[joint]) + 2
     for key in range(of.count("key")):
+        if reordered(model, key):
+            continue
         deep, element = model.measured(sunk(key)), model.element("key", key)
         start_at(of, key)
         places = of.data("xpos")[3:]

@@ -49,7 +49,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.probes.key import beyond, outside
+from clinic.diagnosis.probes.key import beyond, outside, reordered
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -66,6 +66,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Keyframes with joints beyond their limits."""
     of = model.simulation
     for key in range(of.count("key")):
+        if reordered(model, key):
+            continue
         off = {joint: each for joint, each in beyond(of, key).items() if abs(each) > LIMIT}
         element = model.element("key", key)
         if not off or element is None:

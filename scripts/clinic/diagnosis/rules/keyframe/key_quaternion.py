@@ -44,7 +44,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.probes.key import start_at
+from clinic.diagnosis.probes.key import reordered, start_at
 from clinic.diagnosis.probes.vector import dot, of_quaternion, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -61,6 +61,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Free bodies that a keyframe turns over, or by half a turn about z."""
     of = model.simulation
     for key in range(of.count("key")):
+        if reordered(model, key):
+            continue
         element = model.element("key", key)
         start_at(of, key)
         qpos = list(of.data("qpos"))

@@ -58,7 +58,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.probes.key import off_target, servos
+from clinic.diagnosis.probes.key import off_target, reordered, servos
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -75,6 +75,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Keyframes whose `ctrl` holds another pose than their `qpos`."""
     of = model.simulation
     for key in range(of.count("key")):
+        if reordered(model, key):
+            continue
         found = servos(of, key)
         off = [actuator for actuator, (target, at) in found.items() if abs(target - at) > LIMIT]
         element = model.element("key", key)

@@ -51,10 +51,10 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import FREE
+from clinic.diagnosis.probes.key import astray
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A keyframe is too short"
 FAMILIES = ("jumps-at-start", "drifts")
@@ -75,21 +75,15 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if element is None or not values or missing <= 0 or not first or missing > free:
             continue
         qpos = [*start[:missing], *values]
-        probe = Probe("numbers that go to another joint", "", _astray, (key, tuple(qpos)), dynamic=False)
         yield Suspect(
             (of.name("key", key),),
             "qpos",
             f"{len(values)} numbers",
             f"{len(start)} numbers",
             (set_attribute(element, "qpos", written(qpos)),),
-            probe,
+            astray(key, qpos),
             0.5,
             f"It has {len(values)} of {len(start)} numbers: {of.name('joint', 0)}, free, takes the first.",
             "as many numbers as nq",
             level="cause" if missing % 7 == 0 and len(values) % 7 else "hint",
         )
-
-
-def _astray(simulation: Simulation, key: int, meant: tuple[float, ...]) -> float:
-    simulation.engine.reset(key)
-    return float(sum(abs(a - b) > 1e-5 for a, b in zip(simulation.data("qpos"), meant, strict=True)))

@@ -31,7 +31,8 @@ Good:
 The number: the radius of gyration over that of the geoms, filled evenly: 0.53 to 1.7 for 90 % of 1475 bodies in healthy
 models. Suspected are bodies beyond 0.4 or 2.5 whose inertia is the same about all axes, and others beyond 0.15 or 6.
 Those that change nothing, massless frames and tips, are told by the inertia at the joint that turns the body: it must
-differ 2.5 times; 1.5 times where several bodies have the same, and 5 times where it is not equal about all axes.
+differ 2.5 times; 1.5 times where several bodies have the same, and 5 times where it is not equal about all axes; and
+1.1 times for one that is equal about all axes and whose radius differs more than 6 times.
 
 When it is wrong: a body whose geoms are a small part of it, such as the feet of an unseen leg.
 """
@@ -41,7 +42,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.inertia import set_inertial
-from clinic.diagnosis.probes.matter import explicit, joint_inertia
+from clinic.diagnosis.probes.matter import ABSURD, explicit, gyration, joint_inertia
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -54,7 +55,7 @@ LEVEL = "hint"
 USUAL = (0.4, 2.5)  # radius of gyration over that of the geoms
 FAR = (0.25, 4.0)  # the same, for an inertia that is not equal about all axes, which nobody types in
 LIMIT, ALIKE = 2.5, 1.5  # times the inertia at the joint; where several bodies have the same inertia
-ABSURD, FELT = 6.0, 1.3  # a placeholder with a radius this far off, and what is felt of it at the joint
+LITTLE, FELT = 1.1, 1.3  # at the joint, of a placeholder with an absurd radius
 FEW = 0.25  # of the bodies: where more are so, the geoms show little of them
 
 
@@ -76,6 +77,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             limit = ALIKE if len(bodies) > 1 else LIMIT
             if max(worst.radius, 1 / worst.radius) > ABSURD:
                 limit = FELT
+            if found[bodies[0]].absurd and LITTLE < model.measured(probe) <= limit:
+                probe, limit = gyration(tuple(bodies)), ABSURD
         edits = tuple(
             edit
             for body in bodies

@@ -1,7 +1,8 @@
-"""One body of many has no `<inertial>`, so that its geoms are filled with water.
+"""One body of many has no `<inertial>`, so that its geoms make its mass.
 
-Where a body has no `<inertial>`, MuJoCo makes its mass of its geoms, at 1,000 kg/m3. In a robot whose other bodies all
-have theirs, it is usually the line that was lost, and the mass is that of the collision shapes.
+Where a body has no `<inertial>`, MuJoCo makes its mass of its geoms, at 1,000 kg/m3 or the density of their default
+class. In a robot whose other bodies all have theirs, it is usually the line that was lost, and the mass is that of the
+collision shapes.
 
 Bad:
 
@@ -57,9 +58,9 @@ Good:
     </mujoco>
 
 The number: told are at most two bodies, where three and more in four of their mechanism have an `<inertial>`, and no
-geom of theirs has a mass or a density of its own.
+geom of theirs has a mass or a density written on itself.
 
-When it is wrong: a body that was added by hand, of the density of water.
+When it is wrong: a body that was added by hand and is as heavy as its geoms.
 """
 
 from __future__ import annotations
@@ -81,7 +82,7 @@ SHARE, FEW = 0.75, 2
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Jointed bodies of the density of water among bodies that have an `<inertial>`."""
+    """Jointed bodies of their geoms' mass among bodies that have an `<inertial>`."""
     of, owner = model.simulation, root_of(model.simulation)
     for root in roots(of):
         jointed = [body for body, top in enumerate(owner) if top == root and of.joints_of(body)]
@@ -89,14 +90,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if not bare or len(bare) > FEW or len(jointed) - len(bare) < max(3, SHARE * len(jointed)):
             continue
         for body in bare:
-            geoms = of.geoms_of(body)
-            given = {model.value("geom", geom, name) for geom in geoms for name in ("mass", "density")}
-            if not geoms or not given <= {None, "0"}:
+            placed = [each for geom in of.geoms_of(body) if (each := model.element("geom", geom)) is not None]
+            if not placed or any((each.get(name) or "0") != "0" for each in placed for name in ("mass", "density")):
                 continue
             mass = of.model("body_mass")[body]
             others = len(jointed) - len(bare)
-            says = f"{others} others have an <inertial>; its {mass:.3g} kg are its geoms full of water."
+            says = f"{others} others have an <inertial>; its {mass:.3g} kg are those of its geoms."
             yield Suspect(
-                (of.name("body", body),), "inertial", "left out", "", (), mass_of((body,)), 1e-6, says, "1,000 kg/m3",
-                level="hint",
+                (of.name("body", body),), "inertial", "left out", "", (), mass_of((body,)), 0.0, says,
+                "its own <inertial>", level="hint",
             )  # fmt: skip

@@ -41,9 +41,10 @@ When it is wrong: a gain that is a hundred times too high shakes as well; then t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.matter import explicit
 from clinic.diagnosis.probes.run import fastest
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
@@ -66,13 +67,15 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Joints whose gains are beyond what the inertia allows, all together."""
     simulation = model.simulation
     step = simulation.timestep
-    gains = _gains(simulation)
+    thin = {body for body, each in explicit(model) if each.absurd and each.radius < 1}  # the inertia is the fault
+    bodies = simulation.model("jnt_bodyid")
+    gains = {joint: each for joint, each in _gains(simulation).items() if bodies[joint] not in thin}
     found = {joint: each for joint, each in gains.items() if _excess(each, min(step, USUAL)) > NEAR}
     if not found and len(gains) > 1 and step <= 5 * USUAL:
         usual = sorted(_excess(each, step) for each in gains.values())[(len(gains) - 1) // 2]
         found = {joint: each for joint, each in gains.items() if _excess(each, step) > max(NEAR, 10 * usual)}
     if not found:
-        yield from _bare(model)
+        yield from _bare(model, thin)
         return
     edits: list[Edit] = []
     for joint, (kp, kv, inertia) in found.items():
@@ -97,11 +100,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     )
 
 
-def _bare(model: ReaderModel) -> Iterator[Suspect]:
+def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
     """Driven joints of light links without armature, where something gets too fast and no gain is the reason."""
     of, inertia = model.simulation, model.simulation.mass_diagonal
     driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))} - {None}
     bare = [joint for joint in driven if joint is not None and of.model("dof_armature")[of.dof(joint)] == 0]
+    bare = [joint for joint in bare if of.model("jnt_bodyid")[joint] not in thin]
     light = sorted(joint for joint in bare if inertia[of.dof(joint)] < ROTOR and not of.model("jnt_stiffness")[joint])
     probe = next((each for each in (fastest(), shake()) if model.measured(each) > FAST), None)
     if not light or probe is None or of.timestep > 2 * USUAL:

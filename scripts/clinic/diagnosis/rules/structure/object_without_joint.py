@@ -1,0 +1,109 @@
+"""An object hangs in the air while the rest of the model moves.
+
+A body without a joint is part of the world: gravity does nothing to it, and a robot that grasps it cannot lift it.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <body name="arm" pos="0 0 0.5">
+          <joint axis="0 0 1"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
+        </body>
+        <body name="parcel" pos="0.6 0 0.8">
+          <geom type="box" size="0.05 0.05 0.05" mass="0.2"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <body name="arm" pos="0 0 0.5">
+          <joint axis="0 0 1"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
+        </body>
+        <body name="parcel" pos="0.6 0 0.8">
+          <freejoint/>
+          <geom type="box" size="0.05 0.05 0.05" mass="0.2"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the height in m of what hangs above the floor. Told are bodies of the world without joints and without
+others on them that collide, that reach neither a plane nor another thing that stands still, and whose mass somebody
+wrote down: the mass of what cannot move has no effect.
+
+When it is wrong: a lamp, or an obstacle that is meant to stay where it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import insert
+from clinic.diagnosis.engine import PLANE
+from clinic.diagnosis.probes.inertia import inertial
+from clinic.diagnosis.probes.vector import norm, sub
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "An object without a joint"
+FAMILIES = ("stuck",)
+SINCE = "0.2"
+LEVEL = "hint"
+UNPLANTED = "only intent knows what is to stay where it is"
+
+HANGS = 0.005  # m above the floor
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Bodies of the world in the air that have a mass and no joint, all together."""
+    of, parents = model.simulation, model.simulation.model("body_parentid")
+    if not of.count("dof") or model.source is None or model.source.urdf or not any(of.model("opt.gravity")):
+        return
+    carries = {int(parent) for parent in parents} | {int(body) for body in of.model("cam_bodyid")}
+    mocap, collides, found = of.model("body_mocapid"), of.model("geom_contype"), {}
+    for body in range(1, of.count("body")):
+        element = model.element("body", body)
+        if parents[body] or body in carries or of.joints_of(body) or mocap[body] >= 0 or element is None:
+            continue
+        geoms = [geom for geom in of.geoms_of(body) if collides[geom]]
+        weighed = any((model.value("geom", geom, "mass") or "0") != "0" for geom in geoms)
+        if geoms and (weighed or inertial(model, body)) and _height(of, body) > HANGS:
+            found[body] = element
+    if found:
+        first = next(iter(found))
+        says = f"{of.name('body', first)} has {of.model('body_mass')[first]:.3g} kg and no joint: nothing can move it."
+        edits = tuple(insert(element, "<freejoint/>") for element in found.values())
+        probe = Probe("height above the floor at which it hangs", "m", _highest, tuple(found), dynamic=False)
+        names = tuple(of.name("body", body) for body in found)
+        yield Suspect(names, "freejoint", "left out", "<freejoint/>", edits, probe, HANGS, says, "a joint")
+
+
+def _highest(of: Simulation, *bodies: int) -> float:
+    return max(_height(of, body) for body in bodies)
+
+
+def _height(of: Simulation, body: int) -> float:
+    """How far a body that stands still is above all planes, 0 for one that reaches another one that does."""
+    of.begin()
+    if of.joints_of(body):
+        return 0.0
+    bodies, kinds, radii = of.model("geom_bodyid"), of.model("geom_type"), of.model("geom_rbound")
+    moving, collides, made = set(of.moving_bodies), of.model("geom_contype"), float("inf")
+    for geom in of.geoms_of(body):
+        place = of.data_row("geom_xpos", geom, 3)
+        for other in range(len(kinds)) if collides[geom] else ():
+            there = of.data_row("geom_xpos", other, 3)
+            if int(bodies[other]) in (*moving, body) or not collides[other]:
+                continue
+            if int(kinds[other]) == PLANE:
+                made = min(made, place[2] - there[2] - radii[geom])
+            elif norm(sub(place, there)) < radii[geom] + radii[other]:
+                return 0.0
+    return made if made < float("inf") else 0.0

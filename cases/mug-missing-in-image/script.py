@@ -17,4 +17,5 @@ orange = image[:, :, 0] > image[:, :, 2] + 60
 print(f"share of orange pixels = {orange.mean():.4f}")
 print(f"share of pixels that show the mug = {np.mean((seen == [mug, mujoco.mjtObj.mjOBJ_GEOM]).all(axis=2)):.4f}")
 print(f"share of pixels that show a geom = {np.mean(seen[:, :, 0] != -1):.4f}")
-print(f"contacts of the mug = {np.any(data.contact.geom == mug, axis=1).sum()}")
+touching = data.contact.geom[np.any(data.contact.geom == mug, axis=1)]
+print(f"fingers that touch the mug = {len(np.unique(touching[touching != mug]))}")

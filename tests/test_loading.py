@@ -11,7 +11,7 @@ from kinds import KINDS
 from playwright.sync_api import Browser, Page, ViewportSize
 
 pytestmark = pytest.mark.xdist_group("site")
-MOST = 110 * 1024  # bytes of a page before any click, but for its film
+MOST = 110_000  # bytes of a page before any click, but for its film
 SCREENS: list[ViewportSize] = [{"width": 1280, "height": 800}, {"width": 412, "height": 823}]
 PERFECT = ("accessibility", "best-practices", "seo")
 PAGES = ("home", "model case")

@@ -81,7 +81,7 @@ def test_wrong_facts_are_refused(slug: str, proven, root: Path, tmp_path: Path) 
         "The floor has {{ broken.geom(floor).contype }}.",
         "The floor has {{ broken.geom(floor).contype conaffinity }}.",
         "The model has {{ broken.option.timestep }}.",
-        "The attribute `contype`, {{ default.geom.contype }} by default.",
+        "The attribute `contype` of a geom, {{ default.geom.contype }} by default.",
     ],
 )
 def test_a_quotation_that_names_its_element(tmp_path, text: str) -> None:

@@ -126,6 +126,10 @@ def test_a_value_of_a_few_is_offered_and_what_the_engine_is_too_old_for_is_named
 
 def test_the_manual_s_sentence_stands_under_the_pointer(page: Page, served: str) -> None:
     open_playground(page, served)
-    expect(page.locator(".pg-status")).to_contain_text("This runs in MuJoCo")  # nothing moves any more
-    page.locator(".cm-line", has_text="<freejoint").get_by_text("freejoint", exact=True).hover()
+    expect(page.locator(".pg-status")).to_contain_text("This runs in MuJoCo")
+    word = page.locator(".cm-line", has_text="<freejoint").get_by_text("freejoint", exact=True)
+    word.hover()
+    page.wait_for_function("'document$' in globalThis")  # the theme has come: nothing moves any more
+    page.mouse.move(0, 0)
+    word.hover()
     expect(page.locator(".cm-tooltip-hover")).to_contain_text("This element creates a free joint")

@@ -77,7 +77,7 @@ def test_a_body_is_pulled_with_buttons_and_with_the_pointer(page: Page, served: 
     page.locator(".pg-stage").scroll_into_view_if_needed()
     box = page.locator(".pg-stage canvas").bounding_box()
     assert box
-    x, y = box["x"] + box["width"] / 2, box["y"] + 0.55 * box["height"]
+    x, y = box["x"] + box["width"] / 2, box["y"] + 0.68 * box["height"]
     for attempt in range(PULLS):  # on a busy machine a gesture may be over between two frames
         page.mouse.move(x, y)
         page.mouse.down()

@@ -22,6 +22,7 @@ CHECK = "{signal: height, between: [0.045, 0.051]}"
         ("above: -100", True),
         ("equals: 0.05, within: 0.01", False),
         ("equals: 0.05, within: 1", True),
+        ("equals: 0.05, within: 0.03", True),  # it tells the broken box, but is no equality
     ],
 )
 def test_a_bound_is_near_what_it_admits(tmp_path, bound: str, far: bool) -> None:

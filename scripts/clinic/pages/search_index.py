@@ -76,7 +76,7 @@ def _families(families: Mapping[str, Family]) -> Iterator[Document]:
             "kind": "symptom",
             "at": f"symptoms/{name}.html",
             "title": family.title,
-            "words": "; ".join(family.words),
+            "words": "; ".join((*family.words, *family.context)),
             "text": "",
         }
 

@@ -31,7 +31,7 @@ MOVED = 0.1  # the share by which a trial changes some number that is checked
 def bounded(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 1, bounds. A check's bound is near some number that it admits, or parts broken from fixed.
 
-    A bound that is far away and parts nothing admits whatever comes.
+    A bound that is far away and parts nothing admits whatever comes; an `equals` admits no number half as large.
     """
     for trial in (None, *case.record.trials):
         kinds: tuple[Kind, Kind] = ("broken", "fixed")
@@ -40,7 +40,8 @@ def bounded(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 continue
             for index, check in enumerate(getattr(checks_in(case.record, trial), kind)):
                 admitted = _admitted(evidence, trial, kind, index)
-                if not admitted or _parts(evidence, trial, kind, index):
+                wide = check.equals and (check.within or 0.0) > abs(check.equals) / 2
+                if not admitted or (_parts(evidence, trial, kind, index) and not wide):
                     continue
                 if all(_loose(check, measured) for measured in admitted):
                     where: Where = ("checks", kind, index)

@@ -14,6 +14,7 @@ SUFFIX = re.compile(r"(?<=[a-z]{3})(?:ations?|ings?|ies|ed|es|s|ly|e|y)$")
 DOUBLE = re.compile(r"([bdfglmnprtz])\1$")
 NOT = {"no", "never", "cannot", "without", "unable", "fail", "nothing", "nobody", "barely"}
 PART = 0.5  # what the nearest phrase counts that the text has in part
+BESIDE = 0.4  # what a word counts that stands beside the symptom
 IDLE = """a an and are as at be been but by can do for from had has have i if in is it its me my of on or so that the
 their them there they this to was we were when while with you your mujoco simulation"""
 
@@ -25,6 +26,7 @@ class Family(NamedTuple):
         title: What is seen.
         first: What to measure first, as Markdown.
         words: What people call it.
+        context: What they name beside it, which other symptoms have too.
         probe: Python lines that measure a model at its start, or in a short run, for the expressions of its cases; they
             have `model`, `data` after `mj_forward`, `mujoco` and `np`.
     """
@@ -32,6 +34,7 @@ class Family(NamedTuple):
     title: str
     first: str
     words: tuple[str, ...]
+    context: tuple[str, ...]
     probe: str
 
 
@@ -40,7 +43,9 @@ def families() -> dict[str, Family]:
     """All families by name, in the order of the file."""
     read = tomllib.loads((Path(__file__).parent / "families.toml").read_text(encoding="utf-8"))
     return {
-        name: Family(each["title"], each["first"], tuple(each["words"]), each.get("probe", ""))
+        name: Family(
+            each["title"], each["first"], tuple(each["words"]), tuple(each.get("context", ())), each.get("probe", "")
+        )
         for name, each in read.items()
     }
 
@@ -50,25 +55,28 @@ def likely_families(text: str) -> list[str]:
 
     A phrase of a family counts when the text has all its words, each word once, and more where fewer families have it.
     """
-    phrases, rarity = _vocabulary()
+    called, beside, rarity = _vocabulary()
     said = set(_stems(text))
     scores = {}
-    for name, known in phrases.items():
-        whole = set().union(*(phrase for phrase in known if phrase <= said))
-        part = max((len(phrase & said) / len(phrase) for phrase in known), default=0.0)
-        scores[name] = sum(rarity[stem] for stem in whole) + part * PART
+    for name in called:
+        whole = set().union(*(phrase for phrase in called[name] if phrase <= said))
+        near = set().union(*(phrase for phrase in beside[name] if phrase <= said)) - whole
+        part = max(len(phrase & said) / len(phrase) for phrase in called[name])
+        scores[name] = sum(rarity[stem] for stem in whole) + BESIDE * sum(rarity[stem] for stem in near) + part * PART
     return sorted((name for name in scores if scores[name] > PART / 2), key=lambda name: -scores[name])
 
 
 @cache
-def _vocabulary() -> tuple[dict[str, list[set[str]]], dict[str, float]]:
-    """The stems of every family's phrases, and how telling each stem is."""
-    phrases = {
-        name: [stems for phrase in (name, *family.words) if (stems := set(_stems(phrase)))]
-        for name, family in families().items()
-    }
-    count = Counter(stem for known in phrases.values() for stem in set().union(*known))
-    return phrases, {stem: math.log(1 + len(phrases) / users) for stem, users in count.items()}
+def _vocabulary() -> tuple[dict[str, list[set[str]]], dict[str, list[set[str]]], dict[str, float]]:
+    """The stems of the phrases of every family, those beside it, and how telling each stem is."""
+    called = {name: _phrases(name, *family.words) for name, family in families().items()}
+    beside = {name: _phrases(*family.context) for name, family in families().items()}
+    count = Counter(stem for name in called for stem in set().union(*called[name], *beside[name]))
+    return called, beside, {stem: math.log(1 + len(called) / users) for stem, users in count.items()}
+
+
+def _phrases(*phrases: str) -> list[set[str]]:
+    return [stems for phrase in phrases if (stems := set(_stems(phrase)))]
 
 
 def _stems(text: str) -> list[str]:

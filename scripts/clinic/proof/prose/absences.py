@@ -129,8 +129,9 @@ def bold(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 
 def commented(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 5, comments. A number in a comment or a docstring of the case's files stands in the code as well."""
-    for name, text in case.texts.items():
+    """Law 5, comments. A number in a comment or a docstring of the case's code stands in the code as well."""
+    snippet = {"snippet.py": case.record.snippet} if case.record.snippet else {}
+    for name, text in {**case.texts, **snippet}.items():
         comments = list(_comments(name, text))
         code = functools.reduce(lambda left, comment: left.replace(comment[1], ""), comments, text)
         for line, comment in comments:
@@ -139,7 +140,10 @@ def commented(case: Case, evidence: Evidence) -> Iterator[Problem]:
                     continue
                 wanted, repair = "a number that stands in the code", "say it without a number"
                 said = f"{found[0]!r} in a comment"
-                yield Problem(f"cases/{case.slug}/{name}", line, "", said, wanted, repair)
+                if name in snippet:
+                    yield case.problem(("snippet",), said, wanted, repair, quoted=found[0])
+                else:
+                    yield Problem(f"cases/{case.slug}/{name}", line, "", said, wanted, repair)
 
 
 def _comments(name: str, text: str) -> Iterator[tuple[int, str]]:

@@ -18,11 +18,13 @@ from clinic.record.problem import Problem, listed
 NAMED = re.compile(r"\(([^)]*)\)")
 ARITHMETIC = {"minus": ast.Sub, "plus": ast.Add, "ratio": ast.Div, "divided by": ast.Div, "share": ast.Div}
 TINY = 1e-12
+SIZED = re.compile(r"\.size\b")
+HALF = re.compile(r"\b(?:half|radius|size)\b")
 PRINTED = re.compile(r"printed\((.*)\)")
 
 
 def labelled(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 5, labels. A label names no element that its signal does not read; a printed unit is the signal's."""
+    """Law 5, labels. A label names no element that its signal does not read, a size is a half; a printed unit is the signal's."""
     output = evidence.variants["broken"].output or ""
     known = {word for name in _elements(case.text) for word in _words(name)} if case.record.run else set()
     for name, signal in case.record.signals.items():
@@ -31,6 +33,9 @@ def labelled(case: Case, evidence: Evidence) -> Iterator[Problem]:
         if read and set(told) - read:
             expected = f"an element that it reads: {listed(sorted(read))}"
             yield case.problem(("signals", name, "label"), signal.label, expected, "correct the label or the path")
+        if isinstance(signal, PathSignal) and SIZED.search(signal.path) and not HALF.search(signal.label):
+            expected, repair = "a half, or a radius, as sizes in MJCF are", "correct the label"
+            yield case.problem(("signals", name, "label"), signal.label, expected, repair)
         shown = PRINTED.fullmatch(signal.path) if isinstance(signal, PathSignal) else None
         lines = re.findall(rf"^{re.escape(shown[1])} = \S+ ?(.*)$", output, re.MULTILINE) if shown else []
         if lines and lines[0] and _plain(lines[0]) != _plain(signal.unit):

@@ -23,14 +23,15 @@ SHARE = "fourth|fifth|sixth|seventh|eighth|ninth|tenth|twelfth|twentieth|fiftiet
 SIZE = r"(?:metres?|centimetres?|millimetres?|seconds?|milliseconds?|radians?|degrees?|kilograms?|newtons?|percent)"
 NUMBER = re.compile(
     rf"(?<![\w.])[-\u2212]?\d[\d_,.]*(?:(?<=\d))(?:[\s\u00a0]?(?:°|%))?|\b(?:{COUNT})(?:-(?:\w+))?\b|\b(?:{SHARE})s?\b|"
-    rf"\btwice\b|\bthrice\b|\bdoubl(?:es|ed|ing)\b|\bhal(?:ve[sd]?|ving)\b|\ba third\b|\bhalf (?:an?|of a) {SIZE}\b|"
+    rf"\btwice\b|\bthrice\b|\bdoubl(?:es|ed|ing)\b|\bhal(?:ve[sd]?|ving)\b|\ba third\b|\bquarters?\b(?! turn)|\ba half of\b|\bhalf (?:an?|of a) {SIZE}\b|"
     rf"\b(?:one|two|zero|full|whole) {SIZE[:-1]}|minutes?|hours?)\b|\b(?:at|by) (?:zero|one|two)\b(?! (?:most|least))|"
     r"\b(?:has|had|have) (?:zero|two)\b",
     re.IGNORECASE,
 )
-TITLE = re.compile(rf"{NUMBER.pattern}|\bdouble the\b|\bhalf the\b|\btwo\b", re.IGNORECASE)
+TITLE = re.compile(rf"{NUMBER.pattern}|\bdouble the\b|\bhalf (?:of )?the\b|\btwo\b", re.IGNORECASE)
+UNIT = re.compile(r"\s(?:m?s|[mc]?m|k?g|N|rad|Hz)\b")
 STEPS = re.compile(r"\b(?:earlier|later|more|fewer|less|further|ahead)\b", re.IGNORECASE)
-LESS = re.compile(r"\b(?:half the|hal(?:ve|ving)|divide|lighter|thinner|softer|lower)\b", re.IGNORECASE)
+LESS = re.compile(r"\b(?:half (?:of )?the|quarter|hal(?:ve|ving)|divide|lighter|thinner|softer|lower)\b", re.IGNORECASE)
 MORE = re.compile(r"\b(?:twice the|doubl(?:e|ing)|heavier|thicker|harder|raise)\b", re.IGNORECASE)
 OPERATOR = re.compile(r"[\d/*=^√()+·]")
 
@@ -78,15 +79,16 @@ def titled(case: Case, evidence: Evidence) -> Iterator[Problem]:
     for where, title, changed in titles:
         code = case.record.run is None  # its number may stand for the inverse: a count of steps for a timestep
         counted = bool(STEPS.search(title)) and not re.search(r"times|twice|half|divide", title, re.IGNORECASE)
-        ratios = [] if counted else changed
-        allowed = {abs(after) for _, after in changed} | _and_ratios(
-            ratios, up=code or not LESS.search(title), down=code or not MORE.search(title)
-        )
+        made = {abs(after) for _, after in changed}
+        ratios = _ratios(changed, up=code or not LESS.search(title), down=code or not MORE.search(title))
         if counted:
-            allowed = {abs(after - before) for before, after in changed}
-        if LESS.search(title) and "times" in title:
-            allowed -= {abs(after) for _, after in changed}
+            made, ratios = {abs(after - before) for before, after in changed}, set()
         for number in TITLE.finditer(title):
+            after = title[number.end() :]
+            multiple = re.match(r"\s(?:times|of)\b", after) or LESS.match(number[0])
+            allowed = (
+                ratios if multiple and ratios - {1.0} and not counted else made if UNIT.match(after) else made | ratios
+            )
             values = _values(number[0])
             if not any(abs(value - known) <= 1e-6 * abs(value) for value in values for known in allowed):
                 wanted = (
@@ -107,12 +109,11 @@ def _numbers_of(variant: Variant, evidence: Evidence) -> list[tuple[float, float
     return changed
 
 
-def _and_ratios(changed: Iterable[tuple[float, float]], up: bool, down: bool) -> set[float]:
-    """The new numbers, and how many times larger (`up`) or smaller (`down`) they are than the old ones."""
-    made = {abs(after) for _, after in changed}
+def _ratios(changed: Iterable[tuple[float, float]], up: bool, down: bool) -> set[float]:
+    """How many times larger (`up`) or smaller (`down`) the new numbers are than the old ones."""
     ratios = {abs(after / before) for before, after in changed if up and before}
     ratios |= {abs(before / after) for before, after in changed if down and after}
-    return made | {float(f"{ratio:.9g}") for ratio in ratios if math.isfinite(ratio)}
+    return {float(f"{ratio:.9g}") for ratio in ratios if math.isfinite(ratio)}
 
 
 def _values(number: str) -> list[float]:
@@ -122,7 +123,15 @@ def _values(number: str) -> list[float]:
         "hundred": 100.0,
         "thousand": 1000.0,
     }
-    words |= {"fourth": 4.0, "fifth": 5.0, "tenth": 10.0, "hundredth": 100.0, "thousandth": 1000.0, "half": 2.0}
+    words |= {
+        "fourth": 4.0,
+        "fifth": 5.0,
+        "tenth": 10.0,
+        "hundredth": 100.0,
+        "thousandth": 1000.0,
+        "half": 2.0,
+        "quarter": 4.0,
+    }
     if number.lower().startswith("half a"):
         return [0.5]
     word = re.split(r"[- ]", number.lower())[0]

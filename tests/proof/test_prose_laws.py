@@ -14,7 +14,7 @@ from clinic.proof.bounds import bounded
 from clinic.proof.evidence import collect
 from clinic.proof.filing import filing_problems
 from clinic.proof.prose.absences import bold, commented, denied, functional, jointed, named
-from clinic.proof.prose.angles import measured_in, turned
+from clinic.proof.prose.angles import angles
 from clinic.proof.prose.comparisons import compared, ordered
 from clinic.proof.prose.formulas import formulas
 from clinic.proof.prose.labels import computed, entitled, labelled
@@ -32,8 +32,7 @@ LAWS = (quoted, typed, titled, entitled, labelled, taken, called, counted, withi
 LAWS += (
     in_units,
     written,
-    turned,
-    measured_in,
+    angles,
     computed,
     performed,
     denied,

@@ -16,7 +16,7 @@ from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
 from clinic.proof.bounds import bounded, differing, marked, varied
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.proof.prose.absences import bold, commented, denied, functional, jointed, named
-from clinic.proof.prose.angles import measured_in, turned
+from clinic.proof.prose.angles import angles
 from clinic.proof.prose.comparisons import compared, ordered
 from clinic.proof.prose.formulas import formulas
 from clinic.proof.prose.labels import computed, entitled, labelled
@@ -215,8 +215,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         computed,
         in_units,
         written,
-        turned,
-        measured_in,
+        angles,
         entitled,
         stated,
         formulas,

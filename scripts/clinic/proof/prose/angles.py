@@ -12,7 +12,6 @@ from clinic.proof.evidence import Evidence
 from clinic.proof.prose_laws import prose_of
 from clinic.record.case import Case
 from clinic.record.problem import Problem
-from clinic.record.prose import FIELD
 from clinic.record.units import unit
 
 TURNS = {"a quarter": math.pi / 2, "half a": math.pi, "three quarters of a": 1.5 * math.pi, "a full": 2 * math.pi}
@@ -23,7 +22,13 @@ ALWAYS = {"qpos": "radians", "fovy": "degrees", "cutoff": "degrees", "azimuth": 
 CLOSE = 0.02  # of the turn that is said
 
 
-def turned(case: Case, evidence: Evidence) -> Iterator[Problem]:
+def angles(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, angles. A part of a turn is the number it is said of; degrees and radians are what the file's are."""
+    yield from _turned(case, evidence)
+    yield from _measured_in(case)
+
+
+def _turned(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """A part of a turn that is said of a number is that number."""
     for where, text in prose_of(case):
         for found in APPOSITION.finditer(" ".join(text.split())):
@@ -39,7 +44,7 @@ def turned(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 yield case.problem(where, f"{found[2]} turn", wanted, "correct it, or leave it out", found[2])
 
 
-def measured_in(case: Case, evidence: Evidence) -> Iterator[Problem]:
+def _measured_in(case: Case) -> Iterator[Problem]:
     """Degrees and radians that are said of a quoted angle are those that the variant's compiler reads."""
     texts = {variant.id: variant.text for variant in variants(case)}
     for where, text in prose_of(case):

@@ -23,7 +23,8 @@ SHARE = "fourth|fifth|sixth|seventh|eighth|ninth|tenth|twelfth|twentieth|fiftiet
 SIZE = r"(?:metres?|centimetres?|millimetres?|seconds?|milliseconds?|radians?|degrees?|kilograms?|newtons?|percent)"
 NUMBER = re.compile(
     rf"(?<![\w.])[-\u2212]?\d[\d_,.]*(?:(?<=\d))(?:[\s\u00a0]?(?:°|%))?|\b(?:{COUNT})(?:-(?:\w+))?\b|\b(?:{SHARE})s?\b|"
-    rf"\btwice\b|\bthrice\b|\bdoubl(?:es|ed|ing)\b|\bhal(?:ve[sd]?|ving)\b|\ba third\b|\bquarters?\b(?! turn)|\ba half of\b|\bhalf (?:an?|of a) {SIZE}\b|"
+    rf"\btwice\b|\bthrice\b|\bdoubl(?:es|ed|ing)\b|\bhal(?:ve[sd]?|ving)\b|\ba third\b|\bquarters?\b(?! turn)|"
+    rf"\ba half of\b|\bhalf (?:an?|of a) {SIZE}\b|"
     rf"\b(?:one|two|zero|full|whole) {SIZE[:-1]}|minutes?|hours?)\b|\b(?:at|by) (?:zero|one|two)\b(?! (?:most|least))|"
     r"\b(?:has|had|have) (?:zero|two)\b",
     re.IGNORECASE,

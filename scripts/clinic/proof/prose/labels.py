@@ -24,7 +24,7 @@ PRINTED = re.compile(r"printed\((.*)\)")
 
 
 def labelled(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 5, labels. A label names no element that its signal does not read; a size is a half, printed units its own."""
+    """Law 5, labels. A label names no element that its signal does not read; sizes are halves, units those printed."""
     output = evidence.variants["broken"].output or ""
     known = {word for name in _elements(case.text) for word in _words(name)} if case.record.run else set()
     for name, signal in case.record.signals.items():

@@ -7,11 +7,14 @@ import subprocess
 from typing import Any
 
 import pytest
+import yaml
 from clinic.engine.node import executable as node
 from clinic.pages.completion import completion
+from clinic.record.families import families, likely_families
 from project import ROOT
 
 pytestmark = pytest.mark.xdist_group("parity")
+SENTENCES = yaml.safe_load((ROOT / "tests" / "record" / "sentences.yaml").read_text(encoding="utf-8"))
 CALL = """
   const [module, name, calls] = JSON.parse(process.argv[1]);
   const exported = await import("./docs/playground/" + module);
@@ -135,3 +138,10 @@ def test_the_editor_knows_what_mujoco_s_schema_and_manual_say() -> None:
     assert silent < 0.05 * len(attributes), "the manual is read no longer: see clinic.pages.completion"
     markup = [says for _, says in attributes if ":ref:" in says or "``" in says or "|-|" in says]
     assert not markup
+
+
+def test_a_query_speaks_of_the_same_families_as_in_python() -> None:
+    asked = [text for texts in SENTENCES.values() for text in texts]
+    words = [{"family": name, "words": family.words, "context": family.context} for name, family in families().items()]
+    ranked = call("search/families.js", "ranked", [words, asked])[0]
+    assert dict(zip(asked, ranked, strict=True)) == {text: likely_families(text) for text in asked}

@@ -1,17 +1,19 @@
 // Asks the documents: any of the words, with beginnings, typos and synonyms; best first, and whether anything is about it.
 
 import MiniSearch from "minisearch";
+import { likely } from "./families.js";
 import { stem, stems, thesaurus, words } from "./words.js";
 
-/** @typedef {{kind: string, at: string, title: string, words: string, text: string, case?: string}} Document `case` is the address of a message's case */
+/** @typedef {{kind: string, at: string, title: string, words: string, text: string, case?: string, family?: string, context?: string}} Document `case` is the address of a message's case */
 /** @typedef {{found: Document[], covered: boolean}} Answer `covered` is whether the best is about most of what was asked */
 
-const FIELDS = ["title", "words", "text", "answer"];
-const BOOST = { title: 3, words: 2, text: 1, answer: 0.5 };
+const FIELDS = ["title", "words", "context", "text", "answer"];
+const BOOST = { title: 3, words: 2, context: 1, text: 1, answer: 0.5 };
 /** @type {Record<string, number>} */
 const KINDS = { case: 2, symptom: 0.8, message: 1, rule: 0.6, page: 0.6 };
 const BEGINNING = 3; // letters from which on a word may be unfinished
 const LONG = 8; // letters from which on a word may have two typos
+const OWN = 1; // by which the weight grows of what belongs to the symptom that is spoken of
 const PASTED = 3; // the weight of a message of whose words most are asked for
 const MOST = 2 / 3;
 const LIKE = 0.5; // a synonym's weight
@@ -36,9 +38,12 @@ export function searcher({ documents, synonyms }, answers = {}) {
   const titles = texts.map(({ kind, title }) => (kind === "message" ? stems(title) : []));
   const weight = (/** @type {string} */ term) => Math.log(1 + texts.length / (known.get(term) ?? 1));
   const alike = thesaurus(synonyms);
+  const spoken = likely(texts.flatMap(({ kind, family = "", words: said, context = "" }) => (kind === "symptom" ? [{ family, words: said.split("; "), context: context.split("; ") }] : [])));
 
   return (query) => {
     const asked = stems(query);
+    const families = spoken(query);
+    const loudest = Math.max(...families.values());
     const last = stem(words(query).at(-1) ?? "");
     const pasted = (/** @type {number} */ id) => titles[id].length > 1 && titles[id].filter((term) => asked.includes(term)).length >= MOST * titles[id].length;
     const meant = new Map(asked.map((term) => [term, term]));
@@ -50,7 +55,7 @@ export function searcher({ documents, synonyms }, answers = {}) {
       prefix: (term) => term === last && term.length >= BEGINNING,
       fuzzy: (term) => (meant.get(term) === term && !known.has(term) && term.length > BEGINNING ? 1 + Number(term.length >= LONG) : false),
       boostTerm: (term) => (meant.get(term) === term ? 1 : LIKE),
-      boostDocument: (id) => KINDS[texts[id].kind] * (pasted(id) ? PASTED : 1),
+      boostDocument: (id) => KINDS[texts[id].kind] * (pasted(id) ? PASTED : 1) * (1 + (OWN * (families.get(texts[id].family ?? "") ?? 0)) / loudest),
     });
     const total = asked.reduce((sum, term) => sum + weight(term), 0);
     const best = results.slice(0, 3).map(({ queryTerms }) => {

@@ -57,7 +57,8 @@ def synonyms() -> list[list[str]]:
 def _case(one: CasePage) -> Document:
     record = one.case.record
     words = "; ".join([*record.phrases, *record.tags])
-    return {"kind": "case", "at": _answer_at(one.case.slug), "title": record.title, "words": words, "text": one.symptom}
+    at, family = _answer_at(one.case.slug), record.family or ""
+    return {"kind": "case", "at": at, "title": record.title, "words": words, "text": one.symptom, "family": family}
 
 
 def _answer(one: CasePage) -> str:
@@ -76,8 +77,10 @@ def _families(families: Mapping[str, Family]) -> Iterator[Document]:
             "kind": "symptom",
             "at": f"symptoms/{name}.html",
             "title": family.title,
-            "words": "; ".join((*family.words, *family.context)),
+            "words": "; ".join(family.words),
+            "context": "; ".join(family.context),
             "text": "",
+            "family": name,
         }
 
 

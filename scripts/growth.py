@@ -30,6 +30,7 @@ from clinic.pages.search_index import FILE
 from clinic.proof.experiments import EVIDENCE, evidence_of, evidence_task, measuring_tasks, whole_evidence
 from clinic.record.case import Case, read_cases
 from clinic.record.checkout import project_root
+from clinic.record.yaml_lines import read_yaml
 from clinic.work.cache import Cache, Files
 from clinic.work.task import Task
 from hosted import served
@@ -83,7 +84,7 @@ def grow(folder: Path, cache: Cache, size: int) -> None:
             number += 1
             place = folder / "cases" / f"{case.slug}-{turn}"
             place.mkdir()
-            record = yaml.safe_load((folder / "cases" / case.slug / "case.yaml").read_text(encoding="utf-8"))
+            record = read_yaml((folder / "cases" / case.slug / "case.yaml").read_text(encoding="utf-8"))[0]
             new = varied(case, record, slugs, turn, number)
             (place / "case.yaml").write_text(yaml.safe_dump(new, allow_unicode=True, sort_keys=False), encoding="utf-8")
             for name, text in case.texts.items():

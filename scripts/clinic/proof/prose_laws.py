@@ -29,13 +29,15 @@ NEAR = 40  # characters between a word such as *lowest* and the number it is sai
 TAKEN = ("final", "first", "min", "max", "mean", "span")
 TAKES = (
     (
-        r"\b(?:never \w+ (?:above|more)|never passes|never exceeds|at most|highest|largest|grows to)\b|\bup to\s*$",
+        r"\b(?:never \w+ (?:above|more)|never passes|never exceeds|at most|highest|largest|grows to)\b"
+        r"|\bup to(?: an? \w+ of)?\s*$",
         "max",
     ),
     (r"\b(?:lowest|smallest|at least|never below)\b", "min"),
     (r"\b(?:at first|at the first|in the first|in real time|at the start)\b", "first"),
     (r"\b(?:ends? at|rests? at|comes to rest|at the end)\b", "final"),
 )
+AFTER = {"most": "max", "least": "min"}
 SINGLE = ("visual", "option", "compiler")  # elements of which a model has one
 WORD = re.compile(r"[^\W\d_]+")
 
@@ -82,7 +84,9 @@ def taken(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 words = [
                     (m.end(), take) for pattern, take in TAKES for m in re.finditer(pattern, before, re.IGNORECASE)
                 ]
+                ending = re.match(r"\s+at (most|least)\b", paragraph[field.end() :])
                 said, take = max(words)[1] if words else "", name.rpartition(".")[2]
+                said = AFTER[ending[1]] if ending else said
                 if said and (case.record.run is not None or said == "first") and take in set(TAKEN) - {said}:
                     repair = "correct the field or the words"
                     yield case.problem(where, field[0], f"its `{said}`: so the words say", repair, quoted=field[0])

@@ -19,15 +19,23 @@ if TYPE_CHECKING:
 
 SMALL = "the of a an in on at to and by from it is one that are as with for than through both all its"
 SAME = 1e-3
-NAMED = {"max": "largest", "min": "smallest", "first": "first", "mean": "mean", "span": "range"}
+NAMED = {
+    "max": "largest",
+    "min": "smallest",
+    "first": "first",
+    "mean": "mean",
+    "span": "range",
+    "onset": "time of change",
+}
 TOLD = {
     "max": r"\b(?:never|at most|highest|larg|great|longest|up to|grow|more than|exceed|ris|above|arriv|fast|deep|peak)",
     "min": r"\b(?:low|small|at least|below|least|fall|short|down to)",
     "first": r"\b(?:first|start|beg[iau]n|real time|before)",
     "mean": r"\b(?:mean|average)",
     "span": r"\b(?:by|range|sway|swing|mov|travel)",
+    "onset": r"\b(?:after|beg[iau]n|until|since|onset)",
 }
-ALWAYS = ("first", "mean")  # numbers that words tell, whatever checks and other fields take
+ALWAYS = ("first", "mean", "onset")  # numbers that words tell, whatever checks and other fields take
 WHOLE = re.compile(r".+")
 HEAD = re.compile(r"^(?:(?! of | from | along |, ).)+")  # *weight* of *weight of the cube*
 OTHER = re.compile(r"\{\{ *(?:" + "|".join(ELSEWHERE) + r")\b.*?\}\}", re.DOTALL)

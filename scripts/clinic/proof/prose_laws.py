@@ -38,6 +38,8 @@ TAKES = (
     (r"\b(?:ends? at|rests? at|comes to rest|at the end)\b", "final"),
 )
 AFTER = {"most": "max", "least": "min"}
+CONTRAST = re.compile(r"\b(?:instead of|not|was|were|than|before|broken|unlike|against|without)\b")
+SAME = 1e-3
 SINGLE = ("visual", "option", "compiler")  # elements of which a model has one
 WORD = re.compile(r"[^\W\d_]+")
 
@@ -142,6 +144,11 @@ def owned(case: Case, evidence: Evidence) -> Iterator[Problem]:
                             "write broken, or the edit's attribute",
                         )
                         yield case.problem(where, found, f"an attribute that {name} changes", repair, quoted=field[0])
+                elif name == "broken" != spoken and _apart(evidence, field[1], spoken):
+                    if not CONTRAST.search(paragraph[: field.start()][-NEAR:]):
+                        repair = "correct the field, or say that it is the broken one's: *instead of*, *was*, *not*"
+                        wanted = f"a number of {spoken}, of which this speaks"
+                        yield case.problem(where, field[0], wanted, repair, quoted=field[0])
                 elif name not in (spoken, own, "broken", *ELSEWHERE) and not _named(name, paragraph, field):
                     wanted = f"a number of {spoken}" if spoken == own else f"a number of {spoken}, of which this speaks"
                     repair = f"correct the field, or say {name.replace('-', ' ')!r} in the sentence"
@@ -214,12 +221,23 @@ def _words(text: str) -> list[str]:
     return [word.removesuffix("s") for word in WORD.findall(text.lower().replace("'s", ""))]
 
 
+def _apart(evidence: Evidence, field: str, other: str) -> bool:
+    """Whether a number of the broken variant differs from that of another."""
+    _, signal, take = f"{field.partition('|')[0].strip()}..".split(".")[:3]
+    a, b = (evidence.variants[each].values.get(signal, {}).get(take) for each in ("broken", other))
+    return a is not None and b is not None and abs(a - b) > SAME * max(abs(a), abs(b))
+
+
 def _named(name: str, paragraph: str, field: re.Match[str]) -> bool:
     """Whether the sentence around a field has the words of a remedy's id."""
+    return said_of(name, _around(paragraph, field))
+
+
+def _around(paragraph: str, field: re.Match[str]) -> str:
+    """The sentence around a field, without its fields."""
     begun = max((m.end() for m in re.finditer(r"[.?!:]\s", paragraph[: field.start()])), default=0)
     ended = re.search(r"[.?!](?:\s|$)", paragraph[field.end() :])
-    sentence = FIELD.sub("", paragraph[begun : field.end() + (ended.start() if ended else len(paragraph))])
-    return said_of(name, sentence)
+    return FIELD.sub("", paragraph[begun : field.end() + (ended.start() if ended else len(paragraph))])
 
 
 def said_of(name: str, text: str) -> bool:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 SMALL = "the of a an in on at to and by from it is one that are as with for than through both all its"
 SAME = 1e-3
+CLEAR = 0.4  # by which all words of another's label have to fit better, where its first words do not
 NAMED = {
     "max": "largest",
     "min": "smallest",
@@ -61,6 +62,9 @@ def called(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 known = {**heads, name: own[name]}
                 fits = {each: sum(1 / shared[word] for word in known[each] & near) for each in known}
                 best = max(fits, key=lambda each: fits[each])
+                whole = {each: sum(1 / shared[word] for word in own[each] & near) - CLEAR for each in own}
+                if (rival := max(whole, key=lambda each: whole[each])) != name and whole[rival] > fits[best]:
+                    best, fits, known = rival, whole | {name: fits[name]}, own
                 if fits[best] > fits[name] + 1e-9 or not (heads[name] & near or case.record.lacking):
                     told = f"beside words of {best}: {listed(sorted(known[best] & near))}" if fits[best] else "alone"
                     repair = f"correct the field, name it, or add the words that are beside it to `said` of {name}"

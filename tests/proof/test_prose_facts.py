@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from clinic.proof.evidence import collect
-from clinic.proof.prose.absences import bold, commented, denied, functional, jointed, named
+from clinic.proof.prose.absences import bold, commented, denied, functional, kinds, named
 from clinic.proof.prose.comparisons import compared, ordered
 from clinic.proof.prose.formulas import formulas, mutants
 from clinic.proof.prose.labels import computed
@@ -72,8 +72,12 @@ def test_what_prose_denies_is_not_there(tmp_path, text: str, wrong: bool) -> Non
         ("The field is `qfrc_bais`.", named, True),
         ("The field is `qfrc_bias`, see `mj_forward`.", named, True),
         ("The masks are `contype` and `conaffinity`.", named, False),
-        ("It has a ball joint.", jointed, True),
-        ("It has a free joint.", jointed, False),
+        ("It has a ball joint.", kinds, True),
+        ("It has a free joint.", kinds, False),
+        ("It has a velocity servo.", kinds, True),
+        ("It has a touch sensor.", kinds, True),
+        ("By default the cone is elliptic.", kinds, True),
+        ("By default the cone is pyramidal.", kinds, False),
         ("Its density is 1 g/cm³.", written, True),
         ("It always falls.", bold, True),
         ("It never rises above {{ broken.height.max }}.", bold, False),

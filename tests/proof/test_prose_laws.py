@@ -13,7 +13,7 @@ from clinic.pages.text.prose import prose_problems
 from clinic.proof.bounds import bounded
 from clinic.proof.evidence import collect
 from clinic.proof.filing import filing_problems
-from clinic.proof.prose.absences import bold, commented, denied, functional, jointed, named
+from clinic.proof.prose.absences import bold, commented, denied, functional, kinds, named
 from clinic.proof.prose.angles import angles
 from clinic.proof.prose.comparisons import compared, ordered
 from clinic.proof.prose.formulas import formulas
@@ -38,7 +38,7 @@ LAWS += (
     denied,
     functional,
     named,
-    jointed,
+    kinds,
     bold,
     commented,
     compared,

@@ -15,7 +15,7 @@ from clinic.engine.simulate import compile_model
 from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
 from clinic.proof.bounds import bounded, differing, marked, varied
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
-from clinic.proof.prose.absences import bold, commented, denied, functional, jointed, named
+from clinic.proof.prose.absences import bold, commented, denied, functional, kinds, named
 from clinic.proof.prose.angles import angles
 from clinic.proof.prose.comparisons import compared, ordered
 from clinic.proof.prose.formulas import formulas
@@ -225,7 +225,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         denied,
         functional,
         named,
-        jointed,
+        kinds,
         bold,
         commented,
         lasting,

@@ -53,7 +53,7 @@ def quoted(case: Case, evidence: Evidence) -> Iterator[Problem]:
         evidence.snippet or "",
     ]
     for where, text in prose_of(case):
-        spans = SPAN.findall(FIELD.sub("", text))
+        spans = SPAN.findall(FIELD.sub("field", text))
         for attribute in (found for span in spans for found in ATTRIBUTE.finditer(span)):
             if case.record.run is not None:
                 repair = f"write a field such as {{{{ {_place_of(made, attribute)} }}}}"
@@ -158,7 +158,7 @@ def owned(case: Case, evidence: Evidence) -> Iterator[Problem]:
 def quotations(case: Case) -> Iterator[tuple[Where, str]]:
     """Every attribute quoted in prose, as it is written, with the field's place."""
     for where, text in prose_of(case):
-        shown = SPAN.findall(FIELD.sub("", text))
+        shown = SPAN.findall(FIELD.sub("field", text))
         for field in FIELD.finditer(text):
             if match := QUOTATION.fullmatch(field[1].partition("|")[0]):
                 with contextlib.suppress(QuotationError):  # told where the prose is filled
@@ -206,7 +206,7 @@ def _misnamed(case: Case, made: Sequence[Variant], where: Where, text: str) -> I
             names = {name for known in texts for name in re.findall(rf'<{match["tag"]} [^>]*?name="([^"]*)"', known)}
             known_words = {word for name in names for word in _words(name)} | {match["tag"]}
             before = [
-                word for word in _words(CODE.sub("", FIELD.sub("", paragraph[: field.start()]))) if word in known_words
+                word for word in _words(CODE.sub("", FIELD.sub("x", paragraph[: field.start()]))) if word in known_words
             ]
             if not before or before[-1] not in {*_words(match["name"]), match["tag"]}:
                 found = f"{field[0]}, after " + (f"the {before[-1]}" if before else "no element's name")

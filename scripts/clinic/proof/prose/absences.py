@@ -27,7 +27,12 @@ FUNCTIONS = {"sine": "sin(", "cosine": "cos(", "logarithm": "log(", "exponential
 FUNCTION = re.compile(rf"\b({'|'.join(FUNCTIONS)})s?\b", re.IGNORECASE)
 EVER = re.compile(r"\b(?:always|never|in (?:each|every|any) case|impossible)\b", re.IGNORECASE)
 NAME = re.compile(r"`((?:(?:data|model|mujoco)\.)?[a-z_]+)`|`(mj[A-Za-z]*_\w+)`")
-JOINT = re.compile(r"\b(free|ball|slide)\s+joint", re.IGNORECASE)
+KIND = re.compile(
+    r"\b(free|ball|slide)\s+joint|\b(position|velocity)\s+(?:servo|actuator)s?\b|"
+    r"\b(force|torque|touch)\s+sensor",
+    re.IGNORECASE,
+)
+CHOSEN = re.compile(r"\bdefault\b[^.;:]{0,40}?\b(elliptic|RK4|Runge|implicit\w*|PGS|CG)\b")
 ELSEWHERE = ("nan", "undefined", "null", "inf")
 OPEN = ("symptom", "diagnosis", "cause")
 
@@ -85,15 +90,18 @@ def _names(*texts: str) -> set[str]:
     return {word for text in texts for word in re.findall(r"[\w-]+", text)}
 
 
-def jointed(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 5, joints. A free joint, a ball joint or a slide that prose names is in a file, or in the snippet."""
+def kinds(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, kinds. A free joint, a velocity servo, a touch sensor that prose names is in a file, or in the snippet."""
     known = "\n".join([*case.texts.values(), case.record.snippet or "", *(variant.text for variant in variants(case))])
     for where, text in prose_of(case):
-        for found in JOINT.finditer(CODE.sub("", FIELD.sub("", text))):
-            kind = found[1].lower()
-            if f'type="{kind}"' not in known and f"<{kind}joint" not in known:
-                wanted = f'files with type="{kind}"'
+        for found in KIND.finditer(CODE.sub("", FIELD.sub("x", text))):
+            kind = next(filter(None, found.groups())).lower()
+            if not any(form in known for form in (f'type="{kind}"', f"<{kind}joint", f"<{kind} ")):
+                wanted = f'files with <{kind}> or type="{kind}"'
                 yield case.problem(where, found[0], wanted, "correct the sentence", found[0])
+        for found in CHOSEN.finditer(CODE.sub("", FIELD.sub("x", text))):
+            wanted = "MuJoCo's default: a pyramidal cone, the integrator Euler, the solver Newton"
+            yield case.problem(where, found[1], wanted, "correct the sentence", found[1])
 
 
 @cache
@@ -112,7 +120,7 @@ def functional(case: Case, evidence: Evidence) -> Iterator[Problem]:
     known += "".join(sweep.model_dump_json(exclude={"text", "title"}) for sweep in record.sweep.values())
     known += "".join(case.texts.values())
     for where, text in prose_of(case):
-        for found in FUNCTION.finditer(CODE.sub("", FIELD.sub("", text))):
+        for found in FUNCTION.finditer(CODE.sub("", FIELD.sub("x", text))):
             word = found[1].lower()
             if not re.search(rf"(?<![a-z]){re.escape(FUNCTIONS[word])}|\b{word}\b", known):
                 wanted = "a function that a formula, a sweep or the snippet computes"
@@ -123,7 +131,7 @@ def bold(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 5, no claim wider than what was run. *Always* and *never* stand in a sentence with a number of a run."""
     for where, text in prose_of(case):
         for sentence in re.split(r"(?<=[.?!])\s|\n[ \t]*\n", text):
-            if (found := EVER.search(CODE.sub("", FIELD.sub("", sentence)))) and not FIELD.search(sentence):
+            if (found := EVER.search(CODE.sub("", FIELD.sub("x", sentence)))) and not FIELD.search(sentence):
                 wanted, repair = "a sentence with the number that shows it", "say what was seen, or add the number"
                 yield case.problem(where, found[0], wanted, repair, found[0])
 

@@ -19,6 +19,12 @@ if TYPE_CHECKING:
 
 SMALL = "the of a an in on at to and by from it is one that are as with for than through both all its"
 SAME = 1e-3
+POINTS = r"\}\} of$|^(?:At|Over|In|With)$"
+SAID = (  # of a sweep's numbers: what stands before or after, and what it is said of
+    (r"\bwrong (?:for|at)$", None, ("wrong",)),
+    (POINTS, r"(?!at |off|or |of |from )[a-z]+s\b", ("points", "judged")),
+    (r"\b(?:within|difference is|at most)$", None, ("worst",)),
+)
 CLEAR = 0.4  # by which all words of another's label have to fit better, where its first words do not
 NAMED = {
     "max": "largest",
@@ -29,7 +35,10 @@ NAMED = {
     "onset": "time of change",
 }
 TOLD = {
-    "max": r"\b(?:never|at most|highest|larg|great|longest|up to|grow|more than|exceed|ris|above|arriv|fast|deep|peak)",
+    "max": (
+        r"\b(?:never|at most|highest|larg|great|longest|up to|grow|more than|exceed|"
+        r"ris|above|arriv|fast|deep|peak|reach|as far|leaves|overshoot|jump|worst)"
+    ),
     "min": r"\b(?:low|small|at least|below|least|fall|short|down to)",
     "first": r"\b(?:first|start|beg[iau]n|real time|before)",
     "mean": r"\b(?:mean|average)",
@@ -73,7 +82,10 @@ def called(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 
 def counted(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 5, which sample. Another number than a run's last is told by words, or a check or another field takes it."""
+    """Law 5, which sample. Another number than a run's last is told by words.
+
+    Of grade B it is enough that a check or another field takes it.
+    """
     record = case.record
     everywhere = [checks_in(record, trial) for trial in (None, *record.trials)]
     known = {(check.signal, check.take) for checks in everywhere for check in (*checks.broken, *checks.fixed)}
@@ -97,7 +109,7 @@ def counted(case: Case, evidence: Evidence) -> Iterator[Problem]:
         ended = re.search(r"[.?!](?:\s|$)", text[field.end() :])
         sentence = text[begun : field.end() + ended.start() if ended else None]
         told = re.search(TOLD[take], FIELD.sub("", sentence), re.IGNORECASE)
-        excused = take not in ALWAYS and ((signal, take) in known or taken[signal, take] > 1)
+        excused = record.lacking and take not in ALWAYS and ((signal, take) in known or taken[signal, take] > 1)
         if not (told or excused):
             wanted = f"its `final`, or words for its {NAMED[take]}"
             yield case.problem(where, field[0], wanted, "correct the field or the words", quoted=field[0])
@@ -112,6 +124,12 @@ def within_its_sweep(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 continue
             if where[0] == "sweep" and where[1] != rest[0]:
                 yield case.problem(where, field[0], f"a number of {where[1]}", "correct the field", quoted=field[0])
+            before, after = " ".join(text[: field.start()].split()), text[field.end() :].lstrip()
+            for ahead, behind, takes in SAID:
+                told = re.search(ahead, before) or (behind and re.match(behind, after))
+                if told and rest[-1] in {"wrong", "points", "judged", "worst"} - {*takes}:
+                    wanted, repair = f"its `{takes[0]}`: so the words say", "correct the field or the words"
+                    yield case.problem(where, field[0], wanted, repair, quoted=field[0])
             near = words(beside(text, field, ()))
             for rival in case.record.sweep[rest[0]].rivals:
                 named = words(f"{rival.label} {rival.id}")

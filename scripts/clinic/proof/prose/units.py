@@ -160,7 +160,7 @@ def written(case: Case, evidence: Evidence) -> Iterator[Problem]:
     units = {signal.unit for signal in case.record.signals.values()}
     for where, text in prose_of(case):
         units_here = units | {unit for name, unit in ATTRIBUTES.items() if f".{name}" in text}
-        for found in COMPOUND.finditer(CODE.sub("", FORMULA.sub("", FIELD.sub("", text)))):
+        for found in COMPOUND.finditer(CODE.sub("", FORMULA.sub("", FIELD.sub("x", text)))):
             if found[0] not in units_here:
                 wanted = f"the unit of a signal: {listed(sorted(filter(None, units_here)))}"
                 yield case.problem(where, found[0], wanted, "correct the unit, or say it by a field", found[0])

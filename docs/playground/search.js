@@ -6,7 +6,12 @@ import { show } from "./search/panel.js";
 /** @typedef {import("./search/index.js").Document} Document */
 
 const KEYS = /** @type {Record<string, number>} */ ({ ArrowDown: 1, ArrowUp: -1 });
-const index = globalThis.clinicIndex;
+/** @param {typeof globalThis.clinicIndex.documents} packed by `packed` of scripts/clinic/pages/search_index.py @returns {Document[]} */
+const unpacked = (packed) =>
+  Object.entries(packed).flatMap(([kind, { around, fields, rows }]) =>
+    rows.map(([rest, ...values]) => ({ kind, at: around[0] + rest + around[1], title: "", words: "", text: "", ...Object.fromEntries(fields.map((name, k) => [name, values[k]])) })),
+  );
+const index = { documents: unpacked(globalThis.clinicIndex.documents), synonyms: globalThis.clinicIndex.synonyms };
 const symptoms = index.documents.filter(({ kind }) => kind === "symptom");
 let ask = searcher(index);
 

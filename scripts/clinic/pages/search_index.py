@@ -44,8 +44,36 @@ def search_files(
         *_pages(pages),
     ]
     answers = {_answer_at(one.case.slug): _answer(one) for one in shown}
-    index = {"documents": documents, "synonyms": synonyms()}
+    index = {"documents": packed(documents), "synonyms": synonyms()}
     return {FILE: _script("clinicIndex", index), ANSWERS: _script("clinicAnswers", answers)}
+
+
+def packed(documents: Iterable[Document]) -> dict[str, object]:
+    """By kind, what all addresses begin and end with, the names of the fields, and a row of each document.
+
+    A row is the rest of the address, then the fields; docs/playground/search.js reads it.
+    """
+    kinds: dict[str, list[Document]] = {}
+    for document in documents:
+        kinds.setdefault(document["kind"], []).append(document)
+    made: dict[str, object] = {}
+    for kind, those in kinds.items():
+        fields = [*dict.fromkeys(name for document in those for name in document if name not in ("kind", "at"))]
+        before = _beginning([document["at"] for document in those])
+        rests = [document["at"].removeprefix(before) for document in those]
+        after = _beginning([rest[::-1] for rest in rests])[::-1]
+        rows = [
+            [rest.removesuffix(after), *(document.get(name, "") for name in fields)]
+            for rest, document in zip(rests, those, strict=True)
+        ]
+        made[kind] = {"around": [before, after], "fields": fields, "rows": rows}
+    return made
+
+
+def _beginning(texts: list[str]) -> str:
+    """What all texts begin with: as far as the first and the last in order are alike."""
+    low, high = min(texts), max(texts)
+    return low[: next((k for k, (a, b) in enumerate(zip(low, high, strict=False)) if a != b), len(low))]
 
 
 def synonyms() -> list[list[str]]:

@@ -41,6 +41,8 @@ def told(find: str, replace: str, *may: str) -> list[str]:
          "You switched gravity off."),
         ('<option timestep="0.01"/>', '<option timestep="0.01"><flag sleep="enable"/></option>',
          "You switched sleep on or off."),
+        ('<option timestep="0.01"/>', '<option timestep="0.01" o_margin="-1"><flag override="enable"/></option>',
+         "You switched contact off, by a margin below zero for all of them."),
         ('timestep="0.01"', 'timestep="0.01" wind="1 0 0"', "You changed the wind from 0 0 0 to 1 0 0."),
         ('mass="0.4"', 'mass="0.1"', "You changed the mass of body arm from 0.4 to 0.1 kg."),
         ('name="hand" pos="0.3 0 0"', 'name="hand" pos="0.2 0 0"',

@@ -81,6 +81,9 @@ class Comparison {
       }
     }
     if ((before.enableflags ^ after.enableflags) & this.mujoco.mjtEnableBit.mjENBL_SLEEP.value) yield "You switched sleep on or off.";
+    if (after.enableflags & this.mujoco.mjtEnableBit.mjENBL_OVERRIDE.value && after.o_margin < 0 && before.o_margin >= 0) {
+      yield "You switched contact off, by a margin below zero for all of them.";
+    }
     if (before.disableactuator !== after.disableactuator) yield "You switched actuators on or off.";
   }
 

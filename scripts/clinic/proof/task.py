@@ -80,6 +80,11 @@ def _options(broken: mujoco.MjModel, model: mujoco.MjModel) -> Iterator[str]:
             yield f"You switched {flag.lower()} {'off' if model.opt.disableflags & bit else 'on'}."
     if (broken.opt.enableflags ^ model.opt.enableflags) & int(getattr(mujoco.mjtEnableBit, "mjENBL_SLEEP", 0)):
         yield "You switched sleep on or off."
+    if (
+        model.opt.enableflags & int(mujoco.mjtEnableBit.mjENBL_OVERRIDE)
+        and model.opt.o_margin < 0 <= broken.opt.o_margin
+    ):
+        yield "You switched contact off, by a margin below zero for all of them."
     if broken.opt.disableactuator != model.opt.disableactuator:
         yield "You switched actuators on or off."
 

@@ -126,6 +126,12 @@ def test_the_broken_source_stands_in_the_open(page: str, made: tuple[Case, Evide
     assert source in taken_over
 
 
+def test_a_model_is_not_told_that_its_script_does_not_run(made: tuple[Case, Evidence], tmp_path: Path) -> None:
+    script = script_case(tmp_path)
+    for case, evidence, told in ((*made, False), (script, collect(script), True)):
+        assert ("does not run in this page" in page_of(case, evidence, {"playground.json": b"{}"})) == told
+
+
 def test_who_asks_to_be_told_is_given_the_lines_to_copy(made: tuple[Case, Evidence]) -> None:
     page = fragment_fromstring(rendered(page_of(*made)), "div")
     (answer,) = page.xpath("//details[@class='answer']//*[@id='answer']")

@@ -219,7 +219,7 @@ function same(before, after, field) {
   if (["ctrlrange", "forcerange"].includes(field) && before.every((value) => Math.abs(value) === Infinity)) return true; // the checks tell whether a new range holds anything back
   if (after.length < before.length) return false; // longer is a keyframe where an actuator was added
   const close = (/** @type {number} */ sign) =>
-    before.every((value, k) => value === after[k] || Math.abs(value - sign * after[k]) <= 1e-6 + 1e-4 * Math.abs(after[k]));
+    before.every((value, k) => value === after[k] || (Number.isFinite(after[k]) && Math.abs(value - sign * after[k]) <= 1e-6 + 1e-4 * Math.abs(after[k])));
   return close(1) || (field === "quat" && close(-1));
 }
 

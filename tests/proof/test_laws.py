@@ -308,3 +308,17 @@ def test_a_prediction_that_no_point_is_held_against(tmp_path: Path) -> None:
         "sweep.fall.prediction: held against no point; expected points that it can miss; widen its `over`, or "
         "correct its `expr`"
     )
+
+
+def test_a_first_version_is_not_held_to_its_every_word(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    case = tiny_case(tmp_path, ("lesson: Look at the masks.", "lesson: Always look at `qfrc_bias` of a ball joint."))
+    evidence = collect(case)
+    assert breaches(case, evidence, "bold", "named", "kinds") == []
+    monkeypatch.setattr(type(case.record), "lacking", {})
+    found = {problem.found for problem in breaches(case, evidence, "bold", "named", "kinds")}
+    assert found == {"Always", "qfrc_bias", "ball joint"}
+
+
+def test_the_only_fix_s_numbers_need_no_words(tmp_path: Path) -> None:
+    case = tiny_case(tmp_path, ("fix: Share a bit.", "fix: It stands at {{ share-a-bit.height.final }}."))
+    assert breaches(case, collect(case), "owned") == []

@@ -125,6 +125,7 @@ def owned(case: Case, evidence: Evidence) -> Iterator[Problem]:
                     found = f"fields of {listed(sorted(several))} in a sentence"
                     yield case.problem(where, found, f"words of {name}", "name each, or correct the fields", name)
         own = case.record.refuted[where[1]].id if where[0] == "refuted" and isinstance(where[1], int) else "broken"
+        only = case.record.fixes[0].id if where == ("fix",) and len(case.record.fixes) == 1 else own
         for paragraph in re.split(r"\n[ \t]*\n", text):
             spoken = own
             for field in FIELD.finditer(paragraph):
@@ -149,7 +150,7 @@ def owned(case: Case, evidence: Evidence) -> Iterator[Problem]:
                         repair = "correct the field, or say that it is the broken one's: *instead of*, *was*, *not*"
                         wanted = f"a number of {spoken}, of which this speaks"
                         yield case.problem(where, field[0], wanted, repair, quoted=field[0])
-                elif name not in (spoken, own, "broken", *ELSEWHERE) and not _named(name, paragraph, field):
+                elif name not in (spoken, own, only, "broken", *ELSEWHERE) and not _named(name, paragraph, field):
                     wanted = f"a number of {spoken}" if spoken == own else f"a number of {spoken}, of which this speaks"
                     repair = f"correct the field, or say {name.replace('-', ' ')!r} in the sentence"
                     yield case.problem(where, field[0], wanted, repair, quoted=field[0])

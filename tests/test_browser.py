@@ -139,9 +139,11 @@ def test_a_plot_has_the_colours_of_the_page_rather_than_of_the_system(page: Page
         page.emulate_media(color_scheme=system)
         page.goto(served + CASE)
         page.get_by_text("Fix", exact=True).click()
+        page.wait_for_load_state("networkidle")  # the theme's script, asked for by the press, moves what is below
         page.evaluate("scheme => document.body.setAttribute('data-md-color-scheme', scheme)", site)
         plot.scroll_into_view_if_needed()
         plot.evaluate("image => image.decode()")
+        page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
         return plot.screenshot(animations="disabled")
 
     plot = page.locator("img[src$='plot.svg']")

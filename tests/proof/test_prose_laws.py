@@ -213,7 +213,7 @@ def test_an_equation_is_held_against_a_run(tmp_path, says: str, apart: bool) -> 
     ("field", "value", "wrong"),
     [
         ("fix: Share", "fix: It is {{ small-step.height.final }}. Share", True),
-        ("fix: Share", "fix: It is {{ share-a-bit.height.final }}. Share", True),
+        ("fix: Share", "fix: It is {{ share-a-bit.height.final }}. Share", False),  # the only fix
         ("fix: Share", "fix: '{{ share-a-bit.title }}: it is {{ share-a-bit.height.final }}. Share", False),
         ("symptom: It", "symptom: At {{ share-a-bit.height.final }} it", True),
         ("why: It", "why: At {{ share-a-bit.height.final }} it", True),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from clinic.proof.evidence import collect
 from clinic.proof.prose.absences import bold, commented, denied, functional, kinds, named
@@ -11,6 +13,8 @@ from clinic.proof.prose.labels import computed
 from clinic.proof.prose.opposites import indexed, opposed, valued
 from clinic.proof.prose.titles import performed
 from clinic.proof.prose.units import in_units, written
+from clinic.record.case import load_case
+from clinic.record.checkout import project_root
 from helpers import MODEL, script_case, tiny_case
 
 
@@ -97,6 +101,16 @@ def test_a_number_in_a_comment_stands_in_the_code(tmp_path, comment: str, wrong:
 def test_a_comment_of_a_model_is_read_too(tmp_path) -> None:
     case = tiny_case(tmp_path, model=MODEL.replace("<worldbody>", "<!-- 7 boxes -->\n<worldbody>"))
     assert [(p.file.rpartition("/")[2], p.line) for p in commented(case, collect(case))] == [("model.xml", 3)]
+
+
+def test_a_snippet_in_javascript_is_read_as_such(tmp_path) -> None:
+    case = load_case(project_root() / "cases" / "javascript-view-goes-dead")
+    snippet = "/* 7 views */ const broken = `it's`; // 8 more\n"
+    shown = replace(case, record=case.record.model_copy(update={"snippet": snippet}))
+    assert [p.found for p in commented(shown, collect(script_case(tmp_path)))] == [
+        "'7' in a comment",
+        "'8' in a comment",
+    ]
 
 
 LAST, FIRST = "{{ small-step.height.final }}", "{{ small-step.height.first }}"

@@ -16,7 +16,7 @@ const BESIDE = 0.4;
 
 /**
  * @param {{family: string, words: string[], context: string[]}[]} families
- * @returns {(query: string) => Map<string, number>} how much the query speaks of each family that it speaks of
+ * @returns {(query: string) => Map<string, number>} how much the query speaks of each family that it speaks of, as a share of the loudest
  */
 export function likely(families) {
   const known = new Map(families.map(({ family, words, context }) => [family, { called: phrases([family, ...words]), beside: phrases(context) }]));
@@ -36,7 +36,8 @@ export function likely(families) {
       const part = Math.max(...called.map((phrase) => shared(phrase, said) / phrase.size));
       return /** @type {[string, number]} */ ([family, weight(own) + BESIDE * weight(near) + PART * part]);
     });
-    return new Map(scores.filter(([, score]) => score > PART / 2));
+    const loudest = Math.max(...scores.map(([, score]) => score));
+    return new Map(scores.filter(([, score]) => score > PART / 2).map(([family, score]) => [family, score / loudest]));
   };
 }
 

@@ -43,7 +43,6 @@ export function searcher({ documents, synonyms }, answers = {}) {
   return (query) => {
     const asked = stems(query);
     const families = spoken(query);
-    const loudest = Math.max(...families.values());
     const last = stem(words(query).at(-1) ?? "");
     const pasted = (/** @type {number} */ id) => titles[id].length > 1 && titles[id].filter((term) => asked.includes(term)).length >= MOST * titles[id].length;
     const meant = new Map(asked.map((term) => [term, term]));
@@ -55,7 +54,7 @@ export function searcher({ documents, synonyms }, answers = {}) {
       prefix: (term) => term === last && term.length >= BEGINNING,
       fuzzy: (term) => (meant.get(term) === term && !known.has(term) && term.length > BEGINNING ? 1 + Number(term.length >= LONG) : false),
       boostTerm: (term) => (meant.get(term) === term ? 1 : LIKE),
-      boostDocument: (id) => KINDS[texts[id].kind] * (pasted(id) ? PASTED : 1) * (1 + (OWN * (families.get(texts[id].family ?? "") ?? 0)) / loudest),
+      boostDocument: (id) => KINDS[texts[id].kind] * (pasted(id) ? PASTED : 1) * (1 + OWN * (families.get(texts[id].family ?? "") ?? 0)),
     });
     const total = asked.reduce((sum, term) => sum + weight(term), 0);
     const best = results.slice(0, 3).map(({ queryTerms }) => {

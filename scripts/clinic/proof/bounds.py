@@ -40,8 +40,7 @@ def bounded(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 continue
             for index, check in enumerate(getattr(checks_in(case.record, trial), kind)):
                 admitted = _admitted(evidence, trial, kind, index)
-                wide = check.equals and (check.within or 0.0) > abs(check.equals) / 2
-                if not admitted or (_parts(evidence, trial, kind, index) and not wide):
+                if not admitted or (check.equals is None and _parts(evidence, trial, kind, index)):
                     continue
                 if all(_loose(check, measured) for measured in admitted):
                     where: Where = ("checks", kind, index)

@@ -190,7 +190,7 @@ def released(case: Case, evidence: Evidence) -> Iterator[Problem]:
     yield from release_problems(case, differing_releases(evidence))
 
 
-OF_GRADE_A = ("bold", "named", "kinds", "functional", "called", "counted", "commented")
+OF_GRADE_A = ("bold", "named", "kinds", "functional", "commented")
 LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
     law.__name__: law
     for law in (

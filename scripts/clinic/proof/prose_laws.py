@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from clinic.engine.quotation import QUOTATION, QuotationError, attributes, quotation
 from clinic.engine.variant import Variant, variants
 from clinic.record.case import Case
 from clinic.record.problem import Problem, listed
-from clinic.record.prose import CODE, FIELD, FORMULA
+from clinic.record.prose import FIELD, FORMULA, bare
 from clinic.record.yaml_lines import Where
 
 if TYPE_CHECKING:
@@ -38,8 +38,6 @@ TAKES = (
     (r"\b(?:ends? at|rests? at|comes to rest|at the end)\b", "final"),
 )
 AFTER = {"most": "max", "least": "min"}
-CONTRAST = re.compile(r"\b(?:instead of|not|was|were|than|before|broken|unlike|against|without)\b")
-SAME = 1e-3
 SINGLE = ("visual", "option", "compiler")  # elements of which a model has one
 WORD = re.compile(r"[^\W\d_]+")
 
@@ -103,7 +101,7 @@ def taken(case: Case, evidence: Evidence) -> Iterator[Problem]:
 def stated(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 5, formulas. One with a number, a fraction or a function is a field: it is computed and held to the runs."""
     for where, text in prose_of(case):
-        for found in FORMULA.finditer(FIELD.sub("x", CODE.sub("", text))):
+        for found in FORMULA.finditer(bare(text)):
             formula = " ".join((found["block"] or found["inline"]).split())
             if LITERAL.search(SUBSCRIPT.sub("", formula)):
                 wanted = "a formula that is computed: {{ sweep.ID.formula }}, {{ formula.NAME }}"
@@ -127,13 +125,11 @@ def owned(case: Case, evidence: Evidence) -> Iterator[Problem]:
         own = case.record.refuted[where[1]].id if where[0] == "refuted" and isinstance(where[1], int) else "broken"
         only = case.record.fixes[0].id if where == ("fix",) and len(case.record.fixes) == 1 else own
         for paragraph in re.split(r"\n[ \t]*\n", text):
-            spoken = own
             for field in FIELD.finditer(paragraph):
-                name = field[1].strip().partition(".")[0]
+                name, of = field[1].strip().partition(".")[0], spoken(made, own, paragraph[: field.start()])
                 if field[1].strip() == f"{name}.title" and name in made:
-                    spoken = name
-                elif QUOTATION.fullmatch(field[1].partition("|")[0]):
-                    spoken = own if name == "broken" else name
+                    continue
+                if QUOTATION.fullmatch(field[1].partition("|")[0]):
                     apt = made[name].kind == "fix" and where == ("fix",) if name in made else True
                     told = where[0] not in ("symptom", "diagnosis") and _named(name, paragraph, field)
                     if not (apt or told or name in (own, "broken")):
@@ -145,13 +141,8 @@ def owned(case: Case, evidence: Evidence) -> Iterator[Problem]:
                             "write broken, or the edit's attribute",
                         )
                         yield case.problem(where, found, f"an attribute that {name} changes", repair, quoted=field[0])
-                elif name == "broken" != spoken and _apart(evidence, field[1], spoken):
-                    if not CONTRAST.search(paragraph[: field.start()][-NEAR:]):
-                        repair = "correct the field, or say that it is the broken one's: *instead of*, *was*, *not*"
-                        wanted = f"a number of {spoken}, of which this speaks"
-                        yield case.problem(where, field[0], wanted, repair, quoted=field[0])
-                elif name not in (spoken, own, only, "broken", *ELSEWHERE) and not _named(name, paragraph, field):
-                    wanted = f"a number of {spoken}" if spoken == own else f"a number of {spoken}, of which this speaks"
+                elif name not in (of, own, only, "broken", *ELSEWHERE) and not _named(name, paragraph, field):
+                    wanted = f"a number of {of}" if of == own else f"a number of {of}, of which this speaks"
                     repair = f"correct the field, or say {name.replace('-', ' ')!r} in the sentence"
                     yield case.problem(where, field[0], wanted, repair, quoted=field[0])
 
@@ -206,9 +197,7 @@ def _misnamed(case: Case, made: Sequence[Variant], where: Where, text: str) -> I
             texts = [variant.text for variant in made if variant.id in ("broken", match["variant"])]
             names = {name for known in texts for name in re.findall(rf'<{match["tag"]} [^>]*?name="([^"]*)"', known)}
             known_words = {word for name in names for word in _words(name)} | {match["tag"]}
-            before = [
-                word for word in _words(CODE.sub("", FIELD.sub("x", paragraph[: field.start()]))) if word in known_words
-            ]
+            before = [word for word in _words(bare(paragraph[: field.start()])) if word in known_words]
             if not before or before[-1] not in {*_words(match["name"]), match["tag"]}:
                 found = f"{field[0]}, after " + (f"the {before[-1]}" if before else "no element's name")
                 repair = "name it before the quotation, or correct the field"
@@ -222,23 +211,22 @@ def _words(text: str) -> list[str]:
     return [word.removesuffix("s") for word in WORD.findall(text.lower().replace("'s", ""))]
 
 
-def _apart(evidence: Evidence, field: str, other: str) -> bool:
-    """Whether a number of the broken variant differs from that of another."""
-    _, signal, take = f"{field.partition('|')[0].strip()}..".split(".")[:3]
-    a, b = (evidence.variants[each].values.get(signal, {}).get(take) for each in ("broken", other))
-    return a is not None and b is not None and abs(a - b) > SAME * max(abs(a), abs(b))
-
-
 def _named(name: str, paragraph: str, field: re.Match[str]) -> bool:
     """Whether the sentence around a field has the words of a remedy's id."""
-    return said_of(name, _around(paragraph, field))
-
-
-def _around(paragraph: str, field: re.Match[str]) -> str:
-    """The sentence around a field, without its fields."""
     begun = max((m.end() for m in re.finditer(r"[.?!:]\s", paragraph[: field.start()])), default=0)
     ended = re.search(r"[.?!](?:\s|$)", paragraph[field.end() :])
-    return FIELD.sub("", paragraph[begun : field.end() + (ended.start() if ended else len(paragraph))])
+    return said_of(name, FIELD.sub("", paragraph[begun : field.end() + (ended.start() if ended else len(paragraph))]))
+
+
+def spoken(made: Container[str], own: str, before: str) -> str:
+    """The variant that prose speaks of after a text: that of its last title or quoted attribute, else `own`."""
+    for field in reversed(list(FIELD.finditer(before))):
+        name = field[1].strip().partition(".")[0]
+        if field[1].strip() == f"{name}.title" and name in made:
+            return name
+        if QUOTATION.fullmatch(field[1].partition("|")[0]):
+            return own if name == "broken" else name
+    return own
 
 
 def said_of(name: str, text: str) -> bool:

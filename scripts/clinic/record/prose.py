@@ -22,6 +22,11 @@ CONVERSIONS = {
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
+def bare(text: str) -> str:
+    """Prose without its code, with an `x` for each of its fields."""
+    return FIELD.sub("x", CODE.sub("", text))
+
+
 def quantity(value: float, unit: str, digits: int = 3) -> str:
     """The number with significant digits and its unit: `49.9 mm`, `3.0 × 10⁻² m`."""
     space = "" if unit in ("", "°") else "\u00a0"

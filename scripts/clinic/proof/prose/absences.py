@@ -17,7 +17,7 @@ from clinic.proof.prose.numbers import NUMBER
 from clinic.proof.prose_laws import prose_of, said_of
 from clinic.record.case import Case
 from clinic.record.problem import Problem
-from clinic.record.prose import CODE, FIELD
+from clinic.record.prose import FIELD, bare
 
 DENIED = re.compile(r"\bno\s+`([a-z_]+)`|\bno\s+(motor|servo|equality|tendon|sensor|keyframe|damper)\b", re.IGNORECASE)
 ELEMENT = {"motor": "<motor", "servo": "<position", "equality": "<equality", "tendon": "<tendon", "sensor": "<sensor"}
@@ -94,12 +94,13 @@ def kinds(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 5, kinds. A free joint, a velocity servo, a touch sensor that prose names is in a file, or in the snippet."""
     known = "\n".join([*case.texts.values(), case.record.snippet or "", *(variant.text for variant in variants(case))])
     for where, text in prose_of(case):
-        for found in KIND.finditer(CODE.sub("", FIELD.sub("x", text))):
+        said = bare(text)
+        for found in KIND.finditer(said):
             kind = next(filter(None, found.groups())).lower()
             if not any(form in known for form in (f'type="{kind}"', f"<{kind}joint", f"<{kind} ")):
                 wanted = f'files with <{kind}> or type="{kind}"'
                 yield case.problem(where, found[0], wanted, "correct the sentence", found[0])
-        for found in CHOSEN.finditer(CODE.sub("", FIELD.sub("x", text))):
+        for found in CHOSEN.finditer(said):
             wanted = "MuJoCo's default: a pyramidal cone, the integrator Euler, the solver Newton"
             yield case.problem(where, found[1], wanted, "correct the sentence", found[1])
 
@@ -120,7 +121,7 @@ def functional(case: Case, evidence: Evidence) -> Iterator[Problem]:
     known += "".join(sweep.model_dump_json(exclude={"text", "title"}) for sweep in record.sweep.values())
     known += "".join(case.texts.values())
     for where, text in prose_of(case):
-        for found in FUNCTION.finditer(CODE.sub("", FIELD.sub("x", text))):
+        for found in FUNCTION.finditer(bare(text)):
             word = found[1].lower()
             if not re.search(rf"(?<![a-z]){re.escape(FUNCTIONS[word])}|\b{word}\b", known):
                 wanted = "a function that a formula, a sweep or the snippet computes"
@@ -131,15 +132,15 @@ def bold(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 5, no claim wider than what was run. *Always* and *never* stand in a sentence with a number of a run."""
     for where, text in prose_of(case):
         for sentence in re.split(r"(?<=[.?!])\s|\n[ \t]*\n", text):
-            if (found := EVER.search(CODE.sub("", FIELD.sub("x", sentence)))) and not FIELD.search(sentence):
+            if (found := EVER.search(bare(sentence))) and not FIELD.search(sentence):
                 wanted, repair = "a sentence with the number that shows it", "say what was seen, or add the number"
                 yield case.problem(where, found[0], wanted, repair, found[0])
 
 
 def commented(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 5, comments. A number in a comment or a docstring of the case's code stands in the code as well."""
-    snippet = {"snippet.py": case.record.snippet} if case.record.snippet else {}
-    for name, text in {**case.texts, **snippet}.items():
+    snippet = "snippet.mjs" if case.record.language == "javascript" else "snippet.py"
+    for name, text in {**case.texts, snippet: case.record.snippet or ""}.items():
         comments = list(_comments(name, text))
         code = functools.reduce(lambda left, comment: left.replace(comment[1], ""), comments, text)
         for line, comment in comments:
@@ -148,7 +149,7 @@ def commented(case: Case, evidence: Evidence) -> Iterator[Problem]:
                     continue
                 wanted, repair = "a number that stands in the code", "say it without a number"
                 said = f"{found[0]!r} in a comment"
-                if name in snippet:
+                if name == snippet:
                     yield case.problem(("snippet",), said, wanted, repair, quoted=found[0])
                 else:
                     yield Problem(f"cases/{case.slug}/{name}", line, "", said, wanted, repair)

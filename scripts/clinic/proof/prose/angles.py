@@ -9,13 +9,14 @@ from collections.abc import Iterator
 from clinic.engine.quotation import QUOTATION, attributes
 from clinic.engine.variant import variants
 from clinic.proof.evidence import Evidence
+from clinic.proof.prose.comparisons import numbers
 from clinic.proof.prose_laws import prose_of
 from clinic.record.case import Case
 from clinic.record.problem import Problem
 from clinic.record.units import unit
 
 TURNS = {"a quarter": math.pi / 2, "half a": math.pi, "three quarters of a": 1.5 * math.pi, "a full": 2 * math.pi}
-APPOSITION = re.compile(rf"\{{\{{([^{{}}]*)\}}\}}, (?:which is )?({'|'.join(TURNS)}) turn\b")
+APPOSITION = re.compile(rf", (?:which is )?({'|'.join(TURNS)}) turn\b")
 UNIT = re.compile(r"\{\{([^{}]*)\}\}[^.;:{}]{0,25}?\bin (degrees|radians)\b")
 BY_COMPILER = ("range", "ref", "springref", "euler", "axisangle")
 ALWAYS = {"qpos": "radians", "fovy": "degrees", "cutoff": "degrees", "azimuth": "degrees"}
@@ -31,17 +32,14 @@ def angles(case: Case, evidence: Evidence) -> Iterator[Problem]:
 def _turned(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """A part of a turn that is said of a number is that number."""
     for where, text in prose_of(case):
-        for found in APPOSITION.finditer(" ".join(text.split())):
-            variant, _, rest = found[1].partition("|")[0].strip().partition(".")
-            name, _, take = rest.partition(".")
-            signal, own = case.record.signals.get(name), evidence.variants.get(variant)
-            size, turn = unit(signal.unit) if signal else None, TURNS[found[2]]
-            if own is None or signal is None or size is None or signal.unit not in ("rad", "°"):
+        flat = " ".join(text.split())
+        for one in numbers(flat, evidence):
+            found, size = APPOSITION.match(flat, one.end), unit(one.unit)
+            if found is None or size is None or one.unit not in ("rad", "°"):
                 continue
-            value = own.values[name].get(take)
-            if value is not None and abs(abs(value) * size.size - turn) > CLOSE * turn:
-                wanted = f"the part of a turn that {value:.4g} {signal.unit} are"
-                yield case.problem(where, f"{found[2]} turn", wanted, "correct it, or leave it out", found[2])
+            if abs(abs(one.value) * size.size - TURNS[found[1]]) > CLOSE * TURNS[found[1]]:
+                wanted = f"the part of a turn that {one.value:.4g} {one.unit} are"
+                yield case.problem(where, f"{found[1]} turn", wanted, "correct it, or leave it out", found[1])
 
 
 def _measured_in(case: Case) -> Iterator[Problem]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from clinic.proof.evidence import Evidence, Samples
-from clinic.proof.prose_laws import prose_of
+from clinic.proof.prose_laws import prose_of, spoken
 from clinic.record.case import Case
 from clinic.record.problem import Problem
 from clinic.record.prose import CODE, FIELD
@@ -55,21 +55,23 @@ class Said:
 def compared(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 5, comparisons. *More than*, *below*, *falls to*, *as before*, *instead of*: the numbers are so."""
     for where, text in prose_of(case):
-        for sentence in re.split(r"(?<=[.?!;])\s|\n[ \t]*\n", CODE.sub(_blank, text)):
-            said = list(_numbers(sentence, evidence))
-            for left, right in pairwise(said):
-                yield from _two(case, where, sentence, left, right)
-            for one in said:
-                yield from _of_broken(case, where, sentence, one, evidence)
-                yield from _of_one(case, where, sentence, one, evidence)
-                yield from _noun(case, where, sentence, one, said, evidence)
+        for paragraph in re.split(r"\n[ \t]*\n", CODE.sub(_blank, text)):
+            for one in numbers(paragraph, evidence):
+                yield from _of_broken(case, where, paragraph[: one.start], one, evidence)
+            for sentence in re.split(r"(?<=[.?!;])\s", paragraph):
+                said = list(numbers(sentence, evidence))
+                for left, right in pairwise(said):
+                    yield from _two(case, where, sentence, left, right)
+                for one in said:
+                    yield from _of_one(case, where, sentence, one, evidence)
+                    yield from _noun(case, where, sentence, one, said, evidence)
 
 
 def ordered(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 5, order. A number of a signal after *next* or *later* is reached after the one before."""
     for where, text in prose_of(case):
         for paragraph in re.split(r"\n[ \t]*\n", CODE.sub(_blank, text)):
-            for left, right in pairwise(_numbers(paragraph, evidence)):
+            for left, right in pairwise(numbers(paragraph, evidence)):
                 found = NEXT.search(paragraph[left.end : right.start])
                 if found is None or (left.variant, left.signal) != (right.variant, right.signal):
                     continue
@@ -99,13 +101,14 @@ def _two(case: Case, where: Where, sentence: str, left: Said, right: Said) -> It
         yield from _held(case, where, found, left, left.value, right.value)
 
 
-def _of_broken(case: Case, where: Where, sentence: str, one: Said, evidence: Evidence) -> Iterator[Problem]:
-    """The broken variant's number in a remedy's `why`: words set it against the remedy's, where the two differ."""
-    index = where[1] if where[0] == "refuted" else None
-    if one.variant != "broken" or not isinstance(index, int):
+def _of_broken(case: Case, where: Where, before: str, one: Said, evidence: Evidence) -> Iterator[Problem]:
+    """The broken variant's number where a remedy is spoken of: words set it against the remedy's, if the two differ."""
+    told = case.record.refuted[where[1]].id if where[0] == "refuted" and isinstance(where[1], int) else "broken"
+    remedy = spoken(evidence.variants, told, before)
+    if one.variant != "broken" or remedy == "broken":
         return
-    own = evidence.variants[case.record.refuted[index].id].values[one.signal].get(one.take)
-    if own is not None and not _same(own, one.value) and not AGAINST.search(sentence[: one.start]):
+    own = evidence.variants[remedy].values[one.signal].get(one.take)
+    if own is not None and not _same(own, one.value) and not AGAINST.search(before):
         wanted = (
             f"a number of the remedy, or words that set it against that: instead of, not; the remedy's is {own:.4g}"
         )
@@ -167,7 +170,8 @@ def _problem(case: Case, where: Where, one: Said, found: str, wanted: str) -> Pr
     return case.problem(where, f"{one.text}: {found}", wanted, "correct the words or the field", one.text)
 
 
-def _numbers(sentence: str, evidence: Evidence) -> Iterator[Said]:
+def numbers(sentence: str, evidence: Evidence) -> Iterator[Said]:
+    """The numbers of runs that a sentence has, in its order."""
     for field in FIELD.finditer(sentence):
         parts = field[1].partition("|")[0].strip().split(".")
         variant = evidence.variants.get(parts[0])

@@ -12,7 +12,7 @@ from clinic.proof.prose_laws import prose_of
 from clinic.proof.trials import changed_numbers
 from clinic.record.case import Case
 from clinic.record.problem import Problem, listed
-from clinic.record.prose import CODE, FIELD, FORMULA
+from clinic.record.prose import FORMULA, bare
 from clinic.record.yaml_lines import Where
 
 WRITTEN = re.compile(r"(?<![\w.])\d[\d_]*\.?\d*(?:e-?\d+)?")
@@ -53,7 +53,7 @@ def typed(case: Case, evidence: Evidence) -> Iterator[Problem]:
     reasons += [(("sweep", key, "apart"), sweep.apart or "") for key, sweep in case.record.sweep.items()]
     reasons.append((("no_sweep",), case.record.no_sweep or ""))
     for where, text in [*prose_of(case), *reasons, *labels]:
-        for found in NUMBER.finditer(FORMULA.sub("", FIELD.sub("x", CODE.sub("", text)))):
+        for found in NUMBER.finditer(FORMULA.sub("", bare(text))):
             number = found[0].strip().rstrip(".,")
             own = where[0] == "loose" and number == "twice"  # what the law itself tries
             if number not in releases and not own and not (where[-1] == "label" and number.startswith("by ")):
@@ -87,9 +87,9 @@ def titled(case: Case, evidence: Evidence) -> Iterator[Problem]:
         for number in TITLE.finditer(title):
             after = title[number.end() :]
             multiple = re.match(r"\s(?:times|of)\b", after) or LESS.match(number[0])
-            allowed = (
-                ratios if multiple and ratios - {1.0} and not counted else made if UNIT.match(after) else made | ratios
-            )
+            allowed = made if UNIT.match(after) else made | ratios
+            if multiple and ratios - {1.0}:
+                allowed = ratios
             values = _values(number[0])
             if not any(abs(value - known) <= 1e-6 * abs(value) for value in values for known in allowed):
                 wanted = (

@@ -14,7 +14,7 @@ from clinic.proof.prose_laws import prose_of
 from clinic.record.case import Case
 from clinic.record.fields import PathSignal
 from clinic.record.problem import Problem
-from clinic.record.prose import CODE, FIELD
+from clinic.record.prose import FIELD, bare
 from clinic.record.yaml_lines import Where
 
 OPPOSITES = (
@@ -80,7 +80,7 @@ def valued(case: Case, evidence: Evidence) -> Iterator[Problem]:
                     shown = quotation(case, match) if match else ""
                 except QuotationError:  # told where the prose is filled
                     continue
-                words = CODE.sub("", FIELD.sub("x", sentence))
+                words = bare(sentence)
                 for group in VALUES:
                     own = [value for value in group if f'"{value}"' in shown]
                     said = [value for value in group if re.search(rf"\b{value}s?\b", words, re.IGNORECASE)]

@@ -68,14 +68,14 @@ def called(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 if variant not in evidence.variants or name not in own:
                     continue
                 near = words(beside(paragraph, field))
-                known = {**heads, name: own[name]}
-                fits = {each: sum(1 / shared[word] for word in known[each] & near) for each in known}
+                whole, part = (
+                    {each: sum(1 / shared[word] for word in known[each] & near) for each in known}
+                    for known in (own, heads)
+                )
+                fits = {each: max(part[each], whole[each] - CLEAR) for each in own} | {name: whole[name]}
                 best = max(fits, key=lambda each: fits[each])
-                whole = {each: sum(1 / shared[word] for word in own[each] & near) - CLEAR for each in own}
-                if (rival := max(whole, key=lambda each: whole[each])) != name and whole[rival] > fits[best]:
-                    best, fits, known = rival, whole | {name: fits[name]}, own
                 if fits[best] > fits[name] + 1e-9 or not (heads[name] & near or case.record.lacking):
-                    told = f"beside words of {best}: {listed(sorted(known[best] & near))}" if fits[best] else "alone"
+                    told = f"beside words of {best}: {listed(sorted(own[best] & near))}" if fits[best] else "alone"
                     repair = f"correct the field, name it, or add the words that are beside it to `said` of {name}"
                     wanted = f"words of {name}: {listed(sorted(own[name]))}"
                     yield case.problem(where, f"{field[0]}, {told}", wanted, repair, quoted=field[0])

@@ -17,7 +17,7 @@ from clinic.record.case import Case
 from clinic.record.expression import parse
 from clinic.record.fields import ExpressionSignal, PathSignal
 from clinic.record.problem import Problem, listed
-from clinic.record.prose import CODE, FIELD, FORMULA
+from clinic.record.prose import FORMULA, bare
 from clinic.record.units import Unit, UnitError, powers_of, unit
 
 PLAIN = {
@@ -160,7 +160,7 @@ def written(case: Case, evidence: Evidence) -> Iterator[Problem]:
     units = {signal.unit for signal in case.record.signals.values()}
     for where, text in prose_of(case):
         units_here = units | {unit for name, unit in ATTRIBUTES.items() if f".{name}" in text}
-        for found in COMPOUND.finditer(CODE.sub("", FORMULA.sub("", FIELD.sub("x", text)))):
+        for found in COMPOUND.finditer(FORMULA.sub("", bare(text))):
             if found[0] not in units_here:
                 wanted = f"the unit of a signal: {listed(sorted(filter(None, units_here)))}"
                 yield case.problem(where, found[0], wanted, "correct the unit, or say it by a field", found[0])

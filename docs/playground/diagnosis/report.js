@@ -72,7 +72,7 @@ function finding(found, rules) {
   made.push(el("p", { class: "dg-place" }, where(found)), el("p", {}, found.says));
   if (change) made.push(el("p", {}, el("code", {}, change)));
   if (found.probe && found.unit !== "errors") {
-    const after = found.edit.length > 0 ? ` With the edit: ${shown(found.after, found.unit)}.` : "";
+    const after = found.after !== null ? ` With the edit: ${shown(found.after, found.unit)}.` : "";
     const begun = found.keyframe === null ? "" : `, from keyframe ${found.keyframe}`;
     made.push(el("p", {}, `${capital(found.probe)}${begun}: ${shown(found.before, found.unit)}.${after}`));
   }

@@ -68,7 +68,7 @@ class Diagnosis:
         engine: The release that ran it.
         file: The model.
         causes: Proved by an edit, the most telling first.
-        hints: What intent decides, or what no edit here mends.
+        hints: What intent decides, what no edit here mends, or what its rule finds too seldom to call a cause.
         silenced: What comments in the model silence (`ignores`).
         ruled_out: Rules that found nothing.
         error: Why it does not compile; empty where it does.
@@ -112,7 +112,7 @@ class Diagnosis:
             lines.append(f"   and {len(self.causes) - len(shown)} more: --all")
         for each in self.hints:
             place = (f"{each.file}:{each.line}" if each.line else "", _elements(each.elements))
-            lines.append(f"hint     {each.rule}  {'  '.join(filter(None, place))}: {each.says}")
+            lines.append(f"hint     {each.rule}  {'  '.join(filter(None, place))}: {each.says}{_tried(each)}")
         if not self.causes and not self.hints:
             tried = f"by {len(self.ruled_out)} rule{'s' * (len(self.ruled_out) > 1)}: {', '.join(self.ruled_out)}"
             lines.append(
@@ -189,6 +189,14 @@ def _cause(number: int, found: Finding) -> list[str]:
     if found.page:
         lines.append(f"{indent}{found.page}")
     return lines
+
+
+def _tried(hint: Finding) -> str:
+    """What a hint's edit does to its symptom, where it mends it."""
+    if hint.after is None:
+        return ""
+    numbers = " -> ".join(shown(value, hint.unit) for value in (hint.before, hint.after))
+    return f" With {hint.attribute} {hint.now} -> {hint.value}, {hint.probe}: {numbers}."
 
 
 def _elements(elements: Sequence[str]) -> str:

@@ -49,13 +49,14 @@ def judge(model: ReaderModel, rule: Rule, suspect: Suspect) -> Judged | None:
     before, key = model.measured(suspect.probe), model.start.key if model.start.key >= 0 else None
     if not before > suspect.limit:
         return None
-    if not suspect.edits or "hint" in (suspect.level, rule.level):
+    if not suspect.edits or suspect.level == "hint":
         return Judged(rule, suspect, "hint", before, None, key)
     after = model.measured(suspect.probe, suspect.edits)
     helps = after <= suspect.limit or (after <= suspect.share * before and math.isfinite(after))
-    if not helps or not _calm(model, suspect):
-        return None
-    return Judged(rule, suspect, "cause", before, after, key)
+    mends = helps and _calm(model, suspect)
+    if rule.level == "hint":
+        return Judged(rule, suspect, "hint", before, after if mends else None, key)
+    return Judged(rule, suspect, "cause", before, after, key) if mends else None
 
 
 def _calm(model: ReaderModel, suspect: Suspect) -> bool:
@@ -94,11 +95,11 @@ def _beats(one: Judged, other: Judged) -> bool:
 
 
 def order(found: Sequence[Judged], families: Sequence[str]) -> list[Judged]:
-    """The worst first; those of the symptom that the reader names before all others."""
+    """The worst first, after those that an edit mends; those of the symptom that the reader names before all others."""
 
-    def key(each: Judged) -> tuple[bool, float, float]:
+    def key(each: Judged) -> tuple[bool, bool, float, float]:
         named = bool(set(each.rule.families) & set(families))
-        return (not named, -each.severity, -each.suspect.excess)
+        return (not named, each.after is None, -each.severity, -each.suspect.excess)
 
     return sorted(found, key=key)
 

@@ -17,6 +17,7 @@ from typing import Any
 from clinic.diagnosis.bench.behaviour import Behaviour
 from clinic.diagnosis.bench.faults import DOES_NOT_COMPILE, Fault, Kind, kinds
 from clinic.diagnosis.bench.faults.servo import with_servos
+from clinic.diagnosis.bench.faults.twins import TWINS
 from clinic.diagnosis.bench.harm import HARMS
 from clinic.diagnosis.bench.healthy import Healthy
 from clinic.diagnosis.diagnose import examine, read_file
@@ -165,8 +166,9 @@ def _planted(model: Healthy, kind: Kind, random: Random, harmless: int) -> Plant
 
 
 def _right(finding: dict[str, Any], kind: Kind, fault: Fault, lines: set[tuple[str, int]]) -> bool:
-    """Whether a finding names the fault: by one of its rules, or its attribute, in the right place."""
-    what = finding["rule"] in kind.rules or (fault.attribute and finding["attribute"] == fault.attribute)
+    """Whether a finding names the fault: by one of its rules, its attribute or its twin, in the right place."""
+    named = finding["rule"] in (*kind.rules, *TWINS)
+    what = named or (fault.attribute and finding["attribute"] == fault.attribute)
     here = {tuple(line) for line in finding["lines"]} & lines or set(finding["elements"]) & set(fault.elements)
     return bool(what and (here or not fault.elements))
 

@@ -55,6 +55,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "Parts that overlap at the start"
 FAMILIES = ("jumps-at-start", "stuck", "explodes")
 SINCE = "0.2"
+LEVEL = "hint"
 CASE = "joint-snaps-at-start"
 
 MOST, LIMBS = 0.1, 3

@@ -26,18 +26,21 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: none; a file of that name is looked for below the model's folder and the one around it. Where there is none,
-this is a hint that says which file is missing.
+The number: none; a file of that name is looked for below the model's folder and the one around it, then one with
+nearly that name, or of another kind, that nothing else uses. Where there is none, this is a hint that says which file
+is missing.
 
-When it is wrong: several files may have the same name; the one with the most folders in common is taken.
+When it is wrong: several files may have the same name; the one with the most folders in common is taken. A name
+that is nearly the same may be another file.
 """
 
 from __future__ import annotations
 
+import difflib
 import os
 import posixpath
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 
 from clinic.diagnosis.edit import Edit, set_attribute
@@ -52,6 +55,7 @@ FAMILIES = ("will-not-compile",)
 SINCE = "0.2"
 
 MESSAGE = re.compile(r".*(?:opening file|resource not found[^']*|file not found[^']*|could not open[^']*) ?'([^']+)'")
+NEARLY = 0.7  # of the letters
 MOST = 20_000  # files that are looked at
 DEPTH = 4  # folders
 
@@ -98,14 +102,26 @@ def _moved(model: ReaderModel, element: Element) -> list[Edit]:
         return []
     base = posixpath.basename(file.replace("\\", "/"))
     files = _files(os.getcwd())
-    alike = [name for name in nearest(base, files) if name.lower() == base.lower()]
-    there = files.get(base) or [path for name in alike for path in files[name]]
+    there = files.get(base) or [path for name in _alike(model, base, files) for path in files[name]]
     if not there:
         return []
     parts = set(file.split("/"))
     best = max(there, key=lambda path: (len(parts & set(path.split("/"))), -len(path)))
     attribute = "file" if "file" in element.attributes else "filename"
     return [set_attribute(element, attribute, posixpath.relpath(best, folder or "."))]
+
+
+def _alike(model: ReaderModel, base: str, files: Iterable[str]) -> list[str]:
+    """The file that the name may mean: the same but for case, or nearly so, of its kind and used by nothing else."""
+    assert model.source is not None
+    used = {posixpath.basename(_file(each)) for each in model.source.root.walk()}
+    stem, _, ending = base.rpartition(".")
+    for name in nearest(base, files):
+        near, _, other = name.rpartition(".")
+        alike = near == stem or (other == ending and difflib.SequenceMatcher(None, near, stem).ratio() > NEARLY)
+        if name.lower() == base.lower() or (alike and name not in used):
+            return [name]
+    return []
 
 
 def _folder(model: ReaderModel, element: Element) -> str:

@@ -55,6 +55,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "Damping or friction holds a joint"
 FAMILIES = ("stuck", "sags")
 SINCE = "0.2"
+LEVEL = "hint"
 
 FIELDS = ("damping", "frictionloss")
 SLOW = 0.5  # rad/s or m/s that full force reaches

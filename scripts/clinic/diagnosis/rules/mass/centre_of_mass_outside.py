@@ -28,7 +28,7 @@ Good:
     </mujoco>
 
 The number: how far outside of the box around the geoms, in half lengths of that box. 0 for 95 % of 1475 bodies in
-healthy models; 0.5 for one body of five and more, else 2.5, tell a cause. Bodies of less than 1 % of the moving mass
+healthy models; 0.5 for one body of five and more, else 2.5, are told. Bodies of less than 1 % of the moving mass
 are left alone.
 
 When it is wrong: a body that is drawn only in part.
@@ -47,6 +47,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "The centre of mass is outside of the body"
 FAMILIES = ("drifts", "sags")
 SINCE = "0.2"
+LEVEL = "hint"
 
 LIMIT, LIGHT = 0.5, 0.01
 FAR = 1.5  # where a unit is wrong, whatever the other bodies are like

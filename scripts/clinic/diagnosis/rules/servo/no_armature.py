@@ -44,6 +44,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.probes.matter import explicit
 from clinic.diagnosis.probes.run import fastest
 from clinic.diagnosis.probes.shake import SHAKES, shake
@@ -83,7 +84,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         edits += model.set("joint", [joint], "armature", f"{value:.1g}")
     joint, worst = max(found.items(), key=lambda each: _excess(each[1], step))
     kp, kv, inertia = worst
-    probe = next((each for each in (fastest(), shake()) if model.measured(each) > FAST), shake())
+    probe = next((each for each in (fastest(), shake(), commanded()) if model.measured(each) > FAST), shake())
     yield Suspect(
         tuple(simulation.name("joint", each) for each in found),
         "armature",
@@ -91,7 +92,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         next((each.value for each in edits), ""),
         tuple(edits),
         probe,
-        FAST if probe == fastest() else SHAKES,
+        SHAKES if probe == shake() else FAST,
         f"At {simulation.name('joint', joint)}: kv {kv:.3g} and kp {kp:.3g} on an inertia of {inertia:.2g} are "
         f"h kv / M = {step * kv / inertia:.3g} and h^2 kp / M = {step**2 * kp / inertia:.3g}.",
         "h kv / M < 2, h^2 kp / M < 4 (explicit integration)",
@@ -107,7 +108,7 @@ def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
     bare = [joint for joint in driven if joint is not None and of.model("dof_armature")[of.dof(joint)] == 0]
     bare = [joint for joint in bare if of.model("jnt_bodyid")[joint] not in thin]
     light = sorted(joint for joint in bare if inertia[of.dof(joint)] < ROTOR and not of.model("jnt_stiffness")[joint])
-    probe = next((each for each in (fastest(), shake()) if model.measured(each) > FAST), None)
+    probe = next((each for each in (fastest(), shake(), commanded()) if model.measured(each) > FAST), None)
     if not light or probe is None or of.timestep > 2 * USUAL:
         return
     least = min(inertia[of.dof(joint)] for joint in light)

@@ -47,6 +47,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "The timestep is too long"
 FAMILIES = ("explodes", "oscillates", "falls-through")
 SINCE = "0.2"
+LEVEL = "hint"
 
 FAST = 100.0  # rad/s
 SUNK = 0.05  # of the model's extent

@@ -109,6 +109,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "The actuator of a pair is unlike its twin"
 FAMILIES = ("stuck", "drifts", "oscillates", "sags")
 SINCE = "0.2"
+LEVEL = "hint"
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -93,6 +93,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "A part is not the mirror image of its twin"
 FAMILIES = ("drifts", "falls-through", "slips", "camera")
 SINCE = "0.2"
+LEVEL = "hint"
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -73,3 +73,28 @@ def _commanded(simulation: Simulation) -> float:
 def commanded() -> Probe:
     """The highest speed while all controls are at the upper ends of their ranges, then at the lower ones."""
     return Probe("fastest joint with all controls at the ends of their ranges", "rad/s", _commanded)
+
+
+def _to_and_fro(simulation: Simulation) -> float:
+    limited = simulation.model("actuator_ctrllimited")
+    ranges = [simulation.row("actuator_ctrlrange", i, 2) if on else (-1.0, 1.0) for i, on in enumerate(limited)]
+    if not ranges:
+        return 0.0
+    if simulation.steps(SECONDS) * simulation.timestep < 0.9 * SECONDS:  # more steps than are waited for
+        return math.inf
+    simulation.begin()
+    deepest = 0.0
+    for time in simulation.run(SECONDS):
+        for actuator, (low, high) in enumerate(ranges):
+            side = math.copysign(0.25, math.sin(2 * math.pi * (1 + actuator % 3) * time + 0.3))
+            simulation.engine.write("ctrl", [(low + high) / 2 + side * (high - low)], actuator)
+        if simulation.unstable():
+            return math.inf
+        deepest = max([deepest, *(-contact.distance for contact in simulation.engine.contacts())])
+    return deepest / max(simulation.model("stat.extent")[0], 1e-9)
+
+
+def pressed_in() -> Probe:
+    """How deep the deepest contact is while every actuator goes to and fro over half of its range."""
+    title = "deepest contact while the actuators go to and fro over half of their ranges"
+    return Probe(title, "of the model's extent", _to_and_fro)

@@ -51,6 +51,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "The control range goes beyond the joint's range"
 FAMILIES = ("passes-limit", "stuck", "explodes")
 SINCE = "0.2"
+LEVEL = "hint"
 CASE = "finger-passes-its-limit"
 
 BEYOND = 0.25  # of the joint's range

@@ -28,8 +28,9 @@ Good:
     </mujoco>
 
 The number: the fastest joint within 2 s after letting go (100 rad/s are 16 turns a second), or, where that is calm, how
-much a joint's speed jumps to and fro from step to step after a nudge. Of the steps that are tried (a half, a quarter,
-an eighth, a sixteenth) the longest that brings it to a tenth is told.
+much a joint's speed jumps to and fro from step to step after a nudge, how fast it is under command, and how deep
+contacts are. Of the steps that are tried (a half, a quarter, and so on) the longest that brings it to a tenth is told,
+of a depth under command to a third.
 
 When it is wrong: something that is meant to spin fast. A gain or a spring that shakes at 2 ms too is the fault itself.
 """
@@ -38,7 +39,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.drive import commanded
+from clinic.diagnosis.probes.drive import commanded, pressed_in
 from clinic.diagnosis.probes.run import fastest, sunk
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
@@ -47,23 +48,29 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "The timestep is too long"
 FAMILIES = ("explodes", "oscillates", "falls-through")
 SINCE = "0.2"
-LEVEL = "hint"
 
 FAST = 100.0  # rad/s
-SUNK = 0.05  # of the model's extent
+SUNK, PRESSED = 0.05, 0.035  # of the model's extent
+TENTH, THIRD = 0.1, 1 / 3  # what is left of a symptom that is gone; contacts are never without depth
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The timestep, where letting go makes something fast, or a nudge makes it rattle."""
     step = model.simulation.timestep
-    for probe, limit in ((fastest(), FAST), (shake(), SHAKES), (commanded(), FAST), (sunk(), SUNK)):
+    for probe, limit, share in (
+        (fastest(), FAST, TENTH),
+        (shake(), SHAKES, TENTH),
+        (commanded(), FAST, TENTH),
+        (sunk(), SUNK, TENTH),
+        (pressed_in(), PRESSED, THIRD),
+    ):
         before = model.measured(probe)
         if before <= limit:
             continue
         for divisor in (2, 4, 8, 16, 32, 64):
             edits = model.option("timestep", f"{step / divisor:g}")
-            if model.measured(probe, edits) <= min(limit, 0.1 * before):
+            if model.measured(probe, edits) <= min(limit, share * before):
                 says = f"At {step / divisor:g} s the same motion stays calm."
                 now, value = f"{step:g}", f"{step / divisor:g}"
-                yield Suspect(("the timestep",), "timestep", now, value, edits, probe, limit, says, share=0.1)
+                yield Suspect(("the timestep",), "timestep", now, value, edits, probe, limit, says, share=share)
                 return

@@ -17,6 +17,7 @@ MENDED = {  # messages that no rule mends, with the reason
     "file-not-found": "a file that is nowhere",
     "include-not-found": "a file that is nowhere",
 }
+CORNER = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
 COMPILED = [message for message in load_messages() if message.xml is not None]
 
 
@@ -55,11 +56,21 @@ def test_three_mistakes_are_named_in_turn_and_mended_together(tmp_path, monkeypa
 def test_a_file_elsewhere_below_the_folder_is_found(tmp_path, monkeypatch):
     meshes = tmp_path / "around" / "model" / "meshes"
     meshes.mkdir(parents=True)
-    corner = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
-    (meshes / "part.obj").write_text(corner)
+    (meshes / "part.obj").write_text(CORNER)
     text = '<mujoco><asset><mesh name="part" file="Part.obj"/></asset><worldbody/></mujoco>'
     (found,) = diagnosed(text, tmp_path, monkeypatch).causes
     assert (found.rule, found.value) == ("missing-file", "meshes/part.obj")
+
+
+@pytest.mark.parametrize(("there", "cause"), [("wedge.obj", True), ("wedge_v2.xml", False), ("pyramid.obj", False)])
+def test_a_file_of_nearly_the_same_name_and_the_same_kind_is_meant(tmp_path, monkeypatch, there, cause):
+    folder = tmp_path / "around" / "model"
+    folder.mkdir(parents=True)
+    (folder / there).write_text(CORNER)
+    text = '<mujoco><asset><mesh name="part" file="wedge_v2.obj"/></asset><worldbody/></mujoco>'
+    found = diagnosed(text, tmp_path, monkeypatch)
+    assert [each.value for each in found.causes] == [there] * cause
+    assert bool(found.hints) != cause
 
 
 def test_a_file_that_is_nowhere_is_a_hint(tmp_path, monkeypatch):

@@ -27,8 +27,7 @@ Good:
     </mujoco>
 
 The number: none; a file of that name is looked for below the model's folder and the one around it, then one with
-nearly that name, or of another kind, that nothing else uses. Where there is none, this is a hint that says which file
-is missing.
+nearly that name that nothing else uses. Where there is none, this is a hint that says which file is missing.
 
 When it is wrong: several files may have the same name; the one with the most folders in common is taken. A name
 that is nearly the same may be another file.
@@ -70,9 +69,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     ill = [each for each in named if posixpath.basename(_file(each)) == base]
     if not ill:
         return
-    edits: list[Edit] = []
-    for element in named:
-        edits += _moved(model, element)
+    edits = [edit for element in named for edit in _moved(model, element)]
+    guessed = [edit for element in named for edit in _moved(model, element, nearly=True)]
+    if guessed != edits and model.measured(COMPILES, guessed) == 0:
+        edits = guessed
     first = ill[0]
     if any(each.start == first.start for each in edits) or _directory(model, first) in {each.start for each in edits}:
         edits.sort(key=lambda each: each.start != first.start)
@@ -94,15 +94,15 @@ def _directory(model: ReaderModel, element: Element) -> int:
     return compiler.start if compiler else -1
 
 
-def _moved(model: ReaderModel, element: Element) -> list[Edit]:
-    """The edit that points at a file that exists; none where it does already, or nowhere."""
+def _moved(model: ReaderModel, element: Element, nearly: bool = False) -> list[Edit]:
+    """The edit that points at a file that exists, of `nearly` that name too; none where it does already, or nowhere."""
     file = _file(element)
     folder = _folder(model, element)
     if os.path.exists(posixpath.join(folder, file)):
         return []
     base = posixpath.basename(file.replace("\\", "/"))
     files = _files(os.getcwd())
-    there = files.get(base) or [path for name in _alike(model, base, files) for path in files[name]]
+    there = files.get(base) or [path for name in _alike(model, base, files, nearly) for path in files[name]]
     if not there:
         return []
     parts = set(file.split("/"))
@@ -111,15 +111,15 @@ def _moved(model: ReaderModel, element: Element) -> list[Edit]:
     return [set_attribute(element, attribute, posixpath.relpath(best, folder or "."))]
 
 
-def _alike(model: ReaderModel, base: str, files: Iterable[str]) -> list[str]:
+def _alike(model: ReaderModel, base: str, files: Iterable[str], nearly: bool) -> list[str]:
     """The file that the name may mean: the same but for case, or nearly so, of its kind and used by nothing else."""
     assert model.source is not None
     used = {posixpath.basename(_file(each)) for each in model.source.root.walk()}
     stem, _, ending = base.rpartition(".")
     for name in nearest(base, files):
         near, _, other = name.rpartition(".")
-        alike = near == stem or (other == ending and difflib.SequenceMatcher(None, near, stem).ratio() > NEARLY)
-        if name.lower() == base.lower() or (alike and name not in used):
+        alike = other == ending and difflib.SequenceMatcher(None, near, stem).ratio() > NEARLY
+        if name.lower() == base.lower() or (nearly and alike and name not in used):
             return [name]
     return []
 

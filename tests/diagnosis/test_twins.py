@@ -136,13 +136,17 @@ def legs(calf: str = "0.02 0.02 0.06", mass: str = "0.2", knee: str = "0 0 -0.21
 
 
 @pytest.mark.parametrize(
-    ("change", "attribute"),
-    [({"calf": "0.02 0.02 0.09"}, "size"), ({"mass": "0.24"}, "mass"), ({"knee": "0 0 -0.29"}, "pos")],
+    ("change", "attribute", "level"),
+    [
+        ({"calf": "0.02 0.02 0.09"}, "size", "hint"),
+        ({"mass": "0.24"}, "mass", "cause"),
+        ({"knee": "0 0 -0.29"}, "pos", "hint"),
+    ],
 )
-def test_the_leg_that_three_others_outvote_is_the_odd_one(change, attribute):
+def test_the_leg_that_three_others_outvote_is_the_odd_one(change, attribute, level):
     found = diagnosed(legs(**change))
     (odd_one,) = (*found.causes, *found.hints)
-    assert odd_one.attribute == attribute
+    assert (odd_one.attribute, odd_one.level) == (attribute, level)
     assert "RL_calf" in " ".join(odd_one.elements)
     assert len(odd_one.elements) == 1
 

@@ -54,9 +54,9 @@ def judge(model: ReaderModel, rule: Rule, suspect: Suspect) -> Judged | None:
     after = model.measured(suspect.probe, suspect.edits)
     helps = after <= suspect.limit or (after <= suspect.share * before and math.isfinite(after))
     mends = helps and _calm(model, suspect)
-    if rule.level == "hint":
-        return Judged(rule, suspect, "hint", before, after if mends else None, key)
-    return Judged(rule, suspect, "cause", before, after, key) if mends else None
+    if not mends and rule.level == "cause":
+        return None
+    return Judged(rule, suspect, rule.level, before, after if mends else None, key)
 
 
 def _calm(model: ReaderModel, suspect: Suspect) -> bool:

@@ -114,6 +114,8 @@ def finding(**changes: object) -> dict[str, object]:
         ({"elements": [], "lines": [["m.xml", 8]]}, False),
         ({"rule": "weak-servo"}, False),
         ({"rule": "weak-servo", "attribute": "kp"}, True),
+        ({"rule": "twin-joint-differs"}, True),
+        ({"rule": "twin-joint-differs", "elements": ['joint "elbow"']}, False),
     ],
 )
 def test_a_finding_is_right_about_what_was_planted_where_it_was(changes, right):
@@ -126,3 +128,10 @@ def test_changed_lines_are_those_of_the_planted_text():
     assert trial._changed_lines({"m": before}, {"m": "a\nX\nc\nd\n"}) == {("m", 2)}
     assert trial._changed_lines({"m": before}, {"m": "a\nb\nX\nY\nc\nd\n"}) == {("m", 3), ("m", 4)}
     assert trial._changed_lines({"m": before}, {"m": "a\nc\nd\n"}) & {("m", 1), ("m", 2)}
+
+
+@pytest.mark.parametrize(("rule", "right"), [("gravity", True), ("twin-joint-differs", False)])
+def test_a_twin_is_no_answer_to_a_fault_of_the_whole_model(rule, right):
+    fault = Fault((), (), "gravity")
+    told = finding(rule=rule, attribute="gravity" if rule == "gravity" else "")
+    assert trial._right(told, kinds()["gravity-wrong"], fault, set()) == right

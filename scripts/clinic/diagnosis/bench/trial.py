@@ -167,10 +167,9 @@ def _planted(model: Healthy, kind: Kind, random: Random, harmless: int) -> Plant
 
 def _right(finding: dict[str, Any], kind: Kind, fault: Fault, lines: set[tuple[str, int]]) -> bool:
     """Whether a finding names the fault: by one of its rules, its attribute or its twin, in the right place."""
-    named = finding["rule"] in (*kind.rules, *TWINS)
-    what = named or (fault.attribute and finding["attribute"] == fault.attribute)
+    what = finding["rule"] in kind.rules or (fault.attribute and finding["attribute"] == fault.attribute)
     here = {tuple(line) for line in finding["lines"]} & lines or set(finding["elements"]) & set(fault.elements)
-    return bool(what and (here or not fault.elements))
+    return bool((what and not fault.elements) or (here and (what or finding["rule"] in TWINS)))
 
 
 def _diagnosed(texts: Mapping[str, str]) -> Told:

@@ -56,13 +56,17 @@ def way_left(joints: tuple[int, ...]) -> Probe:
     return Probe(title, "", _left, (joints,))
 
 
+def _ranges(simulation: Simulation) -> list[tuple[float, ...]]:
+    """The lowest and the highest control of each actuator; -1 and 1 where it has no range."""
+    limited = simulation.model("actuator_ctrllimited")
+    return [tuple(simulation.row("actuator_ctrlrange", i, 2)) if on else (-1.0, 1.0) for i, on in enumerate(limited)]
+
+
 def _commanded(simulation: Simulation) -> float:
     made = 0.0
     for end in (1, 0):
         simulation.begin()
-        for actuator, limited in enumerate(simulation.model("actuator_ctrllimited")):
-            ends = simulation.row("actuator_ctrlrange", actuator, 2) if limited else (-1.0, 1.0)
-            simulation.engine.write("ctrl", [ends[end]], actuator)
+        simulation.engine.write("ctrl", [ends[end] for ends in _ranges(simulation)], 0)
         for _ in simulation.run(SECONDS, samples=20):
             if simulation.unstable():
                 return math.inf
@@ -76,18 +80,14 @@ def commanded() -> Probe:
 
 
 def _to_and_fro(simulation: Simulation) -> float:
-    limited = simulation.model("actuator_ctrllimited")
-    ranges = [simulation.row("actuator_ctrlrange", i, 2) if on else (-1.0, 1.0) for i, on in enumerate(limited)]
+    ranges, deepest = _ranges(simulation), 0.0
     if not ranges:
         return 0.0
-    if simulation.steps(SECONDS) * simulation.timestep < 0.9 * SECONDS:  # more steps than are waited for
-        return math.inf
     simulation.begin()
-    deepest = 0.0
     for time in simulation.run(SECONDS):
-        for actuator, (low, high) in enumerate(ranges):
-            side = math.copysign(0.25, math.sin(2 * math.pi * (1 + actuator % 3) * time + 0.3))
-            simulation.engine.write("ctrl", [(low + high) / 2 + side * (high - low)], actuator)
+        sides = [math.copysign(0.25, math.sin(2 * math.pi * (1 + i % 3) * time + 0.3)) for i in range(len(ranges))]
+        controls = [(low + high) / 2 + side * (high - low) for side, (low, high) in zip(sides, ranges, strict=True)]
+        simulation.engine.write("ctrl", controls, 0)
         if simulation.unstable():
             return math.inf
         deepest = max([deepest, *(-contact.distance for contact in simulation.engine.contacts())])

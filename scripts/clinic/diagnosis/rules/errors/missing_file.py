@@ -39,13 +39,13 @@ import difflib
 import os
 import posixpath
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from functools import cache
 
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.probes.compiled import COMPILES
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.errors._message import mends, nearest, sentence, told
+from clinic.diagnosis.rules.errors._message import mends, sentence, told
 from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect
 
@@ -69,11 +69,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     ill = [each for each in named if posixpath.basename(_file(each)) == base]
     if not ill:
         return
-    edits = [edit for element in named for edit in _moved(model, element)]
-    guessed = [edit for element in named for edit in _moved(model, element, nearly=True)]
-    if guessed != edits and model.measured(COMPILES, guessed) == 0:
-        edits = guessed
+    edits = [edit for element in named for edit in _moved(model, element, _called(_file(element)))]
     first = ill[0]
+    if not any(each.start == first.start for each in edits):
+        nearly = _nearly_called(base, {posixpath.basename(_file(each)) for each in named})
+        guessed = edits + [edit for element in ill for edit in _moved(model, element, nearly)]
+        edits = guessed if nearly and model.measured(COMPILES, guessed) == 0 else edits
     if any(each.start == first.start for each in edits) or _directory(model, first) in {each.start for each in edits}:
         edits.sort(key=lambda each: each.start != first.start)
         says = f"{found.group(1)} is not there; {edits[0].value} is."
@@ -94,16 +95,10 @@ def _directory(model: ReaderModel, element: Element) -> int:
     return compiler.start if compiler else -1
 
 
-def _moved(model: ReaderModel, element: Element, nearly: bool = False) -> list[Edit]:
-    """The edit that points at a file that exists, of `nearly` that name too; none where it does already, or nowhere."""
-    file = _file(element)
-    folder = _folder(model, element)
-    if os.path.exists(posixpath.join(folder, file)):
-        return []
-    base = posixpath.basename(file.replace("\\", "/"))
-    files = _files(os.getcwd())
-    there = files.get(base) or [path for name in _alike(model, base, files, nearly) for path in files[name]]
-    if not there:
+def _moved(model: ReaderModel, element: Element, there: Sequence[str]) -> list[Edit]:
+    """The edit that points at the likeliest of some paths; none where the element's own exists, or there is no path."""
+    file, folder = _file(element), _folder(model, element)
+    if not there or os.path.exists(posixpath.join(folder, file)):
         return []
     parts = set(file.split("/"))
     best = max(there, key=lambda path: (len(parts & set(path.split("/"))), -len(path)))
@@ -111,17 +106,18 @@ def _moved(model: ReaderModel, element: Element, nearly: bool = False) -> list[E
     return [set_attribute(element, attribute, posixpath.relpath(best, folder or "."))]
 
 
-def _alike(model: ReaderModel, base: str, files: Iterable[str], nearly: bool) -> list[str]:
-    """The file that the name may mean: the same but for case, or nearly so, of its kind and used by nothing else."""
-    assert model.source is not None
-    used = {posixpath.basename(_file(each)) for each in model.source.root.walk()}
-    stem, _, ending = base.rpartition(".")
-    for name in nearest(base, files):
-        near, _, other = name.rpartition(".")
-        alike = other == ending and difflib.SequenceMatcher(None, near, stem).ratio() > NEARLY
-        if name.lower() == base.lower() or (nearly and alike and name not in used):
-            return [name]
-    return []
+def _called(file: str) -> list[str]:
+    """The paths of the files of that name, or else of that name but for case."""
+    base, files = posixpath.basename(file.replace("\\", "/")), _files(os.getcwd())
+    return files.get(base) or [path for name in files if name.lower() == base.lower() for path in files[name]]
+
+
+def _nearly_called(base: str, used: Collection[str]) -> list[str]:
+    """The paths of the file of the same kind whose name is most like this one, of those that are not used."""
+    stem, ending = posixpath.splitext(base)
+    files = _files(os.getcwd())
+    kin = {posixpath.splitext(name)[0]: name for name in files if name.endswith(ending) and name not in used}
+    return [path for like in difflib.get_close_matches(stem, kin, 1, NEARLY) for path in files[kin[like]]]
 
 
 def _folder(model: ReaderModel, element: Element) -> str:

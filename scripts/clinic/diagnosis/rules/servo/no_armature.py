@@ -50,7 +50,7 @@ from clinic.diagnosis.probes.run import fastest
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A gain too high for a joint without armature"
 FAMILIES = ("explodes", "oscillates")
@@ -84,7 +84,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         edits += model.set("joint", [joint], "armature", f"{value:.1g}")
     joint, worst = max(found.items(), key=lambda each: _excess(each[1], step))
     kp, kv, inertia = worst
-    probe = next((each for each in (fastest(), shake(), commanded()) if model.measured(each) > FAST), shake())
+    probe = _symptom(model) or shake()
     yield Suspect(
         tuple(simulation.name("joint", each) for each in found),
         "armature",
@@ -108,7 +108,7 @@ def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
     bare = [joint for joint in driven if joint is not None and of.model("dof_armature")[of.dof(joint)] == 0]
     bare = [joint for joint in bare if of.model("jnt_bodyid")[joint] not in thin]
     light = sorted(joint for joint in bare if inertia[of.dof(joint)] < ROTOR and not of.model("jnt_stiffness")[joint])
-    probe = next((each for each in (fastest(), shake(), commanded()) if model.measured(each) > FAST), None)
+    probe = _symptom(model)
     if not light or probe is None or of.timestep > 2 * USUAL:
         return
     least = min(inertia[of.dof(joint)] for joint in light)
@@ -126,6 +126,11 @@ def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
         share=0.1,
         excess=2.0,
     )
+
+
+def _symptom(model: ReaderModel) -> Probe | None:
+    """Where it shows first: let go, after a nudge, or under command."""
+    return next((each for each in (fastest(), shake(), commanded()) if model.measured(each) > FAST), None)
 
 
 def _gains(simulation: Simulation) -> dict[int, tuple[float, float, float]]:

@@ -14,7 +14,7 @@ from clinic.record.families import families
 from clinic.work.cache import Cache
 from helpers import MODEL, PENDULUM, RECORD, RESTING, changed, write_case
 
-LINES = 50
+LINES = 55
 FAMILY = "family: sinks\ntelling: {{cause: masks, says: contacts, expr: data.ncon, {}{}}}\n"
 
 

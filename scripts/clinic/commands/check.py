@@ -45,7 +45,7 @@ class Report:
     @property
     def grade(self) -> str | None:
         """A, or B where the record is without something that A asks for; None if it could not be read."""
-        return None if self.case is None else "B" if self.case.record.lacking else "A"
+        return None if self.case is None else "B" if self.case.lacking else "A"
 
 
 def check_cases(root: Path, slugs: Iterable[str], cache: Cache) -> Iterator[Report]:

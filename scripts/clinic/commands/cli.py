@@ -102,6 +102,16 @@ def _require_engine() -> None:
         sys.exit(f"clinic: {told}")
 
 
+@app.command()
+def claims(slug: Slug) -> None:
+    """Print the sentences of a case that its claims.yaml lacks, for that file."""
+    from clinic.proof.claims import missing
+    from clinic.record.case import load_case
+
+    (folder,) = folders(cases_root(), [slug])
+    print(missing(load_case(folder)))
+
+
 @app.command(name="list")
 def list_cases(as_json: AsJson = False) -> None:
     """List the cases by number."""

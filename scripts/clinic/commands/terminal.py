@@ -51,7 +51,7 @@ def reports_table(reports: Iterable[Report]) -> Table:
         number = str(report.case.record.number or "") if report.case else ""
         counts = {"mistake": len(report.problems), "broken law": len(report.breaches)}
         wrong = ", ".join(f"{count} {noun}{'s' * (count > 1)}" for noun, count in counts.items() if count)
-        lacking = f": no {' and no '.join(report.case.record.lacking)}" if report.grade == "B" and report.case else ""
+        lacking = f": no {' and no '.join(report.case.lacking)}" if report.grade == "B" and report.case else ""
         result = Text(wrong, "red") if wrong else Text(f"sound, grade {report.grade}{lacking}", "green")
         table.add_row(number, report.slug, str(len(made) or ""), str(checks or ""), result)
     return table

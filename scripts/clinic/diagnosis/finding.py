@@ -61,6 +61,23 @@ class Finding:
 
 
 @dataclass(frozen=True)
+class Measured:
+    """What the program of a symptom's page says of a model (`proof/procedure.py`).
+
+    Attributes:
+        family: The symptom.
+        values: What each case's measurement gives, by case.
+        told: The cases whose measurements apply.
+        printed: The program's lines; why it ended, where it did not go through.
+    """
+
+    family: str
+    values: Mapping[str, float]
+    told: tuple[str, ...]
+    printed: str
+
+
+@dataclass(frozen=True)
 class Diagnosis:
     """What was found in a model.
 
@@ -74,6 +91,7 @@ class Diagnosis:
         error: Why it does not compile; empty where it does.
         texts: The model's texts by file.
         fixed: The same with the edits of all causes that go together.
+        measured: What the measurements of the symptom that the reader names give; None without one.
     """
 
     engine: str
@@ -85,6 +103,7 @@ class Diagnosis:
     error: str = ""
     texts: Mapping[str, str] = field(default_factory=dict)
     fixed: Mapping[str, str] = field(default_factory=dict)
+    measured: Measured | None = None
 
     def data(self) -> dict[str, Any]:
         """The public contract, as JSON has it."""
@@ -96,6 +115,7 @@ class Diagnosis:
             "silenced": [each.data() for each in self.silenced],
             "ruled_out": list(self.ruled_out),
             "error": self.error,
+            "measured": asdict(self.measured) if self.measured else None,
         }
 
     def diff(self) -> str:
@@ -123,6 +143,9 @@ class Diagnosis:
         if self.silenced:
             told = (f"{each.rule} {each.file}" + (f":{each.line}" if each.line else "") for each in self.silenced)
             lines.append(f"silenced ({len(self.silenced)}): {', '.join(told)}")
+        if self.measured:
+            lines.append(f"{self.measured.family}, measured in this model as on the symptom's page:")
+            lines += [f"   {line}" for line in self.measured.printed.splitlines()]
         return "\n".join(lines)
 
 

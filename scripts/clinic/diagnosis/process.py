@@ -17,10 +17,12 @@ from clinic.diagnosis.diagnose import examine, read_file
 from clinic.diagnosis.finding import Diagnosis, ending
 from clinic.diagnosis.simulation import Start, StartError
 from clinic.diagnosis.source import read_texts
+from clinic.diagnosis.symptom import code_of, measure
 
 LIMIT = 60.0  # s, for one process
 MEMORY = 4 * 2**30  # bytes
 DEATHS = 5  # of the engine, after which the diagnosis ends
+MEASURING = "what the symptom's page measures"
 CHILD = (sys.executable, "-m", "clinic.diagnosis.process")
 
 
@@ -37,6 +39,7 @@ class Request:
     folder: str
     assets: Mapping[str, bytes]
     symptom: str
+    measurement: str
     start: Start | None
     select: tuple[str, ...]
     ignore: tuple[str, ...]
@@ -58,7 +61,8 @@ def diagnose(
         source: The path of an MJCF or URDF file; a text, which begins with `<`; an `mujoco.MjSpec`; or a pair of an
             `mujoco.MjModel` and the path or text that it was compiled from.
         assets: Files that the model names, by name, where they lie on no disk.
-        symptom: The family of symptoms that is seen (`clinic/record/families.toml`).
+        symptom: The family of symptoms that is seen (`clinic/record/families.toml`); its causes come first, and what
+            the program of its page measures is told with them.
         start: Keyframe, controls, duration and seed; where left out, the model's start, and then its first keyframe.
         select: Rules to try; all where empty.
         ignore: Rules not to try.
@@ -69,7 +73,7 @@ def diagnose(
     """
     text, name, folder = _read(source)
     given = {key: value if isinstance(value, bytes) else str(value).encode() for key, value in (assets or {}).items()}
-    request = Request(text, name, folder, given, symptom, start, tuple(select), tuple(ignore))
+    request = Request(text, name, folder, given, symptom, code_of(symptom), start, tuple(select), tuple(ignore))
     died: dict[str, str] = {}
     while True:
         made, trying, said = _asked(replace(request, ignore=(*request.ignore, *died)), tell)
@@ -161,9 +165,10 @@ def main() -> None:
         there = request.assets.get(name)
         return there.decode(errors="replace") if there is not None else read_file(name)
 
+    engine = NativeEngine(request.assets)
     try:
         made = examine(
-            NativeEngine(request.assets),
+            engine,
             read_texts(request.text, request.name, read),
             symptom=request.symptom,
             start=request.start,
@@ -171,6 +176,10 @@ def main() -> None:
             ignore=request.ignore,
             tell=lambda rule: print(f"trying {rule}", flush=True),
         )
+        if request.measurement and not made.error and MEASURING not in request.ignore:
+            print(f"trying {MEASURING}", flush=True)
+            told = measure(request.symptom, request.measurement, engine, made.texts, request.start)
+            made = replace(made, measured=told)
     except (MemoryError, RecursionError) as error:
         print(f"wrong {request.name}: {type(error).__name__}: the model is too large", flush=True)
         return

@@ -15,7 +15,7 @@ from pydantic import TypeAdapter
 
 from clinic.diagnosis.bench.lock import Kept, score
 from clinic.diagnosis.diagnose import examine
-from clinic.diagnosis.finding import Diagnosis, Finding
+from clinic.diagnosis.finding import Diagnosis, Finding, Measured
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import Rule, rules
 from clinic.pages.benchmark import benchmark
@@ -62,7 +62,7 @@ def diagnosis_schema() -> dict[str, Any]:
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "A diagnosis",
         "type": "object",
-        "required": ["engine", "file", "causes", "hints", "silenced", "ruled_out", "error"],
+        "required": ["engine", "file", "causes", "hints", "silenced", "ruled_out", "error", "measured"],
         "properties": {
             "engine": {"type": "string", "description": "The release of MuJoCo that ran the model."},
             "file": {"type": "string"},
@@ -71,8 +71,9 @@ def diagnosis_schema() -> dict[str, Any]:
             "silenced": {**several, "description": "Causes and hints that comments in the model silence."},
             "ruled_out": {"type": "array", "items": {"type": "string"}},
             "error": {"type": "string", "description": "Why it does not compile; empty where it does."},
+            "measured": {"anyOf": [{"$ref": "#/$defs/Measured"}, {"type": "null"}]},
         },
-        "$defs": {**parts, "Finding": finding},
+        "$defs": {**parts, "Finding": finding, "Measured": TypeAdapter(Measured).json_schema()},
     }
 
 

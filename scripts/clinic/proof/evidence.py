@@ -96,6 +96,7 @@ class Evidence(Strict):
         robustness: How firmly each variant's verdict stands; empty for a code case.
         releases: What each variant does on other releases of MuJoCo; empty if the case has changed since.
         loose: The numbers that no check notices when they are halved or doubled; None where it was not asked.
+        claims: The claims of the prose whose code does not hold, by number; None where it was not asked.
     """
 
     case: str
@@ -108,6 +109,7 @@ class Evidence(Strict):
     robustness: dict[str, Robustness] = Field(default={})
     releases: dict[str, Any] = Field(default={})
     loose: list[Loose] | None = None
+    claims: dict[int, str] | None = None
 
 
 def collect(case: Case) -> Evidence:

@@ -14,6 +14,7 @@ from pydantic_core import to_json
 
 from clinic.engine import node
 from clinic.engine.script import ScriptError
+from clinic.proof.claims import unshown
 from clinic.proof.evidence import Evidence, collect, missing_requirement
 from clinic.proof.model_problems import check_against_model
 from clinic.proof.procedure import (
@@ -39,9 +40,10 @@ WORDS = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "n
 WORDS |= {"tags", "phrases", "family", "manual", "see", "telling", "exempt", "mentions", "loose"}
 ANSWERS = TypeAdapter(dict[str, Answer])
 ROBUST = TypeAdapter(dict[str, Robustness])
+CLAIMED = TypeAdapter(dict[int, str] | None)
 LOOSE = TypeAdapter(list[Loose] | None)
 SHOWN = ("sweeps", "robustness")  # what a page shows, beside the variants
-ALL = (*SHOWN, "tightness")
+ALL = (*SHOWN, "tightness", "claims")
 
 
 def measure_cases(
@@ -55,6 +57,8 @@ def measure_cases(
     first, problems = run_tasks([evidence_task(case) for case in cases], cache)
     cases = [case for case in cases if EVIDENCE in first.get(case.slug, {})]
     measuring = [task for case in cases for task in measuring_tasks(case, kinds)]
+    if "claims" in kinds:
+        measuring += [claims_task(case, first[case.slug]) for case in cases if case.claims]
     rest, more = run_tasks(sorted(measuring, key=lambda task: task.kind), cache)
     failed = {task.slug for task in measuring} - rest.keys()
     sound = [case for case in cases if case.slug not in failed]
@@ -103,13 +107,21 @@ def measuring_tasks(case: Case, kinds: Container[str] = SHOWN) -> Iterator[Task]
         yield case_task(case, "tightness", make, [number.model_dump() for number in asked])
 
 
+def claims_task(case: Case, first: Files) -> Task:
+    """The task that runs the code of a case's claims, with what `evidence_task` made."""
+    assert case.claims is not None
+    codes = [claim.python for claim in case.claims.claims]
+    return case_task(case, "claims", partial(_json_file, "claims.json", unshown, case, evidence_of(first)), codes)
+
+
 def whole_evidence(case: Case, first: Files, rest: Files) -> Files:
     """The file EVIDENCE, whole, from the files of `evidence_task` and those of `measuring_tasks`."""
     files = {name: f"sweep-{name}.json" for name in case.record.sweep}
     sweeps = {key: SweepEvidence.model_validate_json(rest[name]) for key, name in files.items() if name in rest}
     robust = ROBUST.validate_json(rest.get("robustness.json", "{}"))
     loose = LOOSE.validate_json(rest.get("loose.json", "null"))
-    made = {"sweep": sweeps, "robustness": robust, "releases": on_releases(case), "loose": loose}
+    wrong = CLAIMED.validate_json(rest.get("claims.json", "null"))
+    made = {"sweep": sweeps, "robustness": robust, "releases": on_releases(case), "loose": loose, "claims": wrong}
     whole = evidence_of(first).model_copy(update=made)
     return {EVIDENCE: f"{whole.model_dump_json()}\n".encode()}
 

@@ -14,6 +14,7 @@ from clinic.engine.checks import expected
 from clinic.engine.simulate import compile_model
 from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
 from clinic.proof.bounds import bounded, differing, marked, varied
+from clinic.proof.claims import claimed
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.proof.prose.absences import bold, commented, denied, functional, kinds, named
 from clinic.proof.prose.angles import angles
@@ -201,6 +202,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         small_edits,
         repeatable,
         warned,
+        claimed,
         quoted,
         typed,
         taken,
@@ -249,7 +251,7 @@ def breaches(case: Case, evidence: Evidence, *laws: str) -> list[Problem]:
     """
     made = []
     for law in laws:
-        if law in OF_GRADE_A and case.record.lacking:
+        if law in OF_GRADE_A and case.lacking:
             continue
         found = list(LAWS[law](case, evidence))
         if law not in case.record.exempt:

@@ -22,11 +22,14 @@ HEAD = '''\
 import sys
 import mujoco
 import numpy as np
-model = mujoco.MjModel.from_xml_path(sys.argv[1])
+spec = mujoco.MjSpec.from_file(sys.argv[1])
+model = spec.compile()
 data = mujoco.MjData(model)
 if model.nkey:
     mujoco.mj_resetDataKeyframe(model, data, 0)
 mujoco.mj_forward(model, data)
+'''
+MEASUREMENT = """\
 {probe}
 rows = [  # the case, its cause, what is measured, of what, the sign of its bound, the bound
 {rows}
@@ -41,7 +44,7 @@ for case, cause, values, kind, sign, bound in rows:
     print(f"{{case}} = {{sign * values[k]:.4g}}, {{kind}} {{element.name if element else ''}}".rstrip(", "))
     told += [f"it is {{case}}: {{cause}}"] * bool(values[k] > sign * bound)
 print(*told or ["it is none of these: {none}"], sep=", and ")
-'''
+"""
 DRIVER = """
 import contextlib, io, json, pathlib, runpy, sys
 said = {}
@@ -95,6 +98,11 @@ def measured(cases: Iterable[Case]) -> list[Case]:
 
 def procedure(family: str, cases: Iterable[Case]) -> str:
     """The program of a family, over the measurements of these of its cases."""
+    return HEAD.format(title=families()[family].title) + measurement(family, cases)
+
+
+def measurement(family: str, cases: Iterable[Case]) -> str:
+    """What the program does once it has `model`, and `data` at its start; it needs `mujoco` and `np` besides."""
     rows = []
     for case in measured(cases):
         telling = case.record.telling
@@ -102,8 +110,7 @@ def procedure(family: str, cases: Iterable[Case]) -> str:
         sign, bound = (1, telling.above) if telling.above is not None else (-1, telling.below)
         name, kind = json.dumps(telling.cause or case.record.title, ensure_ascii=False), telling.of or ""
         rows.append(f'    ("{case.slug}", {name}, {telling.expr}, "{kind}", {sign}, {bound}),')
-    known = families()[family]
-    return HEAD.format(title=known.title, probe=known.probe.strip(), rows="\n".join(rows), none=NONE)
+    return MEASUREMENT.format(probe=families()[family].probe.strip(), rows="\n".join(rows), none=NONE)
 
 
 def asked(cases: Iterable[Case]) -> dict[str, str]:

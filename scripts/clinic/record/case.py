@@ -19,13 +19,14 @@ import math
 import re
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
 import yaml
 from pydantic import ValidationError
 
+from clinic.record.claims import CLAIMS, Claims, read_claims
 from clinic.record.closed_forms import MODEL_NUMBERS
 from clinic.record.expression import ExpressionError, names, parse
 from clinic.record.field_errors import field_problems
@@ -48,19 +49,28 @@ class Case:
     Args:
         slug: The folder's name: the case's id and URL.
         record: The validated `case.yaml`.
-        texts: Every other file of the folder, by name.
+        texts: The files of the folder that the runs read, by name.
         lines: Where each field of the record stands, for error messages.
+        claims: What shows each sentence of the record; None without a `claims.yaml`.
+        claim_lines: Where each field of that stands.
     """
 
     slug: str
     record: Record
     texts: dict[str, str]
     lines: Lines
+    claims: Claims | None = None
+    claim_lines: Lines | None = None
 
     @property
     def text(self) -> str:
         """The broken model's or script's text."""
         return self.texts[self.record.source]
+
+    @property
+    def lacking(self) -> dict[str, str]:
+        """What grade A asks for and the case is without, with what is not known for want of each."""
+        return self.record.lacking | ({} if self.claims else {CLAIMS: "what shows each of its sentences"})
 
     @property
     def rank(self) -> tuple[float, str]:
@@ -76,6 +86,11 @@ class Case:
         """A problem at the field `where` of this case's record, and there at the words `quoted`, if given."""
         line = self.lines.holding(where, quoted) if quoted else self.lines.at(where)
         return Problem(self.file, line, dotted(where), found, expected, repair)
+
+    def claim_problem(self, where: Where, found: str, expected: str, repair: str) -> Problem:
+        """A problem at the field `where` of this case's claims."""
+        line = self.claim_lines.at(where) if self.claim_lines else 1
+        return Problem(f"cases/{self.slug}/{CLAIMS}", line, dotted(where), found, expected, repair)
 
 
 def load_case(folder: Path) -> Case:
@@ -114,6 +129,7 @@ def read_case(folder: Path) -> Reading:
         return Reading(None, problems)
     texts = {path.name: path.read_text(encoding="utf-8") for path in sorted(folder.iterdir())}
     file, text = f"cases/{folder.name}/{RECORD}", texts.pop(RECORD)
+    claimed = texts.pop(CLAIMS, None)
     part = None
     try:
         data, lines = read_yaml(text)
@@ -126,6 +142,9 @@ def read_case(folder: Path) -> Reading:
             return Reading(None, problems)
         record = part.record
     case = Case(folder.name, record, texts, lines)
+    if claimed is not None:
+        claims, claim_lines, wrong = read_claims(f"cases/{folder.name}/{CLAIMS}", claimed)
+        case, problems = replace(case, claims=claims, claim_lines=claim_lines), problems + wrong
     reading = Reading(case, problems, part)
     return reading._replace(problems=problems + reading.own([*_file_problems(case), *_reference_problems(case)]))
 
@@ -154,7 +173,7 @@ def _file_problems(case: Case) -> Iterator[Problem]:
         if name in GENERATED_FILES:
             expected = "a name that the site does not use itself"
             yield case.problem(where, f"{name}, which stands beside the page", expected, "rename the file")
-    expected = f"{RECORD} and the files it names: {listed(named)}"
+    expected = f"{RECORD}, {CLAIMS} and the files that the record names: {listed(named)}"
     extra = {INSTRUMENT} if record.script else set()
     for name in case.texts.keys() - named.keys() - extra:
         found, repair = "a file that the record does not name", "name it under `files`, or delete it"

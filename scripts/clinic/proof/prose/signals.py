@@ -74,7 +74,7 @@ def called(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 )
                 fits = {each: max(part[each], whole[each] - CLEAR) for each in own} | {name: whole[name]}
                 best = max(fits, key=lambda each: fits[each])
-                if fits[best] > fits[name] + 1e-9 or not (heads[name] & near or case.record.lacking):
+                if fits[best] > fits[name] + 1e-9 or not (heads[name] & near or case.lacking):
                     told = f"beside words of {best}: {listed(sorted(own[best] & near))}" if fits[best] else "alone"
                     repair = f"correct the field, name it, or add the words that are beside it to `said` of {name}"
                     wanted = f"words of {name}: {listed(sorted(own[name]))}"
@@ -109,7 +109,7 @@ def counted(case: Case, evidence: Evidence) -> Iterator[Problem]:
         ended = re.search(r"[.?!](?:\s|$)", text[field.end() :])
         sentence = text[begun : field.end() + ended.start() if ended else None]
         told = re.search(TOLD[take], FIELD.sub("", sentence), re.IGNORECASE)
-        excused = record.lacking and take not in ALWAYS and ((signal, take) in known or taken[signal, take] > 1)
+        excused = case.lacking and take not in ALWAYS and ((signal, take) in known or taken[signal, take] > 1)
         if not (told or excused):
             wanted = f"its `final`, or words for its {NAMED[take]}"
             yield case.problem(where, field[0], wanted, "correct the field or the words", quoted=field[0])

@@ -1,0 +1,79 @@
+"""The measurements of a symptom's page, run on a reader's model."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import signal
+import warnings
+from collections.abc import Iterator, Mapping
+from types import FrameType
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from clinic.diagnosis.finding import Measured
+from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Start
+from clinic.proof.procedure import measured, measurement, members, read
+from clinic.record.case import read_cases
+from clinic.record.checkout import cases_root
+from clinic.record.families import families
+
+SECONDS = 10  # of the clock, for all measurements of a symptom
+
+
+def code_of(family: str) -> str:
+    """What measures a model for a family; empty where no case of it is told by a measurement on a model."""
+    if family not in families():
+        return ""
+    own = members(family, read_cases(cases_root() / "cases")[0])
+    return measurement(family, own) if measured(own) else ""
+
+
+def measure(family: str, code: str, engine: NativeEngine, texts: Mapping[str, str], start: Start | None) -> Measured:
+    """Runs `code` on a model that compiles, at the reader's start; without one at its first key, as the page does."""
+    model = ReaderModel(engine, dict(texts), None, start or Start())
+    if start is None and model.simulation.count("key"):
+        model = ReaderModel(engine, dict(texts), None, Start(key=0))
+    model.simulation.begin()
+    native: Any = model.simulation.engine
+    try:
+        with _bounded(), warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()) as out:
+            warnings.simplefilter("ignore")
+            exec(
+                code,
+                {"spec": _spec(engine, texts), "model": native.mj, "data": native.mjdata, "mujoco": mujoco, "np": np},
+            )
+    except Exception as error:  # of an odd model: what one of the measurements cannot deal with
+        return Measured(family, {}, (), f"they end with {type(error).__name__}: {' '.join(str(error).split())}")
+    said = read(out.getvalue())
+    return Measured(family, said.values, tuple(said.told), said.printed)
+
+
+def _spec(engine: NativeEngine, texts: Mapping[str, str]) -> mujoco.MjSpec:
+    main, *others = texts
+    include = {name: texts[name].encode() for name in others}
+    spec = mujoco.MjSpec.from_string(texts[main], include=include, assets=dict(engine.assets))
+    spec.compile()
+    return spec
+
+
+@contextlib.contextmanager
+def _bounded() -> Iterator[None]:
+    """Ends what takes longer than `SECONDS`, where the system has an alarm."""
+
+    def late(_signal: int, _frame: FrameType | None) -> None:
+        raise TimeoutError(f"they take longer than {SECONDS} s")
+
+    if not hasattr(signal, "SIGALRM"):
+        yield
+        return
+    signal.signal(signal.SIGALRM, late)
+    signal.alarm(SECONDS)
+    try:
+        yield
+    finally:
+        signal.alarm(0)

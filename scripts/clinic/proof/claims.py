@@ -1,0 +1,163 @@
+"""Whether each sentence of a case's prose is shown by something: code that runs, MuJoCo's manual, its own numbers."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import re
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import mujoco
+import yaml
+
+from clinic.engine.script import ScriptError, run_script
+from clinic.engine.variant import variants
+from clinic.proof.evidence import Evidence
+from clinic.proof.prose_laws import prose_of
+from clinic.record.case import Case
+from clinic.record.claims import flat, sentences
+from clinic.record.problem import Problem
+from clinic.record.prose import FIELD
+from clinic.record.yaml_lines import Where
+
+DRIVER = '''
+import contextlib, io, json, traceback
+import mujoco
+import numpy as np
+
+given = json.load(open("claims.json"))
+text, measured, output, printed, keyframe = (given[k] for k in ("text", "measured", "output", "printed", "keyframe"))
+
+
+def load(variant="broken"):
+    """The model of a variant, or of a text, and its data at the record's start, after mj_forward."""
+    model = mujoco.MjModel.from_xml_string(text.get(variant, variant))
+    data = mujoco.MjData(model)
+    if keyframe is not None:
+        mujoco.mj_resetDataKeyframe(model, data, model.key(keyframe).id)
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+mujoco.set_mju_user_warning(lambda said: None)
+names = dict(mujoco=mujoco, np=np, load=load, text=text, measured=measured, output=output, printed=printed)
+wrong = {}
+for number, code in given["codes"].items():
+    try:
+        with contextlib.redirect_stdout(io.StringIO()):
+            exec(compile(code, "claim.py", "exec"), dict(names))
+    except BaseException as error:
+        frames = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == "claim.py"]
+        line = code.splitlines()[frames[-1] - 1].strip() if frames else ""
+        wrong[number] = f"{type(error).__name__}: {error or line}"
+print(json.dumps(wrong))
+'''
+ROLE = re.compile(r":[\w:+-]+:`([^`<]*?)\s*(?:<[^>]*>)?`")
+MARKUP = re.compile(r"[`*]|(?<=\w)_(?=\s|$)|\\")
+
+
+def unshown(case: Case, evidence: Evidence) -> dict[int, str]:
+    """The claims of a case whose code does not hold, by their number, with what it says."""
+    codes = {k: claim.python for k, claim in enumerate(case.claims.claims) if claim.python} if case.claims else {}
+    if not codes:
+        return {}
+    taken = {
+        f"{variant}.{signal}.{which}": value
+        for variant, shown in evidence.variants.items()
+        for signal, values in shown.values.items()
+        for which, value in values.items()
+    }
+    given = {
+        "codes": codes,
+        "text": {variant.id: variant.text for variant in variants(case)},
+        "measured": taken,
+        "output": {name: shown.output for name, shown in evidence.variants.items()},
+        "printed": evidence.snippet,
+        "keyframe": case.record.run.keyframe if case.record.run else None,
+    }
+    try:
+        said = json.loads(run_script(DRIVER, {**case.texts, "claims.json": json.dumps(given)}, "driver.py", 60))
+    except ScriptError as error:
+        return dict.fromkeys(codes, error.found)
+    return {int(number): each for number, each in said.items()}
+
+
+def claimed(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 5, sentences. Each is in `claims.yaml`, and what is named there shows it."""
+    if case.claims is None:
+        return
+    listed = case.claims.sentences
+    known = dict(_said(case))
+    for sentence, where in known.items():
+        if sentence not in listed:
+            near = difflib.get_close_matches(sentence, listed, n=1, cutoff=0.6)
+            found = f"a sentence that nothing is named for: {sentence!r}"
+            expected = f"{_shown_by(case, near[0])}" if near else "a sentence of claims.yaml"
+            repair = "see whether that shows it, and write it there, or correct the sentence"
+            yield case.problem(where, found, expected, repair, quoted=sentence)
+    for k, claim in enumerate(case.claims.claims):
+        place = ("claims", k)
+        if claim.manual is not None and claim.quote is not None:
+            text = manual_text(claim.manual)
+            if text is None:
+                yield case.claim_problem(place, claim.manual, "a page of the manual", "correct the page")
+            elif text and plain(claim.quote) not in text:
+                yield case.claim_problem(place, claim.quote, f"words of {claim.manual}", "quote it to the letter")
+        elif k in (evidence.claims or {}):
+            found = f"{flat(claim.says)!r} is not shown: {(evidence.claims or {})[k]}"
+            yield case.claim_problem(place, found, "code that holds", "correct the sentence, or its code")
+    for kind in ("claims", "measured", "advice"):
+        for k, each in enumerate(getattr(case.claims, kind)):
+            sentence = flat(each if isinstance(each, str) else each.says)
+            if sentence not in known:
+                found = f"{sentence!r}, which the record does not say"
+                yield case.claim_problem((kind, k), found, "a sentence of the record", "remove it, or correct it")
+
+
+def _said(case: Case) -> Iterator[tuple[str, Where]]:
+    """Every sentence of the prose with its field, but for what a measurement is called."""
+    for where, text in prose_of(case):
+        if where[0] != "telling":
+            yield from ((sentence, where) for sentence in sentences(text))
+
+
+def missing(case: Case) -> str:
+    """The sentences that the claims lack, as YAML; those without a field as claims, to be shown or to be moved."""
+    listed = case.claims.sentences if case.claims else []
+    lacking = [sentence for sentence in dict(_said(case)) if sentence not in listed]
+    groups = {
+        "claims": [{"says": s, "python": "assert ..."} for s in lacking if not FIELD.search(s)],
+        "measured": [s for s in lacking if FIELD.search(s)],
+    }
+    return "".join(
+        yaml.safe_dump({kind: group}, allow_unicode=True, width=110, sort_keys=False)
+        for kind, group in groups.items()
+        if group
+    )
+
+
+def _shown_by(case: Case, sentence: str) -> str:
+    """What shows a sentence of the claims, in words."""
+    assert case.claims is not None
+    for claim in case.claims.claims:
+        if flat(claim.says) == sentence:
+            shown = f"the manual: {claim.quote!r}" if claim.quote else "code that holds"
+            return f"as in claims.yaml, where it is {sentence!r}, shown by {shown}"
+    return f"as in claims.yaml, where it is {sentence!r}"
+
+
+@cache
+def manual_text(page: str) -> str | None:
+    """The words of a page of the manual; None where there is no such page, empty where there is no manual."""
+    doc = Path(mujoco.__file__).parent / "doc"
+    file = (doc / page.partition("#")[0]).with_suffix(".rst")
+    if not doc.is_dir():
+        return ""
+    return plain(file.read_text(encoding="utf-8")) if file.is_file() else None
+
+
+def plain(text: str) -> str:
+    """Words without the marks of reStructuredText, flat."""
+    return flat(MARKUP.sub("", ROLE.sub(r"\1", text)))

@@ -76,7 +76,14 @@ class Matter:
     @property
     def along(self) -> tuple[float, float]:
         """The inertia about the geoms' longest axis, of the geoms and of the body; 1 is the mean of all axes."""
-        spread = sub(tuple(_trace(self.solid) / 2 * x for x in IDENTITY), self.solid)
+        return self._about(sub(tuple(_trace(self.solid) / 2 * x for x in IDENTITY), self.solid))
+
+    @property
+    def flat(self) -> tuple[float, float]:
+        """The same about the axis across which the geoms are flat, a wheel's own: that of their greatest inertia."""
+        return self._about(self.solid)
+
+    def _about(self, spread: Vector) -> tuple[float, float]:
         axis: Vector = max(
             ((1.0, 0.1, 0.1), (0.1, 1.0, 0.1), (0.1, 0.1, 1.0)), key=lambda each: norm(times(spread, each))
         )
@@ -246,6 +253,16 @@ def centre_outside(bodies: tuple[int, ...]) -> Probe:
 def _across(simulation: Simulation, body: int) -> float:
     found = matter(simulation, body)
     return found.along[1] if found is not None else 0.0
+
+
+def _flat(simulation: Simulation, *bodies: int) -> float:
+    found = [each.flat[1] for body in bodies if (each := matter(simulation, body)) is not None]
+    return max((1 / own for own in found if own > 0), default=0.0)
+
+
+def flat(bodies: tuple[int, ...]) -> Probe:
+    """The mean of the three principal inertias over that about a flat body's own axis, the most of several bodies."""
+    return Probe("mean inertia over that about a flat body's own axis", "", _flat, bodies, dynamic=False)
 
 
 def across(body: int) -> Probe:

@@ -11,6 +11,8 @@ from clinic.diagnosis.probes.pairs import FITS, SYMMETRIC, Pairs
 from clinic.diagnosis.probes.vector import Vector, add, apart, diagonal, dot, norm, sub, times, turned
 from clinic.diagnosis.simulation import Simulation
 
+EXACT, PAIRS = 1.0, 5  # %, and how many pairs there must be
+
 
 @dataclass(frozen=True)
 class Comparison:
@@ -49,7 +51,7 @@ class Twins(Pairs):
 
     def __init__(self, simulation: Simulation) -> None:
         super().__init__(simulation)
-        self.comparisons = [each for each in self._compared() if math.isfinite(each.unlike)]
+        self.comparisons = self._sharpened([each for each in self._compared() if math.isfinite(each.unlike)])
 
     def group(self, each: Comparison) -> int:
         """The body that both sides of a comparison hang on; -1 for actuators and sensors."""
@@ -74,6 +76,17 @@ class Twins(Pairs):
         """Whether what hangs on a body on both sides is the other's image but for little."""
         fits = next((self.share[left] for left, body in self.common.items() if body == group), 1.0)
         return fits >= SYMMETRIC and sum(each.odd for each in compared) <= max(2, 0.2 * len(compared))
+
+    @staticmethod
+    def _sharpened(found: list[Comparison]) -> list[Comparison]:
+        """Ranges are held to `EXACT` where all pairs of a model but one nearly have the same."""
+        made = []
+        for each in found:
+            others = [other.unlike for other in found if (other.kind, other.quantity) == (each.kind, each.quantity)]
+            exact = len(others) >= PAIRS and sorted(others)[-2] < EXACT / 2
+            sharp = each.quantity in ("range", "ctrlrange") and exact
+            made.append(replace(each, limit=EXACT) if sharp else each)
+        return made
 
     def interval_sign(self, each: Comparison) -> float:
         """Whether a range of the pair is the same on both sides (1) or mirrored (-1)."""

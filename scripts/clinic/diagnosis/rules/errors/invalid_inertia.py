@@ -47,6 +47,7 @@ FAMILIES = ("will-not-compile",)
 SINCE = "0.2"
 
 DIAGONAL = ("ixx", "iyy", "izz")
+ZERO = 1e-15  # kg m2: below it is what was left of a subtraction
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -102,7 +103,7 @@ def possible(moments: list[float]) -> list[float]:
     A negative one loses its sign, one of zero is the mean of the others, and one above the sum of the others loses
     decimal places until it fits, or becomes that sum, or the larger of them where that is too little.
     """
-    made = [abs(each) for each in moments]
+    made = [abs(each) if abs(each) > ZERO else 0.0 for each in moments]
     for index, each in enumerate(made):
         rest = [other for k, other in enumerate(made) if k != index]
         if each == 0:

@@ -54,7 +54,7 @@ MANY = 2  # so many are no slip
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Bodies that a second copy of a geom makes heavier."""
     of = model.simulation
-    copies = [(body, *pair) for body in of.moving_bodies for pair in _copies(of, body)]
+    copies = [(body, *pair) for body in range(1, of.count("body")) for pair in _copies(of, body)]
     for body, geom, first in copies if len(copies) <= MANY else ():
         element = model.element("geom", geom)
         edits = (delete(element),) if element is not None else ()
@@ -73,6 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"It has the type, the size and the place of {of.name('geom', first)}.",
             "one geom in one place",
             share=0.95,
+            level="cause" if body in of.moving_bodies else "hint",
         )
 
 

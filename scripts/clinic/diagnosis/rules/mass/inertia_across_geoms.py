@@ -29,6 +29,7 @@ Good:
 
 The number: the inertia about the longest axis of the geoms, where the mean of the three is 1. A thin rod has 0 about
 its axis and 1.5 across. Of 249 long bodies of healthy robots, whose geoms have at most 0.3, none has more than 0.9.
+A wheel is the other way round: where the geoms have more than 1.25 about their own axis, less than 0.9 is a hint.
 
 When it is wrong: a long cover around a flat motor.
 """
@@ -38,7 +39,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.inertia import set_inertial
-from clinic.diagnosis.probes.matter import across, explicit
+from clinic.diagnosis.probes.matter import across, explicit, flat
 from clinic.diagnosis.probes.vector import norm
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -48,16 +49,21 @@ FAMILIES = ("drifts", "oscillates")
 SINCE = "0.2"
 
 LONG, LIMIT = 0.3, 1.0
+FLAT, OFF = 1.25, 1.1
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Long bodies that are heavy to spin about their long axis."""
+    """Long bodies that are heavy to spin about their long axis, and flat ones that are light about their own."""
+    wheels = {}
     for body, found in explicit(model):
         moments = model.simulation.row("body_inertia", body, 3)
         geoms, own = found.along
+        scale = norm(found.about) / norm(found.solid)
+        if found.flat[0] > FLAT and found.flat[1] < 1 / OFF and min(moments) < 0.7 * max(moments):
+            solid = tuple(scale * x for x in found.solid)
+            wheels[body] = found.flat, set_inertial(model, body, found.mass, found.centre, solid)
         if geoms > LONG or own <= LIMIT or min(moments) > 0.6 * max(moments):
             continue
-        scale = norm(found.about) / norm(found.solid)
         yield Suspect(
             (model.simulation.name("body", body),),
             "inertial",
@@ -69,4 +75,18 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"Its geoms are long: their inertia about the long axis is {geoms:.2g} of the mean, its own {own:.2g}.",
             "below 1: at most 0.9 in 249 long bodies of healthy robots",
             excess=own,
+        )
+    if wheels:
+        geoms, own = min((each for each, _ in wheels.values()), key=lambda each: each[1])
+        yield Suspect(
+            tuple(model.simulation.name("body", body) for body in wheels),
+            "inertial",
+            "quat " + (model.value("body", next(iter(wheels)), "quat") or "left out"),
+            "axes of the geoms",
+            tuple(edit for _, edits in wheels.values() for edit in edits),
+            flat(tuple(wheels)),
+            OFF,
+            f"Its geoms are flat: their inertia about their own axis is {geoms:.3g} of the mean, its own {own:.2g}.",
+            "a disk has 1.5, a wheel as wide as its radius 1.2",
+            level="hint",
         )

@@ -56,7 +56,7 @@ USUAL = (0.4, 2.5)  # radius of gyration over that of the geoms
 FAR = (0.25, 4.0)  # the same, for an inertia that is not equal about all axes, which nobody types in
 LIMIT, ALIKE = 2.5, 1.5  # times the inertia at the joint; where several bodies have the same inertia
 LITTLE, FELT = 1.1, 1.3  # at the joint, of a placeholder with an absurd radius
-FEW = 0.25  # of the bodies: where more are so, the geoms show little of them
+FEW = 0.5  # of the bodies: where more are so, the geoms show little of them
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

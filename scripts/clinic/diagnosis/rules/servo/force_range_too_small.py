@@ -41,10 +41,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.load import loads, strain, strains
 from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A force range too small for the weight"
 FAMILIES = ("sags", "stuck")
@@ -57,6 +59,7 @@ STRAIN = 1.2
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Servos that cannot hold the weight, all together."""
     simulation, found, load = model.simulation, strains(model.simulation), loads(model.simulation)
+    yield from _undriven(model)
     weak = sorted(
         (each for each in servos(simulation) if found[each.actuator] > STRAIN), key=lambda each: -found[each.actuator]
     )
@@ -76,6 +79,39 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         f"and its servo gives {worst.force:.3g} {unit} at most.",
         "1 and less; motors are chosen for twice the weight and more",
     )
+
+
+def _undriven(model: ReaderModel) -> Iterator[Suspect]:
+    """Joints of a model without actuators, such as one made of a URDF, whose limit is below the weight."""
+    simulation, load = model.simulation, loads(model.simulation)
+    if simulation.count("actuator"):
+        return
+    weak = [
+        joint
+        for joint, limited in enumerate(simulation.model("jnt_actfrclimited"))
+        if limited and simulation.joint_type(joint) in (HINGE, SLIDE) and _weight_over_limit(simulation, joint) > STRAIN
+    ]
+    if weak:
+        worst = max(weak, key=lambda joint: _weight_over_limit(simulation, joint))
+        limit, name = simulation.row("jnt_actfrcrange", worst, 2)[1], simulation.name("joint", worst)
+        need = load[simulation.dof(worst)]
+        yield Suspect(
+            tuple(simulation.name("joint", joint) for joint in weak),
+            "effort" if model.source is not None and model.source.urdf else "actuatorfrcrange",
+            f"{limit:.3g}",
+            f"{3 * need:.2g}",
+            (),
+            Probe("weight over the limit of the force", "", _weight_over_limit, (worst,), dynamic=False),
+            STRAIN,
+            f"The weight at {name} is up to {need:.3g}, and no actuator may give more than {limit:.3g} there.",
+            "1 and less; motors are chosen for twice the weight and more",
+            level="hint",
+        )
+
+
+def _weight_over_limit(simulation: Simulation, joint: int) -> float:
+    limit = max(map(abs, simulation.row("jnt_actfrcrange", joint, 2)))
+    return loads(simulation)[simulation.dof(joint)] / max(limit, 1e-12)
 
 
 def _stronger(model: ReaderModel, servo: Servo, force: float) -> tuple[Edit, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+import yaml
 from clinic.commands.check import Report, check_cases, report_data
 from clinic.work.cache import Cache
 from helpers import write_case, write_script_case
@@ -35,7 +36,11 @@ def test_sound_case(checkout: Path) -> None:
 def test_a_case_with_all_that_grade_a_asks_for(checkout: Path) -> None:
     trial = "{id: more, title: More, edits: [{find: first, replace: '2 * first'}]}"
     write_script_case(checkout, FOUND, ("picture:", f"trials: [{trial}]\nloose: {{'error = 0.5': any}}\npicture:"))
-    assert checked(checkout).grade == "A"
+    assert checked(checkout).grade == "B"
+    words = ["Read it.", "It says so.", "Write another number.", "Read the output."]
+    claims = {"measured": ["It prints {{ broken.error.final }}."], "advice": words}
+    (checkout / "cases" / "odd-script" / "claims.yaml").write_text(yaml.safe_dump(claims), encoding="utf-8")
+    assert (checked(checkout).grade, checked(checkout).breaches) == ("A", ())
 
 
 def test_numbers_that_no_check_notices_are_told(checkout: Path) -> None:

@@ -92,7 +92,7 @@ def test_where_a_rule_fails_that_is_no_fault_of_the_model_or_the_engine(monkeypa
 
 def test_a_process_whose_asker_is_gone_ends_and_leaves_nothing(tmp_path):
     loaded = TALL.replace("<body", "<body><freejoint/><geom size='0.05'/></body>" * 60 + "<body", 1)
-    request = Request(loaded, "model.xml", str(tmp_path), {}, "", Start(duration=60.0), (), ())
+    request = Request(loaded, "model.xml", str(tmp_path), {}, "", "", Start(duration=60.0), (), ())
     child = subprocess.Popen(process.CHILD, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=found_here())
     assert child.stdin is not None
     assert child.stdout is not None

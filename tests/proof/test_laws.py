@@ -314,7 +314,7 @@ def test_a_first_version_is_not_held_to_its_every_word(tmp_path: Path, monkeypat
     case = tiny_case(tmp_path, ("lesson: Look at the masks.", "lesson: Always look at `qfrc_bias` of a ball joint."))
     evidence = collect(case)
     assert breaches(case, evidence, "bold", "named", "kinds") == []
-    monkeypatch.setattr(type(case.record), "lacking", {})
+    monkeypatch.setattr(type(case), "lacking", {})
     found = {problem.found for problem in breaches(case, evidence, "bold", "named", "kinds")}
     assert found == {"Always", "qfrc_bias", "ball joint"}
 

@@ -383,8 +383,8 @@ def test_folder_without_a_record(tmp_path: Path) -> None:
 def test_file_named_but_missing_and_file_that_nothing_names(tmp_path: Path) -> None:
     folder = write_folder(tmp_path, SLUG, {"case.yaml": changed(RECORD, ("model.xml", "box.xml")), "box.mjcf": MODEL})
     assert refused(folder) == [
-        "cases/falling-box/box.mjcf1:  | a file that the record does not name | case.yaml and the files it names: "
-        "box.xml | name it under `files`, or delete it",
+        "cases/falling-box/box.mjcf1:  | a file that the record does not name | case.yaml, claims.yaml "
+        "and the files that the record names: box.xml | name it under `files`, or delete it",
         "3: model | box.xml, which does not exist | a file of the folder: box.mjcf | correct the name, or add the file",
     ]
 

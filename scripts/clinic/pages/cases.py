@@ -17,6 +17,7 @@ from clinic.proof.experiments import differential, evidence_of
 from clinic.proof.laws import breaches
 from clinic.proof.procedure import Differential
 from clinic.record.case import Case
+from clinic.record.claims import CLAIMS
 from clinic.record.folder import RECORD
 from clinic.record.problem import CaseError, Problem
 from clinic.work.cache import Cache, Files
@@ -82,7 +83,8 @@ def case_pages(
             files[PLAYGROUND] = content
         try:
             page = case_page(case, evidence, files, known | cases, told[case.record.family])
-            sources = {name: (root / "cases" / slug / name).read_bytes() for name in (RECORD, *case.texts)}
+            names = (RECORD, *([CLAIMS] if case.claims else []), *case.texts)
+            sources = {name: (root / "cases" / slug / name).read_bytes() for name in names}
         except CaseError as error:
             problems += error.problems
         except OSError as error:  # renamed or deleted since it was read

@@ -51,7 +51,7 @@ for number, code in given["codes"].items():
     except BaseException as error:
         frames = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == "claim.py"]
         line = code.splitlines()[frames[-1] - 1].strip() if frames else ""
-        wrong[number] = f"{type(error).__name__}: {error or line}"
+        wrong[number] = f"{type(error).__name__}: {str(error) or line}"
 print(json.dumps(wrong))
 '''
 ROLE = re.compile(r":[\w:+-]+:`([^`<]*?)\s*(?:<[^>]*>)?`")

@@ -20,7 +20,8 @@ SAYS = """# MuJoCo Debugging Clinic
 > number was measured while the site was built, by running the broken and the repaired model.
 
 Every page lies as Markdown beside the HTML: `index.md` beside `index.html`. A case's `evidence.json` holds all that was
-measured, its `case.yaml` the record. `rules.json` lists the rules of `clinic diagnose`.
+measured, its `case.yaml` the record, its `claims.yaml` what shows each sentence.
+`rules.json` lists the rules of `clinic diagnose`.
 """
 SECTIONS = {
     "Start here": ("index", "symptoms", "messages", "triage", "rules/index", "programs", "words", "about"),

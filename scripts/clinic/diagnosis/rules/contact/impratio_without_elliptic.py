@@ -47,7 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "A high impratio under pyramidal cones"
 FAMILIES = ("slips",)
 SINCE = "0.2"
-CASE = "box-creeps-out-of-grasp"
 LEVEL = "hint"
 UNPLANTED = "what it does hangs on what is held, and most healthy models hold nothing"
 MOST = 1.0

@@ -1,0 +1,129 @@
+"""Law 5, sentences: each is named in `claims.yaml`, and what is named there shows it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import yaml
+from clinic.proof.claims import claimed, manual_text, missing, plain, unshown
+from clinic.proof.evidence import collect
+from clinic.record.case import Case, load_case, read_case
+from clinic.record.claims import sentences
+from helpers import SCRIPT_RECORD, changed, script_case, write_folder
+
+SCRIPT = "first = 0.5\nerror = 0.5\nprint('error =', error)\n"
+CAUSE = "It is wrong by more than nothing."
+RECORD = changed(SCRIPT_RECORD, ("cause: It says so.", f"cause: {CAUSE}"))
+CODE = 'assert measured["broken.error.final"] > 0'
+CLAIMS = {
+    "claims": [{"says": CAUSE, "python": CODE}],
+    "measured": ["It prints {{ broken.error.final }}."],
+    "advice": ["Read it.", "Write another number.", "Read the output."],
+}
+
+
+def case_with(root: Path, claims: object = CLAIMS, record: str = RECORD) -> Case:
+    files = {"case.yaml": record, "script.py": SCRIPT.replace("error = 0.5", "error = first")}
+    text = claims if isinstance(claims, str) else yaml.safe_dump(claims)
+    return load_case(write_folder(root, "odd-script", files | {"claims.yaml": text}))
+
+
+def told(case: Case) -> list[str]:
+    evidence = collect(case)
+    evidence = evidence.model_copy(update={"claims": unshown(case, evidence)})
+    return [f"{problem.file.rpartition('/')[2]}:{problem.line}: {problem.found}" for problem in claimed(case, evidence)]
+
+
+def shown(python: str) -> dict[str, object]:
+    return CLAIMS | {"claims": [{"says": CAUSE, "python": python}]}
+
+
+def test_sentences_that_are_shown_are_no_problem(tmp_path):
+    assert told(case_with(tmp_path)) == []
+
+
+def test_a_sentence_that_is_changed_is_told_with_what_showed_it(tmp_path):
+    case = case_with(tmp_path, record=changed(RECORD, ("more than nothing", "less than nothing")))
+    evidence = collect(case)
+    changed_one, left = claimed(case, evidence)
+    assert (changed_one.where, changed_one.line) == ("cause", 6)
+    assert changed_one.found == "a sentence that nothing is named for: 'It is wrong by less than nothing.'"
+    assert changed_one.expected == f"as in claims.yaml, where it is {CAUSE!r}, shown by code that holds"
+    assert (left.where, left.found) == ("claims[0]", f"{CAUSE!r}, which the record does not say")
+
+
+@pytest.mark.parametrize(
+    ("python", "said"),
+    [
+        ('assert measured["broken.error.final"] < 0', 'AssertionError: assert measured["broken.error.final"] < 0'),
+        ("assert nothing", "NameError: name 'nothing' is not defined"),
+        ("import sys\nsys.exit()\nassert True", "SystemExit: sys.exit()"),
+        ('assert "error = 0.5" in output["broken"] and "first" in text["broken"]', ""),
+        ('assert printed is None and "error = 0.0" in output["no-error"]', ""),
+        ("data = load('<mujoco><worldbody><geom size=\"1\"/></worldbody></mujoco>')[1]; assert data.nefc == 0", ""),
+    ],
+)
+def test_code_shows_or_says_why_not(tmp_path, python, said):
+    found = [each.partition(": ")[2] for each in told(case_with(tmp_path, shown(python)))]
+    assert found == ([f"{CAUSE!r} is not shown: {said}"] if said else [])
+
+
+def test_a_quotation_stands_in_the_manual(tmp_path):
+    page, words = "computation/index.html", "Semi-implicit with implicit joint damping (Euler)"
+    true, false = ({"says": CAUSE, "manual": page, "quote": each} for each in (words, "explicit joint damping"))
+    assert told(case_with(tmp_path / "true", CLAIMS | {"claims": [true]})) == []
+    (found,) = told(case_with(tmp_path / "false", CLAIMS | {"claims": [false]}))
+    assert found.endswith("explicit joint damping")
+    (lost,) = told(case_with(tmp_path / "lost", CLAIMS | {"claims": [true | {"manual": "nowhere.html"}]}))
+    assert lost.endswith("nowhere.html")
+
+
+def test_without_the_file_nothing_is_asked_and_the_grade_is_lower(tmp_path):
+    case = script_case(tmp_path)
+    assert list(claimed(case, collect(case))) == []
+    assert "claims.yaml" in case.lacking
+    assert "claims.yaml" not in case_with(tmp_path / "other").lacking
+
+
+@pytest.mark.parametrize(
+    ("claims", "where", "found"),
+    [
+        ({"claims": [{"says": CAUSE}]}, "claims[0]", "no evidence, or two"),
+        (
+            {"claims": [{"says": CAUSE, "python": CODE, "manual": "x.html", "quote": "x"}]},
+            "claims[0]",
+            "no evidence, or two",
+        ),
+        ({"claims": [{"says": CAUSE, "manual": "x.html"}]}, "claims[0]", "no evidence, or two"),
+        ({"claims": [{"says": CAUSE, "python": "print(1)"}]}, "claims[0]", "code that cannot fail"),
+        ({"measured": ["Read it."]}, "", "'Read it.' in `measured`"),
+        ({"advise": ["Read it."]}, "advise", ""),
+        ("claims: [", "", ""),
+    ],
+)
+def test_a_wrong_file_is_told_at_its_place(tmp_path, claims, where, found):
+    text = claims if isinstance(claims, str) else yaml.safe_dump(claims)
+    files = {"case.yaml": RECORD, "script.py": SCRIPT, "claims.yaml": text}
+    problems = read_case(write_folder(tmp_path, "odd-script", files)).problems
+    assert {problem.file for problem in problems} == {"cases/odd-script/claims.yaml"}
+    assert problems[0].where == where
+    assert found in problems[0].found
+
+
+def test_the_missing_sentences_are_printed_for_the_file(tmp_path):
+    case = case_with(tmp_path, {"advice": ["Read it."]})
+    printed = yaml.safe_load(missing(case))
+    assert [each["says"] for each in printed["claims"]] == [CAUSE, "Write another number.", "Read the output."]
+    assert printed["measured"] == ["It prints {{ broken.error.final }}."]
+
+
+def test_a_formula_on_its_own_lines_belongs_to_its_sentence():
+    prose = "It is stable while\n\n$$h < 2$$\n\nand no longer. *Then* it is not: see `x`.\n"
+    assert sentences(prose) == ["It is stable while $$h < 2$$ and no longer.", "*Then* it is not: see `x`."]
+
+
+def test_the_manual_is_read_as_it_is_seen():
+    assert plain("the :ref:`implicit<geIntegrators>` one,\n*not* ``Euler``") == "the implicit one, not Euler"
+    assert "Four primitive types" in (manual_text("APIreference/APItypes.html") or "")
+    assert manual_text("nowhere.html") is None

@@ -12,6 +12,11 @@ from clinic.diagnosis.simulation import Simulation
 Level = Literal["cause", "hint"]
 
 
+def rounded(number: float) -> str:
+    """A number of two digits, as one writes it into a model: `250`."""
+    return f"{float(f'{number:.2g}'):g}"
+
+
 @dataclass(frozen=True)
 class Probe:
     """A measurement of a compiled model: one number, small where the model is well.

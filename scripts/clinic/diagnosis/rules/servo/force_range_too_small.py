@@ -46,7 +46,7 @@ from clinic.diagnosis.probes.load import loads, strain, strains
 from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A force range too small for the weight"
 FAMILIES = ("sags", "stuck")
@@ -71,7 +71,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         tuple(simulation.name("actuator", each.actuator) for each in weak),
         "forcerange",
         f"{worst.force:.3g}",
-        f"{3 * load[worst.dof]:.2g}",
+        rounded(3 * load[worst.dof]),
         tuple(edit for each in weak for edit in _stronger(model, each, load[each.dof] * 3)),
         strain([each.actuator for each in weak]),
         STRAIN,
@@ -99,7 +99,7 @@ def _undriven(model: ReaderModel) -> Iterator[Suspect]:
             tuple(simulation.name("joint", joint) for joint in weak),
             "effort" if model.source is not None and model.source.urdf else "actuatorfrcrange",
             f"{limit:.3g}",
-            f"{3 * need:.2g}",
+            rounded(3 * need),
             (),
             Probe("weight over the limit of the force", "", _weight_over_limit, (worst,), dynamic=False),
             STRAIN,
@@ -121,9 +121,9 @@ def _stronger(model: ReaderModel, servo: Servo, force: float) -> tuple[Edit, ...
     gear = abs(simulation.model("actuator_gear")[6 * servo.actuator])
     own = max(map(abs, simulation.row("actuator_forcerange", servo.actuator, 2))) * gear
     if simulation.model("actuator_forcelimited")[servo.actuator] and own < force:
-        text = f"{force / gear:.2g}"
+        text = rounded(force / gear)
         edits += model.set("actuator", [servo.actuator], "forcerange", f"-{text} {text}")
     joint = max(map(abs, simulation.row("jnt_actfrcrange", servo.joint, 2)))
     if simulation.model("jnt_actfrclimited")[servo.joint] and joint < force:
-        edits += model.set("joint", [servo.joint], "actuatorfrcrange", f"-{force:.2g} {force:.2g}")
+        edits += model.set("joint", [servo.joint], "actuatorfrcrange", f"-{rounded(force)} {rounded(force)}")
     return edits

@@ -46,7 +46,7 @@ from clinic.diagnosis.probes.load import loads, sag, sags
 from clinic.diagnosis.probes.run import resets
 from clinic.diagnosis.probes.servo import Servo, remaining, servos
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.suspect import Suspect, rounded
 
 TITLE = "A servo too weak for the weight it carries"
 FAMILIES = ("sags", "drifts")
@@ -77,7 +77,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             tuple(simulation.name("actuator", each.actuator) for each in weak),
             "kp",
             f"{worst.stiffness:.3g}",
-            f"{load[worst.dof] / good:.2g}",
+            rounded(load[worst.dof] / good),
             edits,
             sag([each.actuator for each in weak]),
             SAG,
@@ -103,7 +103,7 @@ def _late(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
         tuple(simulation.name("actuator", each.actuator) for each in late),
         "kp",
         f"{worst.stiffness:.3g}",
-        f"{stiffness[worst.actuator]:.2g}",
+        rounded(stiffness[worst.actuator]),
         tuple(edit for each in late for edit in _stronger(model, each, stiffness[each.actuator], damped=True)),
         remaining([each.actuator for each in late]),
         LEFT,

@@ -23,3 +23,4 @@ if __name__ == "__main__":
     print(f"past the stop = {1000 * (data.qpos[0] - model.jnt_range[0, 1]):.6f} mrad")
     print(f"mass = {model.body_mass.sum():.6f} kg")
     print(f"dof_invweight0 = {model.dof_invweight0[0]:.9f} 1/(kg m2)")
+    print(f"body_invweight0 = {model.body('beam').invweight0[0]:.9f} 1/kg")

@@ -3,6 +3,7 @@ export const about = "Try one action twice, and go back between the tries to wha
 export const controls = [
   { name: "part", label: "save qpos and qvel" },
   { name: "act", label: "save act as well" },
+  { name: "warm", label: "save qacc_warmstart too" },
   { name: "seconds", label: "duration of the action", min: 0.1, max: 0.6, step: 0.1, value: 0.5, unit: "s" },
 ];
 
@@ -18,7 +19,7 @@ export default class {
 
   use(name, value) {
     if (name === "seconds") this.seconds = value;
-    else this.saved = name === "act" ? ["qpos", "qvel", "act"] : ["qpos", "qvel"];
+    else this.saved = { part: ["qpos", "qvel"], act: ["qpos", "qvel", "act"], warm: ["qpos", "qvel", "act", "qacc_warmstart"] }[name];
   }
 
   push(data) {
@@ -41,7 +42,7 @@ export default class {
     return [
       ["saved and restored", this.saved.join(", ")],
       ...ends.map(([act, end], k) => [k ? "the second try" : "the first try", `begins with act ${act.toFixed(4)}, the pusher ends at ${told(end)}`]),
-      ["the ends are apart by", told(apart), apart < 1e-6 ? "same" : "differs"],
+      ["the ends are apart by", apart > 0 && apart < 1e-6 ? `${(1000 * apart).toExponential(0)} mm` : told(apart), apart === 0 ? "same" : "differs"],
     ];
   }
 }

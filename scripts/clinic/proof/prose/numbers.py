@@ -66,6 +66,11 @@ def typed(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 yield case.problem(("sweep", key, *place.split(".")[:1]), form.label, wanted, repair, form.label)
 
 
+LASTING = re.compile(
+    r"\blong(?:er)?\b|\btime\b|\bseconds?\b|\blast|\d\s*m?s\b", re.IGNORECASE
+)  # a title that speaks of a duration
+
+
 def titled(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 5, titles. A number in the title of a remedy or trial is one that it writes, or the ratio to that before."""
     titles: list[tuple[Where, str, list[tuple[float, float]]]] = [
@@ -73,7 +78,7 @@ def titled(case: Case, evidence: Evidence) -> Iterator[Problem]:
     ]
     for index, trial in enumerate(case.record.trials):
         changed = list(changed_numbers(case, case.text, trial))
-        if trial.duration and case.record.run is not None:
+        if trial.duration and case.record.run is not None and LASTING.search(trial.title):
             changed.append((case.record.run.duration, trial.duration))
         changed += [(math.nan, float(n)) for edit in trial.edits for n in WRITTEN.findall(edit.replace)]
         titles.append((("trials", index, "title"), trial.title, changed))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from clinic.proof.bounds import bounded, differing, varied
+from clinic.proof.bounds import bounded, differing, parting, varied
 from clinic.proof.evidence import collect
 from clinic.proof.sweep import measure_sweep
 from helpers import SWEEP, tiny_case
@@ -45,6 +45,22 @@ def test_a_trial_differs_from_the_run(tmp_path, situation: str, same: bool) -> N
     checks = ", checks: {fixed: [{signal: height, above: 0.04}], broken: [{signal: contacts, take: max, equals: 0}]}}"
     case = tiny_case(tmp_path, ("film:", trials.replace("}\nfilm", f"{checks}\nfilm")))
     assert [problem.where for problem in differing(case, collect(case))] == ["trials[1]"] * same
+
+
+@pytest.mark.parametrize(
+    ("kind", "check", "near"),
+    [
+        ("fixed", "{signal: height, above: 0.02}", False),
+        ("fixed", "{signal: height, above: -0.6}", True),
+        ("fixed", "{signal: height, above: -50}", True),
+        ("broken", "{signal: height, below: -0.3}", False),
+        ("broken", "{signal: height, below: 0.045}", True),
+        ("broken", "{signal: height, below: 1}", True),
+    ],
+)
+def test_a_one_sided_bound_keeps_off_the_other_kind(tmp_path, kind: str, check: str, near: bool) -> None:
+    case = tiny_case(tmp_path, (f"  {kind}:\n", f"  {kind}:\n    - {check}\n"))
+    assert [problem.where for problem in parting(case, collect(case))] == [f"checks.{kind}[0]"] * near
 
 
 @pytest.mark.parametrize(("values", "same"), [("[1, 2, 4, 8]", False), ("[1, 1.001]", True)])

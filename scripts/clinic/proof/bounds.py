@@ -25,6 +25,7 @@ Kind = Literal["broken", "fixed"]
 REACH = 12.0  # how many times the number that it admits a bound may be
 SEEN = 0.01  # the share by which the outcome of a sweep changes
 APART = 0.25  # the share of its range by which a mark's outcome may differ: a sweep may be shorter than the run
+DISTINCT = 0.05  # the share by which numbers of broken and fixed differ, if they do
 MOVED = 0.1  # the share by which a trial changes some number that is checked
 
 
@@ -49,6 +50,48 @@ def bounded(case: Case, evidence: Evidence) -> Iterator[Problem]:
                     shown = " and ".join(f"{measured:.4g}" for measured in admitted)
                     wanted, repair = f"a bound near what it admits: {shown}", "tighten the bound"
                     yield case.problem(where, f"{check.signal} ({check.take}) {expected(check)}", wanted, repair)
+
+
+def parting(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 1, one-sided bounds. Where the broken variant and the fixes differ, a bound keeps off the other kind.
+
+    It lies a quarter of the way from the other kind at least, or half of its number.
+    """
+    for trial in (None, *case.record.trials):
+        kinds: tuple[Kind, Kind] = ("broken", "fixed")
+        for kind in kinds:
+            for index, check in enumerate(
+                getattr(checks_in(case.record, trial) if trial else case.record.checks, kind)
+            ):
+                bound = check.below if check.below is not None else check.above
+                own, others = _numbers(evidence, trial, kind, index)
+                if bound is None or not own or not others:
+                    continue
+                sign = 1.0 if check.below is not None else -1.0
+                farthest = max(own, key=lambda number: sign * number)
+                beyond = [
+                    each for each in others if sign * (each - farthest) > DISTINCT * max(abs(each), abs(farthest))
+                ]
+                nearest = min(beyond, key=lambda number: sign * number, default=None)
+                if nearest is not None and sign * (nearest - bound) < min(
+                    abs(nearest - farthest) / 4, abs(nearest) / 2 or abs(bound)
+                ):
+                    place: Where = ("checks", kind, index)
+                    if trial is not None:
+                        place = ("trials", case.record.trials.index(trial))
+                    found = f"{check.signal} ({check.take}) {expected(check)}, and the other kind has {nearest:.4g}"
+                    wanted = f"a bound between {farthest:.4g} and that, and not close to that"
+                    yield case.problem(place, found, wanted, "tighten the bound")
+
+
+def _numbers(evidence: Evidence, trial: Trial | None, kind: Kind, index: int) -> tuple[list[float], list[float]]:
+    """What a check measured in the variants that it should hold for, and in those of the other kind."""
+    own, others = [], []
+    for each in evidence.variants.values():
+        measured = (each.checks if trial is None else each.trials[trial.id])[kind][index].measured
+        if measured is not None and each.kind != "refuted":
+            (own if (each.kind == "fix") == (kind == "fixed") else others).append(measured)
+    return own, others
 
 
 def differing(case: Case, evidence: Evidence) -> Iterator[Problem]:

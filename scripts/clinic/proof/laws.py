@@ -13,7 +13,7 @@ from typing import Literal
 from clinic.engine.checks import expected
 from clinic.engine.simulate import compile_model
 from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
-from clinic.proof.bounds import bounded, differing, marked, varied
+from clinic.proof.bounds import bounded, differing, marked, parting, varied
 from clinic.proof.claims import claimed
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.proof.prose.absences import bold, commented, denied, functional, kinds, named
@@ -191,12 +191,13 @@ def released(case: Case, evidence: Evidence) -> Iterator[Problem]:
     yield from release_problems(case, differing_releases(evidence))
 
 
-OF_GRADE_A = ("bold", "named", "kinds", "functional", "commented")
+OF_GRADE_A = ("parting", "bold", "named", "kinds", "functional", "commented")
 LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
     law.__name__: law
     for law in (
         verdicts,
         bounded,
+        parting,
         differing,
         ablation,
         small_edits,

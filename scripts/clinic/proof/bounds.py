@@ -86,7 +86,8 @@ def parting(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 def _numbers(evidence: Evidence, trial: Trial | None, kind: Kind, index: int) -> tuple[list[float], list[float]]:
     """What a check measured in the variants that it should hold for, and in those of the other kind."""
-    own, others = [], []
+    own: list[float] = []
+    others: list[float] = []
     for each in evidence.variants.values():
         measured = (each.checks if trial is None else each.trials[trial.id])[kind][index].measured
         if measured is not None and each.kind != "refuted":

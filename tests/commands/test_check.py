@@ -37,7 +37,8 @@ def test_a_case_with_all_that_grade_a_asks_for(checkout: Path) -> None:
     trial = "{id: more, title: More, edits: [{find: first, replace: '2 * first'}]}"
     write_script_case(checkout, FOUND, ("picture:", f"trials: [{trial}]\nloose: {{'error = 0.5': any}}\npicture:"))
     assert checked(checkout).grade == "B"
-    words = ["Read it.", "It says so.", "Write another number.", "Read the output."]
+    words = ["Read it.", "It says so.", "Write another number.", "Read the output.", "More", "masks"]
+    words += ["the error that it prints", "A script prints an error"]
     claims = {"measured": ["It prints {{ broken.error.final }}."], "advice": words}
     (checkout / "cases" / "odd-script" / "claims.yaml").write_text(yaml.safe_dump(claims), encoding="utf-8")
     assert (checked(checkout).grade, checked(checkout).breaches) == ("A", ())

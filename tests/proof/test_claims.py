@@ -12,19 +12,19 @@ from clinic.record.case import Case, load_case, read_case
 from clinic.record.claims import sentences
 from helpers import SCRIPT_RECORD, changed, script_case, write_folder
 
-SCRIPT = "first = 0.5\nerror = 0.5\nprint('error =', error)\n"
+SCRIPT = "first = 0.5\nscale = 1\nprint('error =', scale * first)\n"
 CAUSE = "It is wrong by more than nothing."
 RECORD = changed(SCRIPT_RECORD, ("cause: It says so.", f"cause: {CAUSE}"))
 CODE = 'assert measured["broken.error.final"] > 0'
 CLAIMS = {
     "claims": [{"says": CAUSE, "python": CODE}],
     "measured": ["It prints {{ broken.error.final }}."],
-    "advice": ["Read it.", "Write another number.", "Read the output."],
+    "advice": ["Read it.", "Write another number.", "Read the output.", "A script prints an error"],
 }
 
 
 def case_with(root: Path, claims: object = CLAIMS, record: str = RECORD) -> Case:
-    files = {"case.yaml": record, "script.py": SCRIPT.replace("error = 0.5", "error = first")}
+    files = {"case.yaml": record, "script.py": SCRIPT}
     text = claims if isinstance(claims, str) else yaml.safe_dump(claims)
     return load_case(write_folder(root, "odd-script", files | {"claims.yaml": text}))
 
@@ -46,11 +46,10 @@ def test_sentences_that_are_shown_are_no_problem(tmp_path):
 def test_a_sentence_that_is_changed_is_told_with_what_showed_it(tmp_path):
     case = case_with(tmp_path, record=changed(RECORD, ("more than nothing", "less than nothing")))
     evidence = collect(case)
-    changed_one, left = claimed(case, evidence)
+    (changed_one,) = claimed(case, evidence)
     assert (changed_one.where, changed_one.line) == ("cause", 6)
     assert changed_one.found == "a sentence that nothing is named for: 'It is wrong by less than nothing.'"
     assert changed_one.expected == f"as in claims.yaml, where it is {CAUSE!r}, shown by code that holds"
-    assert (left.where, left.found) == ("claims[0]", f"{CAUSE!r}, which the record does not say")
 
 
 @pytest.mark.parametrize(
@@ -67,6 +66,22 @@ def test_a_sentence_that_is_changed_is_told_with_what_showed_it(tmp_path):
 def test_code_shows_or_says_why_not(tmp_path, python, said):
     found = [each.partition(": ")[2] for each in told(case_with(tmp_path, shown(python)))]
     assert found == ([f"{CAUSE!r} is not shown: {said}"] if said else [])
+
+
+def test_a_sentence_that_the_record_does_not_say_is_told(tmp_path):
+    (found,) = told(case_with(tmp_path, CLAIMS | {"measured": [*CLAIMS["measured"], "Quite another {{ field }}."]}))
+    assert found.endswith("'Quite another {{ field }}.', which the record does not say")
+
+
+def test_titles_and_labels_are_asked_too_and_code_reads_the_record(tmp_path):
+    trial = "trials:\n  - {id: more, title: Twice as wrong, edits: [{find: scale = 1, replace: scale = 2}]}\npicture:"
+    record = changed(RECORD, ("picture:", trial))
+    assert told(case_with(tmp_path / "without", record=record)) == [
+        "case.yaml:25: a sentence that nothing is named for: 'Twice as wrong'"
+    ]
+    code = 'assert record["trials"][0]["edits"][0]["replace"] == "scale = 2"'
+    claims = CLAIMS | {"claims": [*CLAIMS["claims"], {"says": "Twice as wrong", "python": code}]}
+    assert told(case_with(tmp_path / "with", claims, record)) == []
 
 
 def test_a_quotation_stands_in_the_manual(tmp_path):
@@ -114,7 +129,8 @@ def test_a_wrong_file_is_told_at_its_place(tmp_path, claims, where, found):
 def test_the_missing_sentences_are_printed_for_the_file(tmp_path):
     case = case_with(tmp_path, {"advice": ["Read it."]})
     printed = yaml.safe_load(missing(case))
-    assert [each["says"] for each in printed["claims"]] == [CAUSE, "Write another number.", "Read the output."]
+    lacking = [CAUSE, "Write another number.", "Read the output.", "A script prints an error"]
+    assert [each["says"] for each in printed["claims"]] == lacking
     assert printed["measured"] == ["It prints {{ broken.error.final }}."]
 
 

@@ -18,6 +18,7 @@ from clinic.proof.evidence import Evidence
 from clinic.proof.prose_laws import prose_of
 from clinic.record.case import Case
 from clinic.record.claims import flat, sentences
+from clinic.record.fields import WORDS
 from clinic.record.problem import Problem
 from clinic.record.prose import FIELD
 from clinic.record.yaml_lines import Where
@@ -28,7 +29,8 @@ import mujoco
 import numpy as np
 
 given = json.load(open("claims.json"))
-text, measured, output, printed, keyframe = (given[k] for k in ("text", "measured", "output", "printed", "keyframe"))
+shown = {name: given[name] for name in ("text", "measured", "output", "printed", "record")}
+text, keyframe = given["text"], given["keyframe"]
 
 
 def load(variant="broken"):
@@ -42,7 +44,7 @@ def load(variant="broken"):
 
 
 mujoco.set_mju_user_warning(lambda said: None)
-names = dict(mujoco=mujoco, np=np, load=load, text=text, measured=measured, output=output, printed=printed)
+names = dict(mujoco=mujoco, np=np, load=load, **shown)
 wrong = {}
 for number, code in given["codes"].items():
     try:
@@ -75,6 +77,7 @@ def unshown(case: Case, evidence: Evidence) -> dict[int, str]:
         "measured": taken,
         "output": {name: shown.output for name, shown in evidence.variants.items()},
         "printed": evidence.snippet,
+        "record": case.record.model_dump(mode="json", exclude=WORDS),
         "keyframe": case.record.run.keyframe if case.record.run else None,
     }
     try:
@@ -90,9 +93,11 @@ def claimed(case: Case, evidence: Evidence) -> Iterator[Problem]:
         return
     listed = case.claims.sentences
     known = dict(_said(case))
+    left = [sentence for sentence in listed if sentence not in known]
     for sentence, where in known.items():
         if sentence not in listed:
-            near = difflib.get_close_matches(sentence, listed, n=1, cutoff=0.6)
+            near = difflib.get_close_matches(sentence, left, n=1, cutoff=0.6)
+            left = [each for each in left if each not in near]
             found = f"a sentence that nothing is named for: {sentence!r}"
             expected = f"{_shown_by(case, near[0])}" if near else "a sentence of claims.yaml"
             repair = "see whether that shows it, and write it there, or correct the sentence"
@@ -111,16 +116,26 @@ def claimed(case: Case, evidence: Evidence) -> Iterator[Problem]:
     for kind in ("claims", "measured", "advice"):
         for k, each in enumerate(getattr(case.claims, kind)):
             sentence = flat(each if isinstance(each, str) else each.says)
-            if sentence not in known:
+            if sentence in left:
                 found = f"{sentence!r}, which the record does not say"
                 yield case.claim_problem((kind, k), found, "a sentence of the record", "remove it, or correct it")
 
 
 def _said(case: Case) -> Iterator[tuple[str, Where]]:
-    """Every sentence of the prose with its field, but for what a measurement is called."""
+    """Every sentence of the prose, with its field; titles of the case, its trials and sweeps, its cause, and labels."""
+    record = case.record
     for where, text in prose_of(case):
-        if where[0] != "telling":
-            yield from ((sentence, where) for sentence in sentences(text))
+        yield from ((sentence, where) for sentence in sentences(text))
+    yield record.title, ("title",)
+    if record.telling is not None and record.telling.cause:
+        yield record.telling.cause, ("telling", "cause")
+    for index, trial in enumerate(record.trials):
+        yield trial.title, ("trials", index, "title")
+    for name, sweep in record.sweep.items():
+        yield sweep.title, ("sweep", name, "title")
+        yield sweep.prediction.label, ("sweep", name, "prediction")
+        yield from ((each.label, ("sweep", name, "vary", k)) for k, each in enumerate(sweep.vary) if each.label)
+        yield from ((each.label, ("sweep", name, "rivals", k)) for k, each in enumerate(sweep.rivals))
 
 
 def missing(case: Case) -> str:

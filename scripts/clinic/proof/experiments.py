@@ -31,13 +31,12 @@ from clinic.proof.robustness import Robustness, robustness
 from clinic.proof.sweep import SweepEvidence, measure_sweep
 from clinic.proof.tightness import Loose, loose_numbers, numbers
 from clinic.record.case import Case
+from clinic.record.fields import WORDS
 from clinic.record.problem import CaseError, Problem
 from clinic.work.cache import Cache, Files, key_of
 from clinic.work.task import Task, run_tasks
 
 EVIDENCE = "evidence.json"
-WORDS = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "no_sweep", "formulas"}
-WORDS |= {"tags", "phrases", "family", "manual", "see", "telling", "exempt", "mentions", "loose"}
 ANSWERS = TypeAdapter(dict[str, Answer])
 ROBUST = TypeAdapter(dict[str, Robustness])
 CLAIMED = TypeAdapter(dict[int, str] | None)

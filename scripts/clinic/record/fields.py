@@ -15,6 +15,9 @@ from clinic.record.parts import Comparison, Edit, Identifier, Interval, Name, St
 from clinic.record.sweep import Sweep
 
 FileName = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]+\.(?:csv|json|mjs|py|txt|xml|yaml)$")]
+WORDS = {"number", "title", "symptom", "diagnosis", "cause", "fix", "lesson", "no_sweep", "formulas"}
+WORDS |= {"tags", "phrases", "family", "manual", "see", "telling", "exempt", "mentions", "loose"}
+"""The fields on which no run depends."""
 FILM_SECONDS = 6.0  # how long a film lasts of which the record says nothing
 Element = Literal["actuator", "body", "camera", "dof", "geom", "joint", "sensor", "site", "tendon"]
 Law = Literal["lasting", "steady", "typed"]

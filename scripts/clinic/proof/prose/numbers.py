@@ -124,7 +124,7 @@ def _ratios(changed: Iterable[tuple[float, float]], up: bool, down: bool) -> set
 
 def _values(number: str) -> list[float]:
     """What a number in a title may stand for: itself, in thousandths, or the factor that it names."""
-    words = {"twice": 2.0, "double": 2.0, "halve": 2.0, "halving": 2.0, "doubling": 2.0, "dozen": 12.0}
+    words = {"one": 1.0, "twice": 2.0, "double": 2.0, "halve": 2.0, "halving": 2.0, "doubling": 2.0, "dozen": 12.0}
     words |= {word: float(n) for n, word in enumerate(["two", *SMALL.split()[:12]], 2)} | {
         "hundred": 100.0,
         "thousand": 1000.0,

@@ -89,12 +89,14 @@ def _in_urdf(link: Element, said: str) -> Iterator[Suspect]:
         edits = [set_attribute(inertia, name, f"{v:.4g}") for name, v in zip(DIAGONAL, possible(before), strict=True)]
         edits += [set_attribute(inertia, name, "0") for name in ("ixy", "ixz", "iyz") if float(inertia.get(name, "0"))]
         wrong = max(range(3), key=lambda k: abs(float(edits[k].value) - before[k]))
-        now = inertia.get(DIAGONAL[wrong])
+        told, now, value = DIAGONAL[wrong], inertia.get(DIAGONAL[wrong]), edits[wrong].value
+        if all(abs(float(edits[k].value) - before[k]) <= 1e-3 * before[k] for k in range(3)) and len(edits) > 3:
+            told, now, value = edits[3].attribute, inertia.get(edits[3].attribute), "0"
         link_name = (
             f'link "{inertia.parent.parent.get("name")}"' if inertia.parent and inertia.parent.parent else "link"
         )
         says = f"{link_name}: {said}."
-        yield mends(inertia, edits, says, attribute=DIAGONAL[wrong], now=now, value=edits[wrong].value)
+        yield mends(inertia, edits, says, attribute=told, now=now, value=value)
 
 
 def possible(moments: list[float]) -> list[float]:

@@ -89,7 +89,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "gear" if geared else "ctrlrange",
             f"{gear:g}" if geared else " ".join(f"{each:g}" for each in worst.ctrl),
             "1" if geared else inherited(worst),
-            tuple(edit for each in some for edit in (_ungeared if geared else inherit)(model, each)),
+            tuple(edit for each in some for edit in (ungeared if geared else inherit)(model, each)),
             Probe(
                 "share of the joint's range that no target reaches",
                 "",
@@ -105,7 +105,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         )
 
 
-def _ungeared(model: ReaderModel, servo: Servo) -> tuple[Edit, ...]:
+def ungeared(model: ReaderModel, servo: Servo) -> tuple[Edit, ...]:
     """A gear of 1 in place of the gear, and gains that leave the joint as stiff and as damped as it was."""
     one, gear = [servo.actuator], model.simulation.model("actuator_gear")[6 * servo.actuator]
     written = {gain: model.value("actuator", servo.actuator, gain) for gain in ("kp", "kv")}

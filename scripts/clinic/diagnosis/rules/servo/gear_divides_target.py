@@ -51,7 +51,6 @@ TITLE = "A gear that divides the servo's target"
 FAMILIES = ("sags", "stuck", "oscillates")
 SINCE = "0.2"
 LEVEL = "hint"
-UNPLANTED = "what the bench plants has control ranges, and control-range-too-narrow finds it"
 MOST = 1.5
 
 

@@ -16,7 +16,8 @@ from project import ROOT
 pytestmark = pytest.mark.xdist_group("parity")
 SENTENCES = yaml.safe_load((ROOT / "tests" / "record" / "sentences.yaml").read_text(encoding="utf-8"))
 CALL = """
-  const [module, name, calls] = JSON.parse(process.argv[1]);
+  import { readFileSync } from "node:fs";
+  const [module, name, calls] = JSON.parse(readFileSync(0, "utf8"));
   const exported = await import("./docs/playground/" + module);
   const plain = (_, value) => typeof value !== "number" || Number.isFinite(value) ? value : String(value);
   console.log(JSON.stringify(calls.map((call) => exported[name](...call) ?? null), plain));
@@ -41,8 +42,8 @@ REFUSED = {  # what MuJoCo 3.14's JavaScript binding throws, with what the page 
 
 def call(module: str, name: str, *calls: list[Any]) -> list[Any]:
     asked = json.dumps([module, name, calls])
-    command = [node() or "", "--input-type=module", "-e", CALL, asked]
-    done = subprocess.run(command, cwd=ROOT, check=False, capture_output=True, text=True)
+    command = [node() or "", "--input-type=module", "-e", CALL]
+    done = subprocess.run(command, input=asked, cwd=ROOT, check=False, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     found: list[Any] = json.loads(done.stdout)
     return found

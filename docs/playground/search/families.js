@@ -34,7 +34,8 @@ export function likely(families) {
       const own = whole(called);
       const near = new Set([...whole(beside)].filter((stem) => !own.has(stem)));
       const part = Math.max(...called.map((phrase) => shared(phrase, said) / phrase.size));
-      return /** @type {[string, number]} */ ([family, weight(own) + BESIDE * weight(near) + PART * part]);
+      const score = weight(own) + BESIDE * weight(near) + PART * part;
+      return /** @type {[string, number]} */ ([family, Number(score.toFixed(9))]); // equal ones stay equal, in whatever order they are summed
     });
     const loudest = Math.max(...scores.map(([, score]) => score));
     return new Map(scores.filter(([, score]) => score > PART / 2).map(([family, score]) => [family, score / loudest]));

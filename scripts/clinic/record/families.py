@@ -62,7 +62,8 @@ def likely_families(text: str) -> list[str]:
         whole = set().union(*(phrase for phrase in called[name] if phrase <= said))
         near = set().union(*(phrase for phrase in beside[name] if phrase <= said)) - whole
         part = max(len(phrase & said) / len(phrase) for phrase in called[name])
-        scores[name] = sum(rarity[stem] for stem in whole) + BESIDE * sum(rarity[stem] for stem in near) + part * PART
+        score = sum(rarity[stem] for stem in whole) + BESIDE * sum(rarity[stem] for stem in near) + part * PART
+        scores[name] = round(score, 9)  # equal ones stay equal, in whatever order they are summed
     return sorted((name for name in scores if scores[name] > PART / 2), key=lambda name: -scores[name])
 
 

@@ -5,8 +5,8 @@ const DOUBLE = /([bdfglmnprtz])\1$/;
 const NOT = new Set("no never cannot without unable fail nothing nobody barely".split(" "));
 const IDLE = new Set(
   (
-    "a an and are as at be been but by can do for from had has have i if in is it its me my of on or so that the " +
-    "their them there they this to was we were when while with you your mujoco simulation"
+    "a an and are as at be been but by can did do does doing done for from had has have i if in is it its me my of on " +
+    "or so that the their them there they this to was we were when while with you your mujoco simulation"
   ).split(" "),
 );
 const PART = 0.5;

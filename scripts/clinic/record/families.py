@@ -15,8 +15,8 @@ DOUBLE = re.compile(r"([bdfglmnprtz])\1$")
 NOT = {"no", "never", "cannot", "without", "unable", "fail", "nothing", "nobody", "barely"}
 PART = 0.5  # what the nearest phrase counts that the text has in part
 BESIDE = 0.4  # what a word counts that stands beside the symptom
-IDLE = """a an and are as at be been but by can do for from had has have i if in is it its me my of on or so that the
-their them there they this to was we were when while with you your mujoco simulation"""
+IDLE = """a an and are as at be been but by can did do does doing done for from had has have i if in is it its me my of
+on or so that the their them there they this to was we were when while with you your mujoco simulation"""
 
 
 class Family(NamedTuple):

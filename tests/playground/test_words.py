@@ -143,6 +143,6 @@ def test_the_editor_knows_what_mujoco_s_schema_and_manual_say() -> None:
 
 def test_a_query_speaks_of_the_same_families_as_in_python() -> None:
     asked = [text for texts in SENTENCES.values() for text in texts]
-    words = [{"family": name, "words": family.words, "context": family.context} for name, family in families().items()]
+    words = [{"family": name, **family._asdict()} for name, family in families().items()]
     ranked = call("search/families.js", "ranked", [words, asked])[0]
     assert dict(zip(asked, ranked, strict=True)) == {text: likely_families(text) for text in asked}

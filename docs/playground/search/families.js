@@ -15,11 +15,11 @@ const BESIDE = 0.4;
 /** @typedef {{called: Set<string>[], beside: Set<string>[]}} Phrases */
 
 /**
- * @param {{family: string, words: string[], context: string[]}[]} families
+ * @param {{family: string, words: string[], further: string[], context: string[]}[]} families
  * @returns {(query: string) => Map<string, number>} how much the query speaks of each family that it speaks of, as a share of the loudest
  */
 export function likely(families) {
-  const known = new Map(families.map(({ family, words, context }) => [family, { called: phrases([family, ...words]), beside: phrases(context) }]));
+  const known = new Map(families.map(({ family, words, further, context }) => [family, { called: phrases([family, ...words, ...further]), beside: phrases(context) }]));
   /** @type {Map<string, number>} */
   const users = new Map();
   for (const { called, beside } of known.values()) {

@@ -26,6 +26,7 @@ class Family(NamedTuple):
         title: What is seen.
         first: What to measure first, as Markdown.
         words: What people call it.
+        further: What they call it too, by which the search finds no page.
         context: What they name beside it, which other symptoms have too.
         probe: Python lines that measure a model at its start, or in a short run, for the expressions of its cases; they
             have `model`, `data` after `mj_forward`, `mujoco` and `np`.
@@ -34,6 +35,7 @@ class Family(NamedTuple):
     title: str
     first: str
     words: tuple[str, ...]
+    further: tuple[str, ...]
     context: tuple[str, ...]
     probe: str
 
@@ -44,7 +46,12 @@ def families() -> dict[str, Family]:
     read = tomllib.loads((Path(__file__).parent / "families.toml").read_text(encoding="utf-8"))
     return {
         name: Family(
-            each["title"], each["first"], tuple(each["words"]), tuple(each.get("context", ())), each.get("probe", "")
+            each["title"],
+            each["first"],
+            tuple(each["words"]),
+            tuple(each["further"]),
+            tuple(each.get("context", ())),
+            each.get("probe", ""),
         )
         for name, each in read.items()
     }
@@ -70,7 +77,7 @@ def likely_families(text: str) -> list[str]:
 @cache
 def _vocabulary() -> tuple[dict[str, list[set[str]]], dict[str, list[set[str]]], dict[str, float]]:
     """The stems of the phrases of every family, those beside it, and how telling each stem is."""
-    called = {name: _phrases(name, *family.words) for name, family in families().items()}
+    called = {name: _phrases(name, *family.words, *family.further) for name, family in families().items()}
     beside = {name: _phrases(*family.context) for name, family in families().items()}
     count = Counter(stem for name in called for stem in set().union(*called[name], *beside[name]))
     return called, beside, {stem: math.log(1 + len(called) / users) for stem, users in count.items()}

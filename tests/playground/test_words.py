@@ -16,7 +16,8 @@ from project import ROOT
 pytestmark = pytest.mark.xdist_group("parity")
 SENTENCES = yaml.safe_load((ROOT / "tests" / "record" / "sentences.yaml").read_text(encoding="utf-8"))
 CALL = """
-  const [module, name, calls] = JSON.parse(process.argv[1]);
+  import { readFileSync } from "node:fs";
+  const [module, name, calls] = JSON.parse(readFileSync(0, "utf8"));
   const exported = await import("./docs/playground/" + module);
   const plain = (_, value) => typeof value !== "number" || Number.isFinite(value) ? value : String(value);
   console.log(JSON.stringify(calls.map((call) => exported[name](...call) ?? null), plain));
@@ -41,8 +42,8 @@ REFUSED = {  # what MuJoCo 3.14's JavaScript binding throws, with what the page 
 
 def call(module: str, name: str, *calls: list[Any]) -> list[Any]:
     asked = json.dumps([module, name, calls])
-    command = [node() or "", "--input-type=module", "-e", CALL, asked]
-    done = subprocess.run(command, cwd=ROOT, check=False, capture_output=True, text=True)
+    command = [node() or "", "--input-type=module", "-e", CALL]
+    done = subprocess.run(command, input=asked, cwd=ROOT, check=False, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     found: list[Any] = json.loads(done.stdout)
     return found
@@ -142,6 +143,6 @@ def test_the_editor_knows_what_mujoco_s_schema_and_manual_say() -> None:
 
 def test_a_query_speaks_of_the_same_families_as_in_python() -> None:
     asked = [text for texts in SENTENCES.values() for text in texts]
-    words = [{"family": name, "words": family.words, "context": family.context} for name, family in families().items()]
+    words = [{"family": name, **family._asdict()} for name, family in families().items()]
     ranked = call("search/families.js", "ranked", [words, asked])[0]
     assert dict(zip(asked, ranked, strict=True)) == {text: likely_families(text) for text in asked}

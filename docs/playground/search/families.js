@@ -5,8 +5,8 @@ const DOUBLE = /([bdfglmnprtz])\1$/;
 const NOT = new Set("no never cannot without unable fail nothing nobody barely".split(" "));
 const IDLE = new Set(
   (
-    "a an and are as at be been but by can do for from had has have i if in is it its me my of on or so that the " +
-    "their them there they this to was we were when while with you your mujoco simulation"
+    "a an and are as at be been but by can did do does doing done for from had has have i if in is it its me my of on " +
+    "or so that the their them there they this to was we were when while with you your mujoco simulation"
   ).split(" "),
 );
 const PART = 0.5;
@@ -15,11 +15,11 @@ const BESIDE = 0.4;
 /** @typedef {{called: Set<string>[], beside: Set<string>[]}} Phrases */
 
 /**
- * @param {{family: string, words: string[], context: string[]}[]} families
+ * @param {{family: string, words: string[], further: string[], context: string[]}[]} families
  * @returns {(query: string) => Map<string, number>} how much the query speaks of each family that it speaks of, as a share of the loudest
  */
 export function likely(families) {
-  const known = new Map(families.map(({ family, words, context }) => [family, { called: phrases([family, ...words]), beside: phrases(context) }]));
+  const known = new Map(families.map(({ family, words, further, context }) => [family, { called: phrases([family, ...words, ...further]), beside: phrases(context) }]));
   /** @type {Map<string, number>} */
   const users = new Map();
   for (const { called, beside } of known.values()) {
@@ -34,7 +34,8 @@ export function likely(families) {
       const own = whole(called);
       const near = new Set([...whole(beside)].filter((stem) => !own.has(stem)));
       const part = Math.max(...called.map((phrase) => shared(phrase, said) / phrase.size));
-      return /** @type {[string, number]} */ ([family, weight(own) + BESIDE * weight(near) + PART * part]);
+      const score = weight(own) + BESIDE * weight(near) + PART * part;
+      return /** @type {[string, number]} */ ([family, Number(score.toFixed(9))]); // equal ones stay equal, in whatever order they are summed
     });
     const loudest = Math.max(...scores.map(([, score]) => score));
     return new Map(scores.filter(([, score]) => score > PART / 2).map(([family, score]) => [family, score / loudest]));

@@ -4,7 +4,7 @@ import MiniSearch from "minisearch";
 import { likely } from "./families.js";
 import { stem, stems, thesaurus, words } from "./words.js";
 
-/** @typedef {{kind: string, at: string, title: string, words: string, text: string, case?: string, family?: string, context?: string}} Document `case` is the address of a message's case */
+/** @typedef {{kind: string, at: string, title: string, words: string, text: string, case?: string, family?: string, further?: string, context?: string}} Document `case` is the address of a message's case; nothing is found by `further` alone */
 /** @typedef {{found: Document[], covered: boolean}} Answer `covered` is whether the best is about most of what was asked */
 
 const FIELDS = ["title", "words", "context", "text", "answer"];
@@ -38,7 +38,8 @@ export function searcher({ documents, synonyms }, answers = {}) {
   const titles = texts.map(({ kind, title }) => (kind === "message" ? stems(title) : []));
   const weight = (/** @type {string} */ term) => Math.log(1 + texts.length / (known.get(term) ?? 1));
   const alike = thesaurus(synonyms);
-  const spoken = likely(texts.flatMap(({ kind, family = "", words: said, context = "" }) => (kind === "symptom" ? [{ family, words: said.split("; "), context: context.split("; ") }] : [])));
+  const apart = (phrases = "") => phrases.split("; ");
+  const spoken = likely(texts.flatMap(({ kind, family = "", ...said }) => (kind === "symptom" ? [{ family, words: apart(said.words), further: apart(said.further), context: apart(said.context) }] : [])));
 
   return (query) => {
     const asked = stems(query);

@@ -106,6 +106,7 @@ def _families(families: Mapping[str, Family]) -> Iterator[Document]:
             "at": f"symptoms/{name}.html",
             "title": family.title,
             "words": "; ".join(family.words),
+            "further": "; ".join(family.further),
             "context": "; ".join(family.context),
             "text": "",
             "family": name,

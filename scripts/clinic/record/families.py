@@ -15,8 +15,8 @@ DOUBLE = re.compile(r"([bdfglmnprtz])\1$")
 NOT = {"no", "never", "cannot", "without", "unable", "fail", "nothing", "nobody", "barely"}
 PART = 0.5  # what the nearest phrase counts that the text has in part
 BESIDE = 0.4  # what a word counts that stands beside the symptom
-IDLE = """a an and are as at be been but by can do for from had has have i if in is it its me my of on or so that the
-their them there they this to was we were when while with you your mujoco simulation"""
+IDLE = """a an and are as at be been but by can did do does doing done for from had has have i if in is it its me my of
+on or so that the their them there they this to was we were when while with you your mujoco simulation"""
 
 
 class Family(NamedTuple):
@@ -26,6 +26,7 @@ class Family(NamedTuple):
         title: What is seen.
         first: What to measure first, as Markdown.
         words: What people call it.
+        further: What they call it too, by which the search finds no page.
         context: What they name beside it, which other symptoms have too.
         probe: Python lines that measure a model at its start, or in a short run, for the expressions of its cases; they
             have `model`, `data` after `mj_forward`, `mujoco` and `np`.
@@ -34,6 +35,7 @@ class Family(NamedTuple):
     title: str
     first: str
     words: tuple[str, ...]
+    further: tuple[str, ...]
     context: tuple[str, ...]
     probe: str
 
@@ -44,7 +46,12 @@ def families() -> dict[str, Family]:
     read = tomllib.loads((Path(__file__).parent / "families.toml").read_text(encoding="utf-8"))
     return {
         name: Family(
-            each["title"], each["first"], tuple(each["words"]), tuple(each.get("context", ())), each.get("probe", "")
+            each["title"],
+            each["first"],
+            tuple(each["words"]),
+            tuple(each["further"]),
+            tuple(each.get("context", ())),
+            each.get("probe", ""),
         )
         for name, each in read.items()
     }
@@ -62,14 +69,15 @@ def likely_families(text: str) -> list[str]:
         whole = set().union(*(phrase for phrase in called[name] if phrase <= said))
         near = set().union(*(phrase for phrase in beside[name] if phrase <= said)) - whole
         part = max(len(phrase & said) / len(phrase) for phrase in called[name])
-        scores[name] = sum(rarity[stem] for stem in whole) + BESIDE * sum(rarity[stem] for stem in near) + part * PART
+        score = sum(rarity[stem] for stem in whole) + BESIDE * sum(rarity[stem] for stem in near) + part * PART
+        scores[name] = round(score, 9)  # equal ones stay equal, in whatever order they are summed
     return sorted((name for name in scores if scores[name] > PART / 2), key=lambda name: -scores[name])
 
 
 @cache
 def _vocabulary() -> tuple[dict[str, list[set[str]]], dict[str, list[set[str]]], dict[str, float]]:
     """The stems of the phrases of every family, those beside it, and how telling each stem is."""
-    called = {name: _phrases(name, *family.words) for name, family in families().items()}
+    called = {name: _phrases(name, *family.words, *family.further) for name, family in families().items()}
     beside = {name: _phrases(*family.context) for name, family in families().items()}
     count = Counter(stem for name in called for stem in set().union(*called[name], *beside[name]))
     return called, beside, {stem: math.log(1 + len(called) / users) for stem, users in count.items()}

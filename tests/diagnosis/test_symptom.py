@@ -73,11 +73,11 @@ def test_no_row_applies_to_healthy_models(family, root, monkeypatch):
         said = measure(family, code, NativeEngine(), texts, None)
         assert "they end with" not in said.printed, f"{model.name}: {said.printed}"
         told |= {(case, model.name): said.values[case] for case in said.told}
-    own = load_case_slugs(code)
+    own = cases_of(code)
     assert told.keys() == {(case, name) for case in own for name in KNOWN.get(case, {})}, told
 
 
-def load_case_slugs(code: str) -> set[str]:
+def cases_of(code: str) -> set[str]:
     """The cases whose rows a program has."""
     return {line.split('"')[1] for line in code.splitlines() if line.startswith('    ("')}
 

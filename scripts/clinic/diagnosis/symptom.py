@@ -8,15 +8,13 @@ import signal
 import warnings
 from collections.abc import Iterator, Mapping
 from types import FrameType
-from typing import Any
 
 import mujoco
 import numpy as np
 
 from clinic.diagnosis.finding import Measured
-from clinic.diagnosis.native import NativeEngine
-from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Start
+from clinic.diagnosis.native import NativeEngine, NativeModel
+from clinic.diagnosis.simulation import Simulation, Start
 from clinic.proof.procedure import measured, measurement, members, read
 from clinic.record.case import read_cases
 from clinic.record.checkout import cases_root
@@ -35,18 +33,15 @@ def code_of(family: str) -> str:
 
 def measure(family: str, code: str, engine: NativeEngine, texts: Mapping[str, str], start: Start | None) -> Measured:
     """Runs `code` on a model that compiles, at the reader's start; without one at its first key, as the page does."""
-    model = ReaderModel(engine, dict(texts), None, start or Start())
-    if start is None and model.simulation.count("key"):
-        model = ReaderModel(engine, dict(texts), None, Start(key=0))
-    model.simulation.begin()
-    native: Any = model.simulation.engine
     try:
         with _bounded(), warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()) as out:
             warnings.simplefilter("ignore")
-            exec(
-                code,
-                {"spec": _spec(engine, texts), "model": native.mj, "data": native.mjdata, "mujoco": mujoco, "np": np},
-            )
+            spec = _spec(engine, texts)
+            native = NativeModel(spec.compile())
+            simulation = Simulation(native, start or Start())
+            simulation.begin_from(start or Start(key=0 if simulation.count("key") else -1))
+            simulation.begin()
+            exec(code, {"spec": spec, "model": native.mj, "data": native.mjdata, "mujoco": mujoco, "np": np})
     except Exception as error:  # of an odd model: what one of the measurements cannot deal with
         return Measured(family, {}, (), f"they end with {type(error).__name__}: {' '.join(str(error).split())}")
     said = read(out.getvalue())
@@ -56,9 +51,7 @@ def measure(family: str, code: str, engine: NativeEngine, texts: Mapping[str, st
 def _spec(engine: NativeEngine, texts: Mapping[str, str]) -> mujoco.MjSpec:
     main, *others = texts
     include = {name: texts[name].encode() for name in others}
-    spec = mujoco.MjSpec.from_string(texts[main], include=include, assets=dict(engine.assets))
-    spec.compile()
-    return spec
+    return mujoco.MjSpec.from_string(texts[main], include=include, assets=engine.assets)
 
 
 @contextlib.contextmanager

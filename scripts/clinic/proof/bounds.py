@@ -40,7 +40,7 @@ def bounded(case: Case, evidence: Evidence) -> Iterator[Problem]:
             if trial is not None and (trial.checks is None or getattr(trial.checks, kind) is None):
                 continue
             for index, check in enumerate(getattr(checks_in(case.record, trial), kind)):
-                admitted = _admitted(evidence, trial, kind, index)
+                admitted, _ = _numbers(evidence, trial, kind, index)
                 if not admitted or (check.equals is None and _parts(evidence, trial, kind, index)):
                     continue
                 if all(_loose(check, measured) for measured in admitted):
@@ -60,9 +60,7 @@ def parting(case: Case, evidence: Evidence) -> Iterator[Problem]:
     for trial in (None, *case.record.trials):
         kinds: tuple[Kind, Kind] = ("broken", "fixed")
         for kind in kinds:
-            for index, check in enumerate(
-                getattr(checks_in(case.record, trial) if trial else case.record.checks, kind)
-            ):
+            for index, check in enumerate(getattr(checks_in(case.record, trial), kind)):
                 bound = check.below if check.below is not None else check.above
                 own, others = _numbers(evidence, trial, kind, index)
                 if bound is None or not own or not others:
@@ -140,13 +138,6 @@ def marked(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 )
                 wanted = f"a place with the outcome of {variant}: {own:.4g}"
                 yield case.problem(("sweep", name, "vary"), said, wanted, "correct `marks`")
-
-
-def _admitted(evidence: Evidence, trial: Trial | None, kind: Kind, index: int) -> list[float]:
-    """What a check measured in the variants of which it is asked."""
-    asked = [each for each in evidence.variants.values() if each.kind == ("broken" if kind == "broken" else "fix")]
-    results = [(each.checks if trial is None else each.trials[trial.id])[kind][index] for each in asked]
-    return [result.measured for result in results if result.measured is not None]
 
 
 def _parts(evidence: Evidence, trial: Trial | None, kind: Kind, index: int) -> bool:

@@ -99,7 +99,7 @@ def claimed(case: Case, evidence: Evidence) -> Iterator[Problem]:
             near = difflib.get_close_matches(sentence, left, n=1, cutoff=0.6)
             left = [each for each in left if each not in near]
             found = f"a sentence that nothing is named for: {sentence!r}"
-            expected = f"{_shown_by(case, near[0])}" if near else "a sentence of claims.yaml"
+            expected = _shown_by(case, near[0]) if near else "a sentence of claims.yaml"
             repair = "see whether that shows it, and write it there, or correct the sentence"
             yield case.problem(where, found, expected, repair, quoted=sentence)
     for k, claim in enumerate(case.claims.claims):

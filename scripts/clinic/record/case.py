@@ -70,7 +70,7 @@ class Case:
     @property
     def lacking(self) -> dict[str, str]:
         """What grade A asks for and the case is without, with what is not known for want of each."""
-        return self.record.lacking | ({} if self.claims else {CLAIMS: "what shows each of its sentences"})
+        return self.record.lacking | ({} if self.claims is not None else {CLAIMS: "what shows each of its sentences"})
 
     @property
     def rank(self) -> tuple[float, str]:

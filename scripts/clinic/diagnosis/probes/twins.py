@@ -80,13 +80,12 @@ class Twins(Pairs):
     @staticmethod
     def _sharpened(found: list[Comparison]) -> list[Comparison]:
         """Ranges are held to `EXACT` where all pairs of a model but one nearly have the same."""
-        made = []
-        for each in found:
-            others = [other.unlike for other in found if (other.kind, other.quantity) == (each.kind, each.quantity)]
-            exact = len(others) >= PAIRS and sorted(others)[-2] < EXACT / 2
-            sharp = each.quantity in ("range", "ctrlrange") and exact
-            made.append(replace(each, limit=EXACT) if sharp else each)
-        return made
+        exact = set()
+        for of in (("joint", "range"), ("actuator", "ctrlrange")):
+            unlike = sorted(each.unlike for each in found if (each.kind, each.quantity) == of)
+            if len(unlike) >= PAIRS and unlike[-2] < EXACT / 2:
+                exact.add(of)
+        return [replace(each, limit=EXACT) if (each.kind, each.quantity) in exact else each for each in found]
 
     def interval_sign(self, each: Comparison) -> float:
         """Whether a range of the pair is the same on both sides (1) or mirrored (-1)."""

@@ -66,9 +66,8 @@ def typed(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 yield case.problem(("sweep", key, *place.split(".")[:1]), form.label, wanted, repair, form.label)
 
 
-LASTING = re.compile(
-    r"\blong(?:er)?\b|\btime\b|\bseconds?\b|\blast|\d\s*m?s\b", re.IGNORECASE
-)  # a title that speaks of a duration
+LASTING = re.compile(r"\blong(?:er)?\b|\btime\b|\bseconds?\b|\blast|\d\s*m?s\b", re.IGNORECASE)
+"""What a title has that speaks of a duration."""
 
 
 def titled(case: Case, evidence: Evidence) -> Iterator[Problem]:

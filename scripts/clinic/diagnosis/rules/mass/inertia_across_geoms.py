@@ -38,8 +38,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.inertia import set_inertial
-from clinic.diagnosis.probes.matter import across, explicit, flat
+from clinic.diagnosis.probes.matter import Matter, across, explicit, flat
 from clinic.diagnosis.probes.vector import norm
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -58,10 +59,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for body, found in explicit(model):
         moments = model.simulation.row("body_inertia", body, 3)
         geoms, own = found.along
-        scale = norm(found.about) / norm(found.solid)
         if found.flat[0] > FLAT and found.flat[1] < 1 / OFF and min(moments) < 0.7 * max(moments):
-            solid = tuple(scale * x for x in found.solid)
-            wheels[body] = found.flat, set_inertial(model, body, found.mass, found.centre, solid)
+            wheels[body] = found.flat, _turned(model, body, found)
         if geoms > LONG or own <= LIMIT or min(moments) > 0.6 * max(moments):
             continue
         yield Suspect(
@@ -69,7 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "inertial",
             "quat " + (model.value("body", body, "quat") or "left out"),
             "axes of the geoms",
-            set_inertial(model, body, found.mass, found.centre, tuple(scale * x for x in found.solid)),
+            _turned(model, body, found),
             across(body),
             LIMIT,
             f"Its geoms are long: their inertia about the long axis is {geoms:.2g} of the mean, its own {own:.2g}.",
@@ -90,3 +89,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "a disk has 1.5, a wheel as wide as its radius 1.2",
             level="hint",
         )
+
+
+def _turned(model: ReaderModel, body: int, found: Matter) -> tuple[Edit, ...]:
+    """The edits that give a body as much inertia as it has, about the axes of its geoms."""
+    scale = norm(found.about) / norm(found.solid)
+    return tuple(set_inertial(model, body, found.mass, found.centre, tuple(scale * x for x in found.solid)))

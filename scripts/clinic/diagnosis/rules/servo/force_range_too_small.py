@@ -83,7 +83,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _undriven(model: ReaderModel) -> Iterator[Suspect]:
     """Joints of a model without actuators, such as one made of a URDF, whose limit is below the weight."""
-    simulation, load = model.simulation, loads(model.simulation)
+    simulation = model.simulation
     if simulation.count("actuator"):
         return
     weak = [
@@ -94,7 +94,7 @@ def _undriven(model: ReaderModel) -> Iterator[Suspect]:
     if weak:
         worst = max(weak, key=lambda joint: _weight_over_limit(simulation, joint))
         limit, name = simulation.row("jnt_actfrcrange", worst, 2)[1], simulation.name("joint", worst)
-        need = load[simulation.dof(worst)]
+        need = loads(simulation)[simulation.dof(worst)]
         yield Suspect(
             tuple(simulation.name("joint", joint) for joint in weak),
             "effort" if model.source is not None and model.source.urdf else "actuatorfrcrange",

@@ -7,14 +7,12 @@ import subprocess
 from typing import Any
 
 import pytest
-import yaml
 from clinic.engine.node import executable as node
 from clinic.pages.completion import completion
-from clinic.record.families import families, likely_families
+from clinic.record.families import family_shares, sayings, stem_counts
 from project import ROOT
 
 pytestmark = pytest.mark.xdist_group("parity")
-SENTENCES = yaml.safe_load((ROOT / "tests" / "record" / "sentences.yaml").read_text(encoding="utf-8"))
 CALL = """
   import { readFileSync } from "node:fs";
   const [module, name, calls] = JSON.parse(readFileSync(0, "utf8"));
@@ -142,7 +140,7 @@ def test_the_editor_knows_what_mujoco_s_schema_and_manual_say() -> None:
 
 
 def test_a_query_speaks_of_the_same_families_as_in_python() -> None:
-    asked = [text for texts in SENTENCES.values() for text in texts]
-    words = [{"family": name, **family._asdict()} for name, family in families().items()]
-    ranked = call("search/families.js", "ranked", [words, asked])[0]
-    assert dict(zip(asked, ranked, strict=True)) == {text: likely_families(text) for text in asked}
+    asked = [text for texts in sayings().values() for text in texts]
+    told = call("search/families.js", "told", [stem_counts(), asked])[0]
+    for text, shares in zip(asked, told, strict=True):
+        assert shares == pytest.approx(family_shares(text)), text

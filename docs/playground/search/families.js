@@ -1,4 +1,4 @@
-// Which symptom a query speaks of: the same reckoning as `likely_families` in scripts/clinic/record/families.py.
+// Which symptom a query speaks of: the same reckoning as `family_shares` in scripts/clinic/record/families.py.
 
 const SUFFIX = /(?<=[a-z]{3})(?:ations?|ings?|ies|ed|es|s|ly|e|y)$/;
 const DOUBLE = /([bdfglmnprtz])\1$/;
@@ -9,50 +9,41 @@ const IDLE = new Set(
     "or so that the their them there they this to was we were when while with you your mujoco simulation"
   ).split(" "),
 );
-const PART = 0.5;
-const BESIDE = 0.4;
 
-/** @typedef {{called: Set<string>[], beside: Set<string>[]}} Phrases */
+/** @typedef {Record<string, Record<string, number>>} Counts how often each stem stands in what people say of each family */
 
 /**
- * @param {{family: string, words: string[], further: string[], context: string[]}[]} families
- * @returns {(query: string) => Map<string, number>} how much the query speaks of each family that it speaks of, as a share of the loudest
+ * @param {Counts} counts
+ * @returns {(query: string) => Map<string, number>} how likely the query speaks of each family; empty if it has no word of any
  */
-export function likely(families) {
-  const known = new Map(families.map(({ family, words, further, context }) => [family, { called: phrases([family, ...words, ...further]), beside: phrases(context) }]));
+export function shares(counts) {
+  const table = new Map(Object.entries(counts));
   /** @type {Map<string, number>} */
-  const users = new Map();
-  for (const { called, beside } of known.values()) {
-    for (const stem of new Set([...called, ...beside].flatMap((phrase) => [...phrase]))) users.set(stem, (users.get(stem) ?? 0) + 1);
-  }
-  const rarity = (/** @type {string} */ stem) => Math.log(1 + known.size / (users.get(stem) ?? 1));
-  const weight = (/** @type {Set<string>} */ stems) => [...stems].reduce((sum, stem) => sum + rarity(stem), 0);
+  const own = new Map();
+  for (const users of table.values()) for (const [family, count] of Object.entries(users)) own.set(family, (own.get(family) ?? 0) + count);
+  const everything = sum(own.values());
   return (query) => {
-    const said = stemmed(query);
-    const whole = (/** @type {Set<string>[]} */ those) => new Set(those.filter((phrase) => shared(phrase, said) === phrase.size).flatMap((phrase) => [...phrase]));
-    const scores = [...known].map(([family, { called, beside }]) => {
-      const own = whole(called);
-      const near = new Set([...whole(beside)].filter((stem) => !own.has(stem)));
-      const part = Math.max(...called.map((phrase) => shared(phrase, said) / phrase.size));
-      const score = weight(own) + BESIDE * weight(near) + PART * part;
-      return /** @type {[string, number]} */ ([family, Number(score.toFixed(9))]); // equal ones stay equal, in whatever order they are summed
+    const said = [...stemmed(query)].flatMap((stem) => table.get(stem) ?? []);
+    if (!said.length) return new Map();
+    const odds = [...own].map(([family, total]) => {
+      const inside = said.map((users) => Math.log((1 + (users[family] ?? 0)) / (total + table.size)));
+      const outside = said.map((users) => Math.log((1 + sum(Object.values(users)) - (users[family] ?? 0)) / (everything - total + table.size)));
+      return /** @type {[string, number]} */ ([family, sum(inside) - sum(outside)]);
     });
-    const loudest = Math.max(...scores.map(([, score]) => score));
-    return new Map(scores.filter(([, score]) => score > PART / 2).map(([family, score]) => [family, score / loudest]));
+    const best = Math.max(...odds.map(([, value]) => value));
+    const weights = odds.map(([, value]) => Math.exp(value - best));
+    return new Map(odds.map(([family], index) => [family, weights[index] / sum(weights)]));
   };
 }
 
-/** @param {Parameters<typeof likely>[0]} families @param {string[]} queries @returns {string[][]} of each the names, likeliest first */
-export function ranked(families, queries) {
-  const spoken = likely(families);
-  return queries.map((query) => [...spoken(query)].sort(([, a], [, b]) => b - a).map(([family]) => family));
+/** @param {Counts} counts @param {string[]} queries @returns {Record<string, number>[]} */
+export function told(counts, queries) {
+  const spoken = shares(counts);
+  return queries.map((query) => Object.fromEntries(spoken(query)));
 }
 
-/** @param {string[]} texts */
-const phrases = (texts) => texts.map(stemmed).filter(({ size }) => size);
-
-/** @param {Set<string>} phrase @param {Set<string>} said */
-const shared = (phrase, said) => [...phrase].filter((stem) => said.has(stem)).length;
+/** @param {Iterable<number>} numbers */
+const sum = (numbers) => [...numbers].reduce((total, number) => total + number, 0);
 
 /** @param {string} text @returns {Set<string>} */
 function stemmed(text) {

@@ -1,10 +1,10 @@
 // Asks the documents: any of the words, with beginnings, typos and synonyms; best first, and whether anything is about it.
 
 import MiniSearch from "minisearch";
-import { likely } from "./families.js";
+import { shares } from "./families.js";
 import { stem, stems, thesaurus, words } from "./words.js";
 
-/** @typedef {{kind: string, at: string, title: string, words: string, text: string, case?: string, family?: string, further?: string, context?: string}} Document `case` is the address of a message's case; nothing is found by `further` alone */
+/** @typedef {{kind: string, at: string, title: string, words: string, text: string, case?: string, family?: string, context?: string}} Document `case` is the address of a message's case */
 /** @typedef {{found: Document[], covered: boolean}} Answer `covered` is whether the best is about most of what was asked */
 
 const FIELDS = ["title", "words", "context", "text", "answer"];
@@ -13,7 +13,7 @@ const BOOST = { title: 3, words: 2, context: 1, text: 1, answer: 0.5 };
 const KINDS = { case: 2, symptom: 0.8, message: 1, rule: 0.6, page: 0.6 };
 const BEGINNING = 3; // letters from which on a word may be unfinished
 const LONG = 8; // letters from which on a word may have two typos
-const OWN = 1; // by which the weight grows of what belongs to the symptom that is spoken of
+const OWN = 0.5; // by which the weight grows of what belongs to the symptom that is spoken of
 const PASTED = 3; // the weight of a message of whose words most are asked for
 const MOST = 2 / 3;
 const LIKE = 0.5; // a synonym's weight
@@ -21,11 +21,11 @@ const WORTH = 0.1; // of the best one's score, for what is shown at all
 const COVERED = 0.42; // of what the words of a query weigh
 
 /**
- * @param {{documents: Document[], synonyms: string[][]}} index
+ * @param {{documents: Document[], synonyms: string[][], stems: import("./families.js").Counts}} index
  * @param {Record<string, string>} [answers] by address
  * @returns {(query: string) => Answer}
  */
-export function searcher({ documents, synonyms }, answers = {}) {
+export function searcher({ documents, synonyms, stems: counts }, answers = {}) {
   const texts = documents.map((document, id) => ({ ...document, id, answer: answers[document.at] ?? "" }));
   const mini = new MiniSearch({ fields: FIELDS, tokenize: words, processTerm: stem });
   mini.addAll(texts);
@@ -38,8 +38,7 @@ export function searcher({ documents, synonyms }, answers = {}) {
   const titles = texts.map(({ kind, title }) => (kind === "message" ? stems(title) : []));
   const weight = (/** @type {string} */ term) => Math.log(1 + texts.length / (known.get(term) ?? 1));
   const alike = thesaurus(synonyms);
-  const apart = (phrases = "") => phrases.split("; ");
-  const spoken = likely(texts.flatMap(({ kind, family = "", ...said }) => (kind === "symptom" ? [{ family, words: apart(said.words), further: apart(said.further), context: apart(said.context) }] : [])));
+  const spoken = shares(counts);
 
   return (query) => {
     const asked = stems(query);

@@ -12,7 +12,7 @@ import yaml
 
 from clinic.pages.cases import FOLDER, CasePage
 from clinic.pages.messages import Message
-from clinic.record.families import Family
+from clinic.record.families import Family, stem_counts
 from clinic.record.prose import FIELD
 from clinic.work.cache import Files
 
@@ -44,7 +44,7 @@ def search_files(
         *_pages(pages),
     ]
     answers = {_answer_at(one.case.slug): _answer(one) for one in shown}
-    index = {"documents": packed(documents), "synonyms": synonyms()}
+    index = {"documents": packed(documents), "synonyms": synonyms(), "stems": stem_counts()}
     return {FILE: _script("clinicIndex", index), ANSWERS: _script("clinicAnswers", answers)}
 
 
@@ -106,7 +106,6 @@ def _families(families: Mapping[str, Family]) -> Iterator[Document]:
             "at": f"symptoms/{name}.html",
             "title": family.title,
             "words": "; ".join(family.words),
-            "further": "; ".join(family.further),
             "context": "; ".join(family.context),
             "text": "",
             "family": name,

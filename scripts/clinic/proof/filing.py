@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from clinic.record.case import Case
-from clinic.record.families import likely_families
+from clinic.record.families import family_shares
 from clinic.record.problem import Problem, listed
 
 LIKELY = 4  # families of which a title and its phrases may speak
@@ -26,7 +26,7 @@ def filing_problems(known: Mapping[str, Case]) -> Iterator[Problem]:
             others = {key: heads[key] for key, other in known.items() if phrase not in other.record.phrases}
             own = _stems(" ".join([case.record.title, *_but(case, index), *_bodies(case)]))
             nearer = [other for other, words in others.items() if wanted <= words and not wanted <= own]
-            if nearer and "not" not in phrase.split() and case.record.family not in likely_families(phrase):
+            if nearer and "not" not in phrase.split() and case.record.family not in _likely(phrase):
                 lacking = listed(sorted(wanted - own))
                 expected = f"words of this case, which nowhere has: {lacking}"
                 found = f"{phrase}: {listed(nearer)} has all of its words"
@@ -47,10 +47,14 @@ def _unsaid(case: Case, said: set[str]) -> Iterator[Problem]:
             expected = "a topic that the title, the phrases, the prose or an edit names"
             yield case.problem(("tags", index), f"{tag}, of which the case does not speak", expected, "correct the tag")
     family = case.record.family
-    likely = likely_families(" ".join([case.record.title, *case.record.phrases]))[:LIKELY]
+    likely = _likely(" ".join([case.record.title, *case.record.phrases]))
     if family is not None and family not in likely:
         expected = f"what the title and the phrases speak of, as {listed(likely)}"
         yield case.problem(("family",), family, expected, "correct it, or add how readers say it")
+
+
+def _likely(text: str) -> list[str]:
+    return list(family_shares(text))[:LIKELY]
 
 
 def _topic(case: Case, tag: str, said: set[str]) -> bool:

@@ -1,22 +1,29 @@
-"""The families of symptoms, from `families.toml`, and which of them a reader's words speak of."""
+"""The families of symptoms, from `families.toml` and `sayings.yaml`, and which of them a reader's words speak of."""
 
 from __future__ import annotations
 
 import math
 import re
 import tomllib
-from collections import Counter
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+import yaml
+
+FOLDER = Path(__file__).parent
 SUFFIX = re.compile(r"(?<=[a-z]{3})(?:ations?|ings?|ies|ed|es|s|ly|e|y)$")
 DOUBLE = re.compile(r"([bdfglmnprtz])\1$")
 NOT = {"no", "never", "cannot", "without", "unable", "fail", "nothing", "nobody", "barely"}
-PART = 0.5  # what the nearest phrase counts that the text has in part
+LEAST = 0.2  # the likelihood from which on a family is named
+OFTEN = 2  # how often a stem stands somewhere, to be known
 BESIDE = 0.4  # what a word counts that stands beside the symptom
 IDLE = """a an and are as at be been but by can did do does doing done for from had has have i if in is it its me my of
 on or so that the their them there they this to was we were when while with you your mujoco simulation"""
+
+StemCounts = dict[str, dict[str, float]]
+"""How often each stem stands in what is said of each family."""
 
 
 class Family(NamedTuple):
@@ -26,7 +33,7 @@ class Family(NamedTuple):
         title: What is seen.
         first: What to measure first, as Markdown.
         words: What people call it.
-        further: What they call it too, by which the search finds no page.
+        further: What they call it too; the page is not searched for these.
         context: What they name beside it, which other symptoms have too.
         probe: Python lines that measure a model at its start, or in a short run, for the expressions of its cases; they
             have `model`, `data` after `mj_forward`, `mujoco` and `np`.
@@ -43,7 +50,7 @@ class Family(NamedTuple):
 @cache
 def families() -> dict[str, Family]:
     """All families by name, in the order of the file."""
-    read = tomllib.loads((Path(__file__).parent / "families.toml").read_text(encoding="utf-8"))
+    read = tomllib.loads((FOLDER / "families.toml").read_text(encoding="utf-8"))
     return {
         name: Family(
             each["title"],
@@ -58,33 +65,55 @@ def families() -> dict[str, Family]:
 
 
 def likely_families(text: str) -> list[str]:
-    """The names of the families that the text speaks of, likeliest first.
+    """The names of the families of which the text may well speak, likeliest first."""
+    return [name for name, share in family_shares(text).items() if share >= LEAST]
 
-    A phrase of a family counts when the text has all its words, each word once, and more where fewer families have it.
+
+def family_shares(text: str, counts: StemCounts | None = None) -> dict[str, float]:
+    """How likely the text speaks of each family, likeliest first; they sum to 1. Empty if it has no word of any.
+
+    Each stem that people use for a symptom counts by the odds that it is of this family and of no other one: the
+    complement naive Bayes of Rennie et al., *Tackling the Poor Assumptions of Naive Bayes Text Classifiers*, 2003.
     """
-    called, beside, rarity = _vocabulary()
-    said = set(_stems(text))
-    scores = {}
-    for name in called:
-        whole = set().union(*(phrase for phrase in called[name] if phrase <= said))
-        near = set().union(*(phrase for phrase in beside[name] if phrase <= said)) - whole
-        part = max(len(phrase & said) / len(phrase) for phrase in called[name])
-        score = sum(rarity[stem] for stem in whole) + BESIDE * sum(rarity[stem] for stem in near) + part * PART
-        scores[name] = round(score, 9)  # equal ones stay equal, in whatever order they are summed
-    return sorted((name for name in scores if scores[name] > PART / 2), key=lambda name: -scores[name])
+    counts = counts or stem_counts()
+    said = sorted({stem for stem in _stems(text) if stem in counts})
+    if not said:
+        return {}
+    own = {name: sum(users.get(name, 0) for users in counts.values()) for name in families()}
+    everything, smooth = sum(own.values()), len(counts)
+    odds = {}
+    for name in own:
+        here = [counts[stem].get(name, 0) for stem in said]
+        rest = [sum(counts[stem].values()) - count for stem, count in zip(said, here, strict=True)]
+        inside = sum(math.log((1 + count) / (own[name] + smooth)) for count in here)
+        odds[name] = inside - sum(math.log((1 + count) / (everything - own[name] + smooth)) for count in rest)
+    weights = {name: math.exp(value - max(odds.values())) for name, value in odds.items()}
+    total = sum(weights.values())
+    return {name: weights[name] / total for name in sorted(weights, key=lambda name: -round(odds[name], 9))}
 
 
 @cache
-def _vocabulary() -> tuple[dict[str, list[set[str]]], dict[str, list[set[str]]], dict[str, float]]:
-    """The stems of the phrases of every family, those beside it, and how telling each stem is."""
-    called = {name: _phrases(name, *family.words, *family.further) for name, family in families().items()}
-    beside = {name: _phrases(*family.context) for name, family in families().items()}
-    count = Counter(stem for name in called for stem in set().union(*called[name], *beside[name]))
-    return called, beside, {stem: math.log(1 + len(called) / users) for stem, users in count.items()}
+def stem_counts() -> StemCounts:
+    """How often each stem stands in what people say of each family; what stands beside a symptom counts BESIDE."""
+    counts: StemCounts = {}
+    for name, family in families().items():
+        count_stems(counts, name, (family.title, name, *family.words, *family.further, *sayings()[name]))
+        count_stems(counts, name, family.context, BESIDE)
+    return {stem: users for stem, users in counts.items() if sum(users.values()) >= OFTEN}
 
 
-def _phrases(*phrases: str) -> list[set[str]]:
-    return [stems for phrase in phrases if (stems := set(_stems(phrase)))]
+def count_stems(counts: StemCounts, family: str, phrases: Iterable[str], weight: float = 1.0) -> None:
+    """Adds to the counts the stems of a family's phrases, each stem once a phrase."""
+    for stem in (stem for phrase in phrases for stem in sorted(set(_stems(phrase)))):
+        users = counts.setdefault(stem, {})
+        users[family] = round(users.get(family, 0.0) + weight, 1)
+
+
+@cache
+def sayings() -> dict[str, list[str]]:
+    """What people wrote when they asked, by the family that it speaks of."""
+    read: dict[str, list[str]] = yaml.safe_load((FOLDER / "sayings.yaml").read_text(encoding="utf-8"))
+    return read
 
 
 def _stems(text: str) -> list[str]:

@@ -92,10 +92,26 @@ def test_an_armature_far_beyond_the_arm_s_inertia_is_told() -> None:
         ('qpos="0.1"/>', 'qpos="0.1"/><key name="other" qpos="1"/>'),
         ('size="0.02" mass="0.1"', 'size="0.02" mass="0.1" rgba="1 0 0 1"'),
         ('axis="0 1 0"', 'axis="0 2 0"'),
+        ('geom name="floor"', 'geom name="ground"'),
+        ('<geom size="0.02" mass="0.1"/>', '<geom name="palm" size="0.02" mass="0.1"/>'),
     ],
 )
 def test_what_every_repair_may_change_is_not_told(find: str, replace: str) -> None:
     assert told(find, replace) == []
+
+
+def test_a_renamed_geom_is_compared_as_the_one_it_was() -> None:
+    assert told('geom name="floor" type="plane" size="1 1 0.1"', 'geom name="ground" type="plane" size="2 1 0.1"') == [
+        "You changed the size of geom floor from 1 1 0.1 to 2 1 0.1 m."
+    ]
+    assert told('<geom name="floor" type="plane" size="1 1 0.1"/>', '<geom name="ground" size="0.1"/>') != []
+
+
+@pytest.mark.parametrize(("range_", "same"), [("-1.5708 1.5708", True), ("-1.6 1.6", False)])
+def test_a_range_may_be_rounded(range_: str, same: bool) -> None:
+    limited = MODEL.replace('kp="20"', 'kp="20" ctrlrange="-1.57 1.57"')
+    broken, model = (mujoco.MjModel.from_xml_string(xml) for xml in (limited, limited.replace("-1.57 1.57", range_)))
+    assert (changes(broken, model, Task()) == []) == same
 
 
 def test_what_the_record_allows_is_not_told() -> None:

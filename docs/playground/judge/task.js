@@ -38,7 +38,8 @@ class Comparison {
 
   /** @param {string} kind @returns {Generator<string>} */
   *ofKind(kind) {
-    const [here, there] = [this.elements(this.broken, kind), this.elements(this.model, kind)];
+    const here = this.elements(this.broken, kind);
+    const there = renamed(kind, here, this.elements(this.model, kind));
     for (const [name, i] of here) {
       const other = there.get(name);
       if (other === undefined) {
@@ -179,6 +180,18 @@ export function changes(mujoco, broken, model, may) {
 }
 
 /**
+ * The elements of a kind under their old names, where they may be called otherwise.
+ * @param {string} kind
+ * @param {Map<string, number>} here
+ * @param {Map<string, number>} there
+ */
+function renamed(kind, here, there) {
+  if (!TABLES.renamed.includes(kind)) return there;
+  const old = new Map([...here].filter(([name]) => !there.has(name)).map(([name, i]) => [i, name]));
+  return new Map([...there].map(([name, i]) => [here.has(name) ? name : (old.get(i) ?? name), i]));
+}
+
+/**
  * How many elements of a kind there are.
  * @param {any} model
  * @param {string} kind
@@ -218,8 +231,9 @@ function same(before, after, field) {
   if (!Array.isArray(before) || !Array.isArray(after)) return before === after;
   if (["ctrlrange", "forcerange"].includes(field) && before.every((value) => Math.abs(value) === Infinity)) return true; // the checks tell whether a new range holds anything back
   if (after.length < before.length) return false; // longer is a keyframe where an actuator was added
+  const within = field in LIMITED ? 1e-3 : 1e-4;
   const close = (/** @type {number} */ sign) =>
-    before.every((value, k) => value === after[k] || (Number.isFinite(after[k]) && Math.abs(value - sign * after[k]) <= 1e-6 + 1e-4 * Math.abs(after[k])));
+    before.every((value, k) => value === after[k] || (Number.isFinite(after[k]) && Math.abs(value - sign * after[k]) <= 1e-6 + within * Math.abs(after[k])));
   return close(1) || (field === "quat" && close(-1));
 }
 

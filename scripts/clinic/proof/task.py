@@ -3,7 +3,7 @@
 Every repair may change how the model is simulated and how things touch: a smaller timestep, integrator, solver, contact
 parameters, masks, pairs and excludes, damping, armature, friction and an actuator's gains, up to a bound; colours,
 lights, further cameras, sites, sensors and keyframes. A record's `task.may` names more. Elements are compared by name,
-unnamed ones by their order.
+unnamed ones by their order; a geom or site may have another name at the same place.
 """
 
 from __future__ import annotations
@@ -27,8 +27,9 @@ Args:
     prefix, count: What MjModel calls a kind's fields and its number, where that is not the kind's own name.
     bodies, transmissions: Fields that refer to a body, and what the kinds of an actuator's transmission refer to.
     further: Kinds of which a repair may add some.
+    renamed: Kinds that a repair may call otherwise: no record drives them, and a measured name that is gone is told.
     counted: Kinds of which only the number is compared.
-    limited: The field that says whether a range applies.
+    limited: The field that says whether a range applies. Ranges are the same when rounded: 1.57 and a quarter turn.
     flags, options: Flags and numbers of `<option>`.
     most: Beyond it nothing is repaired, but frozen; SI units.
     heaviest: How many times the inertia of the model an armature may be.
@@ -45,6 +46,9 @@ def changes(broken: mujoco.MjModel, model: mujoco.MjModel, task: Task) -> list[s
 
 def _of_kind(broken: mujoco.MjModel, model: mujoco.MjModel, kind: str, may: Sequence[str]) -> Iterator[str]:
     here, there = _elements(broken, kind), _elements(model, kind)
+    if kind in TABLES["renamed"]:
+        old = {i: name for name, i in here.items() if name not in there}
+        there = {name if name in here else old.get(i, name): i for name, i in there.items()}
     for name, i in here.items():
         if name not in there:
             yield f"You removed or renamed {kind} {name}."
@@ -148,8 +152,9 @@ def _same(before: Any, after: Any, field: str) -> bool:
     after = after[: len(before)]  # a keyframe is longer where an actuator was added
     if np.shape(before) != np.shape(after):
         return False
-    close = np.allclose(before, after, rtol=1e-4, atol=1e-6)
-    return bool(close or (field == "quat" and np.allclose(before, -after, rtol=1e-4, atol=1e-6)))
+    rtol = 1e-3 if field in TABLES["limited"] else 1e-4
+    close = np.allclose(before, after, rtol=rtol, atol=1e-6)
+    return bool(close or (field == "quat" and np.allclose(before, -after, rtol=rtol, atol=1e-6)))
 
 
 def _changed(field: str, of: str, before: Any, after: Any) -> str:

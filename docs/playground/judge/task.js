@@ -38,11 +38,12 @@ class Comparison {
 
   /** @param {string} kind @returns {Generator<string>} */
   *ofKind(kind) {
-    const [here, there] = [this.elements(this.broken, kind), this.elements(this.model, kind)];
+    const here = this.elements(this.broken, kind);
+    const there = this.asBefore(kind, here, this.elements(this.model, kind));
     for (const [name, i] of here) {
       const other = there.get(name);
       if (other === undefined) {
-        yield `You removed or renamed ${kind} ${name}.`;
+        if (!this.may.includes(`${kind}(${name})`)) yield `You removed or renamed ${kind} ${name}.`;
         continue;
       }
       for (const field of FIELDS[kind].split(" ")) {
@@ -53,6 +54,31 @@ class Comparison {
     }
     if ([...TABLES.further, ...this.may].includes(kind)) return;
     for (const name of there.keys()) if (!here.has(name)) yield `You added ${kind} ${name}.`;
+  }
+
+  /**
+   * `there`, with each element that is only called otherwise under the name that it had.
+   * @param {string} kind
+   * @param {Map<string, number>} here
+   * @param {Map<string, number>} there
+   * @returns {Map<string, number>}
+   */
+  asBefore(kind, here, there) {
+    if (!TABLES.renamed.includes(kind)) return there;
+    const [fresh, names] = [[...there.keys()].filter((name) => !here.has(name)), new Map()];
+    for (const [name, i] of here) {
+      if (there.has(name)) continue;
+      const found = fresh.findIndex((other) => this.alike(kind, i, /** @type {number} */ (there.get(other))));
+      if (found >= 0) names.set(fresh.splice(found, 1)[0], name);
+    }
+    return new Map([...there].map(([name, i]) => [names.get(name) ?? name, i]));
+  }
+
+  /** @param {string} kind @param {number} i @param {number} other */
+  alike(kind, i, other) {
+    return FIELDS[kind]
+      .split(" ")
+      .every((field) => same(this.value(this.broken, kind, field, i), this.value(this.model, kind, field, other), field));
   }
 
   /** @returns {Generator<string>} */
@@ -216,7 +242,7 @@ function largest(values) {
  */
 function same(before, after, field) {
   if (!Array.isArray(before) || !Array.isArray(after)) return before === after;
-  if (["ctrlrange", "forcerange"].includes(field) && before.every((value) => Math.abs(value) === Infinity)) return true; // the checks tell whether a new range holds anything back
+  if (TABLES.ranges.includes(field) && before.every((value) => Math.abs(value) === Infinity)) return true; // the checks tell whether a new range holds anything back
   if (after.length < before.length) return false; // longer is a keyframe where an actuator was added
   const close = (/** @type {number} */ sign) =>
     before.every((value, k) => value === after[k] || (Number.isFinite(after[k]) && Math.abs(value - sign * after[k]) <= 1e-6 + 1e-4 * Math.abs(after[k])));

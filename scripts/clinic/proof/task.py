@@ -2,8 +2,8 @@
 
 Every repair may change how the model is simulated and how things touch: a smaller timestep, integrator, solver, contact
 parameters, masks, pairs and excludes, damping, armature, friction and an actuator's gains, up to a bound; colours,
-lights, further cameras, sites, sensors and keyframes. A record's `task.may` names more. Elements are compared by name,
-unnamed ones by their order.
+lights, further cameras, sites, sensors and keyframes, and what a geom is called. A record's `task.may` names more.
+Elements are compared by name, unnamed ones by their order.
 """
 
 from __future__ import annotations
@@ -27,8 +27,10 @@ Args:
     prefix, count: What MjModel calls a kind's fields and its number, where that is not the kind's own name.
     bodies, transmissions: Fields that refer to a body, and what the kinds of an actuator's transmission refer to.
     further: Kinds of which a repair may add some.
+    renamed: Kinds whose elements a repair may call otherwise.
     counted: Kinds of which only the number is compared.
     limited: The field that says whether a range applies.
+    ranges: Those that a repair may set where there was none.
     flags, options: Flags and numbers of `<option>`.
     most: Beyond it nothing is repaired, but frozen; SI units.
     heaviest: How many times the inertia of the model an armature may be.
@@ -45,9 +47,12 @@ def changes(broken: mujoco.MjModel, model: mujoco.MjModel, task: Task) -> list[s
 
 def _of_kind(broken: mujoco.MjModel, model: mujoco.MjModel, kind: str, may: Sequence[str]) -> Iterator[str]:
     here, there = _elements(broken, kind), _elements(model, kind)
+    if kind in TABLES["renamed"]:
+        there = _as_before(broken, model, kind, here, there)
     for name, i in here.items():
         if name not in there:
-            yield f"You removed or renamed {kind} {name}."
+            if f"{kind}({name})" not in may:
+                yield f"You removed or renamed {kind} {name}."
             continue
         for field in FIELDS[kind].split():
             before, after = _value(broken, kind, field, i), _value(model, kind, field, there[name])
@@ -57,6 +62,26 @@ def _of_kind(broken: mujoco.MjModel, model: mujoco.MjModel, kind: str, may: Sequ
     for name in there if kind not in (*TABLES["further"], *may) else ():
         if name not in here:
             yield f"You added {kind} {name}."
+
+
+def _as_before(
+    broken: mujoco.MjModel, model: mujoco.MjModel, kind: str, here: dict[str, int], there: dict[str, int]
+) -> dict[str, int]:
+    """`there`, with each element that is only called otherwise under the name that it had."""
+    new = [name for name in there if name not in here]
+    names = {}
+    for name, i in here.items():
+        if name not in there:
+            alike = (other for other in new if _alike(broken, model, kind, i, there[other]))
+            if (found := next(alike, None)) is not None:
+                new.remove(found)
+                names[found] = name
+    return {names.get(name, name): i for name, i in there.items()}
+
+
+def _alike(broken: mujoco.MjModel, model: mujoco.MjModel, kind: str, i: int, other: int) -> bool:
+    fields = FIELDS[kind].split()
+    return all(_same(_value(broken, kind, field, i), _value(model, kind, field, other), field) for field in fields)
 
 
 def _counted(broken: mujoco.MjModel, model: mujoco.MjModel) -> Iterator[str]:
@@ -141,7 +166,7 @@ def _value(model: mujoco.MjModel, kind: str, field: str, i: int) -> Any:
 
 
 def _same(before: Any, after: Any, field: str) -> bool:
-    if field in ("ctrlrange", "forcerange") and np.all(np.isinf(before)):
+    if field in TABLES["ranges"] and np.all(np.isinf(before)):
         return True  # a range where there was none: the checks tell whether it holds anything back
     if before is None or after is None or isinstance(before, str) or isinstance(after, str):
         return bool(np.array_equal(before, after))

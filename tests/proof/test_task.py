@@ -60,6 +60,9 @@ def told(find: str, replace: str, *may: str) -> list[str]:
         ('size="1 1 0.1"', 'size="1 1 0.1" friction="1e6"',
          "geom_friction is 1e+06: that holds what should move; at most 100 is accepted."),
         ('<body name="arm"', '<geom name="prop" size="0.1"/><body name="arm"', "You added geom prop."),
+        ('<geom name="arm" type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="0.4"/>',
+         '<geom name="link" type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="0.4"/>',
+         "You removed or renamed geom arm."),
         ("<sensor>", '<equality><weld body1="hand"/></equality><sensor>', "You added an equality."),
         ('<body name="hand" pos="0.3 0 0"><geom size="0.02" mass="0.1"/></body>', "",
          "You removed or renamed body hand."),
@@ -94,6 +97,8 @@ def test_an_armature_far_beyond_the_arm_s_inertia_is_told() -> None:
         ('axis="0 1 0"', 'axis="0 2 0"'),
         ('geom name="floor"', 'geom name="ground"'),
         ('<geom size="0.02" mass="0.1"/>', '<geom name="palm" size="0.02" mass="0.1"/>'),
+        ('axis="0 1 0"', 'axis="0 1 0" actuatorfrcrange="-5 5"'),
+        ('<geom name="arm"', '<geom name="link"'),
     ],
 )
 def test_what_every_repair_may_change_is_not_told(find: str, replace: str) -> None:
@@ -118,4 +123,5 @@ def test_what_the_record_allows_is_not_told() -> None:
     assert told('axis="0 1 0"', 'axis="0 1 0" range="-1 1"', "joint(hinge).range") == []
     assert told('axis="0 1 0"', 'axis="0 1 0" ref="9"', "joint(hinge).ref") == []
     assert told('kp="20"/>', 'kp="20"/><motor name="m" joint="hinge"/>', "actuator") == []
+    assert told('<geom name="floor" type="plane" size="1 1 0.1"/>', "", "geom(floor)") == []
     assert told('kp="20"/>', 'kp="20"/><motor name="m" joint="hinge"/>') == ["You added actuator m."]

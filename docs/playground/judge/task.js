@@ -43,7 +43,7 @@ class Comparison {
     for (const [name, i] of here) {
       const other = there.get(name);
       if (other === undefined) {
-        yield `You removed or renamed ${kind} ${name}.`;
+        if (!this.may.includes(`${kind}(${name})`)) yield `You removed or renamed ${kind} ${name}.`;
         continue;
       }
       for (const field of FIELDS[kind].split(" ")) {
@@ -229,7 +229,7 @@ function largest(values) {
  */
 function same(before, after, field) {
   if (!Array.isArray(before) || !Array.isArray(after)) return before === after;
-  if (["ctrlrange", "forcerange"].includes(field) && before.every((value) => Math.abs(value) === Infinity)) return true; // the checks tell whether a new range holds anything back
+  if (TABLES.ranges.includes(field) && before.every((value) => Math.abs(value) === Infinity)) return true; // the checks tell whether a new range holds anything back
   if (after.length < before.length) return false; // longer is a keyframe where an actuator was added
   const within = field in LIMITED ? 1e-3 : 1e-4;
   const close = (/** @type {number} */ sign) =>

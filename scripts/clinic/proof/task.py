@@ -30,6 +30,7 @@ Args:
     renamed: Kinds that a repair may call otherwise: no record drives them, and a measured name that is gone is told.
     counted: Kinds of which only the number is compared.
     limited: The field that says whether a range applies. Ranges are the same when rounded: 1.57 and a quarter turn.
+    ranges: Those that a repair may set where there was none.
     flags, options: Flags and numbers of `<option>`.
     most: Beyond it nothing is repaired, but frozen; SI units.
     heaviest: How many times the inertia of the model an armature may be.
@@ -51,7 +52,8 @@ def _of_kind(broken: mujoco.MjModel, model: mujoco.MjModel, kind: str, may: Sequ
         there = {name if name in here else old.get(i, name): i for name, i in there.items()}
     for name, i in here.items():
         if name not in there:
-            yield f"You removed or renamed {kind} {name}."
+            if f"{kind}({name})" not in may:
+                yield f"You removed or renamed {kind} {name}."
             continue
         for field in FIELDS[kind].split():
             before, after = _value(broken, kind, field, i), _value(model, kind, field, there[name])
@@ -145,7 +147,7 @@ def _value(model: mujoco.MjModel, kind: str, field: str, i: int) -> Any:
 
 
 def _same(before: Any, after: Any, field: str) -> bool:
-    if field in ("ctrlrange", "forcerange") and np.all(np.isinf(before)):
+    if field in TABLES["ranges"] and np.all(np.isinf(before)):
         return True  # a range where there was none: the checks tell whether it holds anything back
     if before is None or after is None or isinstance(before, str) or isinstance(after, str):
         return bool(np.array_equal(before, after))

@@ -222,7 +222,8 @@ class Task(Strict):
     may: list[Text] = Field(
         default=[],
         description="What a repair of this case may change besides contacts, solver, gains and damping, as "
-        "`joint(elbow).range`; a kind alone, `actuator`, allows more of that kind.",
+        "`joint(elbow).range`; a kind alone, `actuator`, allows more of that kind, and an element alone, `geom(cup)`, "
+        "that it is taken away.",
     )
 
 

@@ -60,6 +60,8 @@ def told(find: str, replace: str, *may: str) -> list[str]:
         ('size="1 1 0.1"', 'size="1 1 0.1" friction="1e6"',
          "geom_friction is 1e+06: that holds what should move; at most 100 is accepted."),
         ('<body name="arm"', '<geom name="prop" size="0.1"/><body name="arm"', "You added geom prop."),
+        ('geom name="arm" type="capsule" fromto="0 0 0 0.3', 'geom name="link" type="capsule" fromto="0 0 0 0.2',
+         "You removed or renamed geom arm."),
         ("<sensor>", '<equality><weld body1="hand"/></equality><sensor>', "You added an equality."),
         ('<body name="hand" pos="0.3 0 0"><geom size="0.02" mass="0.1"/></body>', "",
          "You removed or renamed body hand."),
@@ -92,6 +94,7 @@ def test_an_armature_far_beyond_the_arm_s_inertia_is_told() -> None:
         ('qpos="0.1"/>', 'qpos="0.1"/><key name="other" qpos="1"/>'),
         ('size="0.02" mass="0.1"', 'size="0.02" mass="0.1" rgba="1 0 0 1"'),
         ('axis="0 1 0"', 'axis="0 2 0"'),
+        ('geom name="arm"', 'geom name="upper arm" friction="2"'),
     ],
 )
 def test_what_every_repair_may_change_is_not_told(find: str, replace: str) -> None:

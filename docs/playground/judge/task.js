@@ -39,20 +39,35 @@ class Comparison {
   /** @param {string} kind @returns {Generator<string>} */
   *ofKind(kind) {
     const [here, there] = [this.elements(this.broken, kind), this.elements(this.model, kind)];
+    const further = new Map([...there].filter(([name]) => !here.has(name)));
     for (const [name, i] of here) {
       const other = there.get(name);
       if (other === undefined) {
-        yield `You removed or renamed ${kind} ${name}.`;
+        const found = [...further].find(([, k]) => TABLES.renamed.includes(kind) && this.differences(kind, i, k).length === 0);
+        if (found) further.delete(found[0]);
+        else yield `You removed or renamed ${kind} ${name}.`;
         continue;
       }
-      for (const field of FIELDS[kind].split(" ")) {
-        const [before, after] = [this.value(this.broken, kind, field, i), this.value(this.model, kind, field, other)];
+      for (const { field, before, after } of this.differences(kind, i, other)) {
         const allowed = [field, WORDS[field] ?? field].some((word) => this.may.includes(`${kind}(${name}).${word}`));
-        if (!allowed && !same(before, after, field)) yield changed(field, ` of ${kind} ${name}`, before, after);
+        if (!allowed) yield changed(field, ` of ${kind} ${name}`, before, after);
       }
     }
     if ([...TABLES.further, ...this.may].includes(kind)) return;
-    for (const name of there.keys()) if (!here.has(name)) yield `You added ${kind} ${name}.`;
+    for (const name of further.keys()) yield `You added ${kind} ${name}.`;
+  }
+
+  /**
+   * The fields in which two elements differ, with both values.
+   * @param {string} kind
+   * @param {number} i of the case's model
+   * @param {number} other of the reader's
+   */
+  differences(kind, i, other) {
+    return FIELDS[kind]
+      .split(" ")
+      .map((field) => ({ field, before: this.value(this.broken, kind, field, i), after: this.value(this.model, kind, field, other) }))
+      .filter(({ field, before, after }) => !same(before, after, field));
   }
 
   /** @returns {Generator<string>} */

@@ -3,7 +3,7 @@
 Every repair may change how the model is simulated and how things touch: a smaller timestep, integrator, solver, contact
 parameters, masks, pairs and excludes, damping, armature, friction and an actuator's gains, up to a bound; colours,
 lights, further cameras, sites, sensors and keyframes. A record's `task.may` names more. Elements are compared by name,
-unnamed ones by their order.
+unnamed ones by their order; a geom under another name is the same one if nothing else about it has changed.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ Args:
     prefix, count: What MjModel calls a kind's fields and its number, where that is not the kind's own name.
     bodies, transmissions: Fields that refer to a body, and what the kinds of an actuator's transmission refer to.
     further: Kinds of which a repair may add some.
+    renamed: Kinds of which a repair may rename some: no field refers to them.
     counted: Kinds of which only the number is compared.
     limited: The field that says whether a range applies.
     flags, options: Flags and numbers of `<option>`.
@@ -45,18 +46,30 @@ def changes(broken: mujoco.MjModel, model: mujoco.MjModel, task: Task) -> list[s
 
 def _of_kind(broken: mujoco.MjModel, model: mujoco.MjModel, kind: str, may: Sequence[str]) -> Iterator[str]:
     here, there = _elements(broken, kind), _elements(model, kind)
+    further = [name for name in there if name not in here]
     for name, i in here.items():
         if name not in there:
-            yield f"You removed or renamed {kind} {name}."
+            same = (other for other in further if not _differences(broken, model, kind, i, there[other]))
+            renamed = next(same, None) if kind in TABLES["renamed"] else None
+            if renamed is None:
+                yield f"You removed or renamed {kind} {name}."
+            else:
+                further.remove(renamed)
             continue
-        for field in FIELDS[kind].split():
-            before, after = _value(broken, kind, field, i), _value(model, kind, field, there[name])
-            allowed = {f"{kind}({name}).{word}" for word in (field, WORDS.get(field, field))} & set(may)
-            if not allowed and not _same(before, after, field):
+        for field, before, after in _differences(broken, model, kind, i, there[name]):
+            if not {f"{kind}({name}).{word}" for word in (field, WORDS.get(field, field))} & set(may):
                 yield _changed(field, f" of {kind} {name}", before, after)
-    for name in there if kind not in (*TABLES["further"], *may) else ():
-        if name not in here:
-            yield f"You added {kind} {name}."
+    for name in further if kind not in (*TABLES["further"], *may) else ():
+        yield f"You added {kind} {name}."
+
+
+def _differences(
+    broken: mujoco.MjModel, model: mujoco.MjModel, kind: str, i: int, other: int
+) -> list[tuple[str, Any, Any]]:
+    """The fields in which two elements differ, with both values."""
+    fields = FIELDS[kind].split()
+    found = [(field, _value(broken, kind, field, i), _value(model, kind, field, other)) for field in fields]
+    return [(field, before, after) for field, before, after in found if not _same(before, after, field)]
 
 
 def _counted(broken: mujoco.MjModel, model: mujoco.MjModel) -> Iterator[str]:

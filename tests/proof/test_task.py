@@ -62,7 +62,7 @@ def told(find: str, replace: str, *may: str) -> list[str]:
         ('<body name="arm"', '<geom name="prop" size="0.1"/><body name="arm"', "You added geom prop."),
         ('<geom name="arm" type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="0.4"/>',
          '<geom name="link" type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="0.4"/>',
-         "You removed or renamed geom arm."),
+         "You changed the size of geom arm from 0.02 0.15 0 to 0.03 0.15 0 m."),
         ("<sensor>", '<equality><weld body1="hand"/></equality><sensor>', "You added an equality."),
         ('<body name="hand" pos="0.3 0 0"><geom size="0.02" mass="0.1"/></body>', "",
          "You removed or renamed body hand."),
@@ -98,7 +98,7 @@ def test_an_armature_far_beyond_the_arm_s_inertia_is_told() -> None:
         ('geom name="floor"', 'geom name="ground"'),
         ('<geom size="0.02" mass="0.1"/>', '<geom name="palm" size="0.02" mass="0.1"/>'),
         ('axis="0 1 0"', 'axis="0 1 0" actuatorfrcrange="-5 5"'),
-        ('<geom name="arm"', '<geom name="link"'),
+        ('geom name="arm"', 'geom name="upper arm" friction="2"'),
     ],
 )
 def test_what_every_repair_may_change_is_not_told(find: str, replace: str) -> None:

@@ -68,7 +68,8 @@ Good:
     </mujoco>
 
 The number: the share of the joint's range by which the two differ. Three servos at least, and two in three of all, have
-both alike to 1 %; one or two differ by 3 to 90 %.
+both alike to 1 %; one or two differ by 3 to 90 %, each in its own
+way: what is written twice alike is meant.
 
 When it is wrong: a servo that is kept away from a limit on purpose. Only intent knows which of the two is right:
 a hint.
@@ -96,6 +97,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = [(each, _apart(each)) for each in servos(model.simulation) if each.targets and each.range]
     alike = [each for each, unlike in found if unlike < ALIKE]
     odd = [each for each, unlike in found if UNLIKE < unlike < FAR]
+    odd = [each for each in odd if sum((each.ctrl, each.range) == (other.ctrl, other.range) for other in odd) == 1]
     if len(alike) < max(3, 2 / 3 * len(found)) or len(odd) > FEW:
         return
     for each in odd:

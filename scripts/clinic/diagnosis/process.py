@@ -114,7 +114,12 @@ def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | N
     pipe = subprocess.PIPE
     child = subprocess.Popen(CHILD, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, env=found)
     late = threading.Event()
-    timer = threading.Timer(LIMIT, lambda: (late.set(), child.kill()))
+
+    def end() -> None:
+        late.set()
+        child.kill()
+
+    timer = threading.Timer(LIMIT, end)
     timer.start()
     trying = ""
     try:

@@ -30,7 +30,8 @@ Good:
     </mujoco>
 
 The number: the share of visible geoms, floors left out, of which neither the middle nor a corner of the box around it
-is in the image; 1 is nothing in sight. By geometry, for a square image where `resolution` does not say otherwise, at the start.
+is in the image; 1 is nothing in sight. By geometry, for a square image where `resolution` does not say otherwise, at
+the start.
 
 When it is wrong: things come into view later, or the camera is meant for the floor. Cameras on moving bodies are left
 alone.

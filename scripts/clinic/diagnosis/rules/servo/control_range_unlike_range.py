@@ -97,10 +97,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = [(each, _apart(each)) for each in servos(model.simulation) if each.targets and each.range]
     alike = [each for each, unlike in found if unlike < ALIKE]
     odd = [each for each, unlike in found if UNLIKE < unlike < FAR]
-    odd = [each for each in odd if sum((each.ctrl, each.range) == (other.ctrl, other.range) for other in odd) == 1]
     if len(alike) < max(3, 2 / 3 * len(found)) or len(odd) > FEW:
         return
-    for each in odd:
+    ends = [_ends(each) for each in odd]
+    for each in odd if len(set(ends)) == len(ends) else ():
         assert each.targets is not None
         assert each.range is not None
         (low, high), (least, most) = each.targets, each.range
@@ -114,6 +114,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         names = model.simulation.name("actuator", each.actuator), model.simulation.name("joint", each.joint)
         yield Suspect(names, "ctrlrange", f"{low:.4g} {high:.4g}", f"{least:.4g} {most:.4g}", (), probe, UNLIKE, says,
                       'inheritrange="1"', level="hint")  # fmt: skip
+
+
+def _ends(servo: Servo) -> tuple[tuple[float, ...], ...]:
+    """Control range and range, the same for its mirror image."""
+    return tuple(tuple(sorted(round(abs(end), 6) for end in pair or ())) for pair in (servo.ctrl, servo.range))
 
 
 def _apart(servo: Servo) -> float:

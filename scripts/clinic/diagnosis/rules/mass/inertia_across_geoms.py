@@ -29,7 +29,7 @@ Good:
 
 The number: the inertia about the longest axis of the geoms, where the mean of the three is 1. A thin rod has 0 about
 its axis and 1.5 across. Of 249 long bodies of healthy robots, whose geoms have at most 0.3, none has more than 0.9.
-A wheel, which turns without end, is the other way round: where the geoms have more than 1.25 about their own axis,
+What makes whole turns, as wheels do, is the other way round: where the geoms have more than 1.25 about their own axis,
 less than 0.9 is a hint.
 
 When it is wrong: a long cover around a flat motor.
@@ -37,6 +37,7 @@ When it is wrong: a long cover around a flat motor.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
@@ -99,14 +100,18 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _rolls(model: ReaderModel, body: int, found: Matter) -> bool:
-    """Whether it turns without end about the axis across which its geoms are flat, as wheels do."""
+    """Whether it makes a whole turn about the axis across which its geoms are flat, as wheels and flanges do."""
     of = model.simulation
     return any(
         of.joint_type(joint) == HINGE
-        and not of.model("jnt_limited")[joint]
+        and (not of.model("jnt_limited")[joint] or _way(of.row("jnt_range", joint, 2)) > math.tau)
         and abs(dot(of.row("jnt_axis", joint, 3), found.short)) > ALONG
         for joint in of.joints_of(body)
     )
+
+
+def _way(range_: tuple[float, ...]) -> float:
+    return range_[1] - range_[0]
 
 
 def _turned(model: ReaderModel, body: int, found: Matter) -> tuple[Edit, ...]:

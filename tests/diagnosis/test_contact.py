@@ -30,6 +30,8 @@ WELL = {
     "a robot's visual geoms pass": FLOOR
     + '<body pos="0 0 0.3"><freejoint/><geom type="sphere" size="0.1"/>'
     + '<geom type="box" size="0.2 0.02 0.02" contype="0" conaffinity="0"/></body>',
+    "a camera sees the near end of a long wall": FLOOR
+    + '<geom type="box" pos="3 0 0.2" size="3 0.02 0.2"/><camera pos="0 -1 0.2" xyaxes="1 0 0 0 0 1" fovy="40"/>',
     "rubber on rubber": FLOOR + BOX.format(z=0.05, more=' friction="2"'),
     "a little margin": FLOOR + BOX.format(z=0.05, more=' margin="0.002"'),
     "pressed into the floor by 2 mm": FLOOR + BOX.format(z=0.048, more=""),
@@ -84,3 +86,12 @@ def test_a_step_that_needs_more_memory_than_there_is_ends_in_a_warning():
     assert compiled.warnings()["CNSTRFULL"] == 1
     compiled.reset()
     assert not compiled.warnings()
+
+
+def test_a_pair_touches_whatever_the_masks_are(tmp_path, monkeypatch):
+    ghost = BOX.format(z=0.5, more=' contype="0" conaffinity="0"')
+    shin = '<body pos="0 0 -0.3"><geom name="foot" size="0.02" contype="0" conaffinity="0"/></body></body>'
+    inside = FLOOR + ghost.removesuffix("</body>") + shin
+    assert "masks" in causes(inside, tmp_path, monkeypatch)
+    pair = '<contact><pair geom1="floor" geom2="foot"/></contact>'
+    assert "masks" not in causes(inside, tmp_path, monkeypatch, more=pair)

@@ -12,7 +12,7 @@ import clinic
 import mujoco
 import pytest
 from clinic.diagnosis import process
-from clinic.diagnosis.finding import DIES, FAILS
+from clinic.diagnosis.finding import DIES, FAILS, LATE
 from clinic.diagnosis.process import DiagnosisError, Request, diagnose
 from clinic.diagnosis.simulation import Start
 
@@ -88,6 +88,15 @@ def test_where_a_rule_fails_that_is_no_fault_of_the_model_or_the_engine(monkeypa
     assert [each.rule for each in found.causes] == ["spring-too-stiff"]
     assert [each.rule for each in found.hints] == [FAILS]
     assert "masks failed (AttributeError: nthe): a mistake of the clinic" in found.hints[0].says
+
+
+def test_a_rule_that_takes_too_long_says_nothing_of_the_model(monkeypatch):
+    slow = DIES_ON_A_RULE.format(rule="masks").replace("os.abort()", "__import__('time').sleep(60)")
+    monkeypatch.setattr(process, "CHILD", (sys.executable, "-c", slow))
+    monkeypatch.setattr(process, "LIMIT", 5.0)
+    found = diagnose(TALL, select=["masks", "spring-too-stiff"])
+    assert DIES not in {each.rule for each in found.causes}
+    assert [each.rule for each in found.hints] == [LATE]
 
 
 def test_a_process_whose_asker_is_gone_ends_and_leaves_nothing(tmp_path):

@@ -49,9 +49,29 @@ def simulated(text: str) -> Simulation:
     return Simulation(NativeEngine().compile(text, {}), Start())
 
 
+CHAIN = "".join(
+    f'<body name="{{side}}/{part}" pos="0.2 0 0.02"><inertial pos="0.1 0.01 0.02" mass="0.3" '
+    f'fullinertia="2e-4 5e-4 6e-4 -1e-4 0 0"/><joint name="{{side}}/{part}" axis="{axis}" damping="1" range="-50 60"/>'
+    '<geom size="0.03"/>'
+    for part, axis in (
+        ("waist", "0 0 1"), ("shoulder", "0 1 0"), ("elbow", "0 1 0"), ("roll", "1 0 0"), ("left_finger", "0 1 0"),
+    )
+)  # fmt: skip
+
+
+def test_two_arms_that_face_each_other_are_copies_and_no_mirror_images():
+    arms = "".join(
+        f'<body name="{side}/base" pos="{x} 0 0" euler="0 0 {turn}"><geom size="0.05"/>{CHAIN.format(side=side)}'
+        + "</body>" * 6
+        for side, x, turn in (("left", -0.5, 0), ("right", 0.5, 180))
+    )
+    assert unlike(f"<mujoco><worldbody>{arms}</worldbody></mujoco>") == []
+
+
 @pytest.mark.parametrize(
     ("left", "right"),
     [
+        ("left/left_finger", "right/left_finger"),
         ("left_knee", "right_knee"),
         ("LHipPitch", "RHipPitch"),
         ("thigh_L", "thigh_R"),

@@ -59,8 +59,8 @@ def examine(
         if start is None and model.simulation.count("key") and not any(each.proved for each in found):
             model, before = ReaderModel(engine, texts, model.source, Start(key=0)), found
             found, fixed, tried = _found(model, tried, ignores, tell, limit)
-            again = {each.rule.id for each in found}
-            found += [each for each in before if each.rule.id not in again]
+            seen = {rule.id for rule in tried}  # a hint of the model's own start that is not one of the keyframe's
+            found += [each for each in before if each.rule.id not in seen]
         found = order(found, (symptom,) if symptom else ())
     named = {each.rule.id for each in found}
     findings = [*(finding_of(each, model) for each in found), *ignores.findings({rule.id for rule in tried}, named)]

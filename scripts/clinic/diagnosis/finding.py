@@ -17,6 +17,7 @@ from clinic.diagnosis.suspect import Level
 CAUSES_SHOWN = 3
 DIES = "engine-dies"
 FAILS = "rule-fails"
+LATE = "rule-too-slow"
 SITE = "CLINIC_SITE"  # the environment variable with the address of the site
 
 
@@ -182,7 +183,10 @@ def finding_of(judged: Judged, model: ReaderModel) -> Finding:
 
 def ending(of: Diagnosis, died: Mapping[str, str], file: str) -> Diagnosis:
     """A diagnosis with what its failed rules say: the clinic's own mistake, or nothing where the engine ended."""
-    ends = [_failure(rule, file, said) if said else _death(rule, file) for rule, said in died.items()]
+    ends = [
+        _delay(rule, file) if said == LATE else _failure(rule, file, said) if said else _death(rule, file)
+        for rule, said in died.items()
+    ]
     causes, hints = ([each for each in ends if each.level == level] for level in ("cause", "hint"))
     return replace(of, causes=(*causes, *of.causes), hints=(*hints, *of.hints))
 
@@ -193,9 +197,15 @@ def _failure(rule: str, file: str, said: str) -> Finding:
     return Finding(FAILS, "A rule failed", "hint", (), file, None, "", "", "", (), "", "", 1.0, None, says, "")
 
 
+def _delay(rule: str, file: str) -> Finding:
+    """That a rule gave no answer in time."""
+    says = f"{rule} gave no answer in time: whether it finds something is not known."
+    return Finding(LATE, "A rule takes too long", "hint", (), file, None, "", "", "", (), "", "", 1.0, None, says, "")
+
+
 def _death(rule: str, file: str) -> Finding:
     """That the engine ended while a rule was tried on a model file."""
-    says = f"MuJoCo ended, or gave no answer, while {rule} was tried on this model."
+    says = f"MuJoCo ended while {rule} was tried on this model."
     title = "The engine does not survive the model"
     return Finding(DIES, title, "cause", (), file, None, "", "", "", (), "", "", 1.0, None, says, "")
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from clinic.diagnosis.diagnose import examine, read_file
-from clinic.diagnosis.finding import Diagnosis, ending
+from clinic.diagnosis.finding import LATE, Diagnosis, ending
 from clinic.diagnosis.simulation import Start, StartError
 from clinic.diagnosis.source import read_texts
 from clinic.diagnosis.symptom import code_of, measure
@@ -82,7 +82,7 @@ def diagnose(
         died[trying] = said
         if not trying or len(died) > DEATHS:
             doing = f"while trying {trying}" if trying else "while compiling the model"
-            ended = said or f"MuJoCo ended the process, or gave no answer in {LIMIT:g} s,"
+            ended = f"no answer in {LIMIT:g} s" if said == LATE else said or "MuJoCo ended the process"
             raise DiagnosisError(f"{name}: {ended} {doing}")
 
 
@@ -109,11 +109,17 @@ def _read(source: Any) -> tuple[str, str, str]:
 
 
 def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | None, str, str]:
-    """The answer of a process; or None, the rule that was being tried, and the clinic's own mistake if it was one."""
+    """The answer of a process; or None, the rule that was being tried, and the clinic's own mistake or LATE."""
     found = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}  # what this process can import
     pipe = subprocess.PIPE
     child = subprocess.Popen(CHILD, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, env=found)
-    timer = threading.Timer(LIMIT, child.kill)
+    late = threading.Event()
+
+    def end() -> None:
+        late.set()
+        child.kill()
+
+    timer = threading.Timer(LIMIT, end)
     timer.start()
     trying = ""
     try:
@@ -138,7 +144,7 @@ def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | N
         timer.cancel()
         child.kill()
         child.communicate()
-    return None, trying, ""
+    return None, trying, LATE * late.is_set()
 
 
 def _end_with_who_asked() -> None:

@@ -83,12 +83,13 @@ class Matter:
         """The same about the axis across which the geoms are flat, a wheel's own: that of their greatest inertia."""
         return self._about(self.solid)
 
+    @property
+    def short(self) -> Vector:
+        """The axis across which the geoms are flat."""
+        return _greatest(self.solid)
+
     def _about(self, spread: Vector) -> tuple[float, float]:
-        axis: Vector = max(
-            ((1.0, 0.1, 0.1), (0.1, 1.0, 0.1), (0.1, 0.1, 1.0)), key=lambda each: norm(times(spread, each))
-        )
-        for _ in range(50):  # power iteration
-            axis = unit(times(spread, axis))
+        axis = _greatest(spread)
         geoms, own = (
             3 * dot(axis, times(each, axis)) / _trace(each) if _trace(each) else 1.0
             for each in (self.solid, self.about)
@@ -99,6 +100,14 @@ class Matter:
     def density(self) -> float:
         """In kg/m3."""
         return self.mass / self.volume if self.volume > 0 else 0.0
+
+
+def _greatest(spread: Vector) -> Vector:
+    """The principal axis of a tensor's greatest moment."""
+    axis: Vector = max(((1.0, 0.1, 0.1), (0.1, 1.0, 0.1), (0.1, 0.1, 1.0)), key=lambda each: norm(times(spread, each)))
+    for _ in range(50):  # power iteration
+        axis = unit(times(spread, axis))
+    return axis
 
 
 def _trace(tensor_: Vector) -> float:

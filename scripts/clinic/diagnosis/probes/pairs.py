@@ -23,11 +23,15 @@ WORDS = (("left", "right"), ("Left", "Right"), ("LEFT", "RIGHT"))
 TOKEN = re.compile(r"[A-Z](?=[A-Z][a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 KINDS = ("body", "joint", "geom", "site", "camera", "actuator", "sensor")
 SYMMETRIC = 0.85  # of the points fit their image: the parts are meant to be mirrored
+SAME, UNTURNED = 1e-3, 2.9  # m or quaternion's length that tells a copy; trace of a turn by 18 degrees
 FITS = 0.02  # of the size of what hangs on both sides: as far may a point be from its image
 
 
 def right_of(name: str) -> Iterator[str]:
-    """What the right twin of a left element may be called."""
+    """What the right twin of a left element may be called; in what is attached, the prefix alone says the side."""
+    prefix, slash, rest = name.partition("/")
+    if slash:
+        yield from (right + slash + rest for right in right_of(prefix))
     for left, right in WORDS:
         if left in name:
             yield name.replace(left, right)
@@ -152,7 +156,7 @@ class Pairs:
             points = self._points(pairs)
             here, there = points[0]
             size = max(1e-4, *(norm(sub(p, here)) for p, _ in points), *(norm(sub(q, there)) for _, q in points))
-            image = self._best(common, pairs, points, FITS * size)
+            image = self._copied(pairs) or self._best(common, pairs, points, FITS * size)
             share = self._fit(pairs, image, FITS * size)
             # one pair astray would else move the plane: it goes through the body that both sides hang on
             fixed = (self.at("xpos", common),) * 2 if image.sign < 0 else points[0]
@@ -212,6 +216,22 @@ class Pairs:
             if int(self.of.model("jnt_bodyid")[left]) in inside:
                 made.append((self.at("xanchor", left), self.at("xanchor", right)))
         return made
+
+    def _copied(self, pairs: list[tuple[int, int]]) -> Image | None:
+        """The turn of one side into the other, where it is the same chain set up in another direction; else None."""
+        of, lefts, parents = self.of, {left for left, _ in pairs}, self.of.model("body_parentid")
+        inner = [(left, right) for left, right in pairs if int(parents[left]) in lefts]
+        tops = [pair for pair in pairs if pair not in inner]
+        joints = [pair for pair in self.pairs["joint"] if int(of.model("jnt_bodyid")[pair[0]]) in lefts]
+        fields = [("body_pos", 3, inner), ("body_quat", 4, inner), ("body_ipos", 3, pairs), ("jnt_axis", 3, joints)]
+        apart = [norm(sub(*(of.row(name, each, n) for each in pair))) for name, n, some in fields for pair in some]
+        if len(tops) != 1 or not inner or sum(each < SAME for each in apart) < SYMMETRIC * len(apart):
+            return None
+        here, there = (self.at("xmat", each, 9) for each in tops[0])
+        matrix = times(there, transpose(here))
+        if matrix[0] + matrix[4] + matrix[8] > UNTURNED:
+            return None
+        return Image(matrix, sub(self.at("xpos", tops[0][1]), times(matrix, self.at("xpos", tops[0][0]))), 1)
 
     def _best(
         self, common: int, pairs: list[tuple[int, int]], points: list[tuple[Vector, Vector]], near: float

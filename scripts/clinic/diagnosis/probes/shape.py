@@ -50,6 +50,12 @@ def collides(simulation: Simulation, one: int, other: int) -> bool:
     return bool(int(types[one]) & int(affinities[other]) or int(types[other]) & int(affinities[one]))
 
 
+def paired(simulation: Simulation, one: int, other: int) -> bool:
+    """Whether two geoms are written as a pair, which touches whatever their masks are."""
+    pairs = zip(*(map(int, simulation.model(f"pair_geom{side}")) for side in (1, 2)), strict=True)
+    return any({one, other} == set(pair) for pair in pairs)
+
+
 def solid(simulation: Simulation, geom: int) -> bool:
     """Whether a geom collides with anything at all by its masks."""
     return bool(simulation.model("geom_contype")[geom] or simulation.model("geom_conaffinity")[geom])

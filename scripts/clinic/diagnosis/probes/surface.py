@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from clinic.diagnosis.engine import MESH
-from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.shape import root_of, roots
 from clinic.diagnosis.probes.vector import Vector, add, at, dot, sub, times, transpose
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe
@@ -13,12 +13,16 @@ from clinic.diagnosis.suspect import Probe
 SDF = 8  # mjtGeom
 SAMPLES = 25
 MOST_FACES = 20_000  # of a finer mesh nothing is told
+NEAR = 0.1  # of the radius: as near is touched at the surface, however near
 Triangle = tuple[Vector, Vector, Vector]
 Ball = tuple[Vector, float]
 
 
 def touched_off_surface(simulation: Simulation) -> dict[int, float]:
-    """How far from each mesh geom's surface other mechanisms touched it after letting go, as a share of its radius."""
+    """How far from each mesh geom's surface other things touched it after letting go, as a share of its radius.
+
+    Two mechanisms that collide are left out: what falls into a hole or passes through it is a single thing.
+    """
     if "off surface" not in simulation.kept:
         simulation.kept["off surface"] = _run(simulation)
     return simulation.kept["off surface"]  # type: ignore[return-value]
@@ -30,17 +34,39 @@ def _run(simulation: Simulation) -> dict[int, float]:
     if not any(int(kind) in (MESH, SDF) for kind in kinds):
         return made
     owner, bodies = root_of(simulation), simulation.model("geom_bodyid")
+    hung = _hung(simulation)
+    jointed = {owner[int(simulation.model("jnt_bodyid")[joint])] for joint in _inner_joints(simulation)}
     simulation.begin()
     for _ in simulation.run(simulation.begin_with.duration, SAMPLES):
         places, frames = simulation.data("geom_xpos"), simulation.data("geom_xmat")
         for contact in simulation.engine.contacts():
-            strangers = min(contact.geoms) >= 0 and len({owner[int(bodies[geom])] for geom in contact.geoms}) == 2
+            own = [int(bodies[geom]) for geom in contact.geoms if min(contact.geoms) >= 0]
+            trees = {owner[body] for body in own}
+            strangers = len(trees) == 2 and trees - jointed and not hung & {(body, max(trees)) for body in own}
             for geom in contact.geoms if strangers and contact.force > 0 else ():
                 if int(kinds[geom]) in (MESH, SDF):
                     seen = times(transpose(frames[9 * geom : 9 * geom + 9]), sub(contact.position, at(places, geom)))
-                    away = _distance(simulation, int(simulation.model("geom_dataid")[geom]), seen)
+                    mesh = int(simulation.model("geom_dataid")[geom])
+                    away = _distance(simulation, mesh, seen, NEAR * radii[geom])
                     made[geom] = max(made.get(geom, 0.0), (away - abs(contact.distance)) / radii[geom])
     return made
+
+
+def _hung(simulation: Simulation) -> set[tuple[int, int]]:
+    """Bodies that do not move, and the roots of what hangs on them."""
+    made, parents = set(), simulation.model("body_parentid")
+    for root in roots(simulation):
+        above = int(parents[root])
+        while above:
+            made.add((above, root))
+            above = int(parents[above])
+    return made
+
+
+def _inner_joints(simulation: Simulation) -> list[int]:
+    """The joints between two bodies that move."""
+    owner, bodies = root_of(simulation), simulation.model("jnt_bodyid")
+    return [joint for joint, body in enumerate(bodies) if owner[int(body)] != int(body)]
 
 
 def _faces(simulation: Simulation, mesh: int) -> list[tuple[Triangle, Ball]]:
@@ -59,12 +85,15 @@ def _faces(simulation: Simulation, mesh: int) -> list[tuple[Triangle, Ball]]:
     return kept["faces", mesh]  # type: ignore[return-value]
 
 
-def _distance(simulation: Simulation, mesh: int, point: Vector) -> float:
-    """From a point to a mesh's surface in m; 0 for a mesh that is too fine."""
-    best = math.inf
-    for triangle, (middle, radius) in _faces(simulation, mesh):
+def _distance(simulation: Simulation, mesh: int, point: Vector, near: float) -> float:
+    """From a point to a mesh's surface in m; 0 where that is near, and for a mesh that is too fine."""
+    faces, best = _faces(simulation, mesh), math.inf
+    for number, (triangle, (middle, radius)) in enumerate(faces):
         if math.dist(point, middle) - radius < best:
             best = min(best, math.dist(point, nearest(triangle, point)))
+        if best <= near:
+            faces.insert(0, faces.pop(number))  # the next point is likely to be beside it
+            return 0.0
     return 0.0 if math.isinf(best) else best
 
 

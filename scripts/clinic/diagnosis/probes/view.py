@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import product
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.engine import HFIELD, PLANE
 from clinic.diagnosis.probes.shape import root_of
-from clinic.diagnosis.probes.vector import Vector, at, cross, dot, sub
+from clinic.diagnosis.probes.vector import Vector, add, at, cross, dot, sub, times, transpose
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 
@@ -53,9 +54,7 @@ def in_sight(simulation: Simulation, camera: int) -> list[tuple[int, float]]:
     simulation.begin()
     right, up, forward = axes(simulation, camera)
     place = simulation.data_row("cam_xpos", camera, 3)
-    tall = math.tan(math.radians(min(simulation.model("cam_fovy")[camera], 179.0)) / 2)
-    wide, high = (int(each) for each in simulation.row("cam_resolution", camera, 2))
-    aspect = wide / high if wide > 1 and high > 1 else ASPECT
+    tall, aspect = _opening(simulation, camera)
     positions, made = tuple(simulation.data("geom_xpos")), []
     for geom in things(simulation):
         way = sub(at(positions, geom), place)
@@ -63,6 +62,35 @@ def in_sight(simulation: Simulation, camera: int) -> list[tuple[int, float]]:
         if ahead > 0 and abs(dot(way, up)) <= tall * ahead and abs(dot(way, right)) <= aspect * tall * ahead:
             made.append((geom, ahead))
     return made
+
+
+def sees(simulation: Simulation, camera: int, geom: int) -> bool:
+    """Whether some of a geom may be in a camera's image: its box's middle, or a corner, or what is straight ahead."""
+    simulation.begin()
+    right, up, forward = axes(simulation, camera)
+    place, tall, aspect = simulation.data_row("cam_xpos", camera, 3), *_opening(simulation, camera)
+    frame, middle = simulation.data_row("geom_xmat", geom, 9), simulation.data_row("geom_xpos", geom, 3)
+    x, y, z, *half = simulation.row("geom_aabb", geom, 6)
+    near, far = 0.0, math.inf
+    way = times(transpose(frame), sub(place, middle))
+    ahead_of = zip(way, times(transpose(frame), forward), (x, y, z), half, strict=True)
+    for at_axis, along, centre, reach in ahead_of:  # the slabs that the view's axis goes through
+        ends = [(centre + side * reach - at_axis) / (along or 1e-12) for side in (-1, 1)]
+        near, far = max(near, min(ends)), min(far, max(ends))
+    corners = [(x + i * half[0], y + j * half[1], z + k * half[2]) for i, j, k in product((-1, 1), repeat=3)]
+    seen = near <= far
+    for point in ((x, y, z), *corners):
+        way = sub(add(middle, times(frame, point)), place)
+        ahead = dot(way, forward)
+        seen |= ahead > 0 and abs(dot(way, up)) <= tall * ahead and abs(dot(way, right)) <= aspect * tall * ahead
+    return seen
+
+
+def _opening(simulation: Simulation, camera: int) -> tuple[float, float]:
+    """Half of the image's height at a distance of 1, and its width as a share of its height."""
+    wide, high = (int(each) for each in simulation.row("cam_resolution", camera, 2))
+    tall = math.tan(math.radians(min(simulation.model("cam_fovy")[camera], 179.0)) / 2)
+    return tall, wide / high if wide > 1 and high > 1 else ASPECT
 
 
 def middle(simulation: Simulation) -> Vector | None:

@@ -43,7 +43,8 @@ radius; below 0.15 is well. MuJoCo's manual, Computation, Collision detection: m
 edit, `type="sdf"`, collides with the surface itself: it is slow and may shake, and proves the cause. What to build
 instead are primitives, or the mesh cut into convex pieces.
 
-When it is wrong: a coarse collision mesh whose hull is meant to be filled. Parts of one mechanism are not looked at.
+When it is wrong: a coarse collision mesh whose hull is meant to be filled. Parts of one mechanism, and two mechanisms
+that collide, are not looked at.
 """
 
 from __future__ import annotations

@@ -30,7 +30,8 @@ Good:
 The number: how far the centre of a body ends below a surface that it began above, 2 s after letting go. MuJoCo's
 manual, Computation, Collision detection, has the condition.
 
-When it is wrong: something that is meant to pass, such as a ghost of the target. A body that a geom without masks
+When it is wrong: something that is meant to pass, such as a ghost of the target. What has a `<pair>` with the surface
+is not told, though only some of its geoms may touch it. A body that a geom without masks
 marks as a place is not told: only planes, boxes and what collides at all are taken for surfaces.
 """
 
@@ -42,7 +43,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.fall import bare, below, fallen, limit
-from clinic.diagnosis.probes.shape import collides, geoms_of_tree, root_of, solid
+from clinic.diagnosis.probes.shape import collides, geoms_of_tree, paired, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -61,7 +62,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for root, surface in fallen(simulation):
         whole = root_of(simulation)[root] == root and root not in bare(simulation)
         tree = geoms_of_tree(simulation, root) if whole else simulation.geoms_of(root)
-        if not tree or any(collides(simulation, geom, surface) for geom in tree):
+        if not tree or any(collides(simulation, geom, surface) or paired(simulation, geom, surface) for geom in tree):
             continue
         own = [geom for geom in tree if solid(simulation, geom)] or _bodily(model, tree)
         others = [geom for geom in range(simulation.count("geom")) if geom != surface and geom not in tree]

@@ -29,19 +29,22 @@ Good:
 
 The number: the inertia about the longest axis of the geoms, where the mean of the three is 1. A thin rod has 0 about
 its axis and 1.5 across. Of 249 long bodies of healthy robots, whose geoms have at most 0.3, none has more than 0.9.
-A wheel is the other way round: where the geoms have more than 1.25 about their own axis, less than 0.9 is a hint.
+What makes whole turns, as wheels do, is the other way round: where the geoms have more than 1.25 about their own axis,
+less than 0.9 is a hint.
 
 When it is wrong: a long cover around a flat motor.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.inertia import set_inertial
 from clinic.diagnosis.probes.matter import Matter, across, explicit, flat
-from clinic.diagnosis.probes.vector import norm
+from clinic.diagnosis.probes.vector import dot, norm
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -50,16 +53,21 @@ FAMILIES = ("drifts", "oscillates")
 SINCE = "0.2"
 
 LONG, LIMIT = 0.3, 1.0
-FLAT, OFF = 1.25, 1.1
+FLAT, OFF, ALONG = 1.25, 1.1, 0.95
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Long bodies that are heavy to spin about their long axis, and flat ones that are light about their own."""
+    """Long bodies that are heavy to spin about their long axis, and wheels that are light about their own."""
     wheels = {}
     for body, found in explicit(model):
         moments = model.simulation.row("body_inertia", body, 3)
         geoms, own = found.along
-        if found.flat[0] > FLAT and found.flat[1] < 1 / OFF and min(moments) < 0.7 * max(moments):
+        if (
+            _rolls(model, body, found)
+            and found.flat[0] > FLAT
+            and found.flat[1] < 1 / OFF
+            and min(moments) < 0.7 * max(moments)
+        ):
             wheels[body] = found.flat, _turned(model, body, found)
         if geoms > LONG or own <= LIMIT or min(moments) > 0.6 * max(moments):
             continue
@@ -89,6 +97,21 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "a disk has 1.5, a wheel as wide as its radius 1.2",
             level="hint",
         )
+
+
+def _rolls(model: ReaderModel, body: int, found: Matter) -> bool:
+    """Whether it makes a whole turn about the axis across which its geoms are flat, as wheels and flanges do."""
+    of = model.simulation
+    return any(
+        of.joint_type(joint) == HINGE
+        and (not of.model("jnt_limited")[joint] or _way(of.row("jnt_range", joint, 2)) > math.tau)
+        and abs(dot(of.row("jnt_axis", joint, 3), found.short)) > ALONG
+        for joint in of.joints_of(body)
+    )
+
+
+def _way(range_: tuple[float, ...]) -> float:
+    return range_[1] - range_[0]
 
 
 def _turned(model: ReaderModel, body: int, found: Matter) -> tuple[Edit, ...]:

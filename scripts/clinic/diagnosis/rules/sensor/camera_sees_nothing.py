@@ -29,8 +29,9 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: the share of visible geoms, floors left out, whose centre is not in the image; 1 is nothing in sight. By
-geometry, for a square image where `resolution` does not say otherwise, at the start.
+The number: the share of visible geoms, floors left out, of which neither the middle nor a corner of the box around it
+is in the image; 1 is nothing in sight. By geometry, for a square image where `resolution` does not say otherwise, at
+the start.
 
 When it is wrong: things come into view later, or the camera is meant for the floor. Cameras on moving bodies are left
 alone.
@@ -40,7 +41,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.view import aimed, in_sight, onlookers, things
+from clinic.diagnosis.probes.view import aimed, onlookers, sees, things
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -53,8 +54,8 @@ MOST = 0.999
 
 
 def _unseen(simulation: Simulation, camera: int) -> float:
-    seen = things(simulation)
-    return 1.0 - len(in_sight(simulation, camera)) / len(seen) if seen else 0.0
+    there = things(simulation)
+    return 1.0 - sum(sees(simulation, camera, geom) for geom in there) / len(there) if there else 0.0
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -68,7 +68,8 @@ Good:
     </mujoco>
 
 The number: the share of the joint's range by which the two differ. Three servos at least, and two in three of all, have
-both alike to 1 %; one or two differ by 3 to 90 %.
+both alike to 1 %; one or two differ by 3 to 90 %, each in its own
+way: what is written twice alike is meant.
 
 When it is wrong: a servo that is kept away from a limit on purpose. Only intent knows which of the two is right:
 a hint.
@@ -98,7 +99,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     odd = [each for each, unlike in found if UNLIKE < unlike < FAR]
     if len(alike) < max(3, 2 / 3 * len(found)) or len(odd) > FEW:
         return
-    for each in odd:
+    ends = [_ends(each) for each in odd]
+    for each in odd if len(set(ends)) == len(ends) else ():
         assert each.targets is not None
         assert each.range is not None
         (low, high), (least, most) = each.targets, each.range
@@ -112,6 +114,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         names = model.simulation.name("actuator", each.actuator), model.simulation.name("joint", each.joint)
         yield Suspect(names, "ctrlrange", f"{low:.4g} {high:.4g}", f"{least:.4g} {most:.4g}", (), probe, UNLIKE, says,
                       'inheritrange="1"', level="hint")  # fmt: skip
+
+
+def _ends(servo: Servo) -> tuple[tuple[float, ...], ...]:
+    """Control range and range, the same for its mirror image."""
+    return tuple(tuple(sorted(round(abs(end), 6) for end in pair or ())) for pair in (servo.ctrl, servo.range))
 
 
 def _apart(servo: Servo) -> float:

@@ -32,7 +32,8 @@ Good:
     </mujoco>
 
 The number: with the timestep h and the inertia M a velocity gain is stable below h kv / M = 2, a position gain below
-h^2 kp / M = 4 (explicit integration of a spring and a damper). A model that keeps these at 2 ms, and not at its own
+h^2 kp / M = 4 (explicit integration of a spring and a damper); damping that is integrated implicitly adds h kv / 2 to
+M. A model that keeps these at 2 ms, and not at its own
 timestep, has a timestep that is too long, but where one joint is ten times as far beyond as the others. Where no gain
 is the reason and something is faster than 100 rad/s, driven joints below 0.01 kg m2 are told.
 
@@ -79,11 +80,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield from _bare(model, thin)
         return
     edits: list[Edit] = []
-    for joint, (kp, kv, inertia) in found.items():
+    for joint, (kp, kv, inertia, _) in found.items():
         value = max(step * kv / 0.5, step**2 * kp / 0.1) - inertia
         edits += model.set("joint", [joint], "armature", f"{value:.1g}")
     joint, worst = max(found.items(), key=lambda each: _excess(each[1], step))
-    kp, kv, inertia = worst
+    kp, kv, inertia, _ = worst
     probe = _symptom(model) or shake()
     yield Suspect(
         tuple(simulation.name("joint", each) for each in found),
@@ -133,9 +134,9 @@ def _symptom(model: ReaderModel) -> Probe | None:
     return next((each for each in (fastest(), shake(), commanded()) if model.measured(each) > FAST), None)
 
 
-def _gains(simulation: Simulation) -> dict[int, tuple[float, float, float]]:
-    """Position gain, velocity gain where it is explicit, and inertia, by driven joint."""
-    made: dict[int, tuple[float, float, float]] = {}
+def _gains(simulation: Simulation) -> dict[int, tuple[float, float, float, float]]:
+    """Position gain, velocity gain where it is explicit, inertia, and velocity gain where it is implicit, by joint."""
+    made: dict[int, tuple[float, float, float, float]] = {}
     implicit = int(simulation.model("opt.integrator")[0]) in IMPLICIT
     width = len(simulation.model("actuator_biasprm")) // max(1, simulation.count("actuator"))
     for actuator in range(simulation.count("actuator")):
@@ -146,12 +147,13 @@ def _gains(simulation: Simulation) -> dict[int, tuple[float, float, float]]:
             simulation.row("actuator_biasprm", actuator, width),
             simulation.model("actuator_gear")[6 * actuator],
         )
-        kp, kv = max(0.0, -bias[1] * gear**2), max(0.0, -bias[2] * gear**2) * (not implicit)
-        old = made.get(joint, (0.0, 0.0))
-        made[joint] = (kp + old[0], kv + old[1], max(simulation.mass_diagonal[simulation.dof(joint)], 1e-12))
+        kp, kv = max(0.0, -bias[1] * gear**2), max(0.0, -bias[2] * gear**2)
+        old = made.get(joint, (0.0, 0.0, 0.0, 0.0))
+        inertia = max(simulation.mass_diagonal[simulation.dof(joint)], 1e-12)
+        made[joint] = (kp + old[0], kv * (not implicit) + old[1], inertia, kv * implicit + old[3])
     return made
 
 
-def _excess(gains: tuple[float, float, float], step: float) -> float:
-    kp, kv, inertia = gains
-    return max(step * kv / inertia / 2, step**2 * kp / inertia / 2)
+def _excess(gains: tuple[float, float, float, float], step: float) -> float:
+    kp, kv, inertia, held = gains
+    return max(step * kv / inertia / 2, step**2 * kp / (inertia + step * held / 2) / 2)

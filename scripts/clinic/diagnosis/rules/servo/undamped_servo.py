@@ -33,7 +33,8 @@ Good:
 
 The number: a damping ratio under 0.08, and a step of 0.1 rad (0.01 m for a slide), without gravity and contacts, that
 overshoots by more than 22 % and crosses its target four times. With a damping ratio z the overshoot of one joint alone
-is exp(-pi z / sqrt(1 - z^2)), 0.78 for 0.08; neighbours take up some of it. Legs of healthy robots go down to 0.1.
+is exp(-pi z / sqrt(1 - z^2)), 0.78 for 0.08; neighbours take up some of it. A joint whose
+`frictionloss` holds the step is left alone. Legs of healthy robots go down to 0.1.
 
 When it is wrong: friction that the model leaves to contacts, or a controller that adds the damping.
 """
@@ -44,7 +45,7 @@ import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.probes.servo import Servo, overshoot, servos
+from clinic.diagnosis.probes.servo import STEP, Servo, overshoot, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -60,7 +61,9 @@ OVERSHOOT = 0.22
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Servos with a low damping ratio that ring, all together."""
     simulation = model.simulation
-    low = sorted((each for each in servos(simulation) if each.ratio < RATIO), key=lambda each: each.ratio)
+    dry = simulation.model("dof_frictionloss")  # what holds the whole step damps it as well
+    free = [each for each in servos(simulation) if dry[each.dof] < each.stiffness * STEP[each.hinge]]
+    low = sorted((each for each in free if each.ratio < RATIO), key=lambda each: each.ratio)
     found = [each for each in low[:16] if model.measured(overshoot([each.actuator])) > OVERSHOOT]
     if not found:
         return

@@ -4,7 +4,7 @@
 # make site    builds site/ strictly
 # make bench   how long a build takes, cold and warm, and its parts, how soon a page is there; the table goes into *Work on the code*
 # make growth  how the site grows to 1,000 cases; the table goes into *Work on the code*
-# make releases   what every release of MuJoCo does with every case, and which messages read otherwise; writes the two locks
+# make releases   what every release of MuJoCo does with the cases that have changed, or with all by ALL=1, and which messages read otherwise; writes the two locks
 # make lint    style, types, order of the storeys, spelling
 # make healthy   the robots of other people's packages on which the rules of `clinic diagnose` are measured
 # make lock    renews requirements.txt, requirements-parity.txt and requirements-healthy.txt
@@ -63,7 +63,7 @@ growth: setup
 	$(BIN)/python scripts/growth.py --write
 
 releases: setup
-	$(BIN)/python -m clinic.commands.releases
+	$(BIN)/python -m clinic.commands.releases $(if $(ALL),--all)
 
 lint: setup
 	$(BIN)/ruff format --check .

@@ -26,6 +26,7 @@ from clinic.proof.releases import (
     differing,
     files_digest,
     lock_text,
+    on_releases,
     read_lock,
     release_problems,
 )
@@ -120,6 +121,11 @@ def listen_to(root: Path, messages: Sequence[Message], releases: Iterable[str] =
         return listen(messages, dict(zip(wanted, pool.map(lambda each: provoke(codes, each), pythons), strict=True)))
 
 
+def _known(case: Case) -> bool:
+    wanted = NPM if case.record.language == "javascript" else PYTHON
+    return on_releases(case).keys() >= {*wanted}
+
+
 def _ask(root: Path, environment: tuple[list[str], Path], slugs: list[str]) -> dict[str, tuple[str, dict[str, object]]]:
     command, folder = environment
     said = _run([*command, "-m", "clinic.proof.releases", str(root / "cases"), *slugs], folder)
@@ -147,10 +153,14 @@ def stale(lock: Lock, measured: Lock) -> Iterator[str]:
 
 
 def main() -> None:
-    """Writes the lock files; with `--check` says instead where they are stale, and ends with 1 if they are."""
+    """Writes the lock files, of the cases that have changed since or of all with `--all`.
+
+    With `--check` measures all, says where the files are stale, and ends with 1 if they are.
+    """
     root, messages = project_root(), load_messages()
     cases, _ = read_cases(root / "cases")
-    measured, heard = measure(root, cases), listen_to(root, messages)
+    asked = cases if {"--all", "--check"} & {*sys.argv} else [case for case in cases if not _known(case)]
+    measured, heard = measure(root, asked), listen_to(root, messages)
     if "--check" not in sys.argv:
         write_lock(root, measured, [case.slug for case in cases])
         (root / HEARD).write_text(f"{heard.model_dump_json(indent=1)}\n", encoding="utf-8")

@@ -82,14 +82,14 @@ def family_shares(text: str, counts: StemCounts | None = None) -> dict[str, floa
     own = {name: sum(users.get(name, 0) for users in counts.values()) for name in families()}
     everything, smooth = sum(own.values()), len(counts)
     odds = {}
-    for name in own:
+    for name, total in own.items():
         here = [counts[stem].get(name, 0) for stem in said]
         rest = [sum(counts[stem].values()) - count for stem, count in zip(said, here, strict=True)]
-        inside = sum(math.log((1 + count) / (own[name] + smooth)) for count in here)
-        odds[name] = inside - sum(math.log((1 + count) / (everything - own[name] + smooth)) for count in rest)
+        inside = sum(math.log((1 + count) / (total + smooth)) for count in here)
+        odds[name] = inside - sum(math.log((1 + count) / (everything - total + smooth)) for count in rest)
     weights = {name: math.exp(value - max(odds.values())) for name, value in odds.items()}
-    total = sum(weights.values())
-    return {name: weights[name] / total for name in sorted(weights, key=lambda name: -round(odds[name], 9))}
+    sum_of_all = sum(weights.values())
+    return {name: weights[name] / sum_of_all for name in sorted(weights, key=lambda name: -round(odds[name], 9))}
 
 
 @cache

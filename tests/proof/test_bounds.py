@@ -21,6 +21,7 @@ CHECK = "{signal: height, between: [0.045, 0.051]}"
         ("between: [-100, 100]", True),
         ("above: -100", True),
         ("equals: 0.05, within: 0.01", False),
+        ("equals: 0.055, within: 0.01", True),  # 0.05 is measured
         ("equals: 0.05, within: 1", True),
         ("equals: 0.05, within: 0.03", True),  # it tells the broken box, but is no equality
     ],
@@ -53,12 +54,14 @@ def test_a_trial_differs_from_the_run(tmp_path, situation: str, same: bool) -> N
         ("fixed", "{signal: height, above: 0.02}", False),
         ("fixed", "{signal: height, above: -0.6}", True),
         ("fixed", "{signal: height, above: -50}", True),
+        ("fixed", "{signal: height, between: [0.02, 0.06]}", False),
+        ("fixed", "{signal: height, between: [-0.6, 0.06]}", True),
         ("broken", "{signal: height, below: -0.3}", False),
         ("broken", "{signal: height, below: 0.045}", True),
         ("broken", "{signal: height, below: 1}", True),
     ],
 )
-def test_a_one_sided_bound_keeps_off_the_other_kind(tmp_path, kind: str, check: str, near: bool) -> None:
+def test_an_end_of_a_bound_keeps_off_the_other_kind(tmp_path, kind: str, check: str, near: bool) -> None:
     case = tiny_case(tmp_path, (f"  {kind}:\n", f"  {kind}:\n    - {check}\n"))
     assert [problem.where for problem in parting(case, collect(case))] == [f"checks.{kind}[0]"] * near
 

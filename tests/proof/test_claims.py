@@ -16,10 +16,11 @@ SCRIPT = "first = 0.5\nscale = 1\nprint('error =', scale * first)\n"
 CAUSE = "It is wrong by more than nothing."
 RECORD = changed(SCRIPT_RECORD, ("cause: It says so.", f"cause: {CAUSE}"))
 CODE = 'assert measured["broken.error.final"] > 0'
+TITLES = ["Print no error", "There is nothing to vary."]
 CLAIMS = {
     "claims": [{"says": CAUSE, "python": CODE}],
     "measured": ["It prints {{ broken.error.final }}."],
-    "advice": ["Read it.", "Write another number.", "Read the output.", "A script prints an error"],
+    "advice": ["Read it.", "Write another number.", "Read the output.", "A script prints an error", *TITLES],
 }
 
 
@@ -84,6 +85,31 @@ def test_titles_and_labels_are_asked_too_and_code_reads_the_record(tmp_path):
     assert told(case_with(tmp_path / "with", claims, record)) == []
 
 
+@pytest.mark.parametrize(
+    ("change", "found"),
+    [
+        (("{path: printed(error), unit: m}", "{path: printed(error), unit: m, label: error}"), None),
+        (("{path: printed(error), unit: m}", "{path: printed(error), unit: m, label: true error}"), "true error"),
+        (("title: Print no error", "title: Print less"), "Print less"),
+        (("title: Print no error", "title: Call mj_step"), None),  # that its edits do so is another law's
+        (("no_sweep: There is nothing to vary.", "no_sweep: It is whole."), "It is whole."),
+        (("picture:", 'older:\n  "<3.4": It was less.\npicture:'), "It was less."),
+    ],
+)
+def test_labels_titles_and_reasons_are_asked_unless_their_path_tells_them(tmp_path, change, found):
+    said = told(case_with(tmp_path, record=changed(RECORD, change)))
+    assert [each.rpartition(": ")[2] for each in said if "nothing is named" in each] == ([repr(found)] if found else [])
+
+
+def test_comments_and_docstrings_are_asked(tmp_path):
+    case = case_with(tmp_path)
+    script = '"""It prints."""\n' + SCRIPT + "# the scale\nnames = [\n    'no docstring',\n]\n"
+    (tmp_path / "cases" / "odd-script" / "script.py").write_text(script, encoding="utf-8")
+    said = told(load_case(tmp_path / "cases" / "odd-script"))
+    assert [each.rpartition(": ")[2] for each in said] == ["'It prints.'", "'the scale'"]
+    assert told(case) == []
+
+
 def test_a_quotation_stands_in_the_manual(tmp_path):
     page, words = "computation/index.html", "Semi-implicit with implicit joint damping (Euler)"
     true, false = ({"says": CAUSE, "manual": page, "quote": each} for each in (words, "explicit joint damping"))
@@ -129,7 +155,7 @@ def test_a_wrong_file_is_told_at_its_place(tmp_path, claims, where, found):
 def test_the_missing_sentences_are_printed_for_the_file(tmp_path):
     case = case_with(tmp_path, {"advice": ["Read it."]})
     printed = yaml.safe_load(missing(case))
-    lacking = [CAUSE, "Write another number.", "Read the output.", "A script prints an error"]
+    lacking = [CAUSE, "Write another number.", "Read the output.", TITLES[1], "A script prints an error", TITLES[0]]
     assert [each["says"] for each in printed["claims"]] == lacking
     assert printed["measured"] == ["It prints {{ broken.error.final }}."]
 

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 Kind = Literal["broken", "fixed"]
 REACH = 12.0  # how many times the number that it admits a bound may be
+BESIDE = 0.4  # the part of `within` by which an `equals` may differ from what is measured
 SEEN = 0.01  # the share by which the outcome of a sweep changes
 APART = 0.25  # the share of its range by which a mark's outcome may differ: a sweep may be shorter than the run
 DISTINCT = 0.05  # the share by which numbers of broken and fixed differ, if they do
@@ -32,7 +33,8 @@ MOVED = 0.1  # the share by which a trial changes some number that is checked
 def bounded(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 1, bounds. A check's bound is near some number that it admits, or parts broken from fixed.
 
-    A bound that is far away and parts nothing admits whatever comes; an `equals` admits no number half as large.
+    A bound that is far away and parts nothing admits whatever comes. An `equals` is what is measured, up to a part
+    of its `within`, and that is a quarter of it at most.
     """
     for trial in (None, *case.record.trials):
         kinds: tuple[Kind, Kind] = ("broken", "fixed")
@@ -43,43 +45,50 @@ def bounded(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 admitted, _ = _numbers(evidence, trial, kind, index)
                 if not admitted or (check.equals is None and _parts(evidence, trial, kind, index)):
                     continue
+                where: Where = ("checks", kind, index)
+                if trial is not None:
+                    where = ("trials", case.record.trials.index(trial), "checks", kind, index)
+                shown, found = _listed(admitted), f"{check.signal} ({check.take}) {expected(check)}"
                 if all(_loose(check, measured) for measured in admitted):
-                    where: Where = ("checks", kind, index)
-                    if trial is not None:
-                        where = ("trials", case.record.trials.index(trial), "checks", kind, index)
-                    shown = " and ".join(f"{measured:.4g}" for measured in admitted)
-                    wanted, repair = f"a bound near what it admits: {shown}", "tighten the bound"
-                    yield case.problem(where, f"{check.signal} ({check.take}) {expected(check)}", wanted, repair)
+                    yield case.problem(where, found, f"a bound near what it admits: {shown}", "tighten the bound")
+                elif check.within and all(_beside(check, measured) for measured in admitted):
+                    yield case.problem(where, found, f"what is measured: {shown}", "write that number")
 
 
 def parting(case: Case, evidence: Evidence) -> Iterator[Problem]:
-    """Law 1, one-sided bounds. Where the broken variant and the fixes differ, a bound keeps off the other kind.
+    """Law 1, ends of bounds. Where the broken variant and the fixes differ, a bound keeps off the other kind.
 
-    It lies a quarter of the way from the other kind at least, or half of its number.
+    Its end lies a quarter of the way from the other kind at least, or half of its number.
     """
     for trial in (None, *case.record.trials):
         kinds: tuple[Kind, Kind] = ("broken", "fixed")
         for kind in kinds:
             for index, check in enumerate(getattr(checks_in(case.record, trial), kind)):
-                bound = check.below if check.below is not None else check.above
                 own, others = _numbers(evidence, trial, kind, index)
-                if bound is None or not own or not others:
-                    continue
-                sign = 1.0 if check.below is not None else -1.0
-                farthest = max(own, key=lambda number: sign * number)
-                beyond = [
-                    each for each in others if sign * (each - farthest) > DISTINCT * max(abs(each), abs(farthest))
-                ]
-                nearest = min(beyond, key=lambda number: sign * number, default=None)
-                if nearest is not None and sign * (nearest - bound) < min(
-                    abs(nearest - farthest) / 4, abs(nearest) / 2 or abs(bound)
-                ):
-                    place: Where = ("checks", kind, index)
-                    if trial is not None:
-                        place = ("trials", case.record.trials.index(trial))
-                    found = f"{check.signal} ({check.take}) {expected(check)}, and the other kind has {nearest:.4g}"
-                    wanted = f"a bound between {farthest:.4g} and that, and not close to that"
-                    yield case.problem(place, found, wanted, "tighten the bound")
+                for end, sign in _ends(check) if own and others else ():
+                    farthest = max(own, key=lambda number: sign * number)
+                    beyond = [
+                        each for each in others if sign * (each - farthest) > DISTINCT * max(abs(each), abs(farthest))
+                    ]
+                    nearest = min(beyond, key=lambda number: sign * number, default=None)
+                    if nearest is not None and sign * (nearest - end) < min(
+                        abs(nearest - farthest) / 4, abs(nearest) / 2 or abs(end)
+                    ):
+                        place: Where = ("checks", kind, index)
+                        if trial is not None:
+                            place = ("trials", case.record.trials.index(trial))
+                        found = f"{check.signal} ({check.take}) {expected(check)}, and the other kind has {nearest:.4g}"
+                        wanted = f"an end between {farthest:.4g} and that, and not close to that"
+                        yield case.problem(place, found, wanted, "tighten the bound")
+
+
+def _ends(check: Check) -> Iterator[tuple[float, float]]:
+    """The ends of a bound, each with its direction: 1 for the upper, -1 for the lower."""
+    low, high = check.between or (check.above, check.below)
+    if low is not None:
+        yield low, -1.0
+    if high is not None:
+        yield high, 1.0
 
 
 def _numbers(evidence: Evidence, trial: Trial | None, kind: Kind, index: int) -> tuple[list[float], list[float]]:
@@ -152,10 +161,19 @@ def _loose(check: Check, measured: float) -> bool:
     if not size:
         return False
     if check.equals is not None:
-        return (check.within or 0.0) > max(size, abs(check.equals)) / 2 and check.equals != 0
+        return (check.within or 0.0) > max(size, abs(check.equals)) / 4 and check.equals != 0
     low, high = check.between or (check.above, check.below)
     ends = [end for end in (low, high) if end is not None]
     return any(not size / REACH <= abs(end) <= size * REACH for end in ends)
+
+
+def _beside(check: Check, measured: float) -> bool:
+    """Whether a number is not the one that an `equals` names: further from it than BESIDE of its `within`."""
+    return check.equals is not None and abs(measured - check.equals) > BESIDE * (check.within or 0.0)
+
+
+def _listed(numbers: list[float]) -> str:
+    return " and ".join(dict.fromkeys(f"{number:.4g}" for number in numbers))
 
 
 def _moved(variant: VariantEvidence, trial: Trial) -> bool:

@@ -15,7 +15,10 @@ import yaml
 from clinic.engine.script import ScriptError, run_script
 from clinic.engine.variant import variants
 from clinic.proof.evidence import Evidence
+from clinic.proof.prose.absences import comments
+from clinic.proof.prose.plain import plain_label, plain_title
 from clinic.proof.prose_laws import prose_of
+from clinic.proof.releases import on_releases
 from clinic.record.case import Case
 from clinic.record.claims import flat, sentences
 from clinic.record.fields import WORDS
@@ -29,7 +32,7 @@ import mujoco
 import numpy as np
 
 given = json.load(open("claims.json"))
-shown = {name: given[name] for name in ("text", "measured", "output", "printed", "record")}
+shown = {name: given[name] for name in ("text", "measured", "output", "printed", "record", "releases")}
 text, keyframe = given["text"], given["keyframe"]
 
 
@@ -56,6 +59,7 @@ for number, code in given["codes"].items():
         wrong[number] = f"{type(error).__name__}: {str(error) or line}"
 print(json.dumps(wrong))
 '''
+MARKS = re.compile(r"^\s*(?:#|//|/\*|<!--|[\"']+)\s*|\s*(?:\*/|-->|[\"']+)\s*$")
 ROLE = re.compile(r":[\w:+-]+:`([^`<]*?)\s*(?:<[^>]*>)?`")
 MARKUP = re.compile(r"[`*]|(?<=\w)_(?=\s|$)|\\")
 
@@ -78,6 +82,10 @@ def unshown(case: Case, evidence: Evidence) -> dict[int, str]:
         "output": {name: shown.output for name, shown in evidence.variants.items()},
         "printed": evidence.snippet,
         "record": case.record.model_dump(mode="json", exclude=WORDS),
+        "releases": {
+            release: {name: behaviour.model_dump() for name, behaviour in seen.items()}
+            for release, seen in on_releases(case).items()
+        },
         "keyframe": case.record.run.keyframe if case.record.run else None,
     }
     try:
@@ -122,13 +130,22 @@ def claimed(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 
 def _said(case: Case) -> Iterator[tuple[str, Where]]:
-    """Every sentence of the prose, with its field; titles of the case, its trials and sweeps, its cause, and labels."""
+    """Every sentence of the prose and of the reasons, every title, label and comment, with its field.
+
+    Labels and titles that say no more than their path and their edits are left out.
+    """
     record = case.record
-    for where, text in prose_of(case):
+    for where, text in (*prose_of(case), *_reasons(case)):
         yield from ((sentence, where) for sentence in sentences(text))
     yield record.title, ("title",)
     if record.telling is not None and record.telling.cause:
         yield record.telling.cause, ("telling", "cause")
+    for name, signal in record.signals.items():
+        if signal.label and not plain_label(case, name):
+            yield flat(signal.label), ("signals", name, "label")
+    for variant in variants(case)[1:]:
+        if not plain_title(case, variant):
+            yield flat(variant.title), (*variant.where, "title")
     for index, trial in enumerate(record.trials):
         yield trial.title, ("trials", index, "title")
     for name, sweep in record.sweep.items():
@@ -136,6 +153,25 @@ def _said(case: Case) -> Iterator[tuple[str, Where]]:
         yield sweep.prediction.label, ("sweep", name, "prediction")
         yield from ((each.label, ("sweep", name, "vary", k)) for k, each in enumerate(sweep.vary) if each.label)
         yield from ((each.label, ("sweep", name, "rivals", k)) for k, each in enumerate(sweep.rivals))
+    snippet = "snippet.mjs" if record.language == "javascript" else "snippet.py"
+    for file, text in {**case.texts, snippet: record.snippet or ""}.items():
+        if file.endswith((".py", ".mjs", ".xml")):
+            place = "snippet" if file == snippet else "script" if record.script else "model"
+            for _, comment in comments(file, text):
+                yield from ((sentence, (place,)) for sentence in sentences(MARKS.sub("", comment)))
+
+
+def _reasons(case: Case) -> Iterator[tuple[Where, str]]:
+    """Every reason that the record gives for what is not so, with its place."""
+    record = case.record
+    yield from ((("loose", text), reason) for text, reason in (record.loose or {}).items())
+    yield from ((("older", release), reason) for release, reason in record.older.items())
+    yield from ((("fixes", k, "redundant"), fix.redundant) for k, fix in enumerate(record.fixes) if fix.redundant)
+    yield from ((("sweep", name, "apart"), each.apart) for name, each in record.sweep.items() if each.apart)
+    if record.telling is not None:
+        yield from ((("telling", "still", fix), reason) for fix, reason in record.telling.still.items())
+    if record.no_sweep is not None:
+        yield ("no_sweep",), record.no_sweep
 
 
 def missing(case: Case) -> str:

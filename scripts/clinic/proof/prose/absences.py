@@ -141,9 +141,9 @@ def commented(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 5, comments. A number in a comment or a docstring of the case's code stands in the code as well."""
     snippet = "snippet.mjs" if case.record.language == "javascript" else "snippet.py"
     for name, text in {**case.texts, snippet: case.record.snippet or ""}.items():
-        comments = list(_comments(name, text))
-        code = functools.reduce(lambda left, comment: left.replace(comment[1], ""), comments, text)
-        for line, comment in comments:
+        told = list(comments(name, text))
+        code = functools.reduce(lambda left, comment: left.replace(comment[1], ""), told, text)
+        for line, comment in told:
             for found in NUMBER.finditer(comment):
                 if re.search(rf"(?<![\w.]){re.escape(found[0])}(?![\w.])", code):
                     continue
@@ -155,15 +155,16 @@ def commented(case: Case, evidence: Evidence) -> Iterator[Problem]:
                     yield Problem(f"cases/{case.slug}/{name}", line, "", said, wanted, repair)
 
 
-def _comments(name: str, text: str) -> Iterator[tuple[int, str]]:
+def comments(name: str, text: str) -> Iterator[tuple[int, str]]:
     """The comments and docstrings of a file, each with the line where it begins."""
     if name.endswith(".py"):
-        previous = tokenize.NEWLINE
+        previous, depth = tokenize.NEWLINE, 0
         for token in tokenize.generate_tokens(io.StringIO(text).readline):
-            starts = previous in (tokenize.NEWLINE, tokenize.INDENT, tokenize.NL)
+            starts = previous in (tokenize.NEWLINE, tokenize.INDENT, tokenize.NL) and not depth
             if token.type == tokenize.COMMENT or (token.type == tokenize.STRING and starts):
                 yield token.start[0], token.string
             previous = token.type
+            depth += (token.string in ("(", "[", "{")) - (token.string in (")", "]", "}"))
         return
     pattern = r"//[^\n]*|/\*.*?\*/" if name.endswith(".mjs") else r"<!--.*?-->"
     for found in re.finditer(pattern, text, re.DOTALL):

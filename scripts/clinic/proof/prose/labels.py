@@ -26,10 +26,10 @@ PRINTED = re.compile(r"printed\((.*)\)")
 def labelled(case: Case, evidence: Evidence) -> Iterator[Problem]:
     """Law 5, labels. A label names no element that its signal does not read; sizes are halves, units those printed."""
     output = evidence.variants["broken"].output or ""
-    known = {word for name in _elements(case.text) for word in _words(name)} if case.record.run else set()
+    known = {word for name in elements(case.text) for word in words_in(name)} if case.record.run else set()
     for name, signal in case.record.signals.items():
         read = _read(case, name)
-        told = [word for word in _words(signal.label) if word in known]
+        told = [word for word in words_in(signal.label) if word in known]
         if read and set(told) - read:
             expected = f"an element that it reads: {listed(sorted(read))}"
             yield case.problem(("signals", name, "label"), signal.label, expected, "correct the label or the path")
@@ -74,10 +74,10 @@ def entitled(case: Case, evidence: Evidence) -> Iterator[Problem]:
     if case.record.run is None:
         return
     broken, *others = variants(case)
-    known = {word for name in _elements(broken.text) for word in _words(name)}
+    known = {word for name in elements(broken.text) for word in words_in(name)}
     for variant in others:
-        told = {word for word in _words(variant.title) if word in known}
-        changed = {word for name in _changed(broken.text, variant.text) for word in _words(name)}
+        told = {word for word in words_in(variant.title) if word in known}
+        changed = {word for name in changed_names(broken.text, variant.text) for word in words_in(name)}
         if told and changed and not told & changed:
             expected = f"an element that it changes: {listed(sorted(changed))}"
             yield case.problem((*variant.where, "title"), variant.title, expected, "correct the title or the edits")
@@ -88,14 +88,14 @@ def _read(case: Case, name: str) -> set[str]:
     signal = case.record.signals.get(name)
     if isinstance(signal, ExpressionSignal):
         parts = [_read(case, each) for each in names(parse(signal.expr)) if each in case.record.signals]
-        return {word for part in parts for word in part}.union(_words(name)) if any(parts) else set()
+        return {word for part in parts for word in part}.union(words_in(name)) if any(parts) else set()
     found = NAMED.findall(signal.path) if isinstance(signal, PathSignal) and case.record.run else []
     named = {one.strip() for part in found for one in part.split(",")}
-    around = {word for each in named for word in _related(case.text, each)}
-    return {word for each in around for word in _words(each)}.union(_words(name)) if named else set()
+    around = {word for each in named for word in related(case.text, each)}
+    return {word for each in around for word in words_in(each)}.union(words_in(name)) if named else set()
 
 
-def _related(xml: str, name: str) -> set[str]:
+def related(xml: str, name: str) -> set[str]:
     """The name of an element, of what is around and in its body, and of what it refers to."""
     root, made = ElementTree.fromstring(xml), {name}
     for body in root.iter("body"):
@@ -109,7 +109,7 @@ def _related(xml: str, name: str) -> set[str]:
     return made
 
 
-def _elements(xml: str) -> dict[str, list[str]]:
+def elements(xml: str) -> dict[str, list[str]]:
     """Every named element's tag and the names of the bodies around it."""
     made: dict[str, list[str]] = {}
 
@@ -124,17 +124,18 @@ def _elements(xml: str) -> dict[str, list[str]]:
     return made
 
 
-def _changed(before: str, after: str) -> set[str]:
+def changed_names(before: str, after: str) -> set[str]:
     """The names of the elements of which an attribute differs, and those of the bodies that they are in."""
     made = set()
-    for name, (tag, *around) in {**_elements(before), **_elements(after)}.items():
+    for name, (tag, *around) in {**elements(before), **elements(after)}.items():
         tags = {tag, *around} & {"body", "geom", "joint", "freejoint", "camera", "site", "position", "motor", "general"}
         if any(attributes(before, each, name) != attributes(after, each, name) for each in tags):
             made |= {name, *(each for each in around if each not in tags)}
     return made
 
 
-def _words(text: str) -> list[str]:
+def words_in(text: str) -> list[str]:
+    """The words of a text in small letters, without the *s* of the plural."""
     return [word.removesuffix("s") for word in re.findall(r"[a-z]+", text.lower().replace("'s", ""))]
 
 

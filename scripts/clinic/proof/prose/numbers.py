@@ -58,7 +58,13 @@ def typed(case: Case, evidence: Evidence) -> Iterator[Problem]:
             own = where[0] == "loose" and number == "twice"  # what the law itself tries
             if number not in releases and not own and not (where[-1] == "label" and number.startswith("by ")):
                 repair = "write a field such as {{ broken.signal.final }}, or say it without a number"
-                yield case.problem(where, f"{number!r}, typed by hand", "what a run gave", repair, quoted=number)
+                wanted = "what a run gave"
+                if where[0] == "older":
+                    wanted, repair = (
+                        f"a release that `older` names: {listed(releases)}",
+                        "write that, or say it in words",
+                    )
+                yield case.problem(where, f"{number!r}, typed by hand", wanted, repair, quoted=number)
     for key, sweep in case.record.sweep.items():
         for place, form in [("prediction", sweep.prediction), *((f"rivals.{r.id}", r) for r in sweep.rivals)]:
             if OPERATOR.search(form.label) or NUMBER.search(form.label):

@@ -53,7 +53,7 @@ def performed(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 yield case.problem(where, title, f"a title that says {listed(made)}", "correct the title or the edits")
         if case.record.run is None:
             continue
-        changed = _changed(broken, variant)
+        changed = changed_attributes(broken, variant)
         for words, attributes in ACTS:
             found = re.search(words, title, re.IGNORECASE)
             if found and changed and not any(part in name for part in attributes.split() for name in changed):
@@ -61,7 +61,7 @@ def performed(case: Case, evidence: Evidence) -> Iterator[Problem]:
                 yield case.problem(where, found[0], wanted, "correct the title or the edits", found[0])
 
 
-def _changed(broken: Variant, variant: Variant) -> set[str]:
+def changed_attributes(broken: Variant, variant: Variant) -> set[str]:
     """The names of the attributes that a variant writes, removes or gives another value."""
     before, after = (Counter(re.findall(r'(\w+)="([^"]*)"', each.text)) for each in (broken, variant))
     return {name for name, _ in (before - after) + (after - before)}

@@ -23,7 +23,7 @@ export function shares(counts) {
   for (const users of table.values()) for (const [family, count] of Object.entries(users)) own.set(family, (own.get(family) ?? 0) + count);
   const everything = sum(own.values());
   return (query) => {
-    const said = [...stemmed(query)].flatMap((stem) => table.get(stem) ?? []);
+    const said = [...stemmed(query)].map((stem) => table.get(stem)).filter((users) => users !== undefined);
     if (!said.length) return new Map();
     const odds = [...own].map(([family, total]) => {
       const inside = said.map((users) => Math.log((1 + (users[family] ?? 0)) / (total + table.size)));

@@ -76,8 +76,10 @@ def _edits(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
     elif RANGE.search(said):
         for attribute in [name for name in element.attributes if name.endswith("range")]:
             numbers = element.get(attribute).split()
-            if len(numbers) == 2 and float(numbers[0]) >= float(numbers[1]):
+            if len(numbers) == 2 and float(numbers[0]) > float(numbers[1]):
                 yield put(attribute, f"{numbers[1]} {numbers[0]}")
+            elif len(numbers) == 2 and float(numbers[0]) == float(numbers[1]) != 0:  # a minus was lost
+                yield put(attribute, f"-{numbers[0].lstrip('-')} {numbers[0].lstrip('-')}")
     elif "has `range` but not `limited`" in said or "but not `" in said:
         yield put(re.findall(r"but not `(\w+)`", said)[0], "true")
     elif "range[0] should be 0" in said:

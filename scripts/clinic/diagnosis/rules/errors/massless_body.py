@@ -28,7 +28,8 @@ Good:
     </mujoco>
 
 The number: mjMINVAL is 1e-15. The edit gives a body without mass 10 g, and a body without
-inertia that of a ball of 50 mm radius.
+inertia that of a ball of 50 mm radius. A body whose geoms do have mass is too small: a box of 0.1 mm has an inertia
+of 2e-18 kg m2; the compiler then gives all bodies the least that it takes, and lengths in mm are better.
 
 When it is wrong: the body may not be meant to move: then its joint is too much.
 """
@@ -37,7 +38,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import delete, insert, replace
+from clinic.diagnosis.edit import Edit, delete, insert, replace, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence
 from clinic.diagnosis.source import Element
@@ -46,6 +47,8 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "A moving body without mass"
 FAMILIES = ("will-not-compile",)
 SINCE = "0.2"
+
+LEAST, MASS = "1e-13", "1e-9"  # kg m2, kg: what the compiler gives bodies that are too small
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -56,7 +59,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         inertial = element.first("inertial")
         mass = _mass(inertial) if inertial else 0.0
         named, said = f'{element.tag} "{element.get("name")}"', sentence(model)
-        if inertial is None or mass <= 0:
+        if inertial is None and _matter(model, element):
+            says = f"{named} has geoms, which are too small: {said}. In mm and g the model has larger numbers."
+            edits = _bounds(model.source.root)
+            yield mends(element, edits, says, attribute="boundinertia", now="0", value=LEAST)
+        elif inertial is None or mass <= 0:
             says = f"{named} moves and has no mass: {said}."
             edits = (*((delete(inertial),) if inertial else ()), insert(element, _inertial(0.01, model.source.urdf)))
             yield mends(element, edits, says, attribute="mass", now="0", value="0.01")
@@ -64,6 +71,23 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             says = f"{named} moves and has a mass of {mass:g} kg without inertia: {said}."
             edits = (replace(inertial, _inertial(mass, model.source.urdf, inertial)),)
             yield mends(element, edits, says, attribute="inertia", now="0", value=f"{_ball(mass):.2g}")
+
+
+def _bounds(root: Element) -> tuple[Edit, ...]:
+    """The least mass and inertia of all bodies, told to the compiler."""
+    there = [child for child in root.children if child.tag == "compiler"]
+    if there:
+        return set_attribute(there[-1], "boundinertia", LEAST), set_attribute(there[-1], "boundmass", MASS)
+    return (insert(root, f'<compiler boundinertia="{LEAST}" boundmass="{MASS}"/>'),)
+
+
+def _matter(model: ReaderModel, body: Element) -> bool:
+    """Whether a body of MJCF has a geom that nobody made massless."""
+    if model.source is None or model.source.urdf:
+        return False
+    geoms = [each for each in body.children if each.tag == "geom"]
+    written = [(model.source.value(geom, "mass"), model.source.value(geom, "density")) for geom in geoms]
+    return any(float(mass or density or "1") > 0 for mass, density in written)
 
 
 def _mass(inertial: Element) -> float:

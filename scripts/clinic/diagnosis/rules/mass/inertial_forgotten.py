@@ -58,7 +58,9 @@ Good:
     </mujoco>
 
 The number: told are at most two bodies, where three and more in four of their mechanism have an `<inertial>`, and no
-geom of theirs has a mass or a density written on itself.
+geom of theirs has a mass or a density written on itself. So are parts without a joint, all together, whose geoms add
+more than 15 % to the mass of the link they are fixed to, where that link has an `<inertial>` of its own: a foot's
+collision geoms weigh as water does.
 
 When it is wrong: a body that was added by hand and is as heavy as its geoms.
 """
@@ -79,10 +81,12 @@ SINCE = "0.2"
 LEVEL = "hint"
 
 SHARE, FEW = 0.75, 2
+MORE = 0.15  # of the link's mass
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Jointed bodies of their geoms' mass among bodies that have an `<inertial>`."""
+    """Jointed bodies of their geoms' mass among bodies that have an `<inertial>`; parts that are fixed to such."""
+    yield from _fixed(model)
     of, owner = model.simulation, root_of(model.simulation)
     for root in roots(of):
         jointed = [body for body, top in enumerate(owner) if top == root and of.joints_of(body)]
@@ -100,3 +104,34 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 (of.name("body", body),), "inertial", "left out", "", (), mass_of((body,)), 0.0, says,
                 "its own <inertial>", level="hint",
             )  # fmt: skip
+
+
+def _fixed(model: ReaderModel) -> Iterator[Suspect]:
+    """Parts without a joint whose colliding geoms weigh by default, on links that state what they weigh."""
+    of = model.simulation
+    parents, masses = of.model("body_parentid"), of.model("body_mass")
+    found = []
+    for body in of.moving_bodies:
+        link, geoms = int(parents[body]), of.geoms_of(body)
+        if of.joints_of(body) or not geoms or inertial(model, body) is not None or inertial(model, link) is None:
+            continue
+        if any(model.element("geom", geom) is None for geom in geoms):
+            continue
+        written = any(model.value("geom", geom, name) for geom in geoms for name in ("mass", "density"))
+        if not written and masses[body] > MORE * masses[link]:
+            found.append(body)
+    if found:
+        mass = sum(masses[body] for body in found)
+        holder = of.name("body", int(parents[found[0]]))
+        yield Suspect(
+            tuple(of.name("body", body) for body in found),
+            "density",
+            "1000 (default)",
+            "0",
+            tuple(edit for body in found for edit in model.set("geom", of.geoms_of(body), "density", "0")),
+            mass_of(tuple(found)),
+            MORE * masses[int(parents[found[0]])],
+            f"{holder} states its mass; what is fixed to it adds {mass:.3g} kg by the default density of its geoms.",
+            'density="0", where the link\'s <inertial> has all of its mass',
+            level="hint",
+        )

@@ -30,7 +30,7 @@ The number: the mass of the air that its geoms displace (1.2 kg/m3) over its own
 and for single links with a joint. More than 300 tells a cause: Gymnasium's second pusher pushes a puck of 120, its
 first one of 120,000. A model in centimetres has 10.
 
-When it is wrong: a balloon.
+When it is wrong: a balloon. Where all of the model is so, it may be written in mm: another rule tells that.
 """
 
 from __future__ import annotations
@@ -40,6 +40,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
 from clinic.diagnosis.probes.matter import matter
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.world.lengths_in_another_unit import unit_of_lengths
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
@@ -53,6 +54,8 @@ AIR, LIMIT = 1.2, 300.0
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Trees of moving bodies that collide and weigh next to nothing."""
     of = model.simulation
+    if unit_of_lengths(of):
+        return
     parents, masses = of.model("body_parentid"), of.model("body_mass")
     moving = set(of.moving_bodies)
     trees: dict[int, list[int]] = {}

@@ -68,8 +68,8 @@ Good:
     </mujoco>
 
 The number: the share of the joint's range by which the two differ. Three servos at least, and two in three of all, have
-both alike to 1 %; one or two differ by 3 to 90 %, each in its own
-way: what is written twice alike is meant.
+both alike to 1 %; one or two differ by 3 to 90 %, each in its own way: what is written twice alike is meant. Where the
+twin of the joint has the range of the targets, it is the joint's range that is the odd one.
 
 When it is wrong: a servo that is kept away from a limit on purpose. Only intent knows which of the two is right:
 a hint.
@@ -80,6 +80,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.servo import Servo, servos
+from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -112,8 +113,17 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "control range and joint range differ by", "of the range", _unlike, (each.actuator,), dynamic=False
         )
         names = model.simulation.name("actuator", each.actuator), model.simulation.name("joint", each.joint)
-        yield Suspect(names, "ctrlrange", f"{low:.4g} {high:.4g}", f"{least:.4g} {most:.4g}", (), probe, UNLIKE, says,
-                      'inheritrange="1"', level="hint")  # fmt: skip
+        told = "ctrlrange", f"{low:.4g} {high:.4g}", f"{least:.4g} {most:.4g}"
+        twin = twins(model.simulation).partner("joint", each.joint)
+        if twin is not None and _same(model.simulation.row("jnt_range", twin, 2), each.targets):
+            told = "range", told[2], told[1]
+            names = names[::-1]
+            says += f" {model.simulation.name('joint', twin)} has the range of the targets."
+        yield Suspect(names, *told, (), probe, UNLIKE, says, 'inheritrange="1"', level="hint")
+
+
+def _same(one: tuple[float, ...], other: tuple[float, float]) -> bool:
+    return max(abs(a - b) for a, b in zip(one, other, strict=True)) < ALIKE * max(other[1] - other[0], 1e-9)
 
 
 def _ends(servo: Servo) -> tuple[tuple[float, ...], ...]:

@@ -33,7 +33,9 @@ Good:
 
 The number: the model's own weight at the joint over the gain, in the worst of 17 poses: more than 0.3 rad (0.3 m),
 0.55 rad where the base is free: legs that a learned policy drives go up to 0.5.
-Or more than 45 % of a step of 0.1 rad is left after 1 s, without gravity.
+Or more than 45 % of a step of 0.1 rad is left after 1 s, without gravity. Where the base is fixed, a hint tells of
+hinges that sag by more than 0.1 rad, and of slides that sag by more than 5 % of their range: fingers with 50 mm that
+swing by 5 mm as the arm turns.
 
 When it is wrong: a controller that adds the weight itself. `gravcomp="1"` on the bodies takes the load away as well.
 """
@@ -60,6 +62,7 @@ LATE = 0.6  # s: the time constant above which a step is tried
 SLOW = 4.0  # rad/s: the natural frequency below which it is
 LEFT = 0.45
 SAG, WALKS = 0.3, 0.55  # rad of a hinge, m of a slide; rad where the robot is free and stands on its feet
+LITTLE, SHARE = 0.1, 0.05  # rad of a hinge, share of the range of a slide, of which a hint tells
 GOOD = {True: (0.02, 0.08, 0.2), False: (0.002, 0.008, 0.02)}  # rad or m that may be left, the best first
 
 
@@ -92,14 +95,51 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"{'N m' if hinge else 'N'}, and its servo gives {worst.stiffness:.3g} for each {worst.unit}.",
             f"below {most:g} {worst.unit}; of healthy models with servos 0.29 is the most, 0.5 where the base is free",
         )
-    yield from _late(
-        model, {each.actuator for each in servos(simulation) if found[each.actuator] > _most(simulation, each)}
-    )
+    much = {each.actuator for each in servos(simulation) if found[each.actuator] > _most(simulation, each)}
+    yield from _late(model, much)
+    yield from _little(model, {each: far for each, far in found.items() if each not in much})
 
 
 def _most(simulation: Simulation, servo: Servo) -> float:
+    return WALKS if servo.hinge and _free(simulation, servo) else SAG
+
+
+def _free(simulation: Simulation, servo: Servo) -> bool:
     root = root_of(simulation)[int(simulation.model("jnt_bodyid")[servo.joint])]
-    return WALKS if servo.hinge and root in simulation.free_bodies else SAG
+    return root in simulation.free_bodies
+
+
+def _little(model: ReaderModel, found: dict[int, float]) -> Iterator[Suspect]:
+    """Hinges that sag visibly, and slides that sag by a good part of their range: hints."""
+    of = model.simulation
+    for hinge in (True, False):
+        weak = [each for each in servos(of) if each.hinge == hinge and each.actuator in found and not _free(of, each)]
+        weak = [each for each in weak if found[each.actuator] > _allowed(each)]
+        if not weak:
+            continue
+        worst = max(weak, key=lambda each: found[each.actuator] / _allowed(each))
+        load, sagging, good = loads(of)[worst.dof], found[worst.actuator], _allowed(worst) / 4
+        share = "" if hinge else f", {100 * SHARE * sagging / good / 4:.2g} % of its range"
+        yield Suspect(
+            tuple(of.name("actuator", each.actuator) for each in weak),
+            "kp",
+            f"{worst.stiffness:.3g}",
+            rounded(load / good),
+            (),
+            sag([each.actuator for each in weak]),
+            4 * good,
+            f"The weight at {of.name('joint', worst.joint)}, up to {load:.3g} {'N m' if hinge else 'N'}, moves it "
+            f"{sagging:.2g} {worst.unit} off its target{share}.",
+            f"below {LITTLE:g} rad, or 5 % of the range of a slide",
+            level="hint",
+        )
+
+
+def _allowed(servo: Servo) -> float:
+    """The sag in rad or m above which a hint tells of it; none of a slide without a range, or of a long one."""
+    if servo.hinge:
+        return LITTLE
+    return SHARE * (servo.range[1] - servo.range[0]) if servo.range else SAG
 
 
 def _late(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:

@@ -48,7 +48,8 @@ The number: how far apart the two places are at the start that an equality holds
 extent; below 1 % is well. The second site is moved to where the first one is, or `relpose` is left out, so that the
 start counts as assembled. From a keyframe it is a hint.
 
-When it is wrong: something that is to be pulled in. Bodies that are moved by `mocap` are left out.
+When it is wrong: something that is to be pulled in. Bodies that are moved by `mocap` are left out, but for a weld with
+a `relpose` of its own that puts the other body more than 10 % of the extent away.
 """
 
 from __future__ import annotations
@@ -70,15 +71,15 @@ UNPLANTED = "the healthy models connect and weld nothing but what is moved by mo
 
 CONNECT, WELD = 0, 1  # mjtEq
 SITE = 6  # mjtObj
-APART = 0.01  # of the model's extent
+APART, PUSHED = 0.01, 0.1  # of the model's extent; where mocap moves one of the two
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Connections and welds that hold together what is apart."""
     of = model.simulation
     for each in range(of.count("equality")):
-        gap = _gap(of, each)
-        if gap <= APART:
+        gap, pulled = _gap(of, each), _mocap(of, each)
+        if gap <= (PUSHED if pulled else APART) or (pulled and not model.value("equality", each, "relpose")):
             continue
         edits = _edits(model, each) if of.begin_with.key < 0 else ()
         sited = int(of.model("eq_objtype")[each]) == SITE
@@ -100,17 +101,23 @@ def _ends(simulation: Simulation, each: int) -> tuple[Vector, Vector] | None:
     if kind not in (CONNECT, WELD) or not simulation.model("eq_active0")[each]:
         return None
     if int(simulation.model("eq_objtype")[each]) == SITE:
-        bodies = [int(simulation.model("site_bodyid")[site]) for site in ids]
         ends = [simulation.data_row("site_xpos", site, 3) for site in ids]
     else:
-        bodies = ids
         data = simulation.row("eq_data", each, len(simulation.model("eq_data")) // simulation.count("equality"))
         anchors = (data[:3], data[3:6]) if kind == CONNECT else (data[3:6], data[:3])
         frames = [(simulation.data_row("xpos", body, 3), simulation.data_row("xmat", body, 9)) for body in ids]
         ends = [add(place, times(turn, anchor)) for (place, turn), anchor in zip(frames, anchors, strict=True)]
-    if any(simulation.model("body_mocapid")[body] >= 0 for body in bodies):
-        return None
     return ends[0], ends[1]
+
+
+def _mocap(simulation: Simulation, each: int) -> bool:
+    """Whether mocap moves one of the two bodies of an equality."""
+    ids = [int(simulation.model(f"eq_obj{i}id")[each]) for i in (1, 2)]
+    if int(simulation.model("eq_objtype")[each]) == SITE:
+        ids = [int(simulation.model("site_bodyid")[site]) for site in ids]
+    return int(simulation.model("eq_type")[each]) in (CONNECT, WELD) and any(
+        simulation.model("body_mocapid")[body] >= 0 for body in ids
+    )
 
 
 def _gap(simulation: Simulation, each: int) -> float:

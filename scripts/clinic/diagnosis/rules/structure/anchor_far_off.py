@@ -1,0 +1,127 @@
+"""A connection's anchor lies far from both of its bodies.
+
+The anchor of a `<connect>` is written in the frame of its first body. Written in the world's, it lies somewhere in the
+air: the bodies are held to each other by a long invisible rod, and swing about a point where nothing is.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="rod" pos="0.5 0 1">
+          <freejoint/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
+        </body>
+        <body name="wall" pos="0.75 0 1">
+          <geom type="box" size="0.02 0.05 0.05"/>
+        </body>
+      </worldbody>
+      <equality>
+        <connect body1="rod" body2="wall" anchor="0.72 0 1"/>
+      </equality>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="rod" pos="0.5 0 1">
+          <freejoint/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
+        </body>
+        <body name="wall" pos="0.75 0 1">
+          <geom type="box" size="0.02 0.05 0.05"/>
+        </body>
+      </worldbody>
+      <equality>
+        <connect body1="rod" body2="wall" anchor="0.22 0 0"/>
+      </equality>
+    </mujoco>
+
+The number: the distance of the anchor from the nearer of the two bodies over that body's own size; more than 3. Where
+the same numbers, read as a place in the world, lie on a body, the edit is that place in the first body's frame.
+
+When it is wrong: a rod that was left out of the drawing on purpose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import HFIELD, PLANE
+from clinic.diagnosis.probes.vector import Vector, add, norm, sub, times, transpose, written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "An anchor far from what it connects"
+FAMILIES = ("drifts", "jumps-at-start", "explodes")
+SINCE = "0.2"
+LEVEL = "hint"
+UNPLANTED = "the healthy models connect nothing by an anchor"
+
+CONNECT, BODY = 0, 1  # mjtEq, mjtObj
+FAR = 3.0  # times the body's size
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Connections of bodies whose anchor is in the air."""
+    of = model.simulation
+    for each in range(of.count("equality")):
+        if (far := _far(of, each)) <= FAR:
+            continue
+        bodies = [int(of.model(f"eq_obj{side}id")[each]) for side in (1, 2)]
+        edits = _from_world(model, each, bodies)
+        yield Suspect(
+            tuple(of.name("body", body) for body in bodies),
+            "anchor",
+            written(_anchor(of, each)),
+            edits[0].value if edits else "",
+            edits,
+            Probe("distance of an anchor from the nearer body", "times its size", _far, (each,), dynamic=False),
+            FAR,
+            f"The anchor is {far:.3g} times the size of the nearer body away from it; it is in the frame of the first.",
+            "on one of the two bodies",
+        )
+
+
+def _anchor(simulation: Simulation, each: int) -> Vector:
+    width = len(simulation.model("eq_data")) // simulation.count("equality")
+    return simulation.row("eq_data", each, width)[:3]
+
+
+def _far(simulation: Simulation, each: int) -> float:
+    if int(simulation.model("eq_type")[each]) != CONNECT or int(simulation.model("eq_objtype")[each]) != BODY:
+        return 0.0
+    simulation.begin()
+    first, second = (int(simulation.model(f"eq_obj{side}id")[each]) for side in (1, 2))
+    turn, place = simulation.data_row("xmat", first, 9), simulation.data_row("xpos", first, 3)
+    return _apart(simulation, add(place, times(turn, _anchor(simulation, each))), (first, second))
+
+
+def _apart(simulation: Simulation, point: Vector, bodies: tuple[int, ...]) -> float:
+    """How far a point is from the nearest of some bodies, over that body's size; 0 where one has no geoms."""
+    found, kinds = [], simulation.model("geom_type")
+    for body in bodies:
+        geoms = [geom for geom in simulation.geoms_of(body) if kinds[geom] not in (PLANE, HFIELD)]
+        if body == 0:
+            continue
+        if not geoms:
+            return 0.0
+        reach = sum(simulation.model("geom_rbound")[geom] for geom in geoms)
+        gaps = [
+            norm(sub(point, simulation.data_row("geom_xpos", geom, 3))) - simulation.model("geom_rbound")[geom]
+            for geom in geoms
+        ]
+        found.append(max(0.0, min(gaps)) / max(reach, 1e-9))
+    return min(found, default=0.0)
+
+
+def _from_world(model: ReaderModel, each: int, bodies: list[int]) -> tuple[Edit, ...]:
+    """The anchor's numbers, read as a place in the world, in the frame of the first body."""
+    of, point = model.simulation, _anchor(model.simulation, each)
+    of.begin()
+    if _apart(of, point, tuple(bodies)) > 0.5:
+        return ()
+    turn, place = of.data_row("xmat", bodies[0], 9), of.data_row("xpos", bodies[0], 3)
+    return model.set("equality", [each], "anchor", written(times(transpose(turn), sub(point, place))))

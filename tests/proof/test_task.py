@@ -112,6 +112,25 @@ def test_a_renamed_geom_is_compared_as_the_one_it_was() -> None:
     assert told('<geom name="floor" type="plane" size="1 1 0.1"/>', '<geom name="ground" size="0.1"/>') != []
 
 
+@pytest.mark.parametrize(
+    ("shape", "turn", "same"),
+    [
+        ('type="sphere" size="0.1"', "10 20 30", True),
+        ('type="cylinder" size="0.1 0.2"', "0 0 40", True),
+        ('type="capsule" size="0.1 0.2"', "180 0 40", True),
+        ('type="capsule" size="0.1 0.2"', "90 0 0", False),
+        ('type="box" size="0.1 0.2 0.3"', "0 180 0", True),
+        ('type="ellipsoid" size="0.1 0.2 0.3"', "180 0 180", True),
+        ('type="box" size="0.1 0.2 0.3"', "0 0 90", False),
+        ('type="plane" size="1 1 0.1"', "180 0 0", False),
+    ],
+)
+def test_a_turn_that_the_shape_hides_is_not_told(shape: str, turn: str, same: bool) -> None:
+    xml = '<mujoco><worldbody><frame euler="20 30 40"><geom name="it" {} euler="{}"/></frame></worldbody></mujoco>'
+    broken, model = (mujoco.MjModel.from_xml_string(xml.format(shape, euler)) for euler in ("0 0 0", turn))
+    assert (changes(broken, model, Task()) == []) == same
+
+
 @pytest.mark.parametrize(("range_", "same"), [("-1.5708 1.5708", True), ("-1.6 1.6", False)])
 def test_a_range_may_be_rounded(range_: str, same: bool) -> None:
     limited = MODEL.replace('kp="20"', 'kp="20" ctrlrange="-1.57 1.57"')

@@ -50,11 +50,38 @@ class Comparison {
       for (const field of FIELDS[kind].split(" ")) {
         const [before, after] = [this.value(this.broken, kind, field, i), this.value(this.model, kind, field, other)];
         const allowed = [field, WORDS[field] ?? field].some((word) => this.may.includes(`${kind}(${name}).${word}`));
-        if (!allowed && !same(before, after, field)) yield changed(field, ` of ${kind} ${name}`, before, after);
+        const hidden = kind === "geom" && field === "quat" && this.fillsTheSame(i, before, after);
+        if (!allowed && !hidden && !same(before, after, field)) yield changed(field, ` of ${kind} ${name}`, before, after);
       }
     }
     if ([...TABLES.further, ...this.may].includes(kind)) return;
     for (const name of there.keys()) if (!here.has(name)) yield `You added ${kind} ${name}.`;
+  }
+
+  /**
+   * Whether a geom is where it was after a turn that its symmetry hides.
+   * @param {number} i
+   * @param {Value} before
+   * @param {Value} after
+   */
+  fillsTheSame(i, before, after) {
+    const [a, b, c, d] = /** @type {number[]} */ (before);
+    const [e, f, g, h] = /** @type {number[]} */ (after);
+    const turn = [a * e + b * f + c * g + d * h, a * f - b * e - c * h + d * g, a * g + b * h - c * e - d * f, a * h - b * g + c * f - d * e];
+    const [w, x, y, z] = turn.map((part) => Math.abs(part) < 1e-5);
+    const kinds = this.mujoco.mjtGeom;
+    switch (this.broken.geom_type[i]) {
+      case kinds.mjGEOM_SPHERE.value:
+        return true;
+      case kinds.mjGEOM_CAPSULE.value:
+      case kinds.mjGEOM_CYLINDER.value:
+        return (x && y) || (w && z);
+      case kinds.mjGEOM_BOX.value:
+      case kinds.mjGEOM_ELLIPSOID.value:
+        return [w, x, y, z].filter(Boolean).length === 3;
+      default:
+        return false;
+    }
   }
 
   /** @returns {Generator<string>} */

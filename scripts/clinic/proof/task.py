@@ -3,7 +3,8 @@
 Every repair may change how the model is simulated and how things touch: a smaller timestep, integrator, solver, contact
 parameters, masks, pairs and excludes, damping, armature, friction and an actuator's gains, up to a bound; colours,
 lights, further cameras, sites, sensors and keyframes. A record's `task.may` names more. Elements are compared by name,
-unnamed ones by their order; a geom or site may have another name at the same place.
+unnamed ones by their order; a geom or site may have another name at the same place,
+and a geom may be turned as its symmetry hides.
 """
 
 from __future__ import annotations
@@ -59,7 +60,10 @@ def _of_kind(broken: mujoco.MjModel, model: mujoco.MjModel, kind: str, may: Sequ
         for field in FIELDS[kind].split():
             before, after = _value(broken, kind, field, i), _value(model, kind, field, there[name])
             allowed = {f"{kind}({name}).{word}" for word in (field, WORDS.get(field, field))} & set(may)
-            if not allowed and not _same(before, after, field):
+            same = _same(before, after, field) or (
+                (kind, field) == ("geom", "quat") and _fills_the_same(int(broken.geom_type[i]), before, after)
+            )
+            if not allowed and not same:
                 yield _changed(field, f" of {kind} {name}", before, after)
     for name in there if kind not in (*TABLES["further"], *may) else ():
         if name not in here:
@@ -161,6 +165,20 @@ def _same(before: Any, after: Any, field: str) -> bool:
     rtol = 1e-3 if field in TABLES["limited"] else 1e-4
     close = np.allclose(before, after, rtol=rtol, atol=1e-6)
     return bool(close or (field == "quat" and np.allclose(before, -after, rtol=rtol, atol=1e-6)))
+
+
+def _fills_the_same(type_: int, before: Any, after: Any) -> bool:
+    """Whether a geom of a type is where it was after a turn that its symmetry hides."""
+    turn, inverse = np.zeros(4), np.zeros(4)
+    mujoco.mju_negQuat(inverse, before)
+    mujoco.mju_mulQuat(turn, inverse, after)
+    w, x, y, z = zero = np.abs(turn) < 1e-5
+    kinds = mujoco.mjtGeom
+    if type_ == kinds.mjGEOM_SPHERE:
+        return True
+    if type_ in (kinds.mjGEOM_CAPSULE, kinds.mjGEOM_CYLINDER):
+        return bool((x and y) or (w and z))
+    return type_ in (kinds.mjGEOM_BOX, kinds.mjGEOM_ELLIPSOID) and int(np.sum(zero)) == 3
 
 
 def _changed(field: str, of: str, before: Any, after: Any) -> str:

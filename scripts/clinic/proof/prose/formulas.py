@@ -18,6 +18,8 @@ from clinic.record.problem import Problem
 from clinic.record.sweep import Sweep
 
 RELATION = re.compile(r"[=~]")
+NEIGHBOURS = {"sin": ["cos"], "cos": ["sin"], "tan": ["sin"]}
+SAME = 1e-12
 SIGNS = {"=": "=", "~": r"\approx"}
 
 
@@ -45,22 +47,25 @@ def formulas(case: Case, evidence: Evidence) -> Iterator[Problem]:
             continue
         for wrong in mutants(formula.says):
             with suppress(ExpressionError):
-                if largest_difference(case, evidence, formula.model_copy(update={"says": wrong})) <= formula.within:
+                off = largest_difference(case, evidence, formula.model_copy(update={"says": wrong}))
+                if off <= formula.within and abs(off - apart) > SAME:  # none: a quantity of 1, whose powers are alike
                     found, wanted = f"agrees as well when it says {wrong}", "an equation of which a wrong one disagrees"
                     repair = "lessen `within`, or choose an `of` that can tell"
                     yield case.problem((*where[:2], "within"), found, wanted, repair)
 
 
 def mutants(says: str) -> Iterator[str]:
-    """The equation with each of its numbers doubled and halved, and each of its symbols half as large again."""
+    """The equation with each number doubled and halved, each symbol larger or squared, each function its neighbour."""
     sides, signs = [parse(side) for side in RELATION.split(says)], [*RELATION.findall(says), ""]
     for side in sides:
         called = {id(node.func) for node in ast.walk(side) if isinstance(node, ast.Call)}
         for node in ast.walk(side):
             if isinstance(node, ast.Constant) and isinstance(node.value, int | float):
                 own, changed = "value", [str(2 * node.value), str(node.value / 2)]
-            elif isinstance(node, ast.Name) and node.id != "pi" and id(node) not in called:
-                own, changed = "id", [f"(1.5 * {node.id})"]
+            elif isinstance(node, ast.Name) and id(node) in called:
+                own, changed = "id", NEIGHBOURS.get(node.id, [])
+            elif isinstance(node, ast.Name) and node.id != "pi":
+                own, changed = "id", [f"(1.5 * {node.id})", f"({node.id} * {node.id})"]
             else:
                 continue
             kept = getattr(node, own)

@@ -27,7 +27,7 @@ Args:
     words, units: How a field is called and what it is measured in.
     prefix, count: What MjModel calls a kind's fields and its number, where that is not the kind's own name.
     bodies, transmissions: Fields that refer to a body, and what the kinds of an actuator's transmission refer to.
-    types: The enumeration that names the types of a kind.
+    types: The enumeration that names the types of an element.
     further: Kinds of which a repair may add some.
     renamed: Kinds that a repair may call otherwise: no record drives them, and a measured name that is gone is told.
     counted: Kinds of which only the number is compared.
@@ -133,8 +133,8 @@ def _value(model: mujoco.MjModel, kind: str, field: str, i: int) -> Any:
     if field in TABLES["bodies"]:
         other = int(getattr(model, f"{prefix}_{field}")[i])
         return _name(model, "BODY", other) if other >= 0 else "none"
-    if field == "type" and kind in TABLES["types"]:
-        member = getattr(mujoco, TABLES["types"][kind])(int(getattr(model, f"{prefix}_type")[i]))
+    if enumeration := TABLES["types"].get(f"{kind}.{field}"):
+        member = getattr(mujoco, enumeration)(int(getattr(model, f"{prefix}_{field}")[i]))
         return str(member.name.partition("_")[2].lower())
     if field == "trnid":
         kinds = TABLES["transmissions"]

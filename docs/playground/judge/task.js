@@ -17,7 +17,7 @@ const WORDS = /** @type {Record<string, string>} */ (TABLES.words);
 const UNITS = /** @type {Record<string, string>} */ (TABLES.units);
 const PREFIX = /** @type {Record<string, string>} */ (TABLES.prefix);
 const COUNT = /** @type {Record<string, string>} */ (TABLES.count);
-const TYPES = /** @type {Record<string, "mjtJoint" | "mjtGeom" | "mjtSensor">} */ (TABLES.types);
+const TYPES = /** @type {Record<string, "mjtJoint" | "mjtGeom" | "mjtSensor" | "mjtTrn">} */ (TABLES.types);
 const LIMITED = /** @type {Record<string, string>} */ (TABLES.limited);
 const BOOLEAN = "actgravcomp"; // an array that the binding cannot give; alone, without `gravcomp`, it does nothing
 const UNLIMITED = [-Infinity, Infinity];
@@ -170,7 +170,7 @@ class Comparison {
       const other = model[`${prefix}_${field}`][i];
       return other >= 0 ? this.name(model, "BODY", other) : "none";
     }
-    if (field === "type" && kind in TYPES) return this.type(TYPES[kind], model[`${prefix}_type`][i]);
+    if ((field === "type" || field === "trntype") && kind in TYPES) return this.type(TYPES[kind], model[`${prefix}_${field}`][i]);
     if (field === "trnid") {
       const [type, ids] = [model.actuator_trntype[i], row(model.actuator_trnid, i, model.nu)];
       return type >= 0 && type < TABLES.transmissions.length ? this.name(model, TABLES.transmissions[type], ids[0]) : ids;
@@ -196,7 +196,7 @@ class Comparison {
 
   /**
    * What a type is called: `hinge`.
-   * @param {"mjtJoint" | "mjtGeom" | "mjtSensor"} enumeration
+   * @param {"mjtJoint" | "mjtGeom" | "mjtSensor" | "mjtTrn"} enumeration
    * @param {number} number
    */
   type(enumeration, number) {

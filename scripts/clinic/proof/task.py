@@ -133,8 +133,8 @@ def _value(model: mujoco.MjModel, kind: str, field: str, i: int) -> Any:
     if field in TABLES["bodies"]:
         other = int(getattr(model, f"{prefix}_{field}")[i])
         return _name(model, "BODY", other) if other >= 0 else "none"
-    if field == "type" and kind in TABLES["types"]:
-        member = getattr(mujoco, TABLES["types"][kind])(int(getattr(model, f"{prefix}_type")[i]))
+    if field in ("type", "trntype") and kind in TABLES["types"]:
+        member = getattr(mujoco, TABLES["types"][kind])(int(getattr(model, f"{prefix}_{field}")[i]))
         return str(member.name.partition("_")[2].lower())
     if field == "trnid":
         kinds = TABLES["transmissions"]

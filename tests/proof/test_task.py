@@ -69,6 +69,8 @@ def told(find: str, replace: str, *may: str) -> list[str]:
         ('<body name="arm" pos="0 0 0.5">', '<body name="arm" pos="1 0 0"/><body name="old" pos="0 0 0.5">',
          "You changed the body of joint hinge from arm to old."),
         ('kp="20"', 'kp="20" gear="5"', "You changed the gear of actuator servo from 1 0 0 0 0 0 to 5 0 0 0 0 0."),
+        ('joint="hinge" kp', 'jointinparent="hinge" kp',
+         "You changed the kind of transmission of actuator servo from joint to jointinparent."),
         ('<jointpos name="angle"', '<jointvel name="angle"', "You changed the type of sensor angle from jointpos to jointvel."),
         ('qpos="0.1"', 'qpos="0"', "You changed the qpos of key start from 0.1 to 0."),
         ("xyaxes=", 'fovy="10" xyaxes=', "You changed the field of view of camera side from 45 to 10 °."),

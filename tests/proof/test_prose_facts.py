@@ -142,7 +142,14 @@ def test_what_is_said_to_stay_has_stayed(tmp_path) -> None:
 
 
 def test_every_number_and_symbol_of_an_equation_is_made_wrong() -> None:
-    wrong = ["(1.5 * a) = 2 * b", "(a * a) = 2 * b", "a = 4.0 * b", "a = 1.0 * b", "a = 2 * (1.5 * b)", "a = 2 * (b * b)"]
+    wrong = [
+        "(1.5 * a) = 2 * b",
+        "(a * a) = 2 * b",
+        "a = 4.0 * b",
+        "a = 1.0 * b",
+        "a = 2 * (1.5 * b)",
+        "a = 2 * (b * b)",
+    ]
     assert list(mutants("a = 2 * b")) == wrong
     assert "a = cos(b)" in mutants("a = sin(b)")
 

@@ -43,7 +43,7 @@ Good:
     </mujoco>
 
 The number: how far its length at the start lies outside of the range, as a share of that length or of the range, the
-larger of the two; more than 10 %.
+larger of the two; more than 80 %.
 
 When it is wrong: a rope that is to be pulled tight at the start.
 """
@@ -62,7 +62,7 @@ SINCE = "0.2"
 LEVEL = "hint"
 UNPLANTED = "the limited tendons of the healthy models are those of two hands"
 
-OUTSIDE = 0.1
+OUTSIDE = 0.8
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -65,8 +65,9 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: the mass over that which its inertia asks for; more than 4, or less than a quarter. The mass so found makes
-it as dense as half of the others, within a factor of 2; there are three others at least.
+The number: the mass over that which its inertia asks for; more than 4. Much less is common in healthy arms, whose
+inertias were identified. The mass so found makes it as dense as half of the others, within a factor of 2; there are
+three others at least.
 
 When it is wrong: a heavy motor in the middle of a light link.
 """
@@ -95,7 +96,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for body, each in found:
         others = [other.density for index, other in found if index != body]
         times = 1 / each.radius**2 if each.radius > 0 else 1.0
-        if len(others) < OTHERS or 1 / TIMES < times < TIMES or _placeholder(each):
+        if len(others) < OTHERS or times < TIMES or _placeholder(each):
             continue
         usual = sorted(others)[len(others) // 2]
         if not usual / ALIKE < each.density / times < usual * ALIKE:

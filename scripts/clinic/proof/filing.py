@@ -6,10 +6,10 @@ import re
 from collections.abc import Iterator, Mapping
 
 from clinic.record.case import Case
-from clinic.record.families import family_shares
+from clinic.record.families import family_shares, likely_families
 from clinic.record.problem import Problem, listed
 
-LIKELY = 4  # families of which a title and its phrases may speak
+LIKELY = 4  # families of which a phrase may speak
 COMMON = "mujoco the a an of in on to is and or not no with for from after before when how which without by at it its"
 TOPICS = {"orientation": ("axis", "quat", "euler"), "units": ("radian", "degree")}
 """Other words of the record that a tag stands for; the section of a model that bears its name is one always."""
@@ -26,7 +26,7 @@ def filing_problems(known: Mapping[str, Case]) -> Iterator[Problem]:
             others = {key: heads[key] for key, other in known.items() if phrase not in other.record.phrases}
             own = _stems(" ".join([case.record.title, *_but(case, index), *_bodies(case)]))
             nearer = [other for other, words in others.items() if wanted <= words and not wanted <= own]
-            if nearer and "not" not in phrase.split() and case.record.family not in _likely(phrase):
+            if nearer and "not" not in phrase.split() and case.record.family not in [*family_shares(phrase)][:LIKELY]:
                 lacking = listed(sorted(wanted - own))
                 expected = f"words of this case, which nowhere has: {lacking}"
                 found = f"{phrase}: {listed(nearer)} has all of its words"
@@ -47,14 +47,10 @@ def _unsaid(case: Case, said: set[str]) -> Iterator[Problem]:
             expected = "a topic that the title, the phrases, the prose or an edit names"
             yield case.problem(("tags", index), f"{tag}, of which the case does not speak", expected, "correct the tag")
     family = case.record.family
-    likely = _likely(" ".join([case.record.title, *case.record.phrases]))
+    likely = dict.fromkeys(name for text in (case.record.title, *case.record.phrases) for name in likely_families(text))
     if family is not None and family not in likely:
-        expected = f"what the title and the phrases speak of, as {listed(likely)}"
+        expected = f"what the title and the phrases speak of, as {listed([*likely])}"
         yield case.problem(("family",), family, expected, "correct it, or add how readers say it")
-
-
-def _likely(text: str) -> list[str]:
-    return list(family_shares(text))[:LIKELY]
 
 
 def _topic(case: Case, tag: str, said: set[str]) -> bool:

@@ -6,10 +6,11 @@ import re
 from collections.abc import Iterator, Mapping
 
 from clinic.record.case import Case
-from clinic.record.families import family_shares, likely_families
+from clinic.record.families import family_shares
 from clinic.record.problem import Problem, listed
 
 LIKELY = 4  # families of which a phrase may speak
+SPOKEN = 0.1  # how likely a title or phrase speaks of its case's family
 COMMON = "mujoco the a an of in on to is and or not no with for from after before when how which without by at it its"
 TOPICS = {"orientation": ("axis", "quat", "euler"), "units": ("radian", "degree")}
 """Other words of the record that a tag stands for; the section of a model that bears its name is one always."""
@@ -47,7 +48,8 @@ def _unsaid(case: Case, said: set[str]) -> Iterator[Problem]:
             expected = "a topic that the title, the phrases, the prose or an edit names"
             yield case.problem(("tags", index), f"{tag}, of which the case does not speak", expected, "correct the tag")
     family = case.record.family
-    likely = dict.fromkeys(name for text in (case.record.title, *case.record.phrases) for name in likely_families(text))
+    told = [family_shares(text) for text in (case.record.title, *case.record.phrases)]
+    likely = dict.fromkeys(name for shares in told for name, share in shares.items() if share >= SPOKEN)
     if family is not None and family not in likely:
         expected = f"what the title and the phrases speak of, as {listed([*likely])}"
         yield case.problem(("family",), family, expected, "correct it, or add how readers say it")

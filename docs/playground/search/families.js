@@ -32,7 +32,8 @@ export function shares(counts) {
     });
     const best = Math.max(...odds.map(([, value]) => value));
     const weights = odds.map(([, value]) => Math.exp(value - best));
-    return new Map(odds.map(([family], index) => [family, weights[index] / sum(weights)]));
+    const total = sum(weights);
+    return new Map(odds.map(([family], index) => [family, weights[index] / total]));
   };
 }
 

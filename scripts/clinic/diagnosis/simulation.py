@@ -80,6 +80,10 @@ class Simulation:
         """Row `index` of a model's field."""
         return tuple(self.model(field)[width * index : width * (index + 1)])
 
+    def equality_data(self, each: int) -> tuple[float, ...]:
+        """The row of `eq_data` of an equality, whose width differs between releases."""
+        return self.row("eq_data", each, len(self.model("eq_data")) // self.count("equality"))
+
     def data(self, field: str) -> Sequence[float]:
         """A field of mjData, flat, as it is now."""
         return self.engine.data(field)

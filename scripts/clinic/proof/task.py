@@ -3,8 +3,8 @@
 Every repair may change how the model is simulated and how things touch: a smaller timestep, integrator, solver, contact
 parameters, masks, pairs and excludes, damping, armature, friction and an actuator's gains, up to a bound; colours,
 lights, further cameras, sites, sensors and keyframes. A record's `task.may` names more. Elements are compared by name,
-unnamed ones by their order; a geom or site may have another name at the same place,
-and a geom may be turned as its symmetry hides.
+unnamed ones by their order; a geom or site may have another name at the same place, and a geom may be
+turned as its symmetry hides.
 """
 
 from __future__ import annotations

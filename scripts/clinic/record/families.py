@@ -75,11 +75,11 @@ def family_shares(text: str, counts: StemCounts | None = None) -> dict[str, floa
     Each stem that people use for a symptom counts by the odds that it is of this family and of no other one: the
     complement naive Bayes of Rennie et al., *Tackling the Poor Assumptions of Naive Bayes Text Classifiers*, 2003.
     """
+    own = totals(counts) if counts else _own_totals()
     counts = counts or stem_counts()
     said = sorted({stem for stem in _stems(text) if stem in counts})
     if not said:
         return {}
-    own = {name: sum(users.get(name, 0) for users in counts.values()) for name in families()}
     everything, smooth = sum(own.values()), len(counts)
     odds = {}
     for name, total in own.items():
@@ -90,6 +90,16 @@ def family_shares(text: str, counts: StemCounts | None = None) -> dict[str, floa
     weights = {name: math.exp(value - max(odds.values())) for name, value in odds.items()}
     sum_of_all = sum(weights.values())
     return {name: weights[name] / sum_of_all for name in sorted(weights, key=lambda name: -round(odds[name], 9))}
+
+
+def totals(counts: StemCounts) -> dict[str, float]:
+    """How many stems are counted for each family."""
+    return {name: sum(users.get(name, 0) for users in counts.values()) for name in families()}
+
+
+@cache
+def _own_totals() -> dict[str, float]:
+    return totals(stem_counts())
 
 
 @cache

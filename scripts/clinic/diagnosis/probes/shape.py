@@ -50,10 +50,10 @@ def collides(simulation: Simulation, one: int, other: int) -> bool:
     return bool(int(types[one]) & int(affinities[other]) or int(types[other]) & int(affinities[one]))
 
 
-def paired(simulation: Simulation, one: int, other: int) -> bool:
-    """Whether two geoms are written as a pair, which touches whatever their masks are."""
+def pair_of(simulation: Simulation, one: int, other: int) -> int | None:
+    """The number of the `<pair>` of two geoms, which touches whatever their masks are; None where there is none."""
     pairs = zip(*(map(int, simulation.model(f"pair_geom{side}")) for side in (1, 2)), strict=True)
-    return any({one, other} == set(pair) for pair in pairs)
+    return next((index for index, pair in enumerate(pairs) if {one, other} == set(pair)), None)
 
 
 def solid(simulation: Simulation, geom: int) -> bool:

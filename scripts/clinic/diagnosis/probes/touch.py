@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import Contact
 from clinic.diagnosis.probes.run import let_go
-from clinic.diagnosis.probes.shape import solid, thickness
+from clinic.diagnosis.probes.shape import pair_of, solid, thickness
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe
@@ -27,11 +27,9 @@ class Deciding:
 
 def deciding(simulation: Simulation, contact: Contact) -> Deciding:
     """Of a contact's geoms; MuJoCo's manual, Computation, Contact parameters."""
-    pairs = zip(simulation.model("pair_geom1"), simulation.model("pair_geom2"), strict=True)
-    for index, pair in enumerate(pairs):
-        if {int(pair[0]), int(pair[1])} == set(contact.geoms):
-            friction = simulation.row("pair_friction", index, 5)
-            return Deciding(int(simulation.model("pair_dim")[index]), friction[0], friction[3], "pair", (index,))
+    if (index := pair_of(simulation, *contact.geoms)) is not None:
+        friction = simulation.row("pair_friction", index, 5)
+        return Deciding(int(simulation.model("pair_dim")[index]), friction[0], friction[3], "pair", (index,))
     priority = simulation.model("geom_priority")
     top = max(priority[geom] for geom in contact.geoms)
     geoms = tuple(sorted({geom for geom in contact.geoms if priority[geom] == top}))

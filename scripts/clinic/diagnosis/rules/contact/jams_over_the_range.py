@@ -42,8 +42,8 @@ Good:
     </mujoco>
 
 The number: the share of 21 poses over the range, the other joints at their start, in which a body overlaps its
-grandparent by more than a tenth of the thinner one; told from half on: arms of humanoids
-may reach their own trunk in 40 %.
+grandparent by more than a tenth of the thinner one; told from half on: arms of
+humanoids may reach their own trunk in 40 %.
 
 When it is wrong: links that may well touch. Only intent knows whether range, geom or a missing `<exclude>` is at fault:
 a hint.

@@ -43,8 +43,9 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.fall import bare, below, fallen, limit
-from clinic.diagnosis.probes.shape import collides, geoms_of_tree, paired, root_of, solid
+from clinic.diagnosis.probes.shape import collides, geoms_of_tree, pair_of, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Collision masks that do not match"
@@ -62,7 +63,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for root, surface in fallen(simulation):
         whole = root_of(simulation)[root] == root and root not in bare(simulation)
         tree = geoms_of_tree(simulation, root) if whole else simulation.geoms_of(root)
-        if not tree or any(collides(simulation, geom, surface) or paired(simulation, geom, surface) for geom in tree):
+        if not tree or any(_meet(simulation, geom, surface) for geom in tree):
             continue
         own = [geom for geom in tree if solid(simulation, geom)] or _bodily(model, tree)
         others = [geom for geom in range(simulation.count("geom")) if geom != surface and geom not in tree]
@@ -122,3 +123,7 @@ def _bodily(model: ReaderModel, tree: list[int]) -> list[int]:
     groups = model.simulation.model("geom_group")
     hidden = [geom for geom in tree if groups[geom] >= 3]
     return hidden or tree
+
+
+def _meet(simulation: Simulation, geom: int, surface: int) -> bool:
+    return collides(simulation, geom, surface) or pair_of(simulation, geom, surface) is not None

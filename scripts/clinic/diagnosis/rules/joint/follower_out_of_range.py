@@ -98,12 +98,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def couplings(simulation: Simulation) -> Iterator[tuple[int, Coupling]]:
     """The equalities that couple two joints, and how."""
-    count = simulation.count("equality")
-    for each in range(count):
+    for each in range(simulation.count("equality")):
         follower, leader = (int(simulation.model(f"eq_obj{side}id")[each]) for side in (1, 2))
         if int(simulation.model("eq_type")[each]) == JOINT and leader >= 0 and simulation.model("eq_active0")[each]:
-            factors = simulation.row("eq_data", each, len(simulation.model("eq_data")) // count)[:5]
-            yield each, (follower, leader, factors)
+            yield each, (follower, leader, simulation.equality_data(each)[:5])
 
 
 def _led(simulation: Simulation, coupling: Coupling) -> list[float]:

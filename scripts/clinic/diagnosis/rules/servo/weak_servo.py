@@ -69,12 +69,9 @@ GOOD = {True: (0.02, 0.08, 0.2), False: (0.002, 0.008, 0.02)}  # rad or m that m
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Servos that sag, hinges and slides apart; those that are late."""
     simulation, found = model.simulation, sags(model.simulation)
+    much = {each.actuator for each in servos(simulation) if found[each.actuator] > _most(simulation, each)}
     for hinge in (True, False):
-        weak = [
-            each
-            for each in servos(simulation)
-            if each.hinge == hinge and found[each.actuator] > _most(simulation, each)
-        ]
+        weak = [each for each in servos(simulation) if each.hinge == hinge and each.actuator in much]
         weak.sort(key=lambda each: -found[each.actuator])
         if not weak:
             continue
@@ -95,7 +92,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"{'N m' if hinge else 'N'}, and its servo gives {worst.stiffness:.3g} for each {worst.unit}.",
             f"below {most:g} {worst.unit}; of healthy models with servos 0.29 is the most, 0.5 where the base is free",
         )
-    much = {each.actuator for each in servos(simulation) if found[each.actuator] > _most(simulation, each)}
     yield from _late(model, much)
     yield from _little(model, {each: far for each, far in found.items() if each not in much})
 

@@ -86,8 +86,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _anchor(simulation: Simulation, each: int) -> Vector:
-    width = len(simulation.model("eq_data")) // simulation.count("equality")
-    return simulation.row("eq_data", each, width)[:3]
+    return simulation.equality_data(each)[:3]
 
 
 def _far(simulation: Simulation, each: int) -> float:

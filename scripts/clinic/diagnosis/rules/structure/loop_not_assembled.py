@@ -103,7 +103,7 @@ def _ends(simulation: Simulation, each: int) -> tuple[Vector, Vector] | None:
     if int(simulation.model("eq_objtype")[each]) == SITE:
         ends = [simulation.data_row("site_xpos", site, 3) for site in ids]
     else:
-        data = simulation.row("eq_data", each, len(simulation.model("eq_data")) // simulation.count("equality"))
+        data = simulation.equality_data(each)
         anchors = (data[:3], data[3:6]) if kind == CONNECT else (data[3:6], data[:3])
         frames = [(simulation.data_row("xpos", body, 3), simulation.data_row("xmat", body, 9)) for body in ids]
         ends = [add(place, times(turn, anchor)) for (place, turn), anchor in zip(frames, anchors, strict=True)]

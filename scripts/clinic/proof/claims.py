@@ -16,7 +16,8 @@ from clinic.engine.script import ScriptError, run_script
 from clinic.engine.variant import variants
 from clinic.proof.evidence import Evidence
 from clinic.proof.prose.absences import comments
-from clinic.proof.prose.plain import plain_label, plain_title
+from clinic.proof.procedure import procedure
+from clinic.proof.prose.plain import plain_label, plain_title, printed_labels
 from clinic.proof.prose_laws import prose_of
 from clinic.proof.releases import on_releases
 from clinic.record.case import Case
@@ -27,9 +28,10 @@ from clinic.record.prose import FIELD
 from clinic.record.yaml_lines import Where
 
 DRIVER = '''
-import contextlib, io, json, traceback
+import contextlib, io, json, pathlib, re, sys, traceback
 import mujoco
 import numpy as np
+from clinic.record.expression import evaluate, parse
 
 given = json.load(open("claims.json"))
 shown = {name: given[name] for name in ("text", "measured", "output", "printed", "record", "releases")}
@@ -46,8 +48,22 @@ def load(variant="broken"):
     return model, data
 
 
+def formula(name, **symbols):
+    """The right side of an equation of the record, for these values of its symbols."""
+    return evaluate(parse(re.split("[=~]", given["formulas"][name])[-1]), symbols)
+
+
+def told(variant="broken"):
+    """What the record's `telling` measures of a variant, or of a text."""
+    pathlib.Path("asked.xml").write_text(text.get(variant, variant))
+    sys.argv = ["which.py", "asked.xml"]
+    with contextlib.redirect_stdout(io.StringIO()) as out:
+        exec(compile(given["procedure"], "which.py", "exec"), {})
+    return float(re.search(r"^[a-z0-9-]+ = ([^\\s,]+)", out.getvalue(), re.MULTILINE)[1])
+
+
 mujoco.set_mju_user_warning(lambda said: None)
-names = dict(mujoco=mujoco, np=np, load=load, **shown)
+names = dict(mujoco=mujoco, np=np, re=re, load=load, formula=formula, told=told, **shown)
 wrong = {}
 for number, code in given["codes"].items():
     try:
@@ -87,6 +103,8 @@ def unshown(case: Case, evidence: Evidence) -> dict[int, str]:
             for release, seen in on_releases(case).items()
         },
         "keyframe": case.record.run.keyframe if case.record.run else None,
+        "formulas": {name: formula.says for name, formula in case.record.formulas.items()},
+        "procedure": procedure(case.record.family, [case]) if case.record.family else "",
     }
     try:
         said = json.loads(run_script(DRIVER, {**case.texts, "claims.json": json.dumps(given)}, "driver.py", 60))
@@ -130,7 +148,8 @@ def claimed(case: Case, evidence: Evidence) -> Iterator[Problem]:
 
 
 def _said(case: Case) -> Iterator[tuple[str, Where]]:
-    """Every sentence of the prose and of the reasons, every title, label and comment, with its field.
+    """Every sentence of the prose and of the reasons, every title, label, comment, equation and measurement of a cause,
+    and what the code prints beside its numbers, each with its field.
 
     Labels and titles that say no more than their path and their edits are left out.
     """
@@ -138,8 +157,15 @@ def _said(case: Case) -> Iterator[tuple[str, Where]]:
     for where, text in (*prose_of(case), *_reasons(case)):
         yield from ((sentence, where) for sentence in sentences(text))
     yield record.title, ("title",)
-    if record.telling is not None and record.telling.cause:
-        yield record.telling.cause, ("telling", "cause")
+    if (telling := record.telling) is not None:
+        if telling.cause:
+            yield telling.cause, ("telling", "cause")
+        if telling.expr:
+            bound = f"above {telling.above:g}" if telling.above is not None else f"below {telling.below:g}"
+            yield flat(f"{telling.expr} {bound}"), ("telling", "expr")
+    for name, each in record.formulas.items():
+        symbols = ", ".join(f"{symbol} is {text}" for symbol, text in each.where.items())
+        yield flat(f"{each.says}, where {symbols}"), ("formulas", name, "says")
     for name, signal in record.signals.items():
         if signal.label and not plain_label(case, name):
             yield flat(signal.label), ("signals", name, "label")
@@ -159,6 +185,8 @@ def _said(case: Case) -> Iterator[tuple[str, Where]]:
             place = "snippet" if file == snippet else "script" if record.script else "model"
             for _, comment in comments(file, text):
                 yield from ((sentence, (place,)) for sentence in sentences(MARKS.sub("", comment)))
+        if file.endswith(".py"):
+            yield from ((label, (place,)) for label in printed_labels(text))
 
 
 def _reasons(case: Case) -> Iterator[tuple[Where, str]]:

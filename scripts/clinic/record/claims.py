@@ -25,7 +25,7 @@ class Claim(Strict):
     python: str | None = Field(
         default=None,
         description="Code whose `assert`s hold only if the sentence is true. It has `mujoco`, `np`, `load(variant)`, "
-        "`measured`, `text`, `output`, `printed`, `record`, `releases`.",
+        "`formula(name, **symbols)`, `told(variant)`, `measured`, `text`, `output`, `printed`, `record`, `releases`.",
     )
     manual: str | None = Field(default=None, description="A page of MuJoCo's manual: `computation/index.html`.")
     quote: Text | None = Field(default=None, description="The words of that page that say so.")

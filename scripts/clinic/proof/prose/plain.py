@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import ast
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from xml.etree import ElementTree
 
 from clinic.engine.variant import Variant, variants
@@ -88,6 +89,26 @@ def plain_title(case: Case, variant: Variant) -> bool:
         _all(changed_names(broken.text, variant.text)) | _tags(broken.text, variant.text) if case.record.run else set()
     )
     return said <= acted | _all(attributes) | there
+
+
+def printed_labels(code: str) -> Iterator[str]:
+    """What a program in Python writes beside its numbers, each number as `{}`, flat; of two words and more.
+
+    A line `name = value` is left out: a signal reads it by its name. So are docstrings, and texts of XML.
+    """
+    tree = ast.parse(code)
+    inside = {id(part) for node in ast.walk(tree) if isinstance(node, ast.JoinedStr) for part in ast.walk(node)}
+    inside |= {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.JoinedStr):
+            parts = (part.value if isinstance(part, ast.Constant) else "{}" for part in node.values)
+            text = "".join(map(str, parts))
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in inside:
+            text = node.value
+        else:
+            continue
+        if len(re.findall(r"[A-Za-z_.]{2,}", text)) > 1 and not re.search(r"^[\w ,()-]+ = \{\}|=\"|<", text):
+            yield " ".join(text.split())
 
 
 def _tags(before: str, after: str) -> set[str]:

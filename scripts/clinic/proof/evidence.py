@@ -174,8 +174,8 @@ def needs_images(case: Case) -> bool:
     return "Renderer(" in code or any(isinstance(signal, RowSignal) for signal in case.record.signals.values())
 
 
-def observe(case: Case, variant: Variant) -> VariantEvidence:
-    """Runs one variant of a case and judges it by the record's checks."""
+def observe(case: Case, variant: Variant, tried: bool = True) -> VariantEvidence:
+    """Runs one variant of a case and judges it by the record's checks, where `tried` in its trials too."""
     record = case.record
     details: dict[str, Any]
     if record.run is not None:
@@ -195,7 +195,7 @@ def observe(case: Case, variant: Variant) -> VariantEvidence:
         },
         values={name: {which: _number(take(trace, which)) for which in TAKES} for name, trace in traces.items()},
         traces={name: samples(trace, record.signals[name].unit) for name, trace in traces.items()},
-        trials={trial.id: _tried(case, variant, trial) for trial in record.trials},
+        trials={trial.id: _tried(case, variant, trial) for trial in record.trials if tried},
         **details,
     )
 

@@ -36,8 +36,8 @@ class Behaviour(Strict):
     """What one variant does on one release.
 
     Attributes:
-        broken: Whether every check of `broken` holds.
-        fixed: Whether every check of `fixed` holds.
+        broken: Whether every check of `broken` holds, without the trials.
+        fixed: Whether every check of `fixed` holds, without them too.
         warnings: How often MuJoCo warned, by type.
         checks: The measured numbers by kind, in the record's order.
         error: Why it does not run there; empty if it does.
@@ -86,7 +86,7 @@ def lock_text(lock: Lock) -> str:
 
 def files_digest(case: Case) -> str:
     """A digest of what the runs of a case's variants depend on."""
-    kept = {"run", "signals", "checks", "fixes", "refuted", "trials"}
+    kept = {"run", "signals", "checks", "fixes", "refuted"}
     experiment = case.record.model_dump(mode="json", include=kept, exclude={"signals": {"__all__": {"said"}}})
     return hashlib.sha256(json.dumps([experiment, case.texts], sort_keys=True).encode()).hexdigest()[:16]
 
@@ -96,7 +96,7 @@ def behaviour(case: Case) -> dict[str, Behaviour]:
     seen = {}
     for variant in variants(case):
         try:
-            seen[variant.id] = seen_in(observe(case, variant))
+            seen[variant.id] = seen_in(observe(case, variant, tried=False))
         except Exception as error:  # whatever an older release has against it
             said = " ".join(f"{type(error).__name__}: {error}".split())
             seen[variant.id] = Behaviour(error=said[:LONGEST])
@@ -106,8 +106,8 @@ def behaviour(case: Case) -> dict[str, Behaviour]:
 def seen_in(evidence: VariantEvidence) -> Behaviour:
     """The part of a variant's evidence that releases are compared by, rounded to DIGITS."""
     return Behaviour(
-        broken=evidence.broken,
-        fixed=evidence.well,
+        broken=all(check.holds for check in evidence.checks["broken"]),
+        fixed=all(check.holds for check in evidence.checks["fixed"]),
         warnings=evidence.warnings,
         checks={
             kind: [None if check.measured is None else float(f"{check.measured:.{DIGITS}g}") for check in checks]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 import tomllib
@@ -127,7 +128,8 @@ def sayings() -> dict[str, list[str]]:
 
 
 def _stems(text: str) -> list[str]:
-    """The words of a text without endings, in order; idle ones are left out, and `not` stands for every no."""
+    """The words of a text without endings, and each with its next; idle ones are left out, `not` is every no."""
     words = re.findall(r"[a-z0-9_]+", re.sub(r"n['\u2019]t\b", " not", text.lower()))
     stems = (DOUBLE.sub(r"\1", SUFFIX.sub("", word)) for word in words if word not in IDLE.split())
-    return ["not" if stem in NOT else stem for stem in stems]
+    single = ["not" if stem in NOT else stem for stem in stems]
+    return single + [" ".join(pair) for pair in itertools.pairwise(single)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from xml.sax.saxutils import quoteattr
 
 from clinic.diagnosis.edit import Edit, apply, insert, remove_attribute, set_attribute
 from clinic.diagnosis.engine import CompileError, Engine
@@ -23,6 +24,9 @@ URDF = {
     "damping": ("dynamics", "damping"),
     "frictionloss": ("dynamics", "friction"),
 }
+AFLOAT = """<mujoco><compiler fusestatic="false" boundmass="1e-9" boundinertia="1e-15" inertiagrouprange="0 0"
+ discardvisual="false"/></mujoco><link name="world"/><joint name="afloat" type="floating">
+<parent link="world"/><child link={root}/></joint>"""
 SECTION = {"actuator": "actuator", "sensor": "sensor", "equality": "equality", "tendon": "tendon", "key": "keyframe"}
 
 
@@ -75,6 +79,22 @@ class ReaderModel:
             found = self.with_edits(edits)
             self._measured[key] = float("inf") if isinstance(found, CompileError) else probe.run(found)
         return self._measured[key]
+
+    def afloat(self) -> ReaderModel:
+        """The model with its root free to move and every link a body, where it is URDF.
+
+        MuJoCo makes the root link of a URDF the world, and fuses the links without a joint: what is written of their
+        mass does not show in the compiled model. It does once the robot is put on a free joint.
+        """
+        if self.source is None or not self.source.urdf or "<mujoco" in self.texts[self.source.main]:
+            return self
+        children = {each.get("link") for each in self.source.elements("child")}
+        roots = [name for each in self.source.root.children if each.tag == "link" and (name := each.get("name"))]
+        roots = [name for name in roots if name not in children]
+        edits = tuple(insert(self.source.root, AFLOAT.format(root=quoteattr(root))) for root in roots[:1])
+        texts = apply(self.texts, edits)
+        floating = ReaderModel(self.engine, texts, self.source, Start())
+        return self if floating.error else floating
 
     @property
     def angle_unit(self) -> float:

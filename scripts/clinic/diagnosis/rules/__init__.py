@@ -33,7 +33,7 @@ COMPILES_NOT = "will-not-compile"
 
 @dataclass(frozen=True)
 class Rule:
-    """A rule's module, read."""
+    """A rule's module, read; `of_mass` where it asks what bodies weigh."""
 
     id: str
     title: str
@@ -43,6 +43,7 @@ class Rule:
     level: Level
     unplanted: str
     text: str
+    of_mass: bool
     suspects: Callable[[ReaderModel], Iterable[Suspect]]
 
     def example(self, which: str) -> str:
@@ -79,6 +80,7 @@ def rules() -> dict[str, Rule]:
             level=getattr(module, "LEVEL", "cause"),
             unplanted=getattr(module, "UNPLANTED", ""),
             text=(module.__doc__ or "").strip(),
+            of_mass=".mass." in found.name,
             suspects=module.suspects,
         )
     return dict(sorted(made.items()))

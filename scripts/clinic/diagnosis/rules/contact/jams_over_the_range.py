@@ -45,6 +45,8 @@ The number: the share of 21 poses over the range, the other joints at their star
 grandparent by more than a tenth of the thinner one; told from half on: arms of
 humanoids may reach their own trunk in 40 %.
 
+Where the same range about the opposite axis is free, the axis has the wrong sign, and is told in its place.
+
 When it is wrong: links that may well touch. Only intent knows whether range, geom or a missing `<exclude>` is at fault:
 a hint.
 """
@@ -55,6 +57,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.shape import thickness
+from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -65,7 +68,7 @@ SINCE = "0.2"
 LEVEL = "hint"
 UNPLANTED = "a wider range is harm by itself, whether links jam in it or not"
 
-POSES, LINKS, DEEP, JAMMED = 21, 2, 0.1, 0.5
+POSES, LINKS, DEEP, JAMMED, FREE = 21, 2, 0.1, 0.5, 0.06
 MOST = 60  # joints
 
 
@@ -86,6 +89,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             names = of.name("joint", joint), of.name("body", one), of.name("body", other)
             says = f"In {100 * share:.0f} % of its range {names[1]} is inside of {names[2]}, which stops it."
             probe = Probe("share of the range in which two links jam", "", _share, (joint,), dynamic=False)
+            axis = of.row("jnt_axis", joint, 3)
+            turned = model.set("joint", [joint], "axis", written(tuple(-x for x in axis)))
+            if turned and model.measured(probe, turned) < FREE:
+                says += " About the opposite axis it is free."
+                now, value = written(axis), written(tuple(-x for x in axis))
+                yield Suspect(names, "axis", now, value, turned, probe, FREE, says, "the axis reversed", level="hint")
+                continue
             yield Suspect(
                 names, "range", "", "", (), probe, JAMMED, says, "an <exclude>, or a smaller range", level="hint"
             )

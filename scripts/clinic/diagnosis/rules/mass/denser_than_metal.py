@@ -27,6 +27,7 @@ Good:
 
 The number: the body's mass over the volume of its geoms; osmium, the densest metal, has 22,600 kg/m3, and half of 1475
 bodies in healthy models have 243 to 677. A cause has 24,000 and more than a twentieth of the moving mass.
+A hint are four links and more of which the one in the middle has 5,000: CAD exports a robot of solid steel that way.
 
 When it is wrong: a body of which a small part is drawn. One that slides by itself, as a point mass does, is not told.
 """
@@ -34,11 +35,12 @@ When it is wrong: a body of which a small part is drawn. One that slides by itse
 from __future__ import annotations
 
 from collections.abc import Iterator
+from statistics import median
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import SLIDE
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
-from clinic.diagnosis.probes.matter import Matter, density, matter
+from clinic.diagnosis.probes.matter import Matter, density, explicit, matter
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -47,10 +49,12 @@ FAMILIES = ("sags", "wrong-mass", "explodes", "stuck")
 SINCE = "0.2"
 
 METAL, LIGHT = 24000.0, 0.05
+STEEL, USUAL, MANY = 5000.0, 1200.0, 4
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Bodies that no material makes, all together."""
+    """Bodies that no material makes, all together, or links that are all of solid steel."""
+    yield from _steel(model)
     of = model.simulation
     all_mass = sum(of.model("body_mass")[body] for body in of.moving_bodies)
     dense = [
@@ -75,6 +79,26 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         f"{worst.mass:.3g} kg in {1000 * worst.volume:.3g} litres of geoms: {worst.density:.3g} kg/m3.",
         "22,600 kg/m3 is the densest metal, osmium",
         excess=worst.density / METAL,
+    )
+
+
+def _steel(model: ReaderModel) -> Iterator[Suspect]:
+    """The links of a mechanism of which the one in the middle is as dense as metal: one is, where one is a weight."""
+    found = [(body, each) for body, each in explicit(model) if each.volume > 0]
+    if len(found) < MANY or not STEEL < (middle := median(each.density for _, each in found)) < METAL:
+        return
+    of, mass = model.simulation, sum(each.mass for _, each in found)
+    yield Suspect(
+        tuple(of.name("body", body) for body, _ in found),
+        "mass",
+        f"{mass:.3g} kg",
+        f"{mass * USUAL / middle:.2g} kg",
+        (),
+        density(tuple(body for body, _ in found)),
+        STEEL,
+        f"Half of its {len(found)} links have more than {middle:.3g} kg/m3, as if they were of solid metal.",
+        "300 to 3,000 kg/m3: 207 of 208 robots have less than 5,000 in the middle",
+        level="hint",
     )
 
 

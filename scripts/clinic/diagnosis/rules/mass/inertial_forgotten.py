@@ -108,6 +108,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _fixed(model: ReaderModel) -> Iterator[Suspect]:
     """Parts without a joint whose colliding geoms weigh by default, on links that state what they weigh."""
+    if model.source is None:
+        return
     of = model.simulation
     parents, masses = of.model("body_parentid"), of.model("body_mass")
     found = []
@@ -115,7 +117,7 @@ def _fixed(model: ReaderModel) -> Iterator[Suspect]:
         link, geoms = int(parents[body]), of.geoms_of(body)
         if of.joints_of(body) or not geoms or inertial(model, body) is not None or inertial(model, link) is None:
             continue
-        if any(model.element("geom", geom) is None for geom in geoms):
+        if not model.source.urdf and any(model.element("geom", geom) is None for geom in geoms):
             continue
         written = any(model.value("geom", geom, name) for geom in geoms for name in ("mass", "density"))
         if not written and masses[body] > MORE * masses[link]:

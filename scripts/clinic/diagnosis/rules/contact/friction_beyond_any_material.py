@@ -1,0 +1,69 @@
+"""A coefficient of friction that no two materials have.
+
+`friction="1000 1000 1000"` does not hold a thing any better than 2 does: with the pyramidal cone it makes contacts soft
+and lets the thing creep or sink, and it hides what is wrong with the grasp.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body pos="0 0 0.1">
+          <freejoint/>
+          <geom name="box" type="box" size="0.1 0.1 0.1" friction="1000 1000 1000"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body pos="0 0 0.1">
+          <freejoint/>
+          <geom name="box" type="box" size="0.1 0.1 0.1"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the largest coefficient of sliding friction; rubber on concrete has about 1, and none of 208 files of robots
+has more than 10. Told are those from 20 on.
+
+When it is wrong: something that stands for glue.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.shape import solid
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "Friction beyond any material"
+FAMILIES = ("slips", "sinks", "rolls-on")
+SINCE = "0.2"
+LEVEL = "hint"
+UNPLANTED = "what it does is planted as friction-too-high"
+
+MOST = 20.0
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The geoms with such a coefficient, all together."""
+    of = model.simulation
+    rough = tuple(geom for geom in range(of.count("geom")) if solid(of, geom) and _most(of, geom) > MOST)
+    if not rough:
+        return
+    now = " ".join(f"{x:g}" for x in of.row("geom_friction", rough[0], 3))
+    probe = Probe("coefficient of friction", "", _most, rough, dynamic=False)
+    edits = model.set("geom", rough, "friction", "1 0.005 0.0001")
+    says = "Rubber on concrete has about 1."
+    names = tuple(of.name("geom", geom) for geom in rough)
+    yield Suspect(names, "friction", now, "1 0.005 0.0001", edits, probe, MOST, says, "1, MuJoCo's default")
+
+
+def _most(of: Simulation, *geoms: int) -> float:
+    return max(of.model("geom_friction")[3 * geom] for geom in geoms)

@@ -1,0 +1,80 @@
+"""The joints of a URDF have an effort of zero.
+
+CAD exporters write `effort="0" velocity="0"` where nobody gave a number. ROS controllers then command a joint that may
+give nothing; MuJoCo reads it as no limit at all, and the joint's motor is as strong as it likes.
+
+Bad:
+
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm">
+        <inertial><origin xyz="0 0 0.1"/><mass value="1"/>
+          <inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.0005"/></inertial>
+      </link>
+      <joint name="shoulder" type="revolute">
+        <parent link="base"/><child link="arm"/><axis xyz="0 1 0"/>
+        <limit lower="-1" upper="1" effort="0" velocity="0"/>
+      </joint>
+    </robot>
+
+Good:
+
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm">
+        <inertial><origin xyz="0 0 0.1"/><mass value="1"/>
+          <inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.0005"/></inertial>
+      </link>
+      <joint name="shoulder" type="revolute">
+        <parent link="base"/><child link="arm"/><axis xyz="0 1 0"/>
+        <limit lower="-1" upper="1" effort="20" velocity="3"/>
+      </joint>
+    </robot>
+
+The number: how many joints have no limit of force once the model is compiled, although the text states an effort.
+
+When it is wrong: a joint that nothing drives.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "An effort of zero"
+FAMILIES = ("stuck", "explodes")
+SINCE = "0.2"
+LEVEL = "hint"
+UNPLANTED = "only URDF has efforts, and the healthy models are MJCF"
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The joints of a URDF that may turn and may give nothing; they get the largest effort of the others."""
+    if model.source is None or not model.source.urdf:
+        return
+    of = model.simulation
+    limits = {
+        joint: each.first("limit") for joint in range(of.count("joint")) if (each := model.element("joint", joint))
+    }
+    efforts = {joint: float(each.get("effort") or "nan") for joint, each in limits.items() if each is not None}
+    without = tuple(joint for joint, effort in efforts.items() if effort == 0)
+    if not without:
+        return
+    most = max(efforts.values())
+    edits = (
+        tuple(set_attribute(each, "effort", f"{most:g}") for joint in without if (each := limits[joint]))
+        if most
+        else ()
+    )
+    says = "A joint that may give nothing cannot be driven in ROS; MuJoCo reads it as a joint without a limit."
+    probe = Probe("joints without a limit of force", "", _unlimited, without, dynamic=False)
+    names, value = tuple(of.name("joint", joint) for joint in without), f"{most:g}" if most else "that of the motor"
+    yield Suspect(names, "effort", "0", value, edits, probe, 0.0, says, "the motor's torque in N m, or force in N")
+
+
+def _unlimited(simulation: Simulation, *joints: int) -> float:
+    return float(sum(not simulation.model("jnt_actfrclimited")[joint] for joint in joints))

@@ -1,0 +1,112 @@
+"""All servos have a control range, but for one.
+
+It was forgotten. The servo takes any target, and a policy or a slider that goes from -1 to 1, or to infinity, presses
+the joint against its limit.
+
+Bad:
+
+    <mujoco>
+      <default>
+        <joint axis="0 1 0" range="-60 60" damping="1" armature="0.1"/>
+        <position kp="50" kv="5"/>
+      </default>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="a"/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
+          <body pos="0.2 0 0">
+            <joint name="b"/>
+            <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
+            <body pos="0.2 0 0">
+              <joint name="c"/>
+              <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
+              <body pos="0.2 0 0">
+                <joint name="d"/>
+                <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
+              </body>
+            </body>
+          </body>
+        </body>
+      </worldbody>
+      <actuator>
+        <position name="a" joint="a" ctrlrange="-1 1"/>
+        <position name="b" joint="b" ctrlrange="-1 1"/>
+        <position name="c" joint="c"/>
+        <position name="d" joint="d" ctrlrange="-1 1"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <default>
+        <joint axis="0 1 0" range="-60 60" damping="1" armature="0.1"/>
+        <position kp="50" kv="5"/>
+      </default>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="a"/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
+          <body pos="0.2 0 0">
+            <joint name="b"/>
+            <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
+            <body pos="0.2 0 0">
+              <joint name="c"/>
+              <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
+              <body pos="0.2 0 0">
+                <joint name="d"/>
+                <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
+              </body>
+            </body>
+          </body>
+        </body>
+      </worldbody>
+      <actuator>
+        <position name="a" joint="a" ctrlrange="-1 1"/>
+        <position name="b" joint="b" ctrlrange="-1 1"/>
+        <position name="c" joint="c" ctrlrange="-1 1"/>
+        <position name="d" joint="d" ctrlrange="-1 1"/>
+      </actuator>
+    </mujoco>
+
+The number: how many servos take any target; told are at most two, where three and three times as many have a range.
+
+When it is wrong: a servo that is driven by hand alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.servo import servos
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "One servo without a control range"
+FAMILIES = ("passes-limit", "explodes", "stuck")
+SINCE = "0.2"
+LEVEL = "hint"
+UNPLANTED = "a servo without a range harms only when it is sent beyond"
+
+FEW, MORE = 2, 3
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Servos that take any target, where most others do not."""
+    of = model.simulation
+    bare = [each for each in servos(of) if each.ctrl is None]
+    others = len(servos(of)) - len(bare)
+    if not 0 < len(bare) <= FEW or others < MORE * max(len(bare), 1):
+        return
+    for each in bare:
+        value = f"{each.range[0]:.4g} {each.range[1]:.4g}" if each.range else "that of the joint"
+        edits = model.set("actuator", [each.actuator], "ctrlrange", value) if each.range else ()
+        says = f"{others} other servos have a control range."
+        probe = Probe("servos that take any target", "", _bare, dynamic=False)
+        names = (of.name("actuator", each.actuator), of.name("joint", each.joint))
+        yield Suspect(names, "ctrlrange", "left out", value, edits, probe, 0.0, says, 'inheritrange="1"')
+
+
+def _bare(of: Simulation) -> float:
+    return float(sum(each.ctrl is None for each in servos(of)))

@@ -84,14 +84,14 @@ def _found(
     """What is found in a model that compiles, its texts with the edits of causes that go together, and who looked."""
     found: list[Judged] = []
     tried: list[Rule] = []
-    afloat = model.afloat() if any(rule.of_mass for rule in wanted) else model
+    afloat = model.afloat() if any(rule.afloat for rule in wanted) else model
     until = time.monotonic() + limit
     for rule in wanted:
         if time.monotonic() > until:
             break
         tell(rule.id)
         tried.append(rule)
-        asked = afloat if rule.of_mass else model
+        asked = afloat if rule.afloat else model
         judged = (judge(asked, rule, suspect) for suspect in suspects_of(asked, rule, tell))
         found += [each for each in judged if each is not None]
     found = [replace(each, silenced=ignores.why(each, model)) for each in without_rivals(found)]

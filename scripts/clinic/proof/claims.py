@@ -15,8 +15,8 @@ import yaml
 from clinic.engine.script import ScriptError, run_script
 from clinic.engine.variant import variants
 from clinic.proof.evidence import Evidence
-from clinic.proof.prose.absences import comments
 from clinic.proof.procedure import procedure
+from clinic.proof.prose.absences import comments
 from clinic.proof.prose.plain import plain_label, plain_title, printed_labels
 from clinic.proof.prose_laws import prose_of
 from clinic.proof.releases import on_releases

@@ -7,6 +7,7 @@ FAMILIES   the symptoms that it explains, by their names in `families.toml`; the
 SINCE      the release of the clinic that brought it
 LEVEL      "hint", where it finds less than four in five of the faults that the bench plants for it
 UNPLANTED  why the bench plants none for it, where it plants none
+AFLOAT     whether a URDF is looked at with its root free to move, where it is not the world
 CASE       the case that shows it, where there is one
 suspects   a function that takes a `ReaderModel` and gives `Suspect`s; for a model that does not compile, with FAMILIES
            `will-not-compile`, it reads `model.error`
@@ -33,7 +34,7 @@ COMPILES_NOT = "will-not-compile"
 
 @dataclass(frozen=True)
 class Rule:
-    """A rule's module, read; `of_mass` where it asks what bodies weigh."""
+    """A rule's module, read."""
 
     id: str
     title: str
@@ -43,7 +44,7 @@ class Rule:
     level: Level
     unplanted: str
     text: str
-    of_mass: bool
+    afloat: bool
     suspects: Callable[[ReaderModel], Iterable[Suspect]]
 
     def example(self, which: str) -> str:
@@ -80,7 +81,7 @@ def rules() -> dict[str, Rule]:
             level=getattr(module, "LEVEL", "cause"),
             unplanted=getattr(module, "UNPLANTED", ""),
             text=(module.__doc__ or "").strip(),
-            of_mass=".mass." in found.name,
+            afloat=getattr(module, "AFLOAT", False),
             suspects=module.suspects,
         )
     return dict(sorted(made.items()))

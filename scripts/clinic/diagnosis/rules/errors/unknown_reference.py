@@ -45,7 +45,7 @@ from clinic.diagnosis.edit import delete, remove_attribute, set_attribute
 from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, nearest, sentence
-from clinic.diagnosis.source import Element
+from clinic.diagnosis.source import Element, Source
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A reference to a name that does not exist"
@@ -60,6 +60,9 @@ OPTIONAL = {"class", "childclass", "material", "texture"}  # without them the el
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The reference with the nearest name; a class or material also without it; an element without its target gone."""
     said = sentence(model)
+    if model.source is not None and model.source.urdf and "parent or child missing" in said:
+        yield from _links(model, model.source)
+        return
     if not SAID.search(said) or model.source is None or "attribute" in said or "element" in said or "keyword" in said:
         return
     names = NAME.findall(said)
@@ -77,6 +80,23 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             says = f"Nothing is called {names[0]!r}, nor nearly so."
             yield mends(element, (delete(element),), says, value="removed")
             return
+
+
+def _links(model: ReaderModel, source: Source) -> Iterator[Suspect]:
+    """The links of a URDF's joints that the file does not have; a joint to a part that was left out goes with it."""
+    links = [each.get("name") for each in source.elements("link")]
+    for joint in source.elements("joint"):
+        for end in (joint.first("parent"), joint.first("child")):
+            if end is None or end.get("link") in links:
+                continue
+            now = end.get("link")
+            says = f"No link is called {now!r}."
+            for name in nearest(now, links):
+                edits = (set_attribute(end, "link", name),)
+                if not isinstance(model.with_edits(edits), CompileError):
+                    yield mends(joint, edits, says, attribute="link", now=now, value=name)
+                    return
+            yield mends(joint, (delete(joint),), says, attribute="link", now=now, value="removed")
 
 
 def _nearest(model: ReaderModel, element: Element, attribute: str, now: str, known: list[str]) -> Suspect | None:

@@ -47,6 +47,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "The centre of mass is outside of the body"
 FAMILIES = ("drifts", "sags")
 SINCE = "0.2"
+AFLOAT = True
 LEVEL = "hint"
 
 LIMIT, LIGHT = 0.5, 0.01

@@ -47,6 +47,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "Denser than metal"
 FAMILIES = ("sags", "wrong-mass", "explodes", "stuck")
 SINCE = "0.2"
+AFLOAT = True
 
 METAL, LIGHT = 24000.0, 0.05
 STEEL, USUAL, MANY = 5000.0, 1200.0, 4

@@ -45,6 +45,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "A geom stands twice"
 FAMILIES = ("wrong-mass", "sags", "drifts")
 SINCE = "0.2"
+AFLOAT = True
 
 MORE = 1.05
 FIELDS = {"type": 1, "size": 3, "pos": 3, "quat": 4, "dataid": 1, "contype": 1, "conaffinity": 1, "group": 1, "rgba": 4}

@@ -61,6 +61,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "Gravity compensation on some links alone"
 FAMILIES = ("sags", "drifts")
 SINCE = "0.2"
+AFLOAT = True
 LEVEL = "hint"
 
 LEFT = 0.02  # of the mass

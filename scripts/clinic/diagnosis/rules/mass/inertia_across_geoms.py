@@ -51,6 +51,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "The inertia lies across the body"
 FAMILIES = ("drifts", "oscillates")
 SINCE = "0.2"
+AFLOAT = True
 
 LONG, LIMIT = 0.3, 1.0
 FLAT, OFF, ALONG = 1.25, 1.1, 0.95

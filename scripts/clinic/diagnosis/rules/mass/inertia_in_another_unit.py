@@ -56,6 +56,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "The inertias are in another unit"
 FAMILIES = ("stuck", "explodes", "wrong-mass", "oscillates")
 SINCE = "0.2"
+AFLOAT = True
 
 TENS, WITHIN, LIMIT = 2.5, 1.5, 2.5  # powers of ten; times the inertia at the joint
 UNITS = {3: "g m2", 6: "kg mm2", 7: "g cm2", 9: "g mm2", 4: "kg cm2"}

@@ -49,6 +49,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "The inertia is not that of the geoms"
 FAMILIES = ("explodes", "oscillates", "stuck", "drifts", "wrong-mass")
 SINCE = "0.2"
+AFLOAT = True
 CASE = "heavy-base-spins"
 LEVEL = "hint"
 

@@ -78,6 +78,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "A body without its inertial"
 FAMILIES = ("wrong-mass", "sags", "drifts")
 SINCE = "0.2"
+AFLOAT = True
 LEVEL = "hint"
 
 SHARE, FEW = 0.75, 2

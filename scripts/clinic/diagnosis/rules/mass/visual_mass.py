@@ -48,6 +48,7 @@ from clinic.diagnosis.suspect import Suspect
 TITLE = "Geoms that are only seen have mass"
 FAMILIES = ("sags", "wrong-mass", "drifts")
 SINCE = "0.2"
+AFLOAT = True
 CASE = "drone-will-not-hover"
 
 MORE = 1.5

@@ -54,12 +54,13 @@ def formula(name, **symbols):
 
 
 def told(variant="broken"):
-    """What the record's `telling` measures of a variant, or of a text."""
+    """What the record's `telling` measures of a variant, or of a text; nan where nothing is."""
     pathlib.Path("asked.xml").write_text(text.get(variant, variant))
     sys.argv = ["which.py", "asked.xml"]
     with contextlib.redirect_stdout(io.StringIO()) as out:
         exec(compile(given["procedure"], "which.py", "exec"), {})
-    return float(re.search(r"^[a-z0-9-]+ = ([^\\s,]+)", out.getvalue(), re.MULTILINE)[1])
+    found = re.search(r"^[a-z0-9-]+ = ([^\\s,]+)", out.getvalue(), re.MULTILINE)
+    return float(found[1]) if found else np.nan
 
 
 mujoco.set_mju_user_warning(lambda said: None)

@@ -68,10 +68,15 @@ class Matter:
         return math.sqrt(own / solid) if solid > 0 else 1.0
 
     @property
-    def absurd(self) -> bool:
-        """Whether its inertia is equal about all axes, as one types it in, and far from that of the geoms."""
+    def even(self) -> bool:
+        """Whether its inertia is equal about all axes, as one types it in."""
         moments = (self.about[0], self.about[4], self.about[8])
-        return max(moments) < 1.03 * min(moments) and max(self.radius, 1 / self.radius) > ABSURD
+        return max(moments) < 1.03 * min(moments)
+
+    @property
+    def absurd(self) -> bool:
+        """Whether it is so, and far from that of the geoms."""
+        return self.even and max(self.radius, 1 / self.radius) > ABSURD
 
     @property
     def along(self) -> tuple[float, float]:

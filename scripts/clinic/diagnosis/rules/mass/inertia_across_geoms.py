@@ -32,7 +32,8 @@ its axis and 1.5 across. Of 249 long bodies of healthy robots, whose geoms have 
 What makes whole turns, as wheels do, is the other way round: where the geoms have more than 1.25 about their own axis,
 less than 0.9 is a hint.
 
-When it is wrong: a long cover around a flat motor.
+When it is wrong: a long cover around a flat motor; a hand, whose motor lies across it. In four of 160 models of other
+people that had another fault a hand or a finger was so: a hint.
 """
 
 from __future__ import annotations
@@ -52,6 +53,7 @@ TITLE = "The inertia lies across the body"
 FAMILIES = ("drifts", "oscillates")
 SINCE = "0.2"
 AFLOAT = True
+LEVEL = "hint"
 
 LONG, LIMIT = 0.3, 1.0
 FLAT, OFF, ALONG = 1.25, 1.1, 0.95

@@ -72,6 +72,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     alike = [(body, each) for body, each in found if abs(powers[body] - middle) < WITHIN]
     if abs(middle) < TENS or len(alike) < max(2, 0.6 * len(found)):
         return
+    if 2 * sum(each.even for _, each in alike) > len(alike):  # placeholders, which have no unit
+        return
     power = min((*UNITS, *(-each for each in UNITS)), key=lambda each: abs(each - middle))
     edits = tuple(
         edit

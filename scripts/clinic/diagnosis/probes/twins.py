@@ -179,9 +179,10 @@ class Twins(Pairs):
     def _joints(self, left: int, right: int) -> Iterator[Comparison]:
         of = self.of
         body = int(of.model("jnt_bodyid")[left])
-        unlike = of.joint_type(left) != of.joint_type(right)
-        yield Comparison("joint", "type", left, right, 100 * unlike, 1)
-        if unlike or of.joint_type(left) == FREE:
+        if of.joint_type(left) != of.joint_type(right):
+            yield Comparison("joint", "type", left, right, 100, 1)
+            return
+        if of.joint_type(left) == FREE:
             return
         springs = of.model("jnt_stiffness")
         yield Comparison("joint", "stiffness", left, right, apart(springs[left], springs[right]), 30)

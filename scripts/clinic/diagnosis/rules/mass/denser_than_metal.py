@@ -27,7 +27,8 @@ Good:
 
 The number: the body's mass over the volume of its geoms; osmium, the densest metal, has 22,600 kg/m3, and half of 1475
 bodies in healthy models have 243 to 677. A cause has 24,000 and more than a twentieth of the moving mass.
-A hint are four links and more of which the one in the middle has 5,000: CAD exports a robot of solid steel that way.
+A hint are four links and more, with inertias like those of their geoms, of which the one in the middle has 5,000: CAD
+exports a robot of solid steel that way.
 
 When it is wrong: a body of which a small part is drawn. One that slides by itself, as a point mass does, is not told.
 """
@@ -50,7 +51,8 @@ SINCE = "0.2"
 AFLOAT = True
 
 METAL, LIGHT = 24000.0, 0.05
-STEEL, USUAL, MANY = 5000.0, 1200.0, 4
+STEEL, USUAL, MANY, MOST_OF = 5000.0, 1200.0, 4, 0.6
+SHOWN = 0.7, 1.4  # the radius of gyration over that of geoms that show the body
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -85,8 +87,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _steel(model: ReaderModel) -> Iterator[Suspect]:
     """The links of a mechanism of which the one in the middle is as dense as metal: one is, where one is a weight."""
-    found = [(body, each) for body, each in explicit(model) if each.volume > 0]
-    if len(found) < MANY or not STEEL < (middle := median(each.density for _, each in found)) < METAL:
+    every = [(body, each) for body, each in explicit(model) if each.volume > 0]
+    found = [(body, each) for body, each in every if SHOWN[0] < each.radius < SHOWN[1]]
+    if (
+        len(found) < max(MANY, MOST_OF * len(every))
+        or not STEEL < (middle := median(each.density for _, each in found)) < METAL
+    ):
         return
     of, mass = model.simulation, sum(each.mass for _, each in found)
     yield Suspect(

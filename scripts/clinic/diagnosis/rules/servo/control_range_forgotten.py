@@ -69,7 +69,8 @@ Good:
       </actuator>
     </mujoco>
 
-The number: how many servos take any target; told are at most two, where three and three times as many have a range.
+The number: how many servos of joints with a range take any target; told are at most two, where three and three times
+as many have a control range.
 
 When it is wrong: a servo that is driven by hand alone.
 """
@@ -95,13 +96,14 @@ FEW, MORE = 2, 3
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Servos that take any target, where most others do not."""
     of = model.simulation
-    bare = [each for each in servos(of) if each.ctrl is None]
-    others = len(servos(of)) - len(bare)
+    bare = [each for each in servos(of) if each.ctrl is None and each.range]
+    others = sum(each.ctrl is not None for each in servos(of))
     if not 0 < len(bare) <= FEW or others < MORE * max(len(bare), 1):
         return
     for each in bare:
-        value = f"{each.range[0]:.4g} {each.range[1]:.4g}" if each.range else "that of the joint"
-        edits = model.set("actuator", [each.actuator], "ctrlrange", value) if each.range else ()
+        assert each.range is not None
+        value = f"{each.range[0]:.4g} {each.range[1]:.4g}"
+        edits = model.set("actuator", [each.actuator], "ctrlrange", value)
         says = f"{others} other servos have a control range."
         probe = Probe("servos that take any target", "", _bare, dynamic=False)
         names = (of.name("actuator", each.actuator), of.name("joint", each.joint))
@@ -109,4 +111,4 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _bare(of: Simulation) -> float:
-    return float(sum(each.ctrl is None for each in servos(of)))
+    return float(sum(each.ctrl is None and each.range is not None for each in servos(of)))

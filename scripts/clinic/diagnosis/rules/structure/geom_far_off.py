@@ -36,7 +36,7 @@ Good:
     </mujoco>
 
 The number: how far the geom's middle is from the nearest other geom of its mechanism at the start, in sizes of the box
-around all the others; more than 2.
+around all the others; more than 3.
 
 When it is wrong: two things of one mechanism that are meant to be far apart.
 """
@@ -59,7 +59,7 @@ AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "what is far away harms by what happens to be there"
 
-FAR, ENOUGH = 2.0, 3
+FAR, ENOUGH = 3.0, 3
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -73,7 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 where = of.row("geom_pos", geom, 3)
                 says = f"Its middle is {far:.3g} times as far away as all others of its mechanism together are large."
                 now = " ".join(f"{x:.4g}" for x in where)
-                yield Suspect((of.name("geom", geom),), "pos", now, "near its body", (), probe, FAR, says, "below 2")
+                yield Suspect((of.name("geom", geom),), "pos", now, "near its body", (), probe, FAR, says, "below 3")
 
 
 def _geoms(of: Simulation, root: int) -> list[int]:

@@ -34,8 +34,13 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
     told: dict[tuple[object, ...], tuple[list[Comparison], bool]] = {}
     for kind in kinds:
         for quantity in quantities:
-            same = [each for each in trusted if (each.kind, each.quantity) == (kind, quantity)]
-            few = [each for each in same if each.odd and not (kind == "body" and _of_geoms(model, found, each))]
+            like = {quantity, "stiffness"} if quantity == "type" else {quantity}  # compared where types are alike
+            same = [each for each in trusted if each.kind == kind and each.quantity in like]
+            few = [
+                each
+                for each in same
+                if each.odd and each.quantity == quantity and not (kind == "body" and _of_geoms(model, found, each))
+            ]
             agree = len(same) - len(few)
             close = sum(each.unlike <= each.limit / 5 for each in same)
             most = max(1, FEW * len(same), 2 if agree >= 3 else 0)
@@ -127,7 +132,10 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
         simulation.name(first.kind, each.left + each.right - side) for each, side in zip(found, sides, strict=True)
     ]
     compared = twins(simulation).comparisons
-    alike = sum((each.kind, each.quantity) == (first.kind, first.quantity) and not each.odd for each in compared)
+    like = (first.kind, "stiffness" if first.quantity == "type" else first.quantity)
+    alike = sum(
+        (each.kind, each.quantity) == like and not (each.odd and like[1] == first.quantity) for each in compared
+    )
     says = f"It differs from its twin, {others[0]}, in a model where {alike} other pairs agree in their {quantities}."
     says += SWAPPED * digits + EITHER * (not sure)
     return Suspect(

@@ -1,0 +1,137 @@
+"""The rotors of a drone cannot turn it about its vertical by themselves.
+
+Each rotor pushes up and, by its drag, turns the drone the other way round. Two turn to the left and two to the right,
+those that are diagonal alike. Where the two on one side turn alike, yaw comes with roll or with pitch, and no
+controller can take the one without the other.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="drone" pos="0 0 1">
+          <freejoint/>
+          <geom type="box" size="0.1 0.1 0.02" mass="0.5"/>
+          <site name="one" pos="-0.1 -0.1 0"/>
+          <site name="two" pos="-0.1 0.1 0"/>
+          <site name="three" pos="0.1 0.1 0"/>
+          <site name="four" pos="0.1 -0.1 0"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor name="one" site="one" gear="0 0 1 0 0 -0.02"/>
+        <motor name="two" site="two" gear="0 0 1 0 0 0.02"/>
+        <motor name="three" site="three" gear="0 0 1 0 0 0.02"/>
+        <motor name="four" site="four" gear="0 0 1 0 0 -0.02"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="drone" pos="0 0 1">
+          <freejoint/>
+          <geom type="box" size="0.1 0.1 0.02" mass="0.5"/>
+          <site name="one" pos="-0.1 -0.1 0"/>
+          <site name="two" pos="-0.1 0.1 0"/>
+          <site name="three" pos="0.1 0.1 0"/>
+          <site name="four" pos="0.1 -0.1 0"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor name="one" site="one" gear="0 0 1 0 0 -0.02"/>
+        <motor name="two" site="two" gear="0 0 1 0 0 0.02"/>
+        <motor name="three" site="three" gear="0 0 1 0 0 -0.02"/>
+        <motor name="four" site="four" gear="0 0 1 0 0 0.02"/>
+      </actuator>
+    </mujoco>
+
+The number: the volume that thrust and the torques about the drone's three axes span, each made as long as 1; four
+rotors that are arranged well have 1, and those that cannot be told apart 0. Suspected is less than a hundredth.
+
+When it is wrong: a drone that turns by other means. Only the drone itself tells which way its rotors turn: a hint.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.vector import add, at, cross, dot, norm, sub, times, transpose
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "Rotors that cannot yaw alone"
+FAMILIES = ("drifts", "stuck")
+SINCE = "0.2"
+LEVEL = "hint"
+UNPLANTED = "one of the healthy models flies"
+
+SITE, ROTORS, LEAST = 4, 4, 0.01
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Four motors at sites of one free body, with thrust and drag, whose effects are not independent."""
+    of = model.simulation
+    for body in of.free_bodies:
+        rotors = _rotors(of, body)
+        if len(rotors) != ROTORS or _spanned(of, body) >= LEAST:
+            continue
+        gears = [of.row("actuator_gear", each, 6) for each in rotors]
+        if not all(gear[5] for gear in gears):
+            continue
+        edits: tuple[Edit, ...] = ()
+        for each, gear, place in zip(rotors, gears, _places(of, body, rotors), strict=True):
+            yaw = abs(gear[5]) if place[0] * place[1] < 0 else -abs(gear[5])
+            edits += model.set("actuator", [each], "gear", " ".join(f"{x:g}" for x in (*gear[:5], yaw)))
+        probe = Probe("how little the rotors' effects are independent", "", _alike, (body,), dynamic=False)
+        names = tuple(of.name("actuator", each) for each in rotors)
+        says = "Those on one side turn alike, so that yaw comes with roll or pitch."
+        now = ", ".join(f"{gear[5]:+g}" for gear in gears)
+        yield Suspect(names, "gear", now, "diagonal ones alike", edits, probe, 1 - LEAST, says, "diagonal rotors alike")
+
+
+def _rotors(of: Simulation, body: int) -> list[int]:
+    bodies = of.model("site_bodyid")
+    kinds, sites = of.model("actuator_trntype"), of.model("actuator_trnid")
+    return [
+        each
+        for each in range(of.count("actuator"))
+        if int(kinds[each]) == SITE
+        and int(bodies[int(sites[2 * each])]) == body
+        and norm(of.row("actuator_gear", each, 6)[:3]) > 0
+    ]
+
+
+def _places(of: Simulation, body: int, rotors: Sequence[int]) -> list[Sequence[float]]:
+    """Where the rotors are about the centre of mass, in the body's axes, in m."""
+    of.begin()
+    turn, centre = of.data_row("xmat", body, 9), of.data_row("xipos", body, 3)
+    sites = [int(of.model("actuator_trnid")[2 * each]) for each in rotors]
+    return [times(transpose(turn), sub(of.data_row("site_xpos", site, 3), centre)) for site in sites]
+
+
+def _spanned(of: Simulation, body: int) -> float:
+    """The volume that thrust and the three torques span."""
+    rotors = _rotors(of, body)
+    turn = transpose(of.data_row("xmat", body, 9))
+    columns = []
+    for each, place in zip(rotors, _places(of, body, rotors), strict=True):
+        site = of.data_row("site_xmat", int(of.model("actuator_trnid")[2 * each]), 9)
+        gear = of.row("actuator_gear", each, 6)
+        push, drag = (times(turn, times(site, at(gear, k))) for k in (0, 1))
+        columns.append((norm(push), *add(cross(place, push), drag)))
+    rows = [[column[k] for column in columns] for k in range(4)]
+    volume = 1.0
+    for k, row in enumerate(rows):  # what is left of each once the earlier ones are taken out
+        left: Sequence[float] = [x / norm(row) for x in row] if norm(row) else row
+        for other in rows[:k]:
+            left = add(left, other, -dot(left, other))
+        volume *= norm(left)
+        rows[k] = [x / norm(left) for x in left] if norm(left) else list(left)
+    return volume
+
+
+def _alike(of: Simulation, body: int) -> float:
+    return 1 - _spanned(of, body)

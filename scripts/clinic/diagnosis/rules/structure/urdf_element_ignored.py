@@ -1,0 +1,84 @@
+"""A URDF has an element that nobody reads.
+
+URDF places a joint by `<origin>`. `<pose>`, which is SDF, or `<limits>` for `<limit>`: MuJoCo and ROS pass over what
+they do not know, without a word, and the camera or the wheel stays at its parent's origin.
+
+Bad:
+
+    <robot name="rover">
+      <link name="base"/>
+      <link name="mast">
+        <inertial><origin xyz="0 0 0.1"/><mass value="1"/>
+          <inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.0005"/></inertial>
+      </link>
+      <joint name="turn" type="revolute">
+        <parent link="base"/><child link="mast"/><axis xyz="0 0 1"/>
+        <pose>0.1 0 0.3 0 0 0</pose>
+        <limit lower="-1" upper="1" effort="20" velocity="3"/>
+      </joint>
+    </robot>
+
+Good:
+
+    <robot name="rover">
+      <link name="base"/>
+      <link name="mast">
+        <inertial><origin xyz="0 0 0.1"/><mass value="1"/>
+          <inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.0005"/></inertial>
+      </link>
+      <joint name="turn" type="revolute">
+        <parent link="base"/><child link="mast"/><axis xyz="0 0 1"/>
+        <origin xyz="0.1 0 0.3" rpy="0 0 0"/>
+        <limit lower="-1" upper="1" effort="20" velocity="3"/>
+      </joint>
+    </robot>
+
+The number: how many such elements stand in joints, and in the inertials, visuals and collisions of links.
+
+When it is wrong: an element of another program, which reads it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "An element that is passed over"
+FAMILIES = ("jumps-at-start", "wrong-mass", "camera")
+SINCE = "0.2"
+LEVEL = "hint"
+UNPLANTED = "only URDF has such elements, and the healthy models are MJCF"
+
+INSIDE = {
+    "joint": "origin parent child axis calibration dynamics limit mimic safety_controller disable_collision",
+    "inertial": "origin mass inertia",
+    "visual": "origin geometry material",
+    "collision": "origin geometry verbose contact_coefficients",
+}
+MEANT = {"pose": "origin", "limits": "limit", "dynamic": "dynamics", "axes": "axis"}
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """What stands in joints and parts of links and is none of URDF's elements, by its tag."""
+    if model.source is None or not model.source.urdf:
+        return
+    found: dict[str, list[str]] = {}
+    for each in model.source.root.walk():
+        holder = each.parent
+        if holder is None or holder.tag not in INSIDE or holder.parent is None:
+            continue
+        if holder.parent.tag in ("robot", "link") and each.tag not in INSIDE[holder.tag].split():
+            name = holder.get("name") or holder.parent.get("name")
+            found.setdefault(each.tag, []).append(f'{holder.tag} "{name}"')
+    for tag, holders in found.items():
+        meant = f"<{MEANT[tag]}>" if tag in MEANT else "removed"
+        says = f"URDF has no <{tag}> there, and it is passed over."
+        probe = Probe("elements that are passed over", "", _count, (len(holders),), dynamic=False)
+        yield Suspect(tuple(holders), tag, f"<{tag}>", meant, (), probe, 0.0, says, "none")
+
+
+def _count(_: Simulation, count: int) -> float:
+    return float(count)

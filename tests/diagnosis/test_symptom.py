@@ -65,6 +65,7 @@ KNOWN = {  # what is true of models as their files stand, by case and model
 
 @pytest.mark.parametrize("family", [name for name in families() if code_of(name)])
 def test_no_row_applies_to_healthy_models(family, root, monkeypatch):
+    monkeypatch.setattr("clinic.diagnosis.symptom.SECONDS", 120)
     code, told = code_of(family), {}
     for model in survey(root, Cache(cache_folder(root)))[0]:
         path = Path(model.path)

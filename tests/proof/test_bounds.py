@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from clinic.proof.bounds import bounded, differing, parting, varied
+from clinic.proof.bounds import bounded, differing, parting, varied, windowed
 from clinic.proof.evidence import collect
 from clinic.proof.sweep import measure_sweep
 from helpers import SWEEP, tiny_case
@@ -64,6 +64,13 @@ def test_a_trial_differs_from_the_run(tmp_path, situation: str, same: bool) -> N
 def test_an_end_of_a_bound_keeps_off_the_other_kind(tmp_path, kind: str, check: str, near: bool) -> None:
     case = tiny_case(tmp_path, (f"  {kind}:\n", f"  {kind}:\n    - {check}\n"))
     assert [problem.where for problem in parting(case, collect(case))] == [f"checks.{kind}[0]"] * near
+
+
+@pytest.mark.parametrize(("window", "spares"), [("[0, 0.002]", True), ("[0, 0.4]", False), (None, False)])
+def test_no_window_spares_the_broken_variant_a_check(tmp_path, window: str | None, spares: bool) -> None:
+    check = f"{{signal: height, take: min, above: 0.04{f', window: {window}' if window else ''}}}"
+    case = tiny_case(tmp_path, ("  fixed:\n", f"  fixed:\n    - {check}\n"))
+    assert [problem.where for problem in windowed(case, collect(case))] == ["checks.fixed[0]"] * spares
 
 
 @pytest.mark.parametrize(("values", "same"), [("[1, 2, 4, 8]", False), ("[1, 1.001]", True)])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from xml.sax.saxutils import quoteattr
 
 from clinic.diagnosis.edit import Edit, apply, insert, remove_attribute, set_attribute
 from clinic.diagnosis.engine import CompileError, Engine
@@ -26,7 +25,7 @@ URDF = {
 }
 AFLOAT = """<mujoco><compiler fusestatic="false" boundmass="1e-9" boundinertia="1e-15" inertiagrouprange="0 0"
  discardvisual="false"/></mujoco><link name="world"/><joint name="afloat" type="floating">
-<parent link="world"/><child link={root}/></joint>"""
+<parent link="world"/><child link="{root}"/></joint>"""
 SECTION = {"actuator": "actuator", "sensor": "sensor", "equality": "equality", "tendon": "tendon", "key": "keyframe"}
 
 
@@ -90,8 +89,8 @@ class ReaderModel:
             return self
         children = {each.get("link") for each in self.source.elements("child")}
         roots = [name for each in self.source.root.children if each.tag == "link" and (name := each.get("name"))]
-        roots = [name for name in roots if name not in children]
-        edits = tuple(insert(self.source.root, AFLOAT.format(root=quoteattr(root))) for root in roots[:1])
+        roots = [name for name in roots if name not in children and not set(name) & set('"&<')]
+        edits = tuple(insert(self.source.root, AFLOAT.format(root=root)) for root in roots[:1])
         texts = apply(self.texts, edits)
         floating = ReaderModel(self.engine, texts, self.source, Start())
         return self if floating.error else floating

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from itertools import combinations
 from typing import TYPE_CHECKING, Literal
 
-from clinic.engine.checks import expected
+from clinic.engine.checks import expected, satisfies
 from clinic.engine.variant import variants
 from clinic.proof.trials import changed_numbers, checks_in, far
 from clinic.record.case import Case
@@ -80,6 +80,26 @@ def parting(case: Case, evidence: Evidence) -> Iterator[Problem]:
                         found = f"{check.signal} ({check.take}) {expected(check)}, and the other kind has {nearest:.4g}"
                         wanted = f"an end between {farthest:.4g} and that, and not close to that"
                         yield case.problem(place, found, wanted, "tighten the bound")
+
+
+def windowed(case: Case, evidence: Evidence) -> Iterator[Problem]:
+    """Law 1, windows. None spares the broken variant a check of `fixed` that repairs pass in the whole run."""
+    fixes = [each for each in evidence.variants.values() if each.kind == "fix"]
+    broken = [each for each in evidence.variants.values() if each.kind == "broken"]
+    for index, check in enumerate(case.record.checks.fixed):
+        if check.window is None or not fixes or not all(each.checks["fixed"][index].holds for each in broken):
+            continue
+        well, ill = ([_whole(each, check) for each in some] for some in (fixes, broken))
+        if all(well) and not all(ill):
+            found = f"{check.signal} ({check.take}) from {check.window[0]:g} to {check.window[1]:g} s, when all is well"
+            wanted = "the whole run, in which the repairs hold it and the broken one does not"
+            yield case.problem(("checks", "fixed", index), found, wanted, "remove the window")
+
+
+def _whole(variant: VariantEvidence, check: Check) -> bool:
+    """Whether a check holds without its window."""
+    measured = variant.values[check.signal].get(check.take)
+    return measured is not None and satisfies(check, measured)
 
 
 def _ends(check: Check) -> Iterator[tuple[float, float]]:

@@ -13,7 +13,7 @@ from typing import Literal
 from clinic.engine.checks import expected
 from clinic.engine.simulate import compile_model
 from clinic.engine.variant import Variant, apply_edits, changed_lines, variants
-from clinic.proof.bounds import bounded, differing, marked, parting, varied
+from clinic.proof.bounds import bounded, differing, marked, parting, varied, windowed
 from clinic.proof.claims import claimed
 from clinic.proof.evidence import CheckResult, Evidence, VariantEvidence, observe
 from clinic.proof.prose.absences import bold, commented, denied, functional, kinds, named
@@ -198,6 +198,7 @@ LAWS: dict[str, Callable[[Case, Evidence], Iterator[Problem]]] = {
         verdicts,
         bounded,
         parting,
+        windowed,
         differing,
         ablation,
         small_edits,

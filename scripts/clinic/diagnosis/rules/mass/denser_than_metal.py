@@ -36,7 +36,6 @@ When it is wrong: a body of which a small part is drawn. One that slides by itse
 from __future__ import annotations
 
 from collections.abc import Iterator
-from statistics import median
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import SLIDE
@@ -90,10 +89,10 @@ def _steel(model: ReaderModel) -> Iterator[Suspect]:
     """The links of a mechanism of which the one in the middle is as dense as metal: one is, where one is a weight."""
     every = [(body, each) for body, each in explicit(model) if each.volume > 0]
     found = [(body, each) for body, each in every if SHOWN[0] < each.radius < SHOWN[1]]
-    if (
-        len(found) < max(MANY, MOST_OF * len(every))
-        or not STEEL < (middle := median(each.density for _, each in found)) < METAL
-    ):
+    if len(found) < max(MANY, MOST_OF * len(every)):
+        return
+    middle = sorted(each.density for _, each in found)[len(found) // 2]
+    if not STEEL < middle < METAL:
         return
     of, mass = model.simulation, sum(each.mass for _, each in found)
     yield Suspect(

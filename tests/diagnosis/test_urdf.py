@@ -1,0 +1,51 @@
+"""What is written in a URDF and does not show in the model that MuJoCo makes of it."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.finding import Diagnosis
+from clinic.diagnosis.native import NativeEngine
+
+ROVER = """
+<robot name="rover">
+  <link name="base">
+    <inertial>
+      <origin xyz="0 0 0"/><mass value="20"/>
+      <inertia ixx="{i}" ixy="0" ixz="0" iyy="{i}" iyz="0" izz="{i}"/>
+    </inertial>
+    <visual><geometry><box size="0.4 0.3 0.1"/></geometry></visual>
+    <collision><geometry><box size="0.4 0.3 0.1"/></geometry></collision>
+  </link>
+  <link name="wheel">
+    <inertial>
+      <origin xyz="0 0 0"/><mass value="0.5"/>
+      <inertia ixx="0.0004" ixy="0" ixz="0" iyy="0.0006" iyz="0" izz="0.0004"/>
+    </inertial>
+    <collision><origin rpy="1.5708 0 0"/><geometry><cylinder radius="0.05" length="0.03"/></geometry></collision>
+  </link>
+  <joint name="axle" type="continuous">
+    <parent link="{parent}"/><child link="wheel"/><origin xyz="0 0.2 -0.05"/><axis xyz="0 1 0"/>
+  </joint>
+</robot>
+"""
+
+
+def diagnosed(**changes: object) -> Diagnosis:
+    return examine(NativeEngine(), {"rover.urdf": ROVER.format(**{"i": 0.3, "parent": "base"} | changes)})
+
+
+def test_the_root_is_weighed_although_it_is_the_world() -> None:
+    assert not diagnosed().hints
+    (found,) = diagnosed(i=0.001).hints
+    assert (found.rule, found.elements, found.line) == ("inertia-unlike-geoms", ('body "base"',), 4)
+
+
+def test_a_root_that_cannot_be_weighed_leaves_all_else_as_it_was() -> None:
+    assert not diagnosed(i=0).causes
+
+
+@pytest.mark.parametrize(("parent", "value"), [("bas", "base"), ("torso", "removed")])
+def test_a_joint_at_a_link_that_is_not_there_is_told(parent: str, value: str) -> None:
+    (cause,) = diagnosed(parent=parent).causes
+    assert (cause.rule, cause.now, cause.value) == ("unknown-reference", parent, value)

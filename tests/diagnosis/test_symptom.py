@@ -23,6 +23,7 @@ PARTS = "it is a part, whose geoms have friction only in the scene that attaches
 CTRL = "its keyframe has no controls, and the environment writes them at every step"
 GYRATION = "b_2 weighs 11.7 g with a radius of gyration of 1.47 m, and its geom is 0.53 m long"
 HULL = "wings and legs stand in the hulls of other parts, which fruitfly.xml, made from it, excludes"
+FETCH = ("pick_and_place", "push", "reach", "slide")
 ASSETS = "dm_control/locomotion/walkers/assets"
 KNOWN = {  # what is true of models as their files stand, by case and model
     "elbow-will-not-bend": {
@@ -44,11 +45,13 @@ KNOWN = {  # what is true of models as their files stand, by case and model
         f"{ASSETS}/humanoid_CMU_V2020.xml": ELSEWHERE,
     },
     "arm-jumps-at-reset": {
+        "dm_control/mjcf/test_assets/robot_arm.xml": RADIANS,
         "dm_control/suite/hopper.xml": ELSEWHERE,
         "dm_control/third_party/kinova/jaco_arm.xml": ELSEWHERE,
         "dm_control/third_party/kinova/jaco_hand.xml": ELSEWHERE,
         "gymnasium/envs/mujoco/assets/ant.xml": ELSEWHERE,
         "gymnasium_robotics/envs/mujoco/assets/ant.xml": ELSEWHERE,
+        **{f"gymnasium_robotics/envs/assets/fetch/{task}.xml": ELSEWHERE for task in FETCH},
     },
     "ball-stops-above-cup": {f"{ASSETS}/build_fruitfly/assets/drosophila_fused.xml": HULL},
     "crate-slides-off-table": {

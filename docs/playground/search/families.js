@@ -50,6 +50,5 @@ const sum = (numbers) => [...numbers].reduce((total, number) => total + number, 
 function stemmed(text) {
   const found = text.toLowerCase().replace(/n['’]t\b/g, " not").match(/[a-z0-9_]+/g) ?? [];
   const stems = found.filter((word) => !IDLE.has(word)).map((word) => word.replace(SUFFIX, "").replace(DOUBLE, "$1"));
-  const single = stems.map((stem) => (NOT.has(stem) ? "not" : stem));
-  return new Set([...single, ...single.slice(1).map((stem, index) => `${single[index]} ${stem}`)]);
+  return new Set(stems.map((stem) => (NOT.has(stem) ? "not" : stem)));
 }

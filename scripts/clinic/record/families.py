@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 import re
 import tomllib
@@ -18,7 +17,7 @@ SUFFIX = re.compile(r"(?<=[a-z]{3})(?:ations?|ings?|ies|ed|es|s|ly|e|y)$")
 DOUBLE = re.compile(r"([bdfglmnprtz])\1$")
 NOT = {"no", "never", "cannot", "without", "unable", "fail", "nothing", "nobody", "barely"}
 LEAST = 0.2  # the likelihood from which on a family is named
-OFTEN = 2  # how often a stem stands somewhere, to be known
+OFTEN = 3  # how often a stem stands somewhere, to be known
 BESIDE = 0.4  # what a word counts that stands beside the symptom
 IDLE = """a an and are as at be been but by can did do does doing done for from had has have i if in is it its me my of
 on or so that the their them there they this to was we were when while with you your mujoco simulation"""
@@ -128,8 +127,7 @@ def sayings() -> dict[str, list[str]]:
 
 
 def _stems(text: str) -> list[str]:
-    """The words of a text without endings, and each with its next; idle ones are left out, `not` is every no."""
+    """The words of a text without endings, in order; idle ones are left out, and `not` stands for every no."""
     words = re.findall(r"[a-z0-9_]+", re.sub(r"n['\u2019]t\b", " not", text.lower()))
     stems = (DOUBLE.sub(r"\1", SUFFIX.sub("", word)) for word in words if word not in IDLE.split())
-    single = ["not" if stem in NOT else stem for stem in stems]
-    return single + [" ".join(pair) for pair in itertools.pairwise(single)]
+    return ["not" if stem in NOT else stem for stem in stems]

@@ -26,9 +26,8 @@ Good:
     </mujoco>
 
 The number: the body's mass over the volume of its geoms; osmium, the densest metal, has 22,600 kg/m3, and half of 1475
-bodies in healthy models have 243 to 677. A cause has 24,000 and more than a twentieth of the moving mass; it is a hint
-where the inertia is that of something larger, so that the geoms show but a part. Another hint are four links and more,
-with inertias like those of their geoms, of which the one in the middle has 5,000: a CAD export of solid steel.
+bodies in healthy models have 243 to 677. A cause has 24,000 and more than a twentieth of the moving mass. A hint are four
+links and more, with inertias like those of their geoms, of which the one in the middle has 5,000: a CAD export of steel.
 
 When it is wrong: a body of which a small part is drawn. One that slides by itself, as a point mass does, is not told.
 """
@@ -81,7 +80,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         f"{worst.mass:.3g} kg in {1000 * worst.volume:.3g} litres of geoms: {worst.density:.3g} kg/m3.",
         "22,600 kg/m3 is the densest metal, osmium",
         excess=worst.density / METAL,
-        level="hint" if all(found.radius > SHOWN[1] for _, found in dense) else "cause",
     )
 
 

@@ -44,7 +44,7 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
             agree = len(same) - len(few)
             close = sum(each.unlike <= each.limit / 5 for each in same)
             most = max(1, FEW * len(same), 2 if agree >= 3 else 0)
-            if not few or len(few) > most or (agree < 2 and quantity not in ("joint", "target")) or close < 0.7 * agree:
+            if not few or len(few) > most or (agree < 2 and quantity not in ("joint", "target")) or close < 0.6 * agree:
                 continue
             bodies = {found.bodies(each) for each in few}
             alone = len(trusted) >= 30 and not any(each.odd and found.bodies(each) not in bodies for each in trusted)

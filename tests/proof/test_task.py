@@ -71,6 +71,8 @@ def told(find: str, replace: str, *may: str) -> list[str]:
         ('kp="20"', 'kp="20" gear="5"', "You changed the gear of actuator servo from 1 0 0 0 0 0 to 5 0 0 0 0 0."),
         ('joint="hinge" kp', 'jointinparent="hinge" kp',
          "You changed the kind of transmission of actuator servo from joint to jointinparent."),
+        ('kp="20"', 'kp="20" timeconst="1"',
+         "You changed the kind of dynamics of actuator servo from none to filterexact."),
         ('<jointpos name="angle"', '<jointvel name="angle"',
          "You changed the type of sensor angle from jointpos to jointvel."),
         ('qpos="0.1"', 'qpos="0"', "You changed the qpos of key start from 0.1 to 0."),

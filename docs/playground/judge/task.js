@@ -6,7 +6,7 @@ import { general } from "../engine/checks.js";
 import { nameOf } from "../engine/signals.js";
 
 /** @import {MainModule, MjModel} from "@mujoco/mujoco" */
-/** @typedef {"mjtJoint" | "mjtGeom" | "mjtSensor" | "mjtTrn"} Enumeration */
+/** @typedef {"mjtJoint" | "mjtGeom" | "mjtSensor" | "mjtTrn" | "mjtDyn" | "mjtGain" | "mjtBias"} Enumeration */
 
 /**
  * A field of an element: numbers, or the name of what it refers to; null where this MuJoCo has no such field.

@@ -88,6 +88,19 @@ def test_an_armature_far_beyond_the_arm_s_inertia_is_told() -> None:
     assert said.startswith("dof_armature is 1e+06, more than 100 times the inertia")
 
 
+def test_dry_friction_of_a_free_joint_is_told() -> None:
+    xml = '<mujoco><worldbody><body><joint name="free" type="free"/><geom size="0.1"/></body></worldbody></mujoco>'
+    broken, model, damped = (
+        mujoco.MjModel.from_xml_string(xml.replace('"free"/>', each))
+        for each in ('"free"/>', '"free" frictionloss="3"/>', '"free" damping="0.01"/>')
+    )
+
+    assert changes(broken, model, Task()) == [
+        "A free joint has a frictionloss of 3: that holds to the world what should be free."
+    ]
+    assert changes(model, model, Task()) == changes(broken, damped, Task()) == []
+
+
 @pytest.mark.parametrize(
     ("find", "replace"),
     [

@@ -132,6 +132,17 @@ class Comparison {
         yield `${field} is ${general(after)}, more than ${times} times the inertia ${general(inertia, 3)} of the model itself.`;
       }
     }
+    const after = this.frictionOfFree(this.model);
+    if (after > this.frictionOfFree(this.broken)) {
+      yield `A free joint has a frictionloss of ${general(after)}: that holds to the world what should be free.`;
+    }
+  }
+
+  /** @param {any} model */
+  frictionOfFree(model) {
+    const free = this.mujoco.mjtJoint.mjJNT_FREE.value;
+    const joints = numbers(model.jnt_dofadr).filter((_, i) => model.jnt_type[i] === free);
+    return largest(joints.flatMap((first) => numbers(model.dof_frictionloss.slice(first, first + 6))));
   }
 
   /**

@@ -1,10 +1,10 @@
 """The same task: what a reader's model changes besides what a repair may, told in sentences.
 
 Every repair may change how the model is simulated and how things touch: a smaller timestep, integrator, solver, contact
-parameters, masks, pairs and excludes, damping, armature, friction and an actuator's gains, up to a bound; colours,
-lights, further cameras, sites, sensors and keyframes. A record's `task.may` names more. Elements are compared by name,
-unnamed ones by their order; a geom or site may have another name at the same place, and a geom may be
-turned as its symmetry hides.
+parameters, masks, pairs and excludes, damping, armature, friction, but for a free joint's, and an actuator's gains, up
+to a bound; colours, lights, further cameras, sites, sensors and keyframes. A record's `task.may` names more. Elements
+are compared by name, unnamed ones by their order; a geom or site may have another name at the same place, and a geom
+may be turned as its symmetry hides.
 """
 
 from __future__ import annotations
@@ -110,6 +110,13 @@ def _excessive(broken: mujoco.MjModel, model: mujoco.MjModel) -> Iterator[str]:
     for field in ("dof_armature", "actuator_armature"):
         if (after := np.max(getattr(model, field, 0.0), initial=0.0)) > times * inertia:
             yield f"{field} is {after:g}, more than {times} times the inertia {inertia:.3g} of the model itself."
+    if (after := _friction_of_free(model)) > _friction_of_free(broken):
+        yield f"A free joint has a frictionloss of {after:g}: that holds to the world what should be free."
+
+
+def _friction_of_free(model: mujoco.MjModel) -> float:
+    first = model.jnt_dofadr[model.jnt_type == mujoco.mjtJoint.mjJNT_FREE]
+    return max((float(np.max(model.dof_frictionloss[i : i + 6])) for i in first), default=0.0)
 
 
 def _elements(model: mujoco.MjModel, kind: str) -> dict[str, int]:

@@ -103,7 +103,11 @@ def test_labels_titles_and_reasons_are_asked_unless_their_path_tells_them(tmp_pa
 
 def test_comments_docstrings_and_labels_are_asked(tmp_path):
     case = case_with(tmp_path)
-    script = '"""It prints."""\n' + SCRIPT + "# the scale\nnames = [\n    'of the box', 'box', '<a b>', 'its height = {}',\n]\n"
+    script = (
+        '"""It prints."""\n'
+        + SCRIPT
+        + "# the scale\nnames = [\n    'of the box', 'box', '<a b>', 'its height = {}',\n]\n"
+    )
     (tmp_path / "cases" / "odd-script" / "script.py").write_text(script, encoding="utf-8")
     said = told(load_case(tmp_path / "cases" / "odd-script"))
     assert [each.rpartition(": ")[2] for each in said] == ["'It prints.'", "'the scale'", "'of the box'"]

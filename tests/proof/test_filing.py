@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from clinic.proof.filing import filing_problems
+from clinic.record.claims import Claims
 from helpers import tiny_case
 
 
@@ -17,8 +20,13 @@ from helpers import tiny_case
     ],
 )
 def test_a_case_is_filed_under_its_own_words(tmp_path, change: tuple[str, str], where: list[str]) -> None:
-    case = tiny_case(tmp_path, change)
+    case = replace(tiny_case(tmp_path, change), claims=Claims())
     assert [problem.where for problem in filing_problems({case.slug: case})] == where
+
+
+def test_a_first_version_is_filed_where_its_author_says(tmp_path) -> None:
+    case = tiny_case(tmp_path, ("film:", "family: oscillates\nfilm:"))
+    assert [*filing_problems({case.slug: case})] == []
 
 
 @pytest.mark.parametrize(

@@ -39,7 +39,7 @@ def filing_problems(known: Mapping[str, Case]) -> Iterator[Problem]:
 
 
 def _unsaid(case: Case, said: set[str]) -> Iterator[Problem]:
-    """Tags and a family of which the record's own words say nothing."""
+    """Tags, and a family of a case that has its claims, of which the record's own words say nothing."""
     for index, tag in enumerate(case.record.tags):
         if tag == "code" and case.record.run is not None:
             expected = "a case with a script"
@@ -50,7 +50,7 @@ def _unsaid(case: Case, said: set[str]) -> Iterator[Problem]:
     family = case.record.family
     told = [family_shares(text) for text in (case.record.title, *case.record.phrases)]
     likely = dict.fromkeys(name for shares in told for name, share in shares.items() if share >= SPOKEN)
-    if family is not None and family not in likely:
+    if family is not None and case.claims is not None and family not in likely:
         expected = f"what the title and the phrases speak of, as {listed([*likely])}"
         yield case.problem(("family",), family, expected, "correct it, or add how readers say it")
 

@@ -57,19 +57,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if model.source is None or not model.source.urdf:
         return
     of = model.simulation
-    limits = {
-        joint: each.first("limit") for joint in range(of.count("joint")) if (each := model.element("joint", joint))
-    }
-    efforts = {joint: float(each.get("effort") or "nan") for joint, each in limits.items() if each is not None}
+    joints = {joint: each for joint in range(of.count("joint")) if (each := model.element("joint", joint))}
+    limits = {joint: limit for joint, each in joints.items() if (limit := each.first("limit"))}
+    efforts = {joint: float(limit.get("effort") or -1) for joint, limit in limits.items()}
     without = tuple(joint for joint, effort in efforts.items() if effort == 0)
     if not without:
         return
     most = max(efforts.values())
-    edits = (
-        tuple(set_attribute(each, "effort", f"{most:g}") for joint in without if (each := limits[joint]))
-        if most
-        else ()
-    )
+    edits = tuple(set_attribute(limits[joint], "effort", f"{most:g}") for joint in without if most)
     says = "A joint that may give nothing cannot be driven in ROS; MuJoCo reads it as a joint without a limit."
     probe = Probe("joints without a limit of force", "", _unlimited, without, dynamic=False)
     names, value = tuple(of.name("joint", joint) for joint in without), f"{most:g}" if most else "that of the motor"

@@ -66,7 +66,7 @@ TITLE = "Rotors that cannot yaw alone"
 FAMILIES = ("drifts", "stuck")
 SINCE = "0.2"
 LEVEL = "hint"
-UNPLANTED = "one of the healthy models flies"
+UNPLANTED = "only one of the healthy models flies"
 
 SITE, ROTORS, LEAST = 4, 4, 0.01
 

@@ -47,7 +47,8 @@ import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HFIELD, PLANE
-from clinic.diagnosis.probes.shape import geoms_of_tree, roots
+from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.vector import Vector
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -63,11 +64,16 @@ FAR, ENOUGH = 3.0, 3
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """The geoms that no other of their mechanism is near."""
+    """The geoms that no other of their mechanism is near: such a one is the outermost along some axis."""
     of = model.simulation
-    for root in [*roots(of), 0]:
-        for geom in _geoms(of, root):
-            far = _far(of, root, geom)
+    of.begin()
+    for root, places in _places(of).items():
+        if len(places) < ENOUGH:
+            continue
+        for geom in sorted(
+            {end(places, key=lambda each: places[each][axis]) for axis in range(3) for end in (min, max)}
+        ):
+            far = _apart(of, places, geom)
             if far > FAR:
                 probe = Probe("distance from the rest", "of its size", _far, (root, geom), dynamic=False)
                 where = of.row("geom_pos", geom, 3)
@@ -76,23 +82,25 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 yield Suspect((of.name("geom", geom),), "pos", now, "near its body", (), probe, FAR, says, "below 3")
 
 
-def _geoms(of: Simulation, root: int) -> list[int]:
-    """Those of a mechanism, or of what is fixed to the world, that have an end."""
-    geoms = geoms_of_tree(of, root) if root else _fixed(of)
-    kinds = of.model("geom_type")
-    found = [geom for geom in geoms if int(kinds[geom]) not in (PLANE, HFIELD)]
-    return found if len(found) > ENOUGH - 1 else []
-
-
-def _fixed(of: Simulation) -> list[int]:
-    """The geoms of the world itself, where a robot is all that there is; scenery may stand anywhere."""
-    return [] if roots(of) else [*of.geoms_of(0)]
+def _places(of: Simulation) -> dict[int, dict[int, Vector]]:
+    """Where the geoms are that have an end and may move, by the root of their mechanism."""
+    owners, bodies, kinds = root_of(of), of.model("geom_bodyid"), of.model("geom_type")
+    made: dict[int, dict[int, Vector]] = {}
+    for geom, kind in enumerate(kinds):
+        root = owners[int(bodies[geom])]
+        if root and int(kind) not in (PLANE, HFIELD):
+            made.setdefault(root, {})[geom] = of.data_row("geom_xpos", geom, 3)
+    return made
 
 
 def _far(of: Simulation, root: int, geom: int) -> float:
     of.begin()
-    places = {each: of.data_row("geom_xpos", each, 3) for each in _geoms(of, root)}
+    return _apart(of, _places(of)[root], geom)
+
+
+def _apart(of: Simulation, places: dict[int, Vector], geom: int) -> float:
+    """How far a geom is from the nearest other one, in sizes of the box around the others."""
     others = [place for each, place in places.items() if each != geom]
     sides = [max(axis) - min(axis) for axis in zip(*others, strict=True)]
     size = math.hypot(*sides) + 2 * max(of.model("geom_rbound")[each] for each in places if each != geom)
-    return min(math.dist(places[geom], place) for place in others) / size if size > 0 else 0.0
+    return min(math.dist(places[geom], other) for other in others) / size if size > 0 else 0.0

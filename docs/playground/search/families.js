@@ -10,6 +10,9 @@ const IDLE = new Set(
   ).split(" "),
 );
 
+const SMOOTH = 0.3;
+const VAGUE = 0.7;
+
 /** @typedef {Record<string, Record<string, number>>} Counts how often each stem stands in what people say of each family */
 
 /**
@@ -22,13 +25,18 @@ export function shares(counts) {
   const own = new Map();
   for (const users of table.values()) for (const [family, count] of Object.entries(users)) own.set(family, (own.get(family) ?? 0) + count);
   const everything = sum(own.values());
+  const smooth = SMOOTH * table.size;
   return (query) => {
     const said = [...stemmed(query)].map((stem) => table.get(stem)).filter((users) => users !== undefined);
     if (!said.length) return new Map();
     const odds = [...own].map(([family, total]) => {
-      const inside = said.map((users) => Math.log((1 + (users[family] ?? 0)) / (total + table.size)));
-      const outside = said.map((users) => Math.log((1 + sum(Object.values(users)) - (users[family] ?? 0)) / (everything - total + table.size)));
-      return /** @type {[string, number]} */ ([family, sum(inside) - sum(outside)]);
+      const each = said.map((users) => {
+        const all = sum(Object.values(users));
+        const inside = (SMOOTH + (users[family] ?? 0)) / (total + smooth);
+        const outside = (SMOOTH + all - (users[family] ?? 0)) / (everything - total + smooth);
+        return (1 - VAGUE * entropy(Object.values(users).map((count) => count / all), own.size)) * Math.log(inside / outside);
+      });
+      return /** @type {[string, number]} */ ([family, sum(each)]);
     });
     const best = Math.max(...odds.map(([, value]) => value));
     const weights = odds.map(([, value]) => Math.exp(value - best));
@@ -46,9 +54,14 @@ export function told(counts, queries) {
 /** @param {Iterable<number>} numbers */
 const sum = (numbers) => [...numbers].reduce((total, number) => total + number, 0);
 
+/** @param {number[]} shares @param {number} base of the logarithm */
+const entropy = (shares, base) => -sum(shares.map((share) => (share * Math.log(share)) / Math.log(base)));
+
 /** @param {string} text @returns {Set<string>} */
 function stemmed(text) {
   const found = text.toLowerCase().replace(/n['’]t\b/g, " not").match(/[a-z0-9_]+/g) ?? [];
   const stems = found.filter((word) => !IDLE.has(word)).map((word) => word.replace(SUFFIX, "").replace(DOUBLE, "$1"));
-  return new Set(stems.map((stem) => (NOT.has(stem) ? "not" : stem)));
+  const said = stems.map((stem) => (NOT.has(stem) ? "not" : stem));
+  const denied = [1, 2].flatMap((gap) => said.slice(gap).map((stem, at) => (said[at] === "not" ? `not ${stem}` : "")));
+  return new Set([...said, ...denied.filter(Boolean)]);
 }

@@ -19,6 +19,8 @@ NOT = {"no", "never", "cannot", "without", "unable", "fail", "nothing", "nobody"
 LEAST = 0.2  # the likelihood from which on a family is named
 OFTEN = 3  # how often a stem stands somewhere, to be known
 BESIDE = 0.4  # what a word counts that stands beside the symptom
+SMOOTH = 0.3  # what is added to every count of a stem
+VAGUE = 0.7  # how much less a stem counts that all families share alike
 IDLE = """a an and are as at be been but by can did do does doing done for from had has have i if in is it its me my of
 on or so that the their them there they this to was we were when while with you your mujoco simulation"""
 
@@ -73,20 +75,25 @@ def family_shares(text: str, counts: StemCounts | None = None) -> dict[str, floa
     """How likely the text speaks of each family, likeliest first; they sum to 1. Empty if it has no word of any.
 
     Each stem that people use for a symptom counts by the odds that it is of this family and of no other one: the
-    complement naive Bayes of Rennie et al., *Tackling the Poor Assumptions of Naive Bayes Text Classifiers*, 2003.
+    complement naive Bayes of Rennie et al., *Tackling the Poor Assumptions of Naive Bayes Text Classifiers*, 2003. It
+    counts the less, the more evenly families share it: by its entropy, as in the log-entropy weights of Dumais,
+    *Improving the Retrieval of Information from External Sources*, 1991.
     """
     own = totals(counts) if counts else _own_totals()
     counts = counts or stem_counts()
     said = sorted({stem for stem in _stems(text) if stem in counts})
     if not said:
         return {}
-    everything, smooth = sum(own.values()), len(counts)
-    odds = {}
-    for name, total in own.items():
-        here = [counts[stem].get(name, 0) for stem in said]
-        rest = [sum(counts[stem].values()) - count for stem, count in zip(said, here, strict=True)]
-        inside = sum(math.log((1 + count) / (total + smooth)) for count in here)
-        odds[name] = inside - sum(math.log((1 + count) / (everything - total + smooth)) for count in rest)
+    everything, smooth = sum(own.values()), SMOOTH * len(counts)
+    odds = dict.fromkeys(own, 0.0)
+    for users in (counts[stem] for stem in said):
+        users_of_all = sum(users.values())
+        shares = [count / users_of_all for count in users.values() if count]
+        entropy = -sum(share * math.log(share, len(own)) for share in shares)
+        for name, total in own.items():
+            inside = (SMOOTH + users.get(name, 0)) / (total + smooth)
+            outside = (SMOOTH + users_of_all - users.get(name, 0)) / (everything - total + smooth)
+            odds[name] += (1 - VAGUE * entropy) * math.log(inside / outside)
     weights = {name: math.exp(value - max(odds.values())) for name, value in odds.items()}
     sum_of_all = sum(weights.values())
     return {name: weights[name] / sum_of_all for name in sorted(weights, key=lambda name: -round(odds[name], 9))}
@@ -127,7 +134,12 @@ def sayings() -> dict[str, list[str]]:
 
 
 def _stems(text: str) -> list[str]:
-    """The words of a text without endings, in order; idle ones are left out, and `not` stands for every no."""
+    """The words of a text without endings, in order; idle ones are left out, and `not` stands for every no.
+
+    What is denied follows as a pair: `not mov`.
+    """
     words = re.findall(r"[a-z0-9_]+", re.sub(r"n['\u2019]t\b", " not", text.lower()))
     stems = (DOUBLE.sub(r"\1", SUFFIX.sub("", word)) for word in words if word not in IDLE.split())
-    return ["not" if stem in NOT else stem for stem in stems]
+    said = ["not" if stem in NOT else stem for stem in stems]
+    denied = [f"not {stem}" for gap in (1, 2) for no, stem in zip(said, said[gap:], strict=False) if no == "not"]
+    return said + denied

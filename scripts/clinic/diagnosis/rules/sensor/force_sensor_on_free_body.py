@@ -48,7 +48,8 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit, replace
 from clinic.diagnosis.probes.touched import FORCE, TORQUE, touched, unread
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A force sensor on a free body"
 FAMILIES = ("sensor-reads-zero",)
@@ -65,11 +66,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     kinds, of, owners = (simulation.model(name) for name in ("sensor_type", "sensor_objid", "site_bodyid"))
     for sensor, seen in touched(simulation).items():
         site = int(of[sensor])
-        if (
-            int(kinds[sensor]) not in (FORCE, TORQUE)
-            or int(owners[site]) not in simulation.free_bodies
-            or not seen.carried
-        ):
+        if int(kinds[sensor]) not in (FORCE, TORQUE) or int(owners[site]) not in simulation.free_bodies:
+            continue
+        if not seen.carried:
+            yield _idle(simulation, sensor, site)
             continue
         element = model.element("sensor", sensor)
         if element is None:
@@ -84,3 +84,20 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         )
         says = f"Contacts carry {seen.carried:.3g} N, the sensor reads {seen.reading:.3g}: the body has no parent."
         yield Suspect(names, element.tag, element.tag, "touch", edits, unread(sensor), MOST, says)
+
+
+def _idle(simulation: Simulation, sensor: int, site: int) -> Suspect:
+    """Such a sensor whose own body touched nothing: what it should read shows in no run."""
+    names = tuple(
+        simulation.name(kind, index)
+        for kind, index in (("sensor", sensor), ("site", site), ("body", int(simulation.model("site_bodyid")[site])))
+    )
+    says = (
+        "It reads 0 whatever happens: the body has no parent. A site in a body that hangs on it reads what that holds."
+    )
+    probe = Probe("sensors of a body without a parent", "", _one, dynamic=False)
+    return Suspect(names, "site", "", "one in a body below", (), probe, 0.5, says, "0", level="hint")
+
+
+def _one(_: Simulation) -> float:
+    return 1.0

@@ -32,7 +32,8 @@ Good:
     </mujoco>
 
 The number: after 1 s at each end of the control range the joint is more than 30 % of its range beyond a limit; or
-a hinge's targets lie more than 120 % of its range beyond (0.56 is the most in 55 healthy models with servos).
+a hinge's targets lie more than 120 % of its range beyond (0.56 is the most in 55 healthy models with servos). A hint
+tells of some servos among others with targets more than 25 % of the range beyond.
 
 When it is wrong: a target beyond the limit as a way to command a force, as grippers do.
 """
@@ -46,7 +47,7 @@ from clinic.diagnosis.probes.press import past_limit
 from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Level, Probe, Suspect
 
 TITLE = "The control range goes beyond the joint's range"
 FAMILIES = ("passes-limit", "stuck", "explodes")
@@ -75,11 +76,18 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     wide = [each for each in servos(simulation) if beyond(each) > BEYOND and not _of_the_joint(each)]
     far = [each for each in wide if each.hinge and beyond(each) > FAR and not _amplified(model, each)]
     rest = [each for each in wide if each not in far]
-    if rest and model.measured(past_limit([each.actuator for each in rest])) > PAST:
+    rest = rest if rest and model.measured(past_limit([each.actuator for each in rest])) > PAST else []
+    if rest:
         rest = [each for each in rest if model.measured(past_limit([each.actuator])) > PAST]
         yield from _suspect(model, rest, past_limit([each.actuator for each in rest]), PAST)
-    numbers = tuple(each.actuator for each in far)
-    yield from _suspect(model, far, Probe(TITLE_OF_FAR, "", _farthest, (numbers,), dynamic=False), FAR)
+    yield from _suspect(model, far, _farthest_of(far), FAR)
+    quiet = [each for each in wide if each not in far and each not in rest and not _amplified(model, each)]
+    if 0 < 2 * len(quiet) <= len(servos(simulation)):
+        yield from _suspect(model, quiet, _farthest_of(quiet), BEYOND, "hint")
+
+
+def _farthest_of(found: list[Servo]) -> Probe:
+    return Probe(TITLE_OF_FAR, "", _farthest, (tuple(each.actuator for each in found),), dynamic=False)
 
 
 def _farthest(simulation: Simulation, actuators: tuple[int, ...]) -> float:
@@ -91,7 +99,9 @@ def _amplified(model: ReaderModel, servo: Servo) -> bool:
     return abs(abs(servo.scale * model.simulation.model("actuator_gear")[6 * servo.actuator]) - 1) > 0.05
 
 
-def _suspect(model: ReaderModel, found: list[Servo], probe: Probe, limit: float) -> Iterator[Suspect]:
+def _suspect(
+    model: ReaderModel, found: list[Servo], probe: Probe, limit: float, level: Level = "cause"
+) -> Iterator[Suspect]:
     simulation = model.simulation
     if not found:
         return
@@ -111,6 +121,7 @@ def _suspect(model: ReaderModel, found: list[Servo], probe: Probe, limit: float)
         f"{simulation.name('joint', worst.joint)}, whose range is {worst.range[0]:.3g} to {worst.range[1]:.3g}"
         f"{in_degrees(worst)}.",
         'the joint\'s range (inheritrange="1")',
+        level=level,
     )
 
 

@@ -34,7 +34,7 @@ Good:
 The number: the model's own weight at the joint over the gain, in the worst of 17 poses: more than 0.3 rad (0.3 m),
 0.55 rad where the base is free: legs that a learned policy drives go up to 0.5.
 Or more than 45 % of a step of 0.1 rad is left after 1 s, without gravity. Where the base is fixed, a hint tells of
-hinges that sag by more than 0.1 rad, and of slides that sag by more than 5 % of their range: fingers with 50 mm that
+hinges that sag by more than 0.085 rad, and of slides that sag by more than 5 % of their range: fingers with 50 mm that
 swing by 5 mm as the arm turns.
 
 When it is wrong: a controller that adds the weight itself. `gravcomp="1"` on the bodies takes the load away as well.
@@ -62,7 +62,7 @@ LATE = 0.6  # s: the time constant above which a step is tried
 SLOW = 4.0  # rad/s: the natural frequency below which it is
 LEFT = 0.45
 SAG, WALKS = 0.3, 0.55  # rad of a hinge, m of a slide; rad where the robot is free and stands on its feet
-LITTLE, SHARE = 0.1, 0.05  # rad of a hinge, share of the range of a slide, of which a hint tells
+LITTLE, SHARE = 0.085, 0.05  # rad of a hinge, share of the range of a slide, of which a hint tells
 GOOD = {True: (0.02, 0.08, 0.2), False: (0.002, 0.008, 0.02)}  # rad or m that may be left, the best first
 
 
@@ -125,7 +125,7 @@ def _little(model: ReaderModel, found: dict[int, float]) -> Iterator[Suspect]:
             sag([each.actuator for each in weak]),
             4 * good,
             f"The weight at {of.name('joint', worst.joint)}, up to {load:.3g} {'N m' if hinge else 'N'}, moves it "
-            f"{sagging:.2g} {worst.unit} off its target{share}.",
+            f"{sagging:.2g} {worst.unit} off its target{share}, unless gravcomp takes the weight away.",
             f"below {LITTLE:g} rad, or 5 % of the range of a slide",
             level="hint",
         )

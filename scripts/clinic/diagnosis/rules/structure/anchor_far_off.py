@@ -37,8 +37,9 @@ Good:
       </equality>
     </mujoco>
 
-The number: the distance of the anchor from the nearer of the two bodies over that body's own size; more than 3. Where
-the same numbers, read as a place in the world, lie on a body, the edit is that place in the first body's frame.
+The number: the distance of the anchor from the nearer of the two bodies over that body's own size; more than 0.3, and 0
+in all of the 12 healthy models that connect bodies. Where the same numbers, read as a place in the world, lie on a
+body, the edit is that place in the first body's frame.
 
 When it is wrong: a rod that was left out of the drawing on purpose.
 """
@@ -61,7 +62,7 @@ LEVEL = "hint"
 UNPLANTED = "the healthy models connect nothing by an anchor"
 
 CONNECT, BODY = 0, 1  # mjtEq, mjtObj
-FAR = 3.0  # times the body's size
+FAR = 0.3  # times the body's size
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

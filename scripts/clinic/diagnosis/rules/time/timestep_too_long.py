@@ -68,7 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         before = model.measured(probe)
         if before <= limit:
             continue
-        for divisor in (2, 4, 8, 16, 32, 64):
+        for divisor in (2, 4, 8, 16):
             if probe == pressed_in() and of.steps(divisor * SECONDS) < WHOLE * divisor * of.steps(SECONDS):
                 break  # a run cut short may be calm because nothing has been touched yet; what explodes does so early
             edits = model.option("timestep", f"{step / divisor:g}")

@@ -1,0 +1,85 @@
+"""A free object weighs what water of its size weighs: nobody said its mass.
+
+Without `mass`, `density` or `<inertial>` MuJoCo fills a geom with 1000 kg/m3. A cardboard box of 30 cm then has 27 kg:
+no arm lifts it, and it pushes the robot away.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <body name="parcel" pos="0 0 0.2">
+          <freejoint/>
+          <geom type="box" size="0.2 0.2 0.2"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <body name="parcel" pos="0 0 0.2">
+          <freejoint/>
+          <geom type="box" size="0.2 0.2 0.2" mass="2"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the mass of a free body alone, where no geom of it has a `mass` or a `density` but 0: more than 5 kg. Of 289
+healthy models one has such an object, a ball of 14 kg.
+
+When it is wrong: a block of wood, ice or water of that size.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.inertia import inertial
+from clinic.diagnosis.probes.matter import mass_of
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect, rounded
+
+TITLE = "An object as heavy as water"
+FAMILIES = ("wrong-mass", "stuck", "sags")
+SINCE = "0.2"
+LEVEL = "hint"
+UNPLANTED = "what an object should weigh, only its maker knows"
+
+HEAVY = 5.0  # kg
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The free bodies of the default density that are heavy, all together."""
+    of = model.simulation
+    parents, masses = of.model("body_parentid"), of.model("body_mass")
+    found = [
+        body
+        for body in of.free_bodies
+        if masses[body] > HEAVY
+        and body not in parents
+        and model.element("body", body) is not None
+        and inertial(model, body) is None
+        and all(_weight(model, geom, name) for geom in of.geoms_of(body) for name in ("mass", "density"))
+    ]
+    if found:
+        worst = max(found, key=lambda body: masses[body])
+        yield Suspect(
+            tuple(of.name("body", body) for body in found),
+            "density",
+            "1000 (default)",
+            "that of the object",
+            (),
+            mass_of((worst,)),
+            HEAVY,
+            f"{of.name('body', worst)} weighs {rounded(masses[worst])} kg: nothing says its mass, and the default is "
+            "that of water.",
+            "below 5 kg, or with a mass of its own",
+        )
+
+
+def _weight(model: ReaderModel, geom: int, attribute: str) -> bool:
+    """Whether nothing is written, or that the geom weighs nothing."""
+    return not float(model.value("geom", geom, attribute) or "0")

@@ -1,0 +1,90 @@
+"""A motor that takes seconds to set its joint moving.
+
+`ctrlrange` times `gear` is the most that a motor gives. On a mass that was left to its geoms' density, or with a gear
+that was forgotten, it barely moves what it drives.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body>
+          <joint name="x" type="slide" axis="1 0 0" damping="1"/>
+          <geom type="capsule" size="0.1 0.1" euler="0 90 0"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor joint="x" ctrlrange="-3 3"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body>
+          <joint name="x" type="slide" axis="1 0 0" damping="1"/>
+          <geom type="capsule" size="0.1 0.1" euler="0 90 0"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor joint="x" ctrlrange="-3 3" gear="100"/>
+      </actuator>
+    </mujoco>
+
+The number: the inertia at the joint over the motor's greatest force or torque, more than 1 s2/m or 1 s2/rad: it takes a
+second and more to 1 m/s or 1 rad/s. Of the 289 healthy models one robot's have such a joint.
+
+When it is wrong: large things that are meant to be slow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect, rounded
+
+TITLE = "A motor too weak for what it moves"
+FAMILIES = ("stuck", "sags", "slow")
+SINCE = "0.2"
+LEVEL = "hint"
+UNPLANTED = "how fast a joint should be, its maker knows"
+
+SLOW = 1.0  # s2/m, s2/rad
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The motors with a limit that barely move their joints, all together."""
+    of = model.simulation
+    found = [each for each in range(of.count("actuator")) if _slow(of, each) > SLOW]
+    if not found:
+        return
+    worst = max(found, key=lambda each: _slow(of, each))
+    joint = of.driven_joint(worst) or 0
+    hinge = of.joint_type(joint) == HINGE
+    gear, unit = of.model("actuator_gear")[6 * worst], "rad" if hinge else "m"
+    yield Suspect(
+        tuple(of.name("actuator", each) for each in found),
+        "gear",
+        f"{gear:g}",
+        rounded(10 * gear * _slow(of, worst)),
+        (),
+        Probe("inertia over the motor's force", f"s2/{unit}", _slow, (worst,), dynamic=False),
+        SLOW,
+        f"{of.name('joint', joint)} gains {1 / _slow(of, worst):.2g} {unit}/s in a second at full control.",
+        "1.5 m/s2 and 1.5 rad/s2 are the least of healthy models but one",
+    )
+
+
+def _slow(of: Simulation, actuator: int) -> float:
+    """Inertia over force of a limited motor; 0 for any other actuator."""
+    joint = of.driven_joint(actuator)
+    kinds = [int(of.model(f"actuator_{kind}")[actuator]) for kind in ("gaintype", "biastype", "dyntype")]
+    if joint is None or any(kinds) or not of.model("actuator_ctrllimited")[actuator]:
+        return 0.0
+    gain = of.row("actuator_gainprm", actuator, len(of.model("actuator_gainprm")) // of.count("actuator"))[0]
+    control = max(map(abs, of.row("actuator_ctrlrange", actuator, 2)))
+    force = abs(control * gain * of.row("actuator_gear", actuator, 6)[0])
+    return of.mass_diagonal[of.dof(joint)] / force if force > 0 else 0.0

@@ -1,0 +1,101 @@
+"""What is called left is on the right.
+
+The two wheels or cameras of a pair are exchanged: the robot turns to the right when it is told to turn left, and depth
+that is computed from both images is negative.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="head" pos="0 0 1">
+          <freejoint/>
+          <geom type="box" size="0.05 0.1 0.05"/>
+          <camera name="left_eye" pos="0.05 -0.03 0" xyaxes="0 -1 0 0 0 1"/>
+          <camera name="right_eye" pos="0.05 0.03 0" xyaxes="0 -1 0 0 0 1"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="head" pos="0 0 1">
+          <freejoint/>
+          <geom type="box" size="0.05 0.1 0.05"/>
+          <camera name="left_eye" pos="0.05 0.03 0" xyaxes="0 -1 0 0 0 1"/>
+          <camera name="right_eye" pos="0.05 -0.03 0" xyaxes="0 -1 0 0 0 1"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: how far the left one is to the right of the other: along the image of two cameras that look the same way;
+for wheels, hinges without limits, against y, where x is forward. Of 289 healthy models none has such a pair.
+
+When it is wrong: a robot whose forward is not x; names that are those of the viewer who stands in front of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.probes.pairs import right_of
+from clinic.diagnosis.probes.vector import Vector, dot, norm, sub
+from clinic.diagnosis.probes.view import axes
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "What is called left is on the right"
+FAMILIES = ("drifts", "camera", "wrong-numbers")
+SINCE = "0.2"
+LEVEL = "hint"
+UNPLANTED = "which side is which, only the names of a pair tell"
+
+LEAST, ALIKE = 0.005, 0.9  # m; cosine between the views of two cameras
+Y: Vector = (0.0, 1.0, 0.0)
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Pairs of cameras and of wheels that are exchanged."""
+    of = model.simulation
+    for kind, field in (("camera", "cam_xpos"), ("body", "xpos")):
+        for left, right in _pairs(of, kind):
+            off = _to_the_right(of, kind, left, right)
+            if off <= LEAST:
+                continue
+            names = (of.name(kind, left), of.name(kind, right))
+            now = " ".join(f"{x:.4g}" for x in of.data_row(field, left, 3))
+            probe = Probe("left one is to the right by", "m", _to_the_right, (kind, left, right), dynamic=False)
+            says = f"{names[0]} is {off:.3g} m to the right of {names[1]}."
+            yield Suspect(names, "pos", now, f"that of {names[1]}", (), probe, LEAST, says, "on its own side")
+
+
+def _pairs(of: Simulation, kind: str) -> Iterator[tuple[int, int]]:
+    names = of.names(kind)
+    places = {name: index for index, name in enumerate(names) if name}
+    for name, left in places.items():
+        right = next((places[other] for other in right_of(name) if other in places), None)
+        if right is not None and (kind == "camera" or (_wheel(of, left) and _wheel(of, right))):
+            yield left, right
+
+
+def _wheel(of: Simulation, body: int) -> bool:
+    """Whether a body turns without limits about an axis across the way forward."""
+    joints = of.joints_of(body)
+    if len(joints) != 1 or of.joint_type(joints[0]) != HINGE or of.model("jnt_limited")[joints[0]]:
+        return False
+    of.begin()
+    return abs(of.data_row("xaxis", joints[0], 3)[1]) > ALIKE
+
+
+def _to_the_right(of: Simulation, kind: str, left: int, right: int) -> float:
+    of.begin()
+    if kind == "body":
+        between = sub(of.data_row("xpos", right, 3), of.data_row("xpos", left, 3))
+        return dot(between, Y) if abs(dot(between, Y)) > 0.8 * norm(between) else 0.0
+    (across, _, forward), (_, _, other) = axes(of, left), axes(of, right)
+    between = sub(of.data_row("cam_xpos", left, 3), of.data_row("cam_xpos", right, 3))
+    aside = dot(between, across)
+    return aside if dot(forward, other) > ALIKE and abs(aside) > 0.8 * norm(between) else 0.0

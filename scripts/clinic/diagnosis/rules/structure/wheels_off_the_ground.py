@@ -1,0 +1,153 @@
+"""Something of a wheeled robot reaches lower than its wheels.
+
+A caster or a skid that is some millimetres too low takes the weight, the robot tilts and the wheels slip. A URDF whose
+`base_footprint` is not where the wheels touch the ground puts the robot into the floor, or above it.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <body name="base" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="box" size="0.15 0.08 0.03"/>
+          <geom name="caster" size="0.02" pos="0.12 0 -0.04"/>
+          <body name="left_wheel" pos="-0.1 0.1 0">
+            <joint axis="0 1 0"/>
+            <geom type="cylinder" size="0.05 0.01" zaxis="0 1 0"/>
+          </body>
+          <body name="right_wheel" pos="-0.1 -0.1 0">
+            <joint axis="0 1 0"/>
+            <geom type="cylinder" size="0.05 0.01" zaxis="0 1 0"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <body name="base" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="box" size="0.15 0.08 0.03"/>
+          <geom name="caster" size="0.02" pos="0.12 0 -0.03"/>
+          <body name="left_wheel" pos="-0.1 0.1 0">
+            <joint axis="0 1 0"/>
+            <geom type="cylinder" size="0.05 0.01" zaxis="0 1 0"/>
+          </body>
+          <body name="right_wheel" pos="-0.1 -0.1 0">
+            <joint axis="0 1 0"/>
+            <geom type="cylinder" size="0.05 0.01" zaxis="0 1 0"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: how far below the wheels the lowest other geom reaches at the start, or how far a root that is called a
+footprint is from the ground under the wheels: more than 1 mm, and less than a wheel's radius.
+
+When it is wrong: wheels that are let down later, on a suspension.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import CYLINDER, HINGE, SPHERE
+from clinic.diagnosis.probes.shape import box, root_of, solid
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A part reaches lower than the wheels"
+FAMILIES = ("drifts", "slips", "jumps-at-start", "stuck")
+SINCE = "0.2"
+AFLOAT = True
+LEVEL = "hint"
+UNPLANTED = "nearly no healthy model stands on wheels"
+
+LEAST, LEVEL_ENOUGH = 0.001, 0.1  # m; of the axle's direction along the vertical
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Geoms below the wheels of their robot, and footprints that are off the ground."""
+    of = model.simulation
+    of.begin()
+    for root, wheels in _wheels(of).items():
+        ground, radius = min(_bottom(of, geom) for geom in wheels), of.model("geom_size")[3 * wheels[0]]
+        others = [geom for geom in _others(of, root, wheels) if LEAST < ground - _bottom(of, geom) < radius]
+        if others:
+            low = min(others, key=lambda geom: _bottom(of, geom))
+            body = of.name("body", int(of.model("geom_bodyid")[low]))
+            below = 1000 * (ground - _bottom(of, low))
+            probe = Probe("below the wheels by", "m", _below, (root, low), dynamic=False)
+            says = f"It reaches {below:.3g} mm lower than the wheels."
+            where = " ".join(f"{x:.4g}" for x in of.row("geom_pos", low, 3))
+            yield Suspect(
+                (of.name("geom", low), body), "pos", where, f"{below:.3g} mm higher", (), probe, LEAST, says, "0"
+            )
+        off = _footprint_off(of, root)
+        if LEAST < abs(off) < radius and "footprint" in of.engine.name("body", root):
+            probe = Probe("footprint off the ground by", "m", _far_off, (root,), dynamic=False)
+            where = "above" if off > 0 else "below"
+            says = f"It is {1000 * abs(off):.3g} mm {where} the ground on which the wheels stand."
+            lower = "higher" if off > 0 else "lower"
+            value = f"the robot {1000 * abs(off):.3g} mm {lower}"
+            names = (of.name("body", root), *(of.name("body", body) for body in _children(of, root)))
+            yield Suspect(names, "pos", "", value, (), probe, LEAST, says, "0")
+
+
+def _wheels(of: Simulation) -> dict[int, list[int]]:
+    """The round geoms of bodies on level hinges without limits, by the root of their robot; two and more."""
+    made: dict[int, list[int]] = {}
+    for joint in range(of.count("joint")):
+        body = int(of.model("jnt_bodyid")[joint])
+        if of.joint_type(joint) != HINGE or of.model("jnt_limited")[joint]:
+            continue
+        if abs(of.data_row("xaxis", joint, 3)[2]) < LEVEL_ENOUGH:
+            made.setdefault(root_of(of)[body], []).extend(geom for geom in of.geoms_of(body) if _round(of, geom))
+    return {root: geoms for root, geoms in made.items() if len(geoms) > 1}
+
+
+def _round(of: Simulation, geom: int) -> bool:
+    kind = int(of.model("geom_type")[geom])
+    lies = abs(of.data_row("geom_xmat", geom, 9)[8]) < LEVEL_ENOUGH
+    return solid(of, geom) and (kind == SPHERE or (kind == CYLINDER and lies))
+
+
+def _others(of: Simulation, root: int, wheels: list[int]) -> list[int]:
+    owners, bodies = root_of(of), of.model("geom_bodyid")
+    turning = {int(bodies[geom]) for geom in wheels}
+    return [
+        geom
+        for geom, body in enumerate(bodies)
+        if owners[int(body)] == root and int(body) not in turning and solid(of, geom)
+    ]
+
+
+def _children(of: Simulation, root: int) -> list[int]:
+    return [body for body, parent in enumerate(of.model("body_parentid")) if int(parent) == root and body != root]
+
+
+def _bottom(of: Simulation, geom: int) -> float:
+    kind, middle = int(of.model("geom_type")[geom]), of.data_row("geom_xpos", geom, 3)[2]
+    if kind == SPHERE or (kind == CYLINDER and abs(of.data_row("geom_xmat", geom, 9)[8]) < LEVEL_ENOUGH):
+        return middle - of.model("geom_size")[3 * geom]
+    centre, half = box(of, tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat")), geom)
+    return centre[2] - half[2]
+
+
+def _below(of: Simulation, root: int, geom: int) -> float:
+    of.begin()
+    return min(_bottom(of, wheel) for wheel in _wheels(of)[root]) - _bottom(of, geom)
+
+
+def _footprint_off(of: Simulation, root: int) -> float:
+    return of.data_row("xpos", root, 3)[2] - min(_bottom(of, wheel) for wheel in _wheels(of)[root])
+
+
+def _far_off(of: Simulation, root: int) -> float:
+    of.begin()
+    return abs(_footprint_off(of, root))

@@ -31,7 +31,8 @@ The number: the deepest overlap at the start as a share of how far the thing rea
 well. Robots are often pressed into the floor by a few millimetres.
 
 When it is wrong: code that puts everything into its place after the reset. Bodies that all begin at the origin look
-like that and are left alone.
+like that and are left alone; where an arm that is fixed to the world takes part, or a robot that begins outside of its
+joints' ranges, there is only a hint.
 """
 
 from __future__ import annotations
@@ -39,11 +40,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
-from clinic.diagnosis.engine import BOX, FREE, PLANE
+from clinic.diagnosis.engine import BOX, FREE, HINGE, PLANE, SLIDE, Contact
 from clinic.diagnosis.probes.overlap import at_start, beginning, buried
 from clinic.diagnosis.probes.shape import box, geoms_of_tree, root_of
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Level, Suspect
 
 TITLE = "Something begins inside of something else"
 FAMILIES = ("jumps-at-start", "sinks", "explodes")
@@ -89,7 +91,27 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             says += " The size of a box is half of its edge."
             yield Suspect(geoms, "size", "", halved[0].value, halved, at_start(), MOST, says, excess=2.0)
         else:
-            yield Suspect((*names, *geoms), "pos", "", lifted, edits, at_start(), MOST, says, excess=2.0)
+            level: Level = "hint" if any(_posed(simulation, root) for root in _trees(simulation, found)) else "cause"
+            yield Suspect((*names, *geoms), "pos", "", lifted, edits, at_start(), MOST, says, excess=2.0, level=level)
+
+
+def _trees(simulation: Simulation, found: dict[int, tuple[float, Contact]]) -> set[int]:
+    """The mechanisms that are buried, and those in which something is."""
+    bodies, owner = simulation.model("geom_bodyid"), root_of(simulation)
+    return {owner[int(bodies[geom])] for _, contact in found.values() for geom in contact.geoms}
+
+
+def _posed(simulation: Simulation, root: int) -> bool:
+    """Whether code must have another start for a mechanism: it is an arm on the world, or begins outside of a range."""
+    owner, limited = root_of(simulation), simulation.model("jnt_limited")
+    joints = [joint for joint, body in enumerate(simulation.model("jnt_bodyid")) if owner[int(body)] == root]
+    turning = [joint for joint in joints if simulation.joint_type(joint) in (HINGE, SLIDE)]
+    if not root or not turning or simulation.begin_with.key >= 0:
+        return False
+    simulation.begin()
+    ranges = {joint: simulation.row("jnt_range", joint, 2) for joint in turning if limited[joint]}
+    outside = (not low - 1e-6 <= simulation.position(joint) <= high + 1e-6 for joint, (low, high) in ranges.items())
+    return root not in simulation.free_bodies or any(outside)
 
 
 def _halved(model: ReaderModel, roots: Iterable[int]) -> tuple[Edit, ...]:

@@ -43,13 +43,15 @@ Good:
 
 The number: wheels that touch the floor, below a body that nothing can move. A wheel is a hinge without limits whose
 round geom has its middle on the axis. Legs are two limbs and more of a body in the air whose ends are within 15 % of
-its height of the floor.
+its height of the floor; in MJCF also two and more that are called so (hip, thigh, knee, shin, foot, ...),
+or limbs of a body whose gyro, accelerometer or velocimeter can never read a motion.
 
-When it is wrong: a test bench with rollers.
+When it is wrong: a test bench with rollers, or a robot on a stand.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import insert
@@ -64,10 +66,14 @@ FAMILIES = ("stuck",)
 SINCE = "0.2"
 LEVEL = "hint"
 
+LEG = re.compile(r"(?<![a-z])[lr]?(hip|thigh|knee|calf|shin|ankle|leg|foot|femur|tibia)(?![a-z])", re.IGNORECASE)
+MOTION = (1, 2, 3)  # mjtSensor: accelerometer, velocimeter, gyro
+
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """The body without a joint that carries wheels on the floor."""
-    wheels = _wheels(model.simulation) or _feet(model.simulation)
+    """The body without a joint that carries wheels on the floor, or legs."""
+    urdf = model.source is not None and model.source.urdf  # each has a fixed root: MuJoCo makes it the world
+    wheels = _limbs(model.simulation, by_name=not urdf)
     of, parents = model.simulation, model.simulation.model("body_parentid")
     roots = set()
     for body in wheels:
@@ -75,14 +81,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         while parents[root]:
             root = int(parents[root])
         roots.add(root)
-    if len(wheels) < 2 or len(roots) != 1:
+    if len(roots) != 1:
         return
     root = roots.pop()
     element = model.element("body", root)
-    urdf = model.source is not None and model.source.urdf
     edits = (insert(element, "<freejoint/>"),) if element is not None and not urdf else ()
-    says = f"{len(wheels)} wheels or legs reach the floor, and no joint lets the body that carries them move."
-    probe = Probe("wheels and legs on the floor below a fixed body", "", _count, dynamic=False)
+    says = f"{len(wheels)} wheels or legs hang on it, and no joint lets it move."
+    probe = Probe("wheels and legs of a fixed body", "", _count, (not urdf,), dynamic=False)
     yield Suspect((of.name("body", root),), "freejoint", "left out", "<freejoint/>", edits, probe, 1.5, says, "none")
 
 
@@ -110,8 +115,44 @@ def _feet(of: Simulation) -> list[int]:
     return made
 
 
-def _count(simulation: Simulation) -> float:
-    return float(len(_wheels(simulation) or _feet(simulation)))
+def _limbs(of: Simulation, *, by_name: bool) -> list[int]:
+    found = (find(of) for find in (_wheels, _feet, *([_called_legs] if by_name else [])))
+    return next((limbs for limbs in found if len(limbs) > 1), [])
+
+
+def _called_legs(of: Simulation) -> list[int]:
+    """The limbs of a fixed body that has two legs and more by their names, or that should feel motion."""
+    parents, moving = of.model("body_parentid"), set(of.moving_bodies)
+    names, joints = of.names("body"), of.names("joint")
+    limbs: dict[int, set[int]] = {}
+    legs: dict[tuple[int, str], list[int]] = {}
+    for body in of.moving_bodies:
+        above = [body]
+        while parents[above[-1]]:
+            above.append(int(parents[above[-1]]))
+        root = above[-1]
+        if root in moving:
+            continue
+        limbs.setdefault(root, set()).add(next(each for each in reversed(above) if each in moving))
+        called = [names[body], *(joints[joint] for joint in of.joints_of(body))]
+        called += [names[each] for each in above if each not in moving]
+        for leg in {found.group().lower() for name in called for found in LEG.finditer(name)}:
+            before = legs.setdefault((root, leg), [])
+            if not set(above) & set(before):
+                before.append(body)
+    found = [limbs[root] for (root, _), some in legs.items() if len(some) > 1 and len(limbs[root]) > 1]
+    found += [limbs[body] for body in _felt(of) if len(limbs.get(body, ())) > 1]
+    return sorted(found[0]) if found else []
+
+
+def _felt(of: Simulation) -> list[int]:
+    """The bodies whose motion a gyro, an accelerometer or a velocimeter measures."""
+    kinds, sites = of.model("sensor_type"), of.model("sensor_objid")
+    return [int(of.model("site_bodyid")[int(sites[i])]) for i, kind in enumerate(kinds) if int(kind) in MOTION]
+
+
+def _count(simulation: Simulation, by_name: bool) -> float:
+    return float(len(_limbs(simulation, by_name=by_name)))
 
 
 def _wheels(of: Simulation) -> list[int]:

@@ -17,7 +17,7 @@ SUFFIX = re.compile(r"(?<=[a-z]{3})(?:ations?|ings?|ies|ed|es|s|ly|e|y)$")
 DOUBLE = re.compile(r"([bdfglmnprtz])\1$")
 NOT = {"no", "never", "cannot", "without", "unable", "fail", "nothing", "nobody", "barely"}
 LEAST = 0.2  # the likelihood from which on a family is named
-OFTEN = 3  # how often a stem stands somewhere, to be known
+OFTEN = 4  # how often a stem stands somewhere, to be known
 BESIDE = 0.4  # what a word counts that stands beside the symptom
 SMOOTH = 0.3  # what is added to every count of a stem
 VAGUE = 0.7  # how much less a stem counts that all families share alike

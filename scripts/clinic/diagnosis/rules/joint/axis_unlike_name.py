@@ -62,6 +62,7 @@ FAR = 60.0  # degrees
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The slides of a model that go along another axis than they are called after, all together."""
     of = model.simulation
+    of.begin()
     slides = [joint for joint in range(of.count("joint")) if of.joint_type(joint) == SLIDE]
     said = {joint: axis for joint in slides if (axis := _said(of.engine.name("joint", joint))) is not None}
     found = [joint for joint in said if _off(of, joint, said[joint]) > FAR]
@@ -75,7 +76,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         written(of.row("jnt_axis", found[0], 3)),
         axes[found[0]],
         tuple(edit for joint in found for edit in model.set("joint", [joint], "axis", axes[joint])),
-        Probe("angle to the axis of the name", "degrees", _off, (found[0], said[found[0]]), dynamic=False),
+        Probe("angle to the axis of the name", "degrees", _at_start, (found[0], said[found[0]]), dynamic=False),
         FAR,
         f"{other[0]} goes along {'xyz'[_along(of, found[0])]}.",
         "the axis that the name says",
@@ -93,9 +94,13 @@ def _said(name: str) -> int | None:
 
 def _off(of: Simulation, joint: int, axis: int) -> float:
     """The angle in degrees between a slide and an axis, of the world or of its own frame, whichever is less."""
-    of.begin()
     most = max(abs(of.data_row("xaxis", joint, 3)[axis]), abs(of.row("jnt_axis", joint, 3)[axis]))
     return math.degrees(math.acos(min(1.0, most)))
+
+
+def _at_start(of: Simulation, joint: int, axis: int) -> float:
+    of.begin()
+    return _off(of, joint, axis)
 
 
 def _along(of: Simulation, joint: int) -> int:

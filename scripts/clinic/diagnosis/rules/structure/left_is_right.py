@@ -60,34 +60,41 @@ Y: Vector = (0.0, 1.0, 0.0)
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Pairs of cameras and of wheels that are exchanged."""
     of = model.simulation
-    for kind, field in (("camera", "cam_xpos"), ("body", "xpos")):
+    wheels = _wheels(of)
+    for kind in ("camera", "body"):
         for left, right in _pairs(of, kind):
+            if kind == "body" and not {left, right} <= wheels:
+                continue
             off = _to_the_right(of, kind, left, right)
             if off <= LEAST:
                 continue
             names = (of.name(kind, left), of.name(kind, right))
-            now = " ".join(f"{x:.4g}" for x in of.data_row(field, left, 3))
             probe = Probe("left one is to the right by", "m", _to_the_right, (kind, left, right), dynamic=False)
             says = f"{names[0]} is {off:.3g} m to the right of {names[1]}."
+            now = " ".join(f"{x:.4g}" for x in of.row("cam_pos" if kind == "camera" else "body_pos", left, 3))
             yield Suspect(names, "pos", now, f"that of {names[1]}", (), probe, LEAST, says, "on its own side")
 
 
 def _pairs(of: Simulation, kind: str) -> Iterator[tuple[int, int]]:
-    names = of.names(kind)
-    places = {name: index for index, name in enumerate(names) if name}
+    places = {name: index for index, name in enumerate(of.names(kind)) if name}
     for name, left in places.items():
         right = next((places[other] for other in right_of(name) if other in places), None)
-        if right is not None and (kind == "camera" or (_wheel(of, left) and _wheel(of, right))):
+        if right is not None:
             yield left, right
 
 
-def _wheel(of: Simulation, body: int) -> bool:
-    """Whether a body turns without limits about an axis across the way forward."""
-    joints = of.joints_of(body)
-    if len(joints) != 1 or of.joint_type(joints[0]) != HINGE or of.model("jnt_limited")[joints[0]]:
-        return False
+def _wheels(of: Simulation) -> set[int]:
+    """The bodies that turn without limits about an axis across the way forward."""
     of.begin()
-    return abs(of.data_row("xaxis", joints[0], 3)[1]) > ALIKE
+    axes_of_joints, bodies, limited = of.data("xaxis"), of.model("jnt_bodyid"), of.model("jnt_limited")
+    return {
+        int(body)
+        for joint, body in enumerate(bodies)
+        if of.joint_type(joint) == HINGE
+        and not limited[joint]
+        and abs(axes_of_joints[3 * joint + 1]) > ALIKE
+        and of.model("body_jntnum")[int(body)] == 1
+    }
 
 
 def _to_the_right(of: Simulation, kind: str, left: int, right: int) -> float:

@@ -44,6 +44,15 @@ def off_target(key: int) -> Probe:
     return Probe("distance of three quarters of the servos from their targets", "rad", _off, (key,), dynamic=False)
 
 
+def _farthest(simulation: Simulation, key: int) -> float:
+    return max((abs(target - at) for target, at in servos(simulation, key).values()), default=0.0)
+
+
+def farthest_target(key: int) -> Probe:
+    """How far the servo is from its target in a keyframe that is farthest from it."""
+    return Probe("distance of a servo from its target", "rad", _farthest, (key,), dynamic=False)
+
+
 def _depth(simulation: Simulation, key: int) -> float:
     start_at(simulation, key)
     kinds, bodies = simulation.model("geom_type"), simulation.model("geom_bodyid")

@@ -29,7 +29,7 @@ Good:
 
 The number: a push, once at rest, at the speed of a fall over a tenth of the size of what is pushed; with friction 0.3
 it would be over when the probe looks. Below 0.5 of the push's speed, which is friction 0.15, is well. PTFE on PTFE has
-0.04, wet ice less, steel on steel 0.4 and more.
+0.04, wet ice less, steel on steel 0.4 and more. Geoms without friction that can touch each other later are a hint.
 
 When it is wrong: ice.
 """
@@ -37,17 +37,21 @@ When it is wrong: ice.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import combinations
 
 from clinic.diagnosis.probes.push import slides_on
+from clinic.diagnosis.probes.shape import collides
 from clinic.diagnosis.probes.touch import edits_of, names_of, resting, with_like
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Friction next to nothing"
 FAMILIES = ("slips", "rolls-on")
 SINCE = "0.2"
 
 LOW, MOST = 0.12, 0.5
+NONE, MANY = 0.001, 60  # friction; geoms of which pairs are looked at
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -55,6 +59,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     simulation = model.simulation
     low = [decides for _, decides in resting(simulation) if decides.dim > 1 and decides.friction < LOW]
     if not low:
+        yield from _none(model)
         return
     least = min(each.friction for each in low)
     frictions = simulation.model("geom_friction")
@@ -90,3 +95,29 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _value(model: ReaderModel, low: list) -> str:  # type: ignore[type-arg]
     return "1 1 0.005 0.0001 0.0001" if all(each.kind == "pair" for each in low) else "1 0.005 0.0001"
+
+
+def _none(model: ReaderModel) -> Iterator[Suspect]:
+    """Geoms without any friction that can touch each other, and do not yet: a hint."""
+    of = model.simulation
+    frictions, dims, bodies = of.model("geom_friction"), of.model("geom_condim"), of.model("geom_bodyid")
+    bare = [geom for geom in range(of.count("geom")) if frictions[3 * geom] < NONE and dims[geom] > 1]
+    meet = [pair for pair in combinations(bare[:MANY], 2) if bodies[pair[0]] != bodies[pair[1]] and collides(of, *pair)]
+    if meet:
+        geoms = tuple(dict.fromkeys(geom for pair in meet for geom in pair))
+        yield Suspect(
+            tuple(of.name("geom", geom) for geom in geoms),
+            "friction",
+            f"{frictions[3 * geoms[0]]:g}",
+            "1",
+            (),
+            Probe("geoms without friction that can touch each other", "", _bare, (geoms,), dynamic=False),
+            1.5,
+            "Where they touch each other there is no friction, although condim asks for it.",
+            "0.15 to 2 for dry solids",
+            level="hint",
+        )
+
+
+def _bare(of: Simulation, geoms: tuple[int, ...]) -> float:
+    return float(sum(of.model("geom_friction")[3 * geom] < NONE for geom in geoms))

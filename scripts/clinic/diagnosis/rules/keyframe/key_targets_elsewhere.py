@@ -47,7 +47,8 @@ Good:
     </mujoco>
 
 The number: the distance between target and joint that three quarters of the position servos keep, in rad or m; 0.1 and
-more tells a cause, for keyframes in which at least two servos and half of them are off.
+more tells a cause, for keyframes in which at least two servos and half of them are off. Where there is no `ctrl`, two
+servos that go 0.5 away are told in a hint.
 
 When it is wrong: a keyframe that is meant to start a motion.
 Whether `ctrl` is left out on purpose, only its author knows: all zero and no `ctrl` is a hint.
@@ -58,7 +59,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.probes.key import off_target, reordered, servos
+from clinic.diagnosis.probes.key import farthest_target, off_target, reordered, servos
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -68,7 +69,7 @@ FAMILIES = ("drifts", "jumps-at-start", "sags")
 SINCE = "0.2"
 UNPLANTED = "no healthy model has a keyframe with controls"
 
-LIMIT = 0.1  # rad or m
+LIMIT, FAR = 0.1, 0.5  # rad or m
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -80,9 +81,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         found = servos(of, key)
         off = [actuator for actuator, (target, at) in found.items() if abs(target - at) > LIMIT]
         element = model.element("key", key)
+        left_out = element is not None and "ctrl" not in element.attributes
+        far = [actuator for actuator in off if abs(found[actuator][0] - found[actuator][1]) > FAR]
         if (
-            len(off) < 2
-            or len(off) < 0.5 * len(found)
+            not (len(off) >= max(2, 0.5 * len(found)) or (left_out and len(far) > 1))
             or element is None
             or len(element.get("qpos").split()) != len(of.model("qpos0"))
         ):
@@ -101,9 +103,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             element.get("ctrl") or "left out",
             written(ctrl),
             (set_attribute(element, "ctrl", written(ctrl)),),
-            off_target(key),
+            off_target(key) if 2 * len(off) >= len(found) else farthest_target(key),
             LIMIT,
             f"{len(off)} of {len(found)} servos go away: {of.name('actuator', worst)} from {at:.3g} to {target:.3g}.",
             "the targets of a pose are its joints' positions",
-            level="cause" if "ctrl" in element.attributes else "hint",
+            level="hint" if left_out else "cause",
         )

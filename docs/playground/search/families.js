@@ -2,6 +2,7 @@
 
 const SUFFIX = /(?<=[a-z]{3})(?:ations?|ings?|ies|ed|es|s|ly|e|y)$/;
 const DOUBLE = /([bdfglmnprtz])\1$/;
+const STOP = /[.;!?](?:\s|$)/;
 const NOT = new Set("no never cannot without unable fail nothing nobody barely".split(" "));
 const IDLE = new Set(
   (
@@ -59,9 +60,14 @@ const entropy = (shares, base) => -sum(shares.map((share) => (share * Math.log(s
 
 /** @param {string} text @returns {Set<string>} */
 function stemmed(text) {
-  const found = text.toLowerCase().replace(/n['’]t\b/g, " not").match(/[a-z0-9_]+/g) ?? [];
-  const stems = found.filter((word) => !IDLE.has(word)).map((word) => word.replace(SUFFIX, "").replace(DOUBLE, "$1"));
-  const said = stems.map((stem) => (NOT.has(stem) ? "not" : stem));
-  const denied = [1, 2].flatMap((gap) => said.slice(gap).map((stem, at) => (said[at] === "not" ? `not ${stem}` : "")));
-  return new Set([...said, ...denied.filter(Boolean)]);
+  /** @type {Set<string>} */
+  const said = new Set();
+  for (const clause of text.toLowerCase().replace(/n['’]t\b/g, " not").split(STOP)) {
+    const found = clause.match(/[a-z0-9_]+/g) ?? [];
+    const stems = found.filter((word) => !IDLE.has(word)).map((word) => word.replace(SUFFIX, "").replace(DOUBLE, "$1"));
+    const heard = stems.map((stem) => (NOT.has(stem) ? "not" : stem));
+    for (const stem of heard) said.add(stem);
+    for (const gap of [1, 2]) heard.slice(gap).forEach((stem, at) => heard[at] === "not" && said.add(`not ${stem}`));
+  }
+  return said;
 }

@@ -15,6 +15,7 @@ import yaml
 FOLDER = Path(__file__).parent
 SUFFIX = re.compile(r"(?<=[a-z]{3})(?:ations?|ings?|ies|ed|es|s|ly|e|y)$")
 DOUBLE = re.compile(r"([bdfglmnprtz])\1$")
+STOP = re.compile(r"[.;!?](?:\s|$)")
 NOT = {"no", "never", "cannot", "without", "unable", "fail", "nothing", "nobody", "barely"}
 LEAST = 0.2  # the likelihood from which on a family is named
 OFTEN = 4  # how often a stem stands somewhere, to be known
@@ -138,8 +139,11 @@ def _stems(text: str) -> list[str]:
 
     What is denied follows as a pair: `not mov`.
     """
-    words = re.findall(r"[a-z0-9_]+", re.sub(r"n['\u2019]t\b", " not", text.lower()))
-    stems = (DOUBLE.sub(r"\1", SUFFIX.sub("", word)) for word in words if word not in IDLE.split())
-    said = ["not" if stem in NOT else stem for stem in stems]
-    denied = [f"not {stem}" for gap in (1, 2) for no, stem in zip(said, said[gap:], strict=False) if no == "not"]
+    said, denied = [], []
+    for clause in STOP.split(re.sub(r"n['\u2019]t\b", " not", text.lower())):
+        words = (word for word in re.findall(r"[a-z0-9_]+", clause) if word not in IDLE.split())
+        stems = [DOUBLE.sub(r"\1", SUFFIX.sub("", word)) for word in words]
+        stems = ["not" if stem in NOT else stem for stem in stems]
+        said += stems
+        denied += [f"not {stem}" for gap in (1, 2) for no, stem in zip(stems, stems[gap:], strict=False) if no == "not"]
     return said + denied

@@ -39,9 +39,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import SPHERE
+from clinic.diagnosis.engine import CAPSULE, CYLINDER, MESH, SPHERE
 from clinic.diagnosis.probes.shape import solid
-from clinic.diagnosis.probes.vector import dot, norm, sub
+from clinic.diagnosis.probes.vector import at, dot, norm, of_quaternion, sub, transpose
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -91,6 +91,12 @@ def _moved(of: Simulation, one: int, other: int) -> float:
 
 
 def _turned(of: Simulation, one: int, other: int) -> float:
-    """In degrees; 0 for a sphere."""
-    cosine = abs(dot(of.row("geom_quat", one, 4), of.row("geom_quat", other, 4)))
-    return math.degrees(2 * math.acos(min(1.0, cosine))) if int(of.model("geom_type")[one]) != SPHERE else 0.0
+    """In degrees; turns that give the same shape again are none."""
+    kind, quaternions = int(of.model("geom_type")[one]), [of.row("geom_quat", geom, 4) for geom in (one, other)]
+    if kind == SPHERE:
+        return 0.0
+    if kind == MESH:
+        return math.degrees(2 * math.acos(min(1.0, abs(dot(*quaternions)))))
+    first, second = (transpose(of_quaternion(each)) for each in quaternions)
+    kept = (2,) if kind in (CAPSULE, CYLINDER) else (0, 1, 2)
+    return max(math.degrees(math.acos(min(1.0, abs(dot(at(first, i), at(second, i)))))) for i in kept)

@@ -40,7 +40,8 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from clinic.diagnosis.probes.push import slides_on
-from clinic.diagnosis.probes.shape import collides
+from clinic.diagnosis.probes.servo import CONTACTS_OFF
+from clinic.diagnosis.probes.shape import collides, pair_of
 from clinic.diagnosis.probes.touch import edits_of, names_of, resting, with_like
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -58,7 +59,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """What decides the contacts that carry something with friction below 0.12."""
     simulation = model.simulation
     low = [decides for _, decides in resting(simulation) if decides.dim > 1 and decides.friction < LOW]
-    if not low:
+    if not low or model.measured(slides_on()) <= MOST:
         yield from _none(model)
         return
     least = min(each.friction for each in low)
@@ -100,9 +101,10 @@ def _value(model: ReaderModel, low: list) -> str:  # type: ignore[type-arg]
 def _none(model: ReaderModel) -> Iterator[Suspect]:
     """Geoms without any friction that can touch each other, and do not yet: a hint."""
     of = model.simulation
-    frictions, dims, bodies = of.model("geom_friction"), of.model("geom_condim"), of.model("geom_bodyid")
+    frictions, dims = of.model("geom_friction"), of.model("geom_condim")
     bare = [geom for geom in range(of.count("geom")) if frictions[3 * geom] < NONE and dims[geom] > 1]
-    meet = [pair for pair in combinations(bare[:MANY], 2) if bodies[pair[0]] != bodies[pair[1]] and collides(of, *pair)]
+    bare = [] if int(of.model("opt.disableflags")[0]) & CONTACTS_OFF else bare[:MANY]
+    meet = [pair for pair in combinations(bare, 2) if collides(of, *pair) and _may_touch(of, *pair)]
     if meet:
         geoms = tuple(dict.fromkeys(geom for pair in meet for geom in pair))
         yield Suspect(
@@ -117,6 +119,16 @@ def _none(model: ReaderModel) -> Iterator[Suspect]:
             "0.15 to 2 for dry solids",
             level="hint",
         )
+
+
+def _may_touch(of: Simulation, one: int, other: int) -> bool:
+    """Whether nothing but the masks decides, and the two are not of one body, or of a body and its parent."""
+    welds, bodies, parents = of.model("body_weldid"), of.model("geom_bodyid"), of.model("body_parentid")
+    mine, theirs = (int(welds[int(bodies[geom])]) for geom in (one, other))
+    related = mine == theirs or mine == welds[int(parents[theirs])] or theirs == welds[int(parents[mine])]
+    low, high = sorted((int(bodies[one]), int(bodies[other])))
+    excluded = (low << 16) + high in of.model("exclude_signature")
+    return not related and not excluded and pair_of(of, one, other) is None
 
 
 def _bare(of: Simulation, geoms: tuple[int, ...]) -> float:

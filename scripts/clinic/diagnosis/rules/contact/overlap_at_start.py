@@ -31,8 +31,8 @@ The number: the deepest overlap at the start as a share of how far the thing rea
 well. Robots are often pressed into the floor by a few millimetres.
 
 When it is wrong: code that puts everything into its place after the reset. Bodies that all begin at the origin look
-like that and are left alone; where an arm that is fixed to the world takes part, or a robot that begins outside of its
-joints' ranges, there is only a hint.
+like that and are left alone; where a mechanism that is fixed to the world takes part, or a robot that begins outside
+of its joints' ranges, there is only a hint.
 """
 
 from __future__ import annotations
@@ -102,7 +102,7 @@ def _trees(simulation: Simulation, found: dict[int, tuple[float, Contact]]) -> s
 
 
 def _posed(simulation: Simulation, root: int) -> bool:
-    """Whether code must have another start for a mechanism: it is an arm on the world, or begins outside of a range."""
+    """Whether code must have another start for a mechanism: it hangs on the world, or begins outside of a range."""
     owner, limited = root_of(simulation), simulation.model("jnt_limited")
     joints = [joint for joint, body in enumerate(simulation.model("jnt_bodyid")) if owner[int(body)] == root]
     turning = [joint for joint in joints if simulation.joint_type(joint) in (HINGE, SLIDE)]

@@ -30,8 +30,8 @@ Good:
     </mujoco>
 
 The number: the angle in degrees between a slide and the axis that its name says: x, forward; y, side, lateral; z,
-vertical. More than 60, both in the world and as it is written; of 289 healthy models none has such a slide. Models
-whose y and z are exchanged have y up, and are left alone.
+vertical. More than 60, both in the world and as it is written, where two slides and more are called so; of 289 healthy
+models none has such a slide. Models whose y is up are left alone.
 
 When it is wrong: a frame whose x is not forward.
 """
@@ -65,8 +65,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of.begin()
     slides = [joint for joint in range(of.count("joint")) if of.joint_type(joint) == SLIDE]
     said = {joint: axis for joint in slides if (axis := _said(of.engine.name("joint", joint))) is not None}
+    upright = abs(of.model("opt.gravity")[1]) <= abs(of.model("opt.gravity")[2])
     found = [joint for joint in said if _off(of, joint, said[joint]) > FAR]
-    if not found or all(_along(of, joint) + said[joint] == 3 and said[joint] for joint in found):
+    swapped = all(_along(of, joint) + said[joint] == 3 and said[joint] for joint in found)  # y is up
+    if not found or len(said) < 2 or not upright or swapped:
         return
     other = [of.name("joint", joint) for joint in found]
     axes = {joint: " ".join("1" if axis == said[joint] else "0" for axis in range(3)) for joint in found}
@@ -85,7 +87,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _said(name: str) -> int | None:
     """The axis that a joint is called after; None where it says none, or two."""
-    tokens = re.findall(r"[a-z]+", re.sub(r"(?<=[a-z])([XYZ])(?![a-z])", r"_\1", name).lower())
+    tokens = re.findall(r"[a-z0-9]+", re.sub(r"(?<=[a-z])([XYZ])(?![a-z])", r"_\1", name).lower())
     found = [AXES[token] for token in tokens if token in AXES]
     if not found and (ending := ENDING.search(f"_{name.lower()}")):
         found = [AXES[ending.group(1)]]

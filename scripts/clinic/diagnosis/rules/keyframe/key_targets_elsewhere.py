@@ -89,6 +89,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             or len(element.get("qpos").split()) != len(of.model("qpos0"))
         ):
             continue
+        most = len(off) >= max(2, 0.5 * len(found))
         ctrl = list(of.data("ctrl"))
         gain, bias = of.model("actuator_gainprm"), of.model("actuator_biasprm")
         width = len(gain) // of.count("actuator")
@@ -103,8 +104,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             element.get("ctrl") or "left out",
             written(ctrl),
             (set_attribute(element, "ctrl", written(ctrl)),),
-            off_target(key) if 2 * len(off) >= len(found) else farthest_target(key),
-            LIMIT,
+            off_target(key) if most else farthest_target(key),
+            LIMIT if most else FAR,
             f"{len(off)} of {len(found)} servos go away: {of.name('actuator', worst)} from {at:.3g} to {target:.3g}.",
             "the targets of a pose are its joints' positions",
             level="hint" if left_out else "cause",

@@ -60,8 +60,8 @@ Good:
     </mujoco>
 
 The number: how far the centre of mass of a body whose origin is on the plane of symmetry is from it, in distances of
-its twins from that plane; more than 0.2. The plane is that of at least two pairs of twins, and looked at are the body
-on which they hang and those on which it hangs.
+the farthest twin from that plane; more than 0.2. The plane is that of at least two pairs of bodies, and looked at are
+the body on which they hang and those on which it hangs.
 
 When it is wrong: a battery or a tool that is mounted aside.
 """

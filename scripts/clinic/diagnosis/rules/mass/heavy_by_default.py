@@ -54,6 +54,8 @@ HEAVY = 5.0  # kg
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The free bodies of the default density that are heavy, all together."""
     of = model.simulation
+    if model.source is None or any(each.get("settotalmass") for each in model.source.elements("compiler")):
+        return
     parents, masses = of.model("body_parentid"), of.model("body_mass")
     found = [
         body

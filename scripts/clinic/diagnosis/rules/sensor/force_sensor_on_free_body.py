@@ -69,7 +69,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if int(kinds[sensor]) not in (FORCE, TORQUE) or int(owners[site]) not in simulation.free_bodies:
             continue
         if not seen.carried:
-            yield _idle(simulation, sensor, site)
+            if not seen.reading:
+                yield _idle(simulation, sensor, site)
             continue
         element = model.element("sensor", sensor)
         if element is None:
@@ -92,9 +93,7 @@ def _idle(simulation: Simulation, sensor: int, site: int) -> Suspect:
         simulation.name(kind, index)
         for kind, index in (("sensor", sensor), ("site", site), ("body", int(simulation.model("site_bodyid")[site])))
     )
-    says = (
-        "It reads 0 whatever happens: the body has no parent. A site in a body that hangs on it reads what that holds."
-    )
+    says = "The body has no parent: it reads nothing of what it touches. A site in a body that hangs on it does."
     probe = Probe("sensors of a body without a parent", "", _one, dynamic=False)
     return Suspect(names, "site", "", "one in a body below", (), probe, 0.5, says, "0", level="hint")
 

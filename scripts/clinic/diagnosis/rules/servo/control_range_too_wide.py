@@ -40,6 +40,7 @@ When it is wrong: a target beyond the limit as a way to command a force, as grip
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
@@ -82,6 +83,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield from _suspect(model, rest, past_limit([each.actuator for each in rest]), PAST)
     yield from _suspect(model, far, _farthest_of(far), FAR)
     quiet = [each for each in wide if each not in far and each not in rest and not _amplified(model, each)]
+    quiet = [each for each in quiet if each.hinge or each.force == math.inf]  # fingers squeeze with a limited force
     if 0 < 2 * len(quiet) <= len(servos(simulation)):
         yield from _suspect(model, quiet, _farthest_of(quiet), BEYOND, "hint")
 

@@ -1,7 +1,7 @@
 """A motor that takes seconds to set its joint moving.
 
-`ctrlrange` times `gear` is the most that a motor gives. On a mass that was left to its geoms' density, or with a gear
-that was forgotten, it barely moves what it drives.
+`ctrlrange` times `gear`, or `forcerange` times it, is the most that a motor gives. On a mass that was left to its
+geoms' density, or with a gear that was forgotten, it barely moves what it drives.
 
 Bad:
 
@@ -31,14 +31,15 @@ Good:
       </actuator>
     </mujoco>
 
-The number: the inertia at the joint over the motor's greatest force or torque, more than 1 s2/m or 1 s2/rad: it takes a
-second and more to 1 m/s or 1 rad/s. Of the 289 healthy models one robot's have such a joint.
+The number: the inertia at the joint over the motor's greatest force or torque, more than 1 s2/m or 1 s2/rad: it takes
+a second and more to 1 m/s or 1 rad/s. Of the 289 healthy models one robot's have such a joint.
 
 When it is wrong: large things that are meant to be slow.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE
@@ -79,12 +80,23 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _slow(of: Simulation, actuator: int) -> float:
-    """Inertia over force of a limited motor; 0 for any other actuator."""
+    """Inertia over the force of all that drives a limited motor's joint; 0 for any other actuator."""
     joint = of.driven_joint(actuator)
-    kinds = [int(of.model(f"actuator_{kind}")[actuator]) for kind in ("gaintype", "biastype", "dyntype")]
-    if joint is None or any(kinds) or not of.model("actuator_ctrllimited")[actuator]:
+    if joint is None:
         return 0.0
+    forces = [_force(of, each) for each in range(of.count("actuator")) if of.driven_joint(each) == joint]
+    return of.mass_diagonal[of.dof(joint)] / sum(forces) if 0 < sum(forces) < math.inf else 0.0
+
+
+def _force(of: Simulation, actuator: int) -> float:
+    """The most that an actuator gives at its joint; infinite where it is no motor, or has no limit."""
+    kinds = [int(of.model(f"actuator_{kind}")[actuator]) for kind in ("gaintype", "biastype", "dyntype")]
+    if any(kinds):
+        return math.inf
     gain = of.row("actuator_gainprm", actuator, len(of.model("actuator_gainprm")) // of.count("actuator"))[0]
-    control = max(map(abs, of.row("actuator_ctrlrange", actuator, 2)))
-    force = abs(control * gain * of.row("actuator_gear", actuator, 6)[0])
-    return of.mass_diagonal[of.dof(joint)] / force if force > 0 else 0.0
+    limits = [math.inf]
+    if of.model("actuator_ctrllimited")[actuator]:
+        limits.append(abs(gain) * max(map(abs, of.row("actuator_ctrlrange", actuator, 2))))
+    if of.model("actuator_forcelimited")[actuator]:
+        limits.append(max(map(abs, of.row("actuator_forcerange", actuator, 2))))
+    return min(limits) * abs(of.row("actuator_gear", actuator, 6)[0])

@@ -37,9 +37,9 @@ Good:
       </equality>
     </mujoco>
 
-The number: the distance of the anchor from the nearer of the two bodies over that body's own size; more than 0.3, and 0
-in all of the 12 healthy models that connect bodies. Where the same numbers, read as a place in the world, lie on a
-body, the edit is that place in the first body's frame.
+The number: the distance of the anchor from the nearer of the two bodies over that body's own size; more than 0.3, and
+0 in all of the 12 healthy models that connect bodies; more than 3 on the line between the two, and from the world.
+Where the same numbers, read as a place in the world, lie on a body, the edit is that place in the first body's frame.
 
 When it is wrong: a rod that was left out of the drawing on purpose.
 """
@@ -62,16 +62,19 @@ LEVEL = "hint"
 UNPLANTED = "the healthy models connect nothing by an anchor"
 
 CONNECT, BODY = 0, 1  # mjtEq, mjtObj
-FAR = 0.3  # times the body's size
+STRAIGHT = 1.02
+FAR, AWAY = 0.3, 3.0  # times the body's size; the same for a rod or a string that is not drawn
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Connections of bodies whose anchor is in the air."""
     of = model.simulation
     for each in range(of.count("equality")):
-        if (far := _far(of, each)) <= FAR:
-            continue
         bodies = [int(of.model(f"eq_obj{side}id")[each]) for side in (1, 2)]
+        far = _far(of, each)
+        most = AWAY if 0 in bodies or _between(of, each, bodies) else FAR
+        if far <= most:
+            continue
         edits = _from_world(model, each, bodies)
         yield Suspect(
             tuple(of.name("body", body) for body in bodies),
@@ -80,7 +83,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             edits[0].value if edits else "",
             edits,
             Probe("distance of an anchor from the nearer body", "times its size", _far, (each,), dynamic=False),
-            FAR,
+            most,
             f"The anchor is {far:.3g} times the size of the nearer body away from it; it is in the frame of the first.",
             "on one of the two bodies",
         )
@@ -97,6 +100,17 @@ def _far(simulation: Simulation, each: int) -> float:
     first, second = (int(simulation.model(f"eq_obj{side}id")[each]) for side in (1, 2))
     turn, place = simulation.data_row("xmat", first, 9), simulation.data_row("xpos", first, 3)
     return _apart(simulation, add(place, times(turn, _anchor(simulation, each))), (first, second))
+
+
+def _between(of: Simulation, each: int, bodies: list[int]) -> bool:
+    """Whether the anchor is on the line from one body to the other: on a rod that is not drawn."""
+    of.begin()
+    turn, place = of.data_row("xmat", bodies[0], 9), of.data_row("xpos", bodies[0], 3)
+    point, one, other = (
+        add(place, times(turn, _anchor(of, each))),
+        *(of.data_row("xipos", body, 3) for body in bodies),
+    )
+    return norm(sub(point, one)) + norm(sub(point, other)) < STRAIGHT * norm(sub(one, other))
 
 
 def _apart(simulation: Simulation, point: Vector, bodies: tuple[int, ...]) -> float:

@@ -52,7 +52,7 @@ SINCE = "0.2"
 LEVEL = "hint"
 UNPLANTED = "which turn a part should have, only a drawing tells"
 
-TURNED = ("body", "geom", "site", "camera", "frame", "inertial")
+TURNED = ("body", "geom", "site", "camera", "frame", "inertial", "replicate")
 TURN, CLOSE = 2 * math.pi, 0.002  # rad
 
 
@@ -89,7 +89,7 @@ def _angles(each: Element, radians: bool) -> dict[str, list[float]]:
             numbers = [float(text) for text in each.get(name).split()]
         except ValueError:
             continue
-        angles = [abs(number) for number in numbers[first:] if number]
+        angles = [abs(number) for number in numbers[first:] if abs(number) > CLOSE]
         if angles and (_many_turns(angles) if radians else _parts_of_pi(angles)):
             made[name] = numbers
     return made

@@ -29,8 +29,9 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: how far the left one is to the right of the other: along the image of two cameras that look the same way;
-for wheels, hinges without limits, against y, where x is forward. Of 289 healthy models none has such a pair.
+The number: how far the left one is to the right of the other: along the image of two cameras of one body that look the
+same way; for wheels, hinges without limits, against y of the robot's root, where x is forward. Of 289 healthy models
+none has such a pair.
 
 When it is wrong: a robot whose forward is not x; names that are those of the viewer who stands in front of it.
 """
@@ -41,7 +42,8 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.pairs import right_of
-from clinic.diagnosis.probes.vector import Vector, dot, norm, sub
+from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.vector import Vector, at, dot, norm, sub
 from clinic.diagnosis.probes.view import axes
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -54,7 +56,6 @@ LEVEL = "hint"
 UNPLANTED = "which side is which, only the names of a pair tell"
 
 LEAST, ALIKE = 0.005, 0.9  # m; cosine between the views of two cameras
-Y: Vector = (0.0, 1.0, 0.0)
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -63,7 +64,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     wheels = _wheels(of)
     for kind in ("camera", "body"):
         for left, right in _pairs(of, kind):
-            if kind == "body" and not {left, right} <= wheels:
+            if not ({left, right} <= wheels if kind == "body" else _stereo(of, left, right)):
                 continue
             off = _to_the_right(of, kind, left, right)
             if off <= LEAST:
@@ -92,16 +93,29 @@ def _wheels(of: Simulation) -> set[int]:
         for joint, body in enumerate(bodies)
         if of.joint_type(joint) == HINGE
         and not limited[joint]
-        and abs(axes_of_joints[3 * joint + 1]) > ALIKE
+        and abs(dot(at(axes_of_joints, joint), _y(of, int(body)))) > ALIKE
         and of.model("body_jntnum")[int(body)] == 1
     }
+
+
+def _stereo(of: Simulation, left: int, right: int) -> bool:
+    """Whether two cameras are on one body, which is not the world."""
+    bodies = of.model("cam_bodyid")
+    return bodies[left] == bodies[right] > 0
+
+
+def _y(of: Simulation, body: int) -> Vector:
+    """The y of the robot's root; of the world, where that does not move."""
+    root = root_of(of)[body]
+    return tuple(of.data_row("xmat", root if root != body else 0, 9)[1::3])
 
 
 def _to_the_right(of: Simulation, kind: str, left: int, right: int) -> float:
     of.begin()
     if kind == "body":
         between = sub(of.data_row("xpos", right, 3), of.data_row("xpos", left, 3))
-        return dot(between, Y) if abs(dot(between, Y)) > 0.8 * norm(between) else 0.0
+        aside = dot(between, _y(of, left))
+        return aside if abs(aside) > 0.8 * norm(between) else 0.0
     (across, _, forward), (_, _, other) = axes(of, left), axes(of, right)
     between = sub(of.data_row("cam_xpos", left, 3), of.data_row("cam_xpos", right, 3))
     aside = dot(between, across)

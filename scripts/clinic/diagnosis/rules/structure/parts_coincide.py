@@ -1,7 +1,7 @@
 """Two sliding parts stand in one place.
 
-A gripper whose second finger is a copy of the first with the same `pos` (in a URDF: the same `origin`): both fingers
-are one inside of the other, and nothing is ever between them.
+A gripper whose second finger is a copy of the first with the same `pos` (in a URDF: the same `origin`): closed,
+both fingers are one inside of the other.
 
 Bad:
 
@@ -39,8 +39,8 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: pairs of bodies of one parent that slide and have the same place, turn and geoms. Of 289 healthy models
-none has one; the legs of a planar walker have, and they hang on hinges.
+The number: groups of bodies of one parent that slide opposite ways and begin in the same place with the same geoms. Of
+289 healthy models none has one.
 
 When it is wrong: parts that are meant to start in one place, and never to touch.
 """
@@ -48,9 +48,10 @@ When it is wrong: parts that are meant to start in one place, and never to touch
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import combinations
 
 from clinic.diagnosis.engine import SLIDE
+from clinic.diagnosis.probes.shape import solid
+from clinic.diagnosis.probes.vector import at, dot
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -65,29 +66,37 @@ UNPLANTED = "fingers of healthy models that are put in one place are told as ove
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each pair of sliding twins in one place."""
     of = model.simulation
-    for one, other in _pairs(of):
-        names = (of.name("body", one), of.name("body", other))
-        says = f"{names[0]} and {names[1]} have the same place and shape."
-        now = " ".join(f"{x:.4g}" for x in of.row("body_pos", one, 3))
-        probe = Probe("pairs of parts in one place", "", _count, dynamic=False)
+    for bodies in _together(of):
+        names = tuple(of.name("body", body) for body in bodies)
+        says = f"{names[0]} and {names[1]} begin in the same place, and have the same shape."
+        now = " ".join(f"{x:.4g}" for x in of.row("body_pos", bodies[0], 3))
+        probe = Probe("groups of parts in one place", "", _count, dynamic=False)
         yield Suspect(names, "pos", now, "apart from each other", (), probe, 0.1, says, "none")
 
 
 def _count(of: Simulation) -> float:
-    return float(len(_pairs(of)))
+    return float(len(_together(of)))
 
 
-def _pairs(of: Simulation) -> list[tuple[int, int]]:
+def _together(of: Simulation) -> list[list[int]]:
+    """Bodies that slide opposite ways, and stand in one place at the start with the same geoms, one of them solid."""
+    of.begin()
+    places, turns = tuple(of.data("xpos")), tuple(of.data("xmat"))
+    axes = tuple(of.data("xaxis"))
     groups: dict[tuple[float, ...], list[int]] = {}
     for body in range(1, of.count("body")):
         geoms, joints = of.geoms_of(body), of.joints_of(body)
-        if geoms and [of.joint_type(joint) for joint in joints] == [SLIDE]:
-            key = [of.model("body_parentid")[body], *_row(of, "body_pos", body, 3), *_row(of, "body_quat", body, 4)]
+        slides = [of.joint_type(joint) for joint in joints] == [SLIDE]
+        if slides and any(solid(of, geom) for geom in geoms):
+            key = [of.model("body_parentid")[body]]
+            key += [round(x, 5) for x in (*at(places, body), *turns[9 * body : 9 * body + 9])]
             for geom in geoms:
-                key += [of.model("geom_type")[geom], *_row(of, "geom_size", geom, 3)]
+                key += [of.model("geom_type")[geom], of.model("geom_dataid")[geom], *_row(of, "geom_size", geom, 3)]
                 key += [*_row(of, "geom_pos", geom, 3), *_row(of, "geom_quat", geom, 4)]
             groups.setdefault(tuple(key), []).append(body)
-    return [pair for bodies in groups.values() for pair in combinations(bodies, 2)]
+    pairs = [bodies for bodies in groups.values() if len(bodies) > 1]
+    ways = [[at(axes, of.joints_of(body)[0]) for body in bodies] for bodies in pairs]
+    return [bodies for bodies, way in zip(pairs, ways, strict=True) if any(dot(way[0], each) < 0 for each in way)]
 
 
 def _row(of: Simulation, field: str, index: int, width: int) -> tuple[float, ...]:

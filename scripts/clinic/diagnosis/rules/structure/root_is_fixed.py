@@ -43,8 +43,7 @@ Good:
 
 The number: wheels that touch the floor, below a body that nothing can move. A wheel is a hinge without limits whose
 round geom has its middle on the axis. Legs are two limbs and more of a body in the air whose ends are within 15 % of
-its height of the floor; in MJCF also two and more that are called so (hip, thigh, knee, shin, foot, ...),
-or limbs of a body whose gyro, accelerometer or velocimeter can never read a motion.
+its height of the floor; in MJCF also two and more of which two parts are called so (hip and knee, thigh and shin, ...).
 
 When it is wrong: a test bench with rollers, or a robot on a stand.
 """
@@ -67,7 +66,6 @@ SINCE = "0.2"
 LEVEL = "hint"
 
 LEG = re.compile(r"(?<![a-z])[lr]?(hip|thigh|knee|calf|shin|ankle|leg|foot|femur|tibia)(?![a-z])", re.IGNORECASE)
-MOTION = (1, 2, 3)  # mjtSensor: accelerometer, velocimeter, gyro
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -121,7 +119,7 @@ def _limbs(of: Simulation, *, by_name: bool) -> list[int]:
 
 
 def _called_legs(of: Simulation) -> list[int]:
-    """The limbs of a fixed body that has two legs and more by their names, or that should feel motion."""
+    """The limbs of a fixed body that has two legs and more, by two words for parts of them that stand twice."""
     parents, moving = of.model("body_parentid"), set(of.moving_bodies)
     names, joints = of.names("body"), of.names("joint")
     limbs: dict[int, set[int]] = {}
@@ -135,20 +133,16 @@ def _called_legs(of: Simulation) -> list[int]:
             continue
         limbs.setdefault(root, set()).add(next(each for each in reversed(above) if each in moving))
         called = [names[body], *(joints[joint] for joint in of.joints_of(body))]
-        called += [names[each] for each in above if each not in moving]
+        called += [names[each] for each in above[:-1] if each not in moving]
         for leg in {found.group().lower() for name in called for found in LEG.finditer(name)}:
             before = legs.setdefault((root, leg), [])
             if not set(above) & set(before):
                 before.append(body)
-    found = [limbs[root] for (root, _), some in legs.items() if len(some) > 1 and len(limbs[root]) > 1]
-    found += [limbs[body] for body in _felt(of) if len(limbs.get(body, ())) > 1]
+    words: dict[int, int] = {}
+    for (root, _), some in legs.items():
+        words[root] = words.get(root, 0) + (len(some) > 1)
+    found = [limbs[root] for root, count in words.items() if count > 1 and len(limbs[root]) > 1]
     return sorted(found[0]) if found else []
-
-
-def _felt(of: Simulation) -> list[int]:
-    """The bodies whose motion a gyro, an accelerometer or a velocimeter measures."""
-    kinds, sites = of.model("sensor_type"), of.model("sensor_objid")
-    return [int(of.model("site_bodyid")[int(sites[i])]) for i, kind in enumerate(kinds) if int(kind) in MOTION]
 
 
 def _count(simulation: Simulation, by_name: bool) -> float:

@@ -46,13 +46,15 @@ Good:
     </mujoco>
 
 The number: how far below the wheels the lowest other geom reaches at the start, or how far a root that is called a
-footprint is from the ground under the wheels: more than 1 mm, and less than a wheel's radius.
+footprint is from the ground under the wheels: more than 1 mm, and less than a wheel's radius. A wheel is the last body
+of a mechanism, on a level hinge without limits, and gravity is along z.
 
 When it is wrong: wheels that are let down later, on a suspension.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import CYLINDER, HINGE, SPHERE
@@ -75,8 +77,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Geoms below the wheels of their robot, and footprints that are off the ground."""
     of = model.simulation
     of.begin()
+    across, along, down = of.model("opt.gravity")
+    if math.hypot(across, along) > abs(down):
+        return  # another axis than z is up
     for root, wheels in _wheels(of).items():
-        ground, radius = min(_bottom(of, geom) for geom in wheels), of.model("geom_size")[3 * wheels[0]]
+        lowest = min(wheels, key=lambda geom: _bottom(of, geom))
+        ground, radius = _bottom(of, lowest), of.model("geom_size")[3 * lowest]
         others = [geom for geom in _others(of, root, wheels) if LEAST < ground - _bottom(of, geom) < radius]
         if others:
             low = min(others, key=lambda geom: _bottom(of, geom))
@@ -104,11 +110,12 @@ def _wheels(of: Simulation) -> dict[int, list[int]]:
     made: dict[int, list[int]] = {}
     for joint in range(of.count("joint")):
         body = int(of.model("jnt_bodyid")[joint])
-        if of.joint_type(joint) != HINGE or of.model("jnt_limited")[joint]:
+        if of.joint_type(joint) != HINGE or of.model("jnt_limited")[joint] or body in of.model("body_parentid"):
             continue
         if abs(of.data_row("xaxis", joint, 3)[2]) < LEVEL_ENOUGH:
             made.setdefault(root_of(of)[body], []).extend(geom for geom in of.geoms_of(body) if _round(of, geom))
-    return {root: geoms for root, geoms in made.items() if len(geoms) > 1}
+    bodies = of.model("geom_bodyid")
+    return {root: geoms for root, geoms in made.items() if len({bodies[geom] for geom in geoms}) > 1}
 
 
 def _round(of: Simulation, geom: int) -> bool:

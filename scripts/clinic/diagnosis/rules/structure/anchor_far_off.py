@@ -70,8 +70,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Connections of bodies whose anchor is in the air."""
     of = model.simulation
     for each in range(of.count("equality")):
+        if (far := _far(of, each)) <= FAR:
+            continue
         bodies = [int(of.model(f"eq_obj{side}id")[each]) for side in (1, 2)]
-        far = _far(of, each)
         most = AWAY if 0 in bodies or _between(of, each, bodies) else FAR
         if far <= most:
             continue

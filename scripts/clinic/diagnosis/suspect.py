@@ -36,6 +36,15 @@ class Probe:
         return value if abs(value) < float("inf") else float("inf")
 
 
+def counted(title: str, count: int) -> Probe:
+    """What was counted in the text, which no simulation measures."""
+    return Probe(title, "", _counted, (count,), dynamic=False)
+
+
+def _counted(_: Simulation, count: int) -> float:
+    return float(count)
+
+
 @dataclass(frozen=True)
 class Suspect:
     """Something in the model that may be the cause of a symptom.

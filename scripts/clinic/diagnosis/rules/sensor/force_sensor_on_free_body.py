@@ -49,7 +49,7 @@ from clinic.diagnosis.edit import Edit, replace
 from clinic.diagnosis.probes.touched import FORCE, TORQUE, touched, unread
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A force sensor on a free body"
 FAMILIES = ("sensor-reads-zero",)
@@ -58,6 +58,7 @@ CASE = "force-sensor-reads-zero"
 UNPLANTED = "to set free what carries a healthy model's force sensor breaks more than the sensor"
 
 MOST = 0.99
+NOTHING = 1e-3  # N, N m: what rounding leaves
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -69,7 +70,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if int(kinds[sensor]) not in (FORCE, TORQUE) or int(owners[site]) not in simulation.free_bodies:
             continue
         if not seen.carried:
-            if not seen.reading:
+            if seen.reading < NOTHING:
                 yield _idle(simulation, sensor, site)
             continue
         element = model.element("sensor", sensor)
@@ -94,9 +95,5 @@ def _idle(simulation: Simulation, sensor: int, site: int) -> Suspect:
         for kind, index in (("sensor", sensor), ("site", site), ("body", int(simulation.model("site_bodyid")[site])))
     )
     says = "The body has no parent: it reads nothing of what it touches. A site in a body that hangs on it does."
-    probe = Probe("sensors of a body without a parent", "", _one, dynamic=False)
+    probe = counted("sensors of a body without a parent", 1)
     return Suspect(names, "site", "", "one in a body below", (), probe, 0.5, says, "0", level="hint")
-
-
-def _one(_: Simulation) -> float:
-    return 1.0

@@ -59,33 +59,39 @@ SLOW = 1.0  # s2/m, s2/rad
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The motors with a limit that barely move their joints, all together."""
     of = model.simulation
-    found = [each for each in range(of.count("actuator")) if _slow(of, each) > SLOW]
-    if not found:
+    slow = {joint: value for joint, value in _slow(of).items() if value > SLOW}
+    if not slow:
         return
-    worst = max(found, key=lambda each: _slow(of, each))
-    joint = of.driven_joint(worst) or 0
+    found = [each for each in range(of.count("actuator")) if of.driven_joint(each) in slow]
+    joint = max(slow, key=lambda each: slow[each])
+    worst = next(each for each in found if of.driven_joint(each) == joint)
     hinge = of.joint_type(joint) == HINGE
     gear, unit = of.model("actuator_gear")[6 * worst], "rad" if hinge else "m"
     yield Suspect(
         tuple(of.name("actuator", each) for each in found),
         "gear",
         f"{gear:g}",
-        rounded(10 * gear * _slow(of, worst)),
+        rounded(10 * gear * slow[joint]),
         (),
-        Probe("inertia over the motor's force", f"s2/{unit}", _slow, (worst,), dynamic=False),
+        Probe("inertia over the motor's force", f"s2/{unit}", _slow_of, (joint,), dynamic=False),
         SLOW,
-        f"{of.name('joint', joint)} gains {1 / _slow(of, worst):.2g} {unit}/s in a second at full control.",
+        f"{of.name('joint', joint)} gains {1 / slow[joint]:.2g} {unit}/s in a second at full control.",
         "1.5 m/s2 and 1.5 rad/s2 are the least of healthy models but one",
     )
 
 
-def _slow(of: Simulation, actuator: int) -> float:
-    """Inertia over the force of all that drives a limited motor's joint; 0 for any other actuator."""
-    joint = of.driven_joint(actuator)
-    if joint is None:
-        return 0.0
-    forces = [_force(of, each) for each in range(of.count("actuator")) if of.driven_joint(each) == joint]
-    return of.mass_diagonal[of.dof(joint)] / sum(forces) if 0 < sum(forces) < math.inf else 0.0
+def _slow_of(of: Simulation, joint: int) -> float:
+    return _slow(of).get(joint, 0.0)
+
+
+def _slow(of: Simulation) -> dict[int, float]:
+    """Inertia over the force of all that drives a joint, of joints that limited motors alone drive."""
+    forces: dict[int, float] = {}
+    for actuator in range(of.count("actuator")):
+        joint = of.driven_joint(actuator)
+        if joint is not None:
+            forces[joint] = forces.get(joint, 0.0) + _force(of, actuator)
+    return {joint: of.mass_diagonal[of.dof(joint)] / force for joint, force in forces.items() if 0 < force < math.inf}
 
 
 def _force(of: Simulation, actuator: int) -> float:

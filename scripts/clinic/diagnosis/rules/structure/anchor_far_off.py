@@ -99,18 +99,18 @@ def _far(simulation: Simulation, each: int) -> float:
         return 0.0
     simulation.begin()
     first, second = (int(simulation.model(f"eq_obj{side}id")[each]) for side in (1, 2))
-    turn, place = simulation.data_row("xmat", first, 9), simulation.data_row("xpos", first, 3)
-    return _apart(simulation, add(place, times(turn, _anchor(simulation, each))), (first, second))
+    return _apart(simulation, _place(simulation, each, first), (first, second))
+
+
+def _place(of: Simulation, each: int, first: int) -> Vector:
+    """Where the anchor is in the world, as the state is now."""
+    return add(of.data_row("xpos", first, 3), times(of.data_row("xmat", first, 9), _anchor(of, each)))
 
 
 def _between(of: Simulation, each: int, bodies: list[int]) -> bool:
     """Whether the anchor is on the line from one body to the other: on a rod that is not drawn."""
     of.begin()
-    turn, place = of.data_row("xmat", bodies[0], 9), of.data_row("xpos", bodies[0], 3)
-    point, one, other = (
-        add(place, times(turn, _anchor(of, each))),
-        *(of.data_row("xipos", body, 3) for body in bodies),
-    )
+    point, (one, other) = _place(of, each, bodies[0]), (of.data_row("xipos", body, 3) for body in bodies)
     return norm(sub(point, one)) + norm(sub(point, other)) < STRAIGHT * norm(sub(one, other))
 
 

@@ -42,9 +42,8 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "An angle in another unit"
 FAMILIES = ("wrong-numbers", "camera", "jumps-at-start", "sensor-reads-zero")
@@ -74,7 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         now,
         first.value,
         edits,
-        Probe("angles in another unit", "", _count, (len(found),), dynamic=False),
+        counted("angles in another unit", len(found)),
         0.5,
         f"{first.attribute} {now} is read in {said}.",
         "none",
@@ -115,7 +114,3 @@ def _edits(each: Element, angles: dict[str, list[float]], radians: bool) -> Iter
 def _name(each: Element) -> str:
     name = each.get("name")
     return f'{each.tag} "{name}"' if name else f"<{each.tag}> of line {each.line}"
-
-
-def _count(_: Simulation, count: int) -> float:
-    return float(count)

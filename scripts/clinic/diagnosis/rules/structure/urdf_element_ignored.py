@@ -43,8 +43,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "An element that is passed over"
 FAMILIES = ("jumps-at-start", "wrong-mass", "camera")
@@ -76,9 +75,5 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for tag, holders in found.items():
         meant = f"<{MEANT[tag]}>" if tag in MEANT else "removed"
         says = f"URDF has no <{tag}> there, and it is passed over."
-        probe = Probe("elements that are passed over", "", _count, (len(holders),), dynamic=False)
+        probe = counted("elements that are passed over", len(holders))
         yield Suspect(tuple(holders), tag, f"<{tag}>", meant, (), probe, 0.0, says, "none")
-
-
-def _count(_: Simulation, count: int) -> float:
-    return float(count)

@@ -45,6 +45,13 @@ def test_a_root_that_cannot_be_weighed_leaves_all_else_as_it_was() -> None:
     assert not diagnosed(i=0).causes
 
 
+@pytest.mark.parametrize(("kind", "value"), [("hinge", "revolute"), ("free", "floating"), ("continous", "continuous")])
+def test_a_joint_of_a_type_that_urdf_has_not_gets_one(kind: str, value: str) -> None:
+    text = ROVER.format(i=0.3, parent="base").replace('type="continuous"', f'type="{kind}"')
+    (cause,) = examine(NativeEngine(), {"rover.urdf": text}).causes
+    assert (cause.rule, cause.attribute, cause.now, cause.value) == ("invalid-value", "type", kind, value)
+
+
 @pytest.mark.parametrize(("parent", "value"), [("bas", "base"), ("torso", "removed")])
 def test_a_joint_at_a_link_that_is_not_there_is_told(parent: str, value: str) -> None:
     (cause,) = diagnosed(parent=parent).causes

@@ -13,7 +13,7 @@ from clinic.diagnosis.engine import CompileError, Engine
 from clinic.diagnosis.errors import mended
 from clinic.diagnosis.finding import Diagnosis, finding_of
 from clinic.diagnosis.ignores import Ignores
-from clinic.diagnosis.judge import Judged, judge, order, suspects_of, without_rivals
+from clinic.diagnosis.judge import Judged, judge, order, suspects_of, without_consequences, without_rivals
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import Rule, rules
 from clinic.diagnosis.simulation import Start
@@ -86,15 +86,19 @@ def _found(
     tried: list[Rule] = []
     afloat = model.afloat() if any(rule.afloat for rule in wanted) else model
     until = time.monotonic() + limit
+
+    def asked(rule: Rule) -> ReaderModel:
+        return afloat if rule.afloat else model
+
     for rule in wanted:
         if time.monotonic() > until:
             break
         tell(rule.id)
         tried.append(rule)
-        asked = afloat if rule.afloat else model
-        judged = (judge(asked, rule, suspect) for suspect in suspects_of(asked, rule, tell))
+        judged = (judge(asked(rule), rule, suspect) for suspect in suspects_of(asked(rule), rule, tell))
         found += [each for each in judged if each is not None]
-    found = [replace(each, silenced=ignores.why(each, model)) for each in without_rivals(found)]
+    found = without_consequences(without_rivals(found), asked)
+    found = [replace(each, silenced=ignores.why(each, model)) for each in found]
     edits: list[Edit] = []
     for each in found:
         if each.proved and not isinstance(model.with_edits([*edits, *each.suspect.edits]), CompileError):

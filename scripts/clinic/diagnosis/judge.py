@@ -80,6 +80,18 @@ def without_rivals(found: Sequence[Judged]) -> list[Judged]:
     return made
 
 
+def without_consequences(found: Sequence[Judged], model_of: Callable[[Rule], ReaderModel]) -> list[Judged]:
+    """The causes but for those whose symptom goes away with another's edit, and not the other way round."""
+
+    def ends(one: Judged, other: Judged) -> bool:
+        suspect = other.suspect
+        return model_of(other.rule).measured(suspect.probe, one.suspect.edits) <= suspect.limit
+
+    causes = [each for each in found if each.level == "cause"]
+    follows = [each for each in causes if any(ends(one, each) and not ends(each, one) for one in causes)]
+    return [replace(each, level="hint") if each in follows else each for each in found]
+
+
 def _same_symptom(one: Judged, other: Judged) -> bool:
     same = (one.suspect.probe.measure, one.suspect.probe.of) == (other.suspect.probe.measure, other.suspect.probe.of)
     return other.level == "cause" and same and other.rule.id != one.rule.id

@@ -16,10 +16,11 @@ from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import Source
 from subjects import LEGS
 
-ELSEWHERE = {  # the model names no file, and has one `<inertial>` and three servos
+ELSEWHERE = {  # the model names no file, has no mesh, and one `<inertial>` and three servos
     "control-range-of-one",
     "file-missing",
     "inertial-forgotten",
+    "mesh-in-millimetres",
 }
 
 

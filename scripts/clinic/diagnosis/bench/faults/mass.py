@@ -9,6 +9,7 @@ from clinic.diagnosis.edit import Edit, delete, insert, set_attribute
 from clinic.diagnosis.engine import FREE
 from clinic.diagnosis.probes.shape import root_of, roots
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.world.mesh_in_another_unit import mesh_sizes, scaled
 
 FELT = ("weighs", "accelerates", "unstable", "strays")
 INERTIA = ("inertia-unlike-geoms", "inertia-across-geoms", "denser-than-metal", "lighter-than-air")
@@ -265,3 +266,15 @@ def geom_too_dense(model: ReaderModel, random: Random) -> Fault | None:
     body = model.simulation.name("body", int(model.simulation.model("geom_bodyid")[geom]))
     edit = set_attribute(element, "density", text_of(density))
     return Fault((edit,), (model.simulation.name("geom", geom), body), "density", density)
+
+
+@kind("mesh-in-another-unit", "overlap-at-start", harms=(*FELT, "faster", "sinks"))
+def mesh_in_millimetres(model: ReaderModel, random: Random) -> Fault | None:
+    """A mesh that stands in millimetres, without its `scale`."""
+    meshes = [mesh for mesh in mesh_sizes(model.simulation) if any(scaled(model, mesh, 1000.0))]
+    if not meshes:
+        return None
+    mesh = random.choice(meshes)
+    return Fault(
+        tuple(scaled(model, mesh, 1000.0)), (f'mesh "{model.simulation.engine.name("mesh", mesh)}"',), "scale", 1000.0
+    )

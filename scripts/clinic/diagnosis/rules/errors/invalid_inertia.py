@@ -44,7 +44,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "An impossible inertia"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.2"
+SINCE = "0.1"
 
 DIAGONAL = ("ixx", "iyy", "izz")
 ZERO = 1e-15  # kg m2: below it is what was left of a subtraction

@@ -35,12 +35,13 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, nearest, sentence
+from clinic.diagnosis.rules.errors._scale import scaled_back
 from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A value that MuJoCo does not take"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.2"
+SINCE = "0.1"
 
 WORDS = {"revolute": "hinge", "continuous": "hinge", "rotational": "hinge", "prismatic": "slide", "floating": "free"}
 WORDS |= {"cube": "box", "rectangle": "box", "ball": "sphere", "rod": "capsule", "cuboid": "box", "fixed": "hinge"}
@@ -50,6 +51,8 @@ KNOWN = (
     "free ball slide hinge plane hfield sphere capsule ellipsoid cylinder box mesh sdf true false auto degree radian"
 )
 KNOWN += " enable disable Euler RK4 implicit implicitfast discrete pyramidal elliptic PGS CG Newton local fixed track"
+URDF_TYPES = "revolute continuous prismatic fixed floating planar"
+URDF = {"hinge": ["revolute", "continuous"], "slide": ["prismatic"], "free": ["floating"], "ball": ["floating"]}
 ORIENTATIONS = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
 RANGE = re.compile(r"(?:\w*range)\[0\] should be smaller than \w+\[1\]|invalid (?:\w+ )?range")
 
@@ -57,6 +60,10 @@ RANGE = re.compile(r"(?:\w*range)\[0\] should be smaller than \w+\[1\]|invalid (
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """What the message is about, with the value that was most likely meant."""
     said = sentence(model)
+    if "mesh volume is too small" in said and (back := scaled_back(model))[0]:
+        for element in meant(model, "mesh")[:1]:
+            says = f"{said}. Meshes that are in metres need no scale."
+            yield mends(element, back[0], says, attribute="scale", now=back[1], value=back[2])
     for element in meant(model):
         for edit, now in _edits(said, element):
             says = f"{said}."
@@ -73,6 +80,9 @@ def _edits(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
         values = [WORDS[wrong]] if wrong in WORDS else nearest(wrong, KNOWN.split())
         for attribute in [name for name, value in element.attributes.items() if value == wrong]:
             yield from (put(attribute, value) for value in values)
+    elif "joint type in URDF" in said:
+        wrong = element.get("type")
+        yield from (put("type", value) for value in (*URDF.get(wrong, nearest(wrong, URDF_TYPES.split())), "fixed"))
     elif RANGE.search(said):
         for attribute in [name for name in element.attributes if name.endswith("range")]:
             numbers = element.get(attribute).split()

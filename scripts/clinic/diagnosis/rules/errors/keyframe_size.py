@@ -48,7 +48,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A keyframe of the wrong size"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.2"
+SINCE = "0.1"
 
 MESSAGE = re.compile(r"key(?:frame)? '?([^':]*)'?: invalid (\w+) size, expected (?:length )?(\d+)")
 

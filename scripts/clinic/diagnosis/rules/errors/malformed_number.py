@@ -36,7 +36,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A malformed number"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.2"
+SINCE = "0.1"
 
 MESSAGE = re.compile(r"(bad format in|problem reading|.*) ?attribute '(\w+)'(.*)")
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")

@@ -41,7 +41,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Malformed XML"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.2"
+SINCE = "0.1"
 
 TOKEN = re.compile(
     r"<!--.*?-->|<\?.*?\?>|<!\[CDATA\[.*?\]\]>|<(/?)([A-Za-z_][\w.:-]*)((?:\"[^\"]*\"|'[^']*'|[^'\">])*?)(/?)>", re.S

@@ -29,7 +29,8 @@ Good:
 
 The number: mjMINVAL is 1e-15. The edit gives a body without mass 10 g, and a body without
 inertia that of a ball of 50 mm radius. A body whose geoms do have mass is too small: a box of 0.1 mm has an inertia
-of 2e-18 kg m2; the compiler then gives all bodies the least that it takes, and lengths in mm are better.
+of 2e-18 kg m2; the compiler then gives all bodies the least that it takes, and lengths in mm are better. Where a mesh
+has a `scale` below 0.01, it is taken for one that was in metres already: a thousand times as much is tried first.
 
 When it is wrong: the body may not be meant to move: then its joint is too much.
 """
@@ -41,12 +42,13 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit, delete, insert, replace, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence
+from clinic.diagnosis.rules.errors._scale import scaled_back
 from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A moving body without mass"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.2"
+SINCE = "0.1"
 
 LEAST, MASS = "1e-13", "1e-9"  # kg m2, kg: what the compiler gives bodies that are too small
 
@@ -60,6 +62,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         mass = _mass(inertial) if inertial else 0.0
         named, said = f'{element.tag} "{element.get("name")}"', sentence(model)
         if inertial is None and _matter(model, element):
+            back, now, value = scaled_back(model)
+            if back:
+                says = f"{named} has geoms, which are too small: {said}. Meshes that are in metres need no scale."
+                yield mends(element, back, says, attribute="scale", now=now, value=value)
             says = f"{named} has geoms, which are too small: {said}. In mm and g the model has larger numbers."
             edits = _bounds(model.source.root)
             yield mends(element, edits, says, attribute="boundinertia", now="0", value=LEAST)

@@ -39,7 +39,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A name that is used twice"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.2"
+SINCE = "0.1"
 
 MESSAGE = re.compile(r".*repeated (?:default )?(?:name|class name)(?: '([^']+)')?(?: in (\w+))?")
 KINDS = {"joint": ("joint", "freejoint"), "key": ("key",)}

@@ -50,7 +50,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A reference to a name that does not exist"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.2"
+SINCE = "0.1"
 
 NAME = re.compile(r"'([^']+)'")
 SAID = re.compile(r"unknown|unrecognized name|not found|could not find|does not exist|invalid name|missing")

@@ -1,0 +1,145 @@
+"""A mesh is in another unit than the model around it.
+
+CAD programs write STL files in millimetres, and MuJoCo takes their numbers as metres: a finger of 50 mm is 50 m long.
+The robot is inside of it, or it is so large that nothing is seen at all. Scaled twice, it is a speck.
+
+Bad:
+
+    <mujoco>
+      <asset>
+        <mesh name="finger" vertex="-9 -9 0  9 -9 0  9 9 0  -9 9 0  -9 -9 50  9 -9 50  9 9 50  -9 9 50"/>
+      </asset>
+      <worldbody>
+        <body name="hand" pos="0 0 0.5">
+          <freejoint/>
+          <geom type="box" size="0.04 0.03 0.02"/>
+          <body name="finger" pos="0.04 0 0.02">
+            <joint axis="0 1 0"/>
+            <geom type="mesh" mesh="finger"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <asset>
+        <mesh name="finger" scale="0.001 0.001 0.001"
+          vertex="-9 -9 0  9 -9 0  9 9 0  -9 9 0  -9 -9 50  9 -9 50  9 9 50  -9 9 50"/>
+      </asset>
+      <worldbody>
+        <body name="hand" pos="0 0 0.5">
+          <freejoint/>
+          <geom type="box" size="0.04 0.03 0.02"/>
+          <body name="finger" pos="0.04 0 0.02">
+            <joint axis="0 1 0"/>
+            <geom type="mesh" mesh="finger"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: half of the mesh's length over the usual size of the rest: the median of the distances between bodies and
+their parents, and of half the lengths of shapes other than meshes. In 140 healthy models of other packages with meshes
+it is 26 at most, and the mesh in the middle 0.08 at least. More than 100 times is told, and so is a model whose meshes
+are all a hundredth and under 2 mm. Where there is nothing else, a mesh of 20 m.
+
+When it is wrong: a planet beside a satellite.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.engine import HFIELD, MESH, PLANE
+from clinic.diagnosis.probes.vector import norm, written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.source import Element
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A mesh in another unit"
+FAMILIES = ("jumps-at-start", "explodes", "wrong-mass", "camera", "stuck")
+SINCE = "0.1"
+
+TIMES, USUAL = 100.0, 10.0  # the usual size
+TINY, METRES = 0.001, 10.0  # m, half of a mesh's length
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The meshes that are a hundred times as large, or as small, as all else, with the scale of the other unit."""
+    of = model.simulation
+    sizes, usual = mesh_sizes(of), _usual(of)
+    large = [mesh for mesh, size in sizes.items() if size > (TIMES * usual if usual else METRES)]
+    small = [mesh for mesh, size in sizes.items() if size < min(usual / TIMES, TINY)]
+    for meshes, factor in ((large, 0.001), (small if len(small) == len(sizes) else [], 1000.0)):
+        if not meshes:
+            continue
+        edits = tuple(edit for mesh in meshes for edit in scaled(model, mesh, factor))
+        worst = max(sizes[mesh] for mesh in meshes)
+        beside = f"where the rest is of {usual:.3g} m" if usual else "and nothing else is there"
+        yield Suspect(
+            tuple(f'mesh "{of.engine.name("mesh", mesh)}"' for mesh in meshes),
+            "scale",
+            "left out" if not _written(model, meshes[0]) else " ".join(_written(model, meshes[0])),
+            edits[0].value if edits else f"{factor:g} times as much",
+            edits,
+            Probe("size of a mesh, times that of the rest or its inverse", "", _times, tuple(meshes), dynamic=False),
+            USUAL,
+            f"Half its length is {worst:.3g} m, {beside}.",
+            "0.08 to 26 times in 140 healthy models",
+        )
+
+
+def mesh_sizes(of: Simulation) -> dict[int, float]:
+    """Half the length of every mesh on a body that is not the world, in m."""
+    kinds, bodies, meshes = of.model("geom_type"), of.model("geom_bodyid"), of.model("geom_dataid")
+    made: dict[int, float] = {}
+    for geom, kind in enumerate(kinds):
+        if int(kind) == MESH and bodies[geom]:
+            made[int(meshes[geom])] = max(of.row("geom_aabb", geom, 6)[3:])
+    return made
+
+
+def _usual(of: Simulation) -> float:
+    """The median of the lengths of all that is no mesh, in m; 0 where there is nothing."""
+    kinds, bodies, parents = of.model("geom_type"), of.model("geom_bodyid"), of.model("body_parentid")
+    lengths = [norm(of.row("body_pos", body, 3)) for body in range(1, of.count("body")) if parents[body]]
+    for geom, kind in enumerate(kinds):
+        if int(kind) not in (PLANE, HFIELD, MESH) and bodies[geom]:
+            lengths.append(of.model("geom_rbound")[geom])
+    lengths = sorted(each for each in lengths if each > 0)
+    return lengths[len(lengths) // 2] if lengths else 0.0
+
+
+def _times(of: Simulation, *meshes: int) -> float:
+    sizes, usual = mesh_sizes(of), _usual(of)
+    if not usual:
+        return max(USUAL / METRES * sizes[mesh] for mesh in meshes)
+    return max(max(sizes[mesh] / usual, usual / sizes[mesh]) for mesh in meshes)
+
+
+def _elements(model: ReaderModel, mesh: int) -> list[Element]:
+    """Where a mesh is written: as an asset, or by its file wherever a URDF shows it."""
+    name = model.simulation.engine.name("mesh", mesh)
+    written = model.source.elements("mesh") if model.source else ()
+    return [each for each in written if name == (each.get("name") or _stem(each.get("file") or each.get("filename")))]
+
+
+def _stem(path: str) -> str:
+    return path.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
+
+
+def _written(model: ReaderModel, mesh: int) -> list[str]:
+    """The scale that is written for a mesh."""
+    assert model.source is not None
+    return next((model.source.value(each, "scale") or "" for each in _elements(model, mesh)), "").split()
+
+
+def scaled(model: ReaderModel, mesh: int, factor: float) -> Iterator[Edit]:
+    """The edits that make a mesh `factor` times as large, wherever it is written."""
+    scale = [float(each) for each in _written(model, mesh)] or [1.0, 1.0, 1.0]
+    for element in _elements(model, mesh):
+        yield set_attribute(element, "scale", written([factor * each for each in scale]))

@@ -1,0 +1,60 @@
+"""A cause whose symptom goes away with another's edit is a consequence of that one."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.process import diagnose
+
+MM = "-20 -20 -20  20 -20 -20  20 20 -20  -20 20 -20  -20 -20 20  20 -20 20  20 20 20  -20 20 20"
+ALONE = f"""<mujoco>
+  <asset><mesh name="mug" vertex="{MM}"/></asset>
+  <worldbody>
+    <geom type="plane" size="3 3 0.1"/>
+    <body name="mug" pos="0 0 0.1">
+      <freejoint/>
+      <geom type="mesh" mesh="mug"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+
+
+def test_a_mesh_in_millimetres_explains_that_it_begins_in_the_floor(tmp_path):
+    (tmp_path / "model.xml").write_text(ALONE)
+    found = diagnose(tmp_path / "model.xml")
+    assert [each.rule for each in found.causes] == ["mesh-in-another-unit"]
+    assert "overlap-at-start" in [each.rule for each in found.hints]
+    assert 'scale="0.001 0.001 0.001"' in next(iter(found.fixed.values()))
+
+
+@pytest.mark.parametrize("scale", ["0.001 0.001 0.001", "1e-5 1e-5 1e-5"])
+def test_a_mesh_that_is_scaled_twice_is_scaled_back(tmp_path, scale):
+    metres = " ".join(f"{float(each) / 1000:g}" for each in MM.split())
+    (tmp_path / "model.xml").write_text(
+        ALONE.replace(MM, metres).replace('name="mug" v', f'name="mug" scale="{scale}" v')
+    )
+    (found,) = diagnose(tmp_path / "model.xml").causes
+    assert found.attribute == "scale"
+    assert found.value.split() == [f"{1000 * float(each):g}" for each in scale.split()]
+
+
+def test_in_a_urdf_every_place_of_the_mesh_is_scaled(tmp_path):
+    shape = '<geometry><mesh filename="mug.obj"/></geometry>'
+    inertial = (
+        '<inertial><mass value="1"/><inertia ixx="1e-3" iyy="1e-3" izz="1e-3" ixy="0" ixz="0" iyz="0"/></inertial>'
+    )
+    limit = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
+    joint = f'<parent link="base"/><child link="mug"/><origin xyz="0.1 0 0"/><axis xyz="0 1 0"/>{limit}'
+    (tmp_path / "model.urdf").write_text(
+        f'<robot name="r"><link name="base">{inertial}</link><link name="mug">{inertial}<visual>{shape}</visual>'
+        f'<collision>{shape}</collision></link><joint name="j" type="revolute">{joint}</joint></robot>'
+    )
+    numbers = MM.split()
+    corners = "".join(f"v {' '.join(numbers[i : i + 3])}\n" for i in range(0, 24, 3))
+    faces = (
+        "f 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n"
+    )
+    (tmp_path / "mug.obj").write_text(corners + faces)
+    found = diagnose(tmp_path / "model.urdf", select=["mesh-in-another-unit"])
+    assert [each.rule for each in found.causes] == ["mesh-in-another-unit"]
+    assert next(iter(found.fixed.values())).count('scale="0.001 0.001 0.001"') == 2

@@ -38,10 +38,14 @@ def test_an_inertia_of_a_hollow_or_a_heavy_ended_link_is_well(inertia):
     assert not causes(link(f'<inertial pos="0 0 0.2" mass="1" diaginertia="{inertia}"/>'))
 
 
-def test_a_placeholder_that_no_joint_feels_is_not_told():
-    placeholder = '<inertial pos="0 0 0.2" mass="1" diaginertia="1e-6 1e-6 1e-6"/>'
-    assert hints(link(placeholder, "<freejoint/>")) == ["inertia-unlike-geoms"]
-    assert not hints(link(placeholder, '<joint type="slide" axis="0 1 0"/>'))
+def test_a_placeholder_that_no_joint_feels_is_told_of_a_point_alone():
+    placeholder, slide = (
+        '<inertial pos="0 0 0.2" mass="1" diaginertia="{0} {0} {0}"/>',
+        '<joint type="slide" axis="0 1 0"/>',
+    )
+    assert hints(link(placeholder.format(1e-4), "<freejoint/>")) == ["inertia-unlike-geoms"]
+    assert not hints(link(placeholder.format(1e-4), slide))
+    assert hints(link(placeholder.format(1e-6), slide)) == ["inertia-unlike-geoms"]
 
 
 @pytest.mark.parametrize("attributes", ['mass="0"', 'mass="0.1"', 'density="50"'])

@@ -99,6 +99,15 @@ def test_the_reader_is_told_what_the_symptoms_page_measures(root):
     assert told.startswith("   it is servo-sags: ")
 
 
+def test_the_symptom_can_be_named_from_anywhere(root, tmp_path, monkeypatch):
+    text = (root / "cases" / "servo-sags" / "model.xml").read_text(encoding="utf-8")
+    (tmp_path / "mine.xml").write_text(text, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    made = diagnose(tmp_path / "mine.xml", symptom="sags", select=["weak-servo"])
+    assert made.measured is not None
+    assert made.measured.told == ("servo-sags",)
+
+
 @pytest.mark.parametrize("symptom", ["", "slow"])
 def test_nothing_is_measured_where_no_symptom_has_a_measurement(symptom, root):
     made = diagnose(root / "cases" / "servo-sags" / "model.xml", symptom=symptom, select=["weak-servo"])

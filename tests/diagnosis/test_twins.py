@@ -49,6 +49,23 @@ def simulated(text: str) -> Simulation:
     return Simulation(NativeEngine().compile(text, {}), Start())
 
 
+PALM = '<geom type="box" size="0.04 0.05 0.01"/>'
+
+
+@pytest.mark.parametrize(("thumb", "odd"), [(0.03, ["finger4"]), (0.02, [])])
+def test_a_finger_is_unlike_its_siblings_beside_a_thumb_of_another_mass(thumb, odd):
+    fingers = "".join(
+        f'<body name="finger{i}" pos="{0.04 if i > 1 else 0} {0.02 * i} 0"><joint axis="0 1 0" range="0 90"/>'
+        f'<inertial pos="0 0 {each / 1000}" mass="{0.02 if i > 1 else thumb}" diaginertia="2e-6 2e-6 1e-6"/>'
+        '<geom type="capsule" size="0.008" fromto="0 0 0 0 0 0.04"/></body>'
+        for i, each in enumerate((13, 16, 16, 27, 16), 1)
+    )
+    assert [
+        each.elements
+        for each in unlike(f'<mujoco><worldbody><body pos="0 0 1">{PALM}{fingers}</body></worldbody></mujoco>')
+    ] == [(f'body "{name}"',) for name in odd]
+
+
 CHAIN = "".join(
     f'<body name="{{side}}/{part}" pos="0.2 0 0.02"><inertial pos="0.1 0.01 0.02" mass="0.3" '
     f'fullinertia="2e-4 5e-4 6e-4 -1e-4 0 0"/><joint name="{{side}}/{part}" axis="{axis}" damping="1" range="-50 60"/>'

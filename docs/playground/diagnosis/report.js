@@ -114,7 +114,8 @@ function count(number, what) {
  * @param {string} unit
  */
 function shown(value, unit) {
-  return value === null ? "beyond all bounds" : `${Number(value.toPrecision(3))} ${unit}`.trim();
+  const kept = value !== null && Math.abs(value) < 1e-12 ? 0 : value; // what rounding leaves
+  return kept === null ? "beyond all bounds" : `${Number(kept.toPrecision(3))} ${unit}`.trim();
 }
 
 /**

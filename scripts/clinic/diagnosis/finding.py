@@ -18,6 +18,7 @@ CAUSES_SHOWN = 3
 DIES = "engine-dies"
 FAILS = "rule-fails"
 LATE = "rule-too-slow"
+NOISE = 1e-12  # what rounding leaves
 SITE = "CLINIC_SITE"  # the environment variable with the address of the site
 
 
@@ -166,7 +167,7 @@ def finding_of(judged: Judged, model: ReaderModel) -> Finding:
         file=first.file if first else next(iter(model.texts)),
         line=first.line if first else None,
         attribute=suspect.attribute,
-        now=suspect.now,
+        now=suspect.now or _written(model, first, suspect.attribute),
         value=suspect.value,
         edit=suspect.edits,
         probe=suspect.probe.title,
@@ -179,6 +180,16 @@ def finding_of(judged: Judged, model: ReaderModel) -> Finding:
         keyframe=judged.keyframe,
         silenced=judged.silenced,
     )
+
+
+def _written(model: ReaderModel, first: Edit | Element | None, attribute: str) -> str:
+    """What the text has for the attribute that an edit sets, as it is written."""
+    if model.source is None or not isinstance(first, Edit) or (first.action, first.attribute) != ("set", attribute):
+        return ""
+    places = (each for each in model.source.root.walk() if (each.file, each.start) == (first.file, first.start))
+    element = next(places, None)
+    found = model.source.value(element, attribute) if element else None
+    return " ".join(found.split()) if found else "left out"
 
 
 def ending(of: Diagnosis, died: Mapping[str, str], file: str) -> Diagnosis:
@@ -241,4 +252,4 @@ def shown(value: float, unit: str) -> str:
     """A number of three digits with its unit."""
     if not math.isfinite(value):
         return "beyond all bounds"
-    return f"{value:.3g} {unit}".rstrip()
+    return f"{value if abs(value) > NOISE else 0:.3g} {unit}".rstrip()

@@ -25,7 +25,7 @@ def project_root() -> Path:
 
 
 def cases_root() -> Path:
-    """The folder whose `cases/` can be read: the checkout, or elsewhere the installed package, which has a copy.
+    """The folder whose `cases/` can be read: the checkout, or elsewhere that of the package, which else has a copy.
 
     Raises:
         FileNotFoundError: If there is neither.
@@ -33,8 +33,9 @@ def cases_root() -> Path:
     try:
         return project_root()
     except FileNotFoundError:
-        if (PACKAGE / "cases").is_dir():
-            return PACKAGE
+        for folder in (PACKAGE, PACKAGE.parents[1]):
+            if (folder / "cases").is_dir():
+                return folder
         raise
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from clinic.diagnosis.probes.vector import apart
@@ -38,8 +38,13 @@ FIELDS = {  # attribute: field, width of a row, columns compared
         "contype": ("geom_contype", 1, (0,)),
         "conaffinity": ("geom_conaffinity", 1, (0,)),
     },
-    "body": {"mass": ("body_mass", 1, (0,)), "pos": ("body_pos", 3, (0, 1, 2))},
+    "body": {
+        "mass": ("body_mass", 1, (0,)),
+        "center of mass": ("body_ipos", 3, (0, 1, 2)),
+        "pos": ("body_pos", 3, (0, 1, 2)),
+    },
 }
+LENGTHS = ("pos", "center of mass")
 UNLIKE, SOME, LIKE = 25.0, 8.0, 0.1  # %
 
 
@@ -54,9 +59,14 @@ class Odd:
     unlike: float
 
     @property
+    def little(self) -> bool:
+        """Whether a little counts: the finger of a hand may have its centre of mass elsewhere by 8 %."""
+        return self.attribute != "center of mass"
+
+    @property
     def clear(self) -> bool:
         """Whether it is no matter of taste: the odd geom of four differs by up to 22 % in healthy models."""
-        return self.unlike > (UNLIKE if self.attribute in ("size", "pos") or len(self.siblings) < 3 else SOME)
+        return self.unlike > (UNLIKE if self.attribute in (*LENGTHS, "size") or len(self.siblings) < 3 else SOME)
 
 
 def groups(simulation: Simulation, kind: str) -> list[list[int]]:
@@ -100,10 +110,11 @@ def odd_ones(simulation: Simulation, kind: str, more: float = UNLIKE) -> Iterato
     for group in groups(simulation, kind):
         if len(group) < least:
             continue
-        for attribute in FIELDS[kind]:
-            rows = {index: _row(simulation, kind, attribute, index) for index in group}
-            for index in group:
-                others = [each for each in group if each != index]
+        table = {name: {i: _row(simulation, kind, name, i) for i in group} for name in FIELDS[kind]}
+        alike = _without_thumb(group, list(table.values()))
+        for attribute, rows in table.items():
+            for index in alike:
+                others = [each for each in alike if each != index]
                 first = rows[others[0]]
                 if any(_apart(rows[each], first) > LIKE for each in others) or (index, attribute) in seen:
                     continue
@@ -112,11 +123,24 @@ def odd_ones(simulation: Simulation, kind: str, more: float = UNLIKE) -> Iterato
                     yield Odd(kind, attribute, index, tuple(others), unlike)
 
 
+def _without_thumb(group: list[int], table: Sequence[Mapping[int, tuple[float, ...]]]) -> list[int]:
+    """Five or more but for the one that is of another kind: which differs from most in two attributes, or more."""
+    if len(group) < 5:
+        return group
+
+    def like(index: int, rows: Mapping[int, tuple[float, ...]]) -> int:
+        return sum(_apart(rows[index], rows[other]) <= LIKE for other in group)
+
+    most = [rows for rows in table if max(like(index, rows) for index in group) > len(group) / 2]
+    apart = [index for index in group if sum(like(index, rows) < len(group) / 2 for rows in most) >= 2]
+    return [index for index in group if index not in apart] if len(apart) == 1 else group
+
+
 def _row(simulation: Simulation, kind: str, attribute: str, index: int) -> tuple[float, ...]:
     field, width, columns = FIELDS[kind][attribute]
     place = simulation.dof(index) if field.startswith("dof") else index
     row = simulation.row(field, place, width)
-    return tuple(abs(row[column]) if attribute == "pos" else row[column] for column in columns)  # mirrored or not
+    return tuple(abs(row[column]) if attribute in LENGTHS else row[column] for column in columns)  # mirrored or not
 
 
 def swapped(one: str, other: str) -> bool:

@@ -45,7 +45,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Contacts without friction"
 FAMILIES = ("slips", "rolls-on")
-SINCE = "0.2"
+SINCE = "0.1"
 CASE = "crate-slides-off-table"
 
 MOST = 0.3  # of the push's speed

@@ -76,7 +76,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A grasp that creeps"
 FAMILIES = ("slips", "drifts")
-SINCE = "0.2"
+SINCE = "0.1"
 CASE = "box-creeps-out-of-grasp"
 UNPLANTED = "nothing is held in a grasp at the start of a healthy model"
 

@@ -58,7 +58,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A hull that closes a mesh's hole"
 FAMILIES = ("falls-through", "stuck", "jumps-at-start")
-SINCE = "0.2"
+SINCE = "0.1"
 CASE = "ball-stops-above-cup"
 UNPLANTED = "the healthy models have no hollow mesh that something falls into"
 

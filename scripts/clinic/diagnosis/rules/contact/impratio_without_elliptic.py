@@ -46,7 +46,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A high impratio under pyramidal cones"
 FAMILIES = ("slips",)
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "what it does hangs on what is held, and most healthy models hold nothing"
 MOST = 1.0

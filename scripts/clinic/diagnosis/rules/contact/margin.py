@@ -48,7 +48,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Contacts that push before anything touches"
 FAMILIES = ("stuck", "sinks", "jumps-at-start")
-SINCE = "0.2"
+SINCE = "0.1"
 
 MOST = 0.2  # of the thinner geom's thickness
 

@@ -49,7 +49,7 @@ from clinic.diagnosis.suspect import Level, Suspect
 
 TITLE = "Something begins inside of something else"
 FAMILIES = ("jumps-at-start", "sinks", "explodes")
-SINCE = "0.2"
+SINCE = "0.1"
 CASE = "stacked-boxes-fly-apart"
 
 MOST = 0.05

@@ -54,7 +54,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Parts that overlap at the start"
 FAMILIES = ("jumps-at-start", "stuck", "explodes")
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 CASE = "joint-snaps-at-start"
 

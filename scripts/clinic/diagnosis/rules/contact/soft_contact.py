@@ -37,16 +37,17 @@ When it is wrong: a cushion.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import partial
 
-from clinic.diagnosis.probes.touch import depth, edits_of, names_of, resting, with_like
+from clinic.diagnosis.probes.touch import Deciding, depth, edits_of, names_of, resting, with_like
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Contacts too soft"
 FAMILIES = ("sinks", "falls-through", "slips")
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 
 MOST = 0.05  # of the thinner geom's thickness
@@ -60,11 +61,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     rests = [decides for _, decides in resting(simulation)]
     for attribute, value, softness in (("solref", "0.02 1", _slow), ("solimp", "0.9 0.95 0.001", _weak)):
-        soft = [each for each in rests if max(softness(simulation, each.kind, i) for i in each.elements) > 1]
+        soft = [_soft_ones(each, partial(softness, simulation, each.kind)) for each in rests]
+        soft = [each for each in soft if each.elements]
         if soft:
-            excess = max(softness(simulation, each.kind, i) for each in soft for i in each.elements)
+            excess, kind, worst = max(
+                (softness(simulation, each.kind, i), each.kind, i) for each in soft for i in each.elements
+            )
             soft = with_like(simulation, soft, partial(_softer, simulation, softness))
-            kind, worst = next((each.kind, i) for each in soft for i in each.elements)
             now = " ".join(f"{each:g}" for each in simulation.row(f"{kind}_{attribute}", worst, len(value.split())))
             says = f"{attribute} {now} lets the contact give way; MuJoCo's default is {value}."
             edits = edits_of(model, soft, attribute, value)
@@ -72,6 +75,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 names_of(simulation, soft), attribute, now, value, edits, depth(), MOST, says,
                 f"{value}, MuJoCo's default", excess=excess,
             )  # fmt: skip
+
+
+def _soft_ones(each: Deciding, softness: Callable[[int], float]) -> Deciding:
+    return replace(each, elements=tuple(index for index in each.elements if softness(index) > 1))
 
 
 def _softer(simulation: Simulation, softness: Callable[[Simulation, str, int], float], geom: int) -> bool:

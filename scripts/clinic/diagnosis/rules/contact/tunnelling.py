@@ -46,7 +46,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Too fast for a thin contact"
 FAMILIES = ("falls-through", "sinks")
-SINCE = "0.2"
+SINCE = "0.1"
 UNPLANTED = "nothing in the healthy models is thrown at something thin"
 CASE = "ball-passes-through-shelf"
 

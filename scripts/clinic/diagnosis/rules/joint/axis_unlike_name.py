@@ -50,7 +50,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A slide along another axis than its name says"
 FAMILIES = ("drifts", "stuck", "wrong-numbers")
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "which way a name points, only names tell, and most healthy slides say none"
 

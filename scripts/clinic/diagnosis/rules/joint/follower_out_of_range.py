@@ -56,7 +56,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A joint may not go where it is led"
 FAMILIES = ("stuck", "jumps-at-start")
-SINCE = "0.2"
+SINCE = "0.1"
 UNPLANTED = "one healthy model has a joint that follows another"
 
 JOINT = 2  # mjtEq

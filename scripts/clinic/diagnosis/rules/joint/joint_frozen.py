@@ -54,7 +54,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Damping or friction holds a joint"
 FAMILIES = ("stuck", "sags")
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 
 FIELDS = ("damping", "frictionloss")

@@ -45,7 +45,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A range without any extent"
 FAMILIES = ("passes-limit", "stuck")
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 
 

@@ -43,7 +43,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A range that is not applied"
 FAMILIES = ("passes-limit",)
-SINCE = "0.2"
+SINCE = "0.1"
 
 TURN = 6.2  # rad
 

@@ -44,7 +44,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A spring too stiff for the timestep"
 FAMILIES = ("explodes", "oscillates")
-SINCE = "0.2"
+SINCE = "0.1"
 CASE = "arm-explodes"
 
 FAST = 100.0

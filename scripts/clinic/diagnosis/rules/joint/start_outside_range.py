@@ -46,7 +46,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A joint starts outside of its range"
 FAMILIES = ("jumps-at-start", "explodes")
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 
 OUTSIDE = 0.05  # of the range
@@ -75,7 +75,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield Suspect(
         tuple(simulation.name("joint", each) for each in joints),
         "range",
-        f"{low:.3g} {high:.3g}",
+        "",
         next((each.value for each in edits), ""),
         edits,
         Probe(

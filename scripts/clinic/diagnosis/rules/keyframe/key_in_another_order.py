@@ -67,7 +67,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A keyframe in another order than the joints"
 FAMILIES = ("jumps-at-start", "drifts", "explodes")
-SINCE = "0.2"
+SINCE = "0.1"
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

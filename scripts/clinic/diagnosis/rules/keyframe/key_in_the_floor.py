@@ -50,7 +50,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A keyframe is in the floor"
 FAMILIES = ("jumps-at-start", "explodes")
-SINCE = "0.2"
+SINCE = "0.1"
 
 SHARE = 0.06  # of the size of what is free
 

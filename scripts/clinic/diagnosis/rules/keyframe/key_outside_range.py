@@ -56,7 +56,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A keyframe is outside of the joints' ranges"
 FAMILIES = ("jumps-at-start", "explodes")
-SINCE = "0.2"
+SINCE = "0.1"
 CASE = "arm-jumps-at-reset"
 
 LIMIT = 0.1  # rad or m

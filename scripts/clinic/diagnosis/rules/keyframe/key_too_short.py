@@ -58,7 +58,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A keyframe is too short"
 FAMILIES = ("jumps-at-start", "drifts")
-SINCE = "0.2"
+SINCE = "0.1"
 UNPLANTED = "no healthy model has a free body that stands before its robot"
 
 

@@ -46,7 +46,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The centre of mass is outside of the body"
 FAMILIES = ("drifts", "sags")
-SINCE = "0.2"
+SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 

@@ -79,7 +79,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A centre of mass beside the middle"
 FAMILIES = ("drifts", "wrong-mass")
-SINCE = "0.2"
+SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "trunks of healthy robots carry batteries and computers aside"

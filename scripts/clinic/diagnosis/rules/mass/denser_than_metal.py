@@ -45,7 +45,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Denser than metal"
 FAMILIES = ("sags", "wrong-mass", "explodes", "stuck")
-SINCE = "0.2"
+SINCE = "0.1"
 AFLOAT = True
 
 METAL, LIGHT = 24000.0, 0.05

@@ -44,7 +44,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A geom stands twice"
 FAMILIES = ("wrong-mass", "sags", "drifts")
-SINCE = "0.2"
+SINCE = "0.1"
 AFLOAT = True
 
 MORE = 1.05

@@ -60,7 +60,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Gravity compensation on some links alone"
 FAMILIES = ("sags", "drifts")
-SINCE = "0.2"
+SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 

@@ -51,7 +51,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The inertia lies across the body"
 FAMILIES = ("drifts", "oscillates")
-SINCE = "0.2"
+SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 

@@ -53,7 +53,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An inertia larger than the whole model"
 FAMILIES = ("wrong-mass", "stuck", "explodes")
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "the kinds of wrong inertias are planted in bodies with geoms, of which other rules tell"
 MOST = 2.0

@@ -55,7 +55,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The inertias are in another unit"
 FAMILIES = ("stuck", "explodes", "wrong-mass", "oscillates")
-SINCE = "0.2"
+SINCE = "0.1"
 AFLOAT = True
 
 TENS, WITHIN, LIMIT = 2.5, 1.5, 2.5  # powers of ten; times the inertia at the joint

@@ -32,7 +32,8 @@ The number: the radius of gyration over that of the geoms, filled evenly: 0.53 t
 models. Suspected are bodies beyond 0.4 or 2.5 whose inertia is the same about all axes, and others beyond 0.15 or 6.
 Those that change nothing, massless frames and tips, are told by the inertia at the joint that turns the body: it must
 differ 2.5 times; 1.5 times where several bodies have the same, and 5 times where it is not equal about all axes; and
-1.1 times for one that is equal about all axes and whose radius differs more than 6 times.
+1.1 times for one that is equal about all axes and whose radius differs more than 6 times. A radius below a thirtieth is
+always told: it is as good as a point, and none of the 289 healthy models has one.
 
 When it is wrong: a body whose geoms are a small part of it, such as the feet of an unseen leg.
 """
@@ -48,7 +49,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The inertia is not that of the geoms"
 FAMILIES = ("explodes", "oscillates", "stuck", "drifts", "wrong-mass")
-SINCE = "0.2"
+SINCE = "0.1"
 AFLOAT = True
 CASE = "heavy-base-spins"
 LEVEL = "hint"
@@ -57,6 +58,7 @@ USUAL = (0.4, 2.5)  # radius of gyration over that of the geoms
 FAR = (0.25, 4.0)  # the same, for an inertia that is not equal about all axes, which nobody types in
 LIMIT, ALIKE = 2.5, 1.5  # times the inertia at the joint; where several bodies have the same inertia
 LITTLE, FELT = 1.1, 1.3  # at the joint, of a placeholder with an absurd radius
+POINT = 1 / 30  # of the radius of the geoms: no body of a healthy model is so near to a point
 FEW = 0.5  # of the bodies: where more are so, the geoms show little of them
 
 
@@ -78,7 +80,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             limit = ALIKE if len(bodies) > 1 else LIMIT
             if max(worst.radius, 1 / worst.radius) > ABSURD:
                 limit = FELT
-            if found[bodies[0]].absurd and LITTLE < model.measured(probe) <= limit:
+            point = all(found[body].radius < POINT for body in bodies)
+            if found[bodies[0]].absurd and (point or LITTLE < model.measured(probe) <= limit):
                 probe, limit = gyration(tuple(bodies)), ABSURD
         edits = tuple(
             edit

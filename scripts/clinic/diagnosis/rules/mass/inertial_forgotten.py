@@ -77,7 +77,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A body without its inertial"
 FAMILIES = ("wrong-mass", "sags", "drifts")
-SINCE = "0.2"
+SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 

@@ -46,7 +46,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Lighter than air"
 FAMILIES = ("falls-through", "explodes", "stuck")
-SINCE = "0.2"
+SINCE = "0.1"
 
 AIR, LIMIT = 1.2, 300.0
 
@@ -87,7 +87,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield Suspect(
             (of.name("body", root),),
             "density",
-            f"{mass:.3g} kg",
+            "",
             "500",
             tuple(edits),
             probe,

@@ -48,7 +48,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A camera that looks past everything"
 FAMILIES = ("camera",)
-SINCE = "0.2"
+SINCE = "0.1"
 
 MOST = 0.999
 

@@ -47,7 +47,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A camera that is upside down"
 FAMILIES = ("camera",)
-SINCE = "0.2"
+SINCE = "0.1"
 CASE = "camera-upside-down"
 
 MOST, UPSIDE = 100.0, 0.9  # degrees; of the view's direction along the vertical

@@ -51,7 +51,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A sensor that reads its cutoff"
 FAMILIES = ("sensor-reads-zero",)
-SINCE = "0.2"
+SINCE = "0.1"
 UNPLANTED = "one healthy model has a sensor with a cutoff"
 
 MOST = 0.8

@@ -45,7 +45,8 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Sensor noise that nothing adds"
 FAMILIES = ("sensor-reads-zero",)
-SINCE = "0.2"
+SINCE = "0.1"
+LEVEL = "hint"
 UNPLANTED = "no release since 3.1.4 adds noise: with or without it a model moves and reads alike"
 
 

@@ -54,7 +54,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A touch sensor whose site misses the contacts"
 FAMILIES = ("sensor-reads-zero",)
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 CASE = "touch-sensor-reads-zero"
 

@@ -57,7 +57,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An actuator drives another joint than its name says"
 FAMILIES = ("stuck", "drifts", "sags")
-SINCE = "0.2"
+SINCE = "0.1"
 
 WORDS = ("actuator", "act", "motor", "servo", "joint", "ctrl", "pos", "position", "torque", "a", "m", "j", "t")
 

@@ -86,7 +86,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "One servo without a control range"
 FAMILIES = ("passes-limit", "explodes", "stuck")
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "a servo without a range harms only when it is sent beyond"
 

@@ -50,7 +50,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "The control range misses the joint's range"
 FAMILIES = ("stuck", "passes-limit", "sags")
-SINCE = "0.2"
+SINCE = "0.1"
 CASE = "servo-moves-a-fraction"
 
 MISSED = 0.6

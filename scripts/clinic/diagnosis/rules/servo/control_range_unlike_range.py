@@ -87,7 +87,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "One control range is not the joint's"
 FAMILIES = ("stuck", "passes-limit")
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 
 ALIKE, UNLIKE, FAR, FEW = 0.01, 0.03, 0.9, 2

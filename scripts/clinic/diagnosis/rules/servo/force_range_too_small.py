@@ -50,7 +50,7 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A force range too small for the weight"
 FAMILIES = ("sags", "stuck")
-SINCE = "0.2"
+SINCE = "0.1"
 CASE = "arm-stops-short"
 
 STRAIN = 1.2

@@ -49,7 +49,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A gear that divides the servo's target"
 FAMILIES = ("sags", "stuck", "oscillates")
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 MOST = 1.5
 

@@ -65,7 +65,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A muscle is excited below zero"
 FAMILIES = ("stuck", "wrong-numbers")
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "no healthy model has muscles with a range of their own"
 

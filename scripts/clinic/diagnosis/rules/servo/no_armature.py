@@ -55,7 +55,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A gain too high for a joint without armature"
 FAMILIES = ("explodes", "oscillates")
-SINCE = "0.2"
+SINCE = "0.1"
 CASE = "hand-shakes-at-once"
 
 USUAL = 0.002  # s
@@ -110,7 +110,7 @@ def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
     bare = [joint for joint in bare if of.model("jnt_bodyid")[joint] not in thin]
     light = sorted(joint for joint in bare if inertia[of.dof(joint)] < ROTOR and not of.model("jnt_stiffness")[joint])
     probe = _symptom(model)
-    if not light or probe is None or of.timestep > 2 * USUAL:
+    if not light or probe is None or of.timestep > 5 * USUAL:
         return
     least = min(inertia[of.dof(joint)] for joint in light)
     yield Suspect(

@@ -48,7 +48,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A servo that does not hold its target"
 FAMILIES = ("stuck", "explodes", "sags", "passes-limit")
-SINCE = "0.2"
+SINCE = "0.1"
 
 AFFINE = 1  # mjtBias
 

@@ -51,7 +51,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A servo without damping rings"
 FAMILIES = ("oscillates", "explodes")
-SINCE = "0.2"
+SINCE = "0.1"
 CASE = "servo-oscillates"
 
 RATIO = 0.08

@@ -55,10 +55,10 @@ from clinic.diagnosis.suspect import Suspect, rounded
 
 TITLE = "A servo too weak for the weight it carries"
 FAMILIES = ("sags", "drifts")
-SINCE = "0.2"
+SINCE = "0.1"
 CASE = "servo-sags"
 
-LATE = 0.6  # s: the time constant above which a step is tried
+LATE, CRAWLS = 0.6, 10.0  # s: the time constant above which a step is tried, of a hinge and a slide
 SLOW = 4.0  # rad/s: the natural frequency below which it is
 LEFT = 0.45
 SAG, WALKS = 0.3, 0.55  # rad of a hinge, m of a slide; rad where the robot is free and stands on its feet
@@ -139,11 +139,12 @@ def _allowed(servo: Servo) -> float:
 
 
 def _late(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
-    """Hinges whose servos take longer than a second for a small step, but for those that sag."""
+    """Servos that take far longer than a second for a small step, but for those that sag."""
     simulation, late = model.simulation, []
     for each in servos(simulation):
-        slow = each.damping > LATE * each.stiffness or each.stiffness < SLOW**2 * each.inertia
-        if each.hinge and slow and each.actuator not in sagging and model.measured(remaining([each.actuator])) > LEFT:
+        slow = each.hinge and each.stiffness < SLOW**2 * each.inertia
+        slow |= each.damping > (LATE if each.hinge else CRAWLS) * each.stiffness
+        if slow and each.actuator not in sagging and model.measured(remaining([each.actuator])) > LEFT:
             late.append(each)
     if not late:
         return

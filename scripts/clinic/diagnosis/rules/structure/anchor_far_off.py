@@ -57,7 +57,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An anchor far from what it connects"
 FAMILIES = ("drifts", "jumps-at-start", "explodes")
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "the healthy models connect nothing by an anchor"
 

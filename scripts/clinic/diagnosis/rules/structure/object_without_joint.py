@@ -54,7 +54,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An object without a joint"
 FAMILIES = ("stuck",)
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "only intent knows what is to stay where it is"
 

@@ -58,7 +58,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Two fingers in one place"
 FAMILIES = ("jumps-at-start", "stuck", "slips")
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "fingers of healthy models that are put in one place are told as overlapping"
 

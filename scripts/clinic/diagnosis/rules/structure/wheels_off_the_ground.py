@@ -65,7 +65,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A part reaches lower than the wheels"
 FAMILIES = ("drifts", "slips", "jumps-at-start", "stuck")
-SINCE = "0.2"
+SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "nearly no healthy model stands on wheels"

@@ -47,7 +47,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The timestep is too long"
 FAMILIES = ("explodes", "oscillates", "falls-through")
-SINCE = "0.2"
+SINCE = "0.1"
 
 FAST = 100.0  # rad/s
 SECONDS, WHOLE = 2.0, 0.9  # what is run, and the share of it that a run with a shorter step has to last

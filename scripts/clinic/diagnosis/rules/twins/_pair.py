@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.inertia import inertial
@@ -61,7 +61,7 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
     yield from told.values()
 
 
-def siblings(model: ReaderModel, kind: str) -> Iterator[Suspect]:
+def siblings(model: ReaderModel, kind: str, attributes: Collection[str] = ()) -> Iterator[Suspect]:
     """One of three or more that are alike but for a number or a finger in their names, where its twin tells nothing."""
     of = model.simulation
     told = [each for found, _ in odd(model, (kind,), (*FIELDS[kind], "gear sign")) for each in found]
@@ -69,8 +69,9 @@ def siblings(model: ReaderModel, kind: str) -> Iterator[Suspect]:
     found = [
         each
         for each in odd_ones(of, kind, 2 * LIKE)
-        if (each.attribute, each.index) not in paired
-        and (each.clear or (len(each.siblings) >= 3 and each.unlike > SOME) or _swapped(model, each))
+        if each.attribute in (attributes or FIELDS[kind])
+        and (each.attribute, each.index) not in paired
+        and (each.clear or (each.little and len(each.siblings) >= 3 and each.unlike > SOME) or _swapped(model, each))
     ]
     if len({each.index for each in found}) > 1:  # two that differ alike, left and right, are meant
         return
@@ -136,7 +137,8 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
     alike = sum(
         (each.kind, each.quantity) == like and not (each.odd and like[1] == first.quantity) for each in compared
     )
-    says = f"It differs from its twin, {others[0]}, in a model where {alike} other pairs agree in their {quantities}."
+    says = f"It differs from its twin, {others[0]}" + f", in a model where {alike} other pairs agree" * (alike > 0)
+    says += f" in their {quantities}." if alike else f", in its {quantities}."
     says += SWAPPED * digits + EITHER * (not sure)
     return Suspect(
         tuple(dict.fromkeys(names if sure else names + others)),

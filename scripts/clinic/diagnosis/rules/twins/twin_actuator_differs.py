@@ -108,7 +108,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The actuator of a pair is unlike its twin"
 FAMILIES = ("stuck", "drifts", "oscillates", "sags")
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 
 

@@ -98,15 +98,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.twins._pair import odd, suspect
+from clinic.diagnosis.rules.twins._pair import odd, siblings, suspect
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The mass of a body is unlike its twin's"
 FAMILIES = ("drifts", "oscillates")
-SINCE = "0.2"
+SINCE = "0.1"
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """What differs in a pair, a suspect for each quantity."""
     for found, clear in odd(model, ("body",), ("mass", "center of mass", "inertia", "gravcomp")):
         yield suspect(model, found, clear)
+    yield from siblings(model, "body", ("mass", "center of mass"))

@@ -93,7 +93,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The joint of a pair is unlike its twin"
 FAMILIES = ("drifts", "stuck", "oscillates")
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 
 

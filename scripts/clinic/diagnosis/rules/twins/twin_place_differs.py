@@ -92,7 +92,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A part is not the mirror image of its twin"
 FAMILIES = ("drifts", "falls-through", "slips", "camera")
-SINCE = "0.2"
+SINCE = "0.1"
 LEVEL = "hint"
 
 
@@ -110,4 +110,4 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     ):
         yield suspect(model, found, clear)
     yield from siblings(model, "geom")
-    yield from siblings(model, "body")
+    yield from siblings(model, "body", ("pos",))

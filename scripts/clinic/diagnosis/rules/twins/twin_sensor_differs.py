@@ -106,7 +106,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The sensor of a pair is attached elsewhere than its twin"
 FAMILIES = ("sensor-reads-zero", "drifts")
-SINCE = "0.2"
+SINCE = "0.1"
 UNPLANTED = "a sensor of the wrong side harms no motion, and readings that differ are not counted as harm"
 
 

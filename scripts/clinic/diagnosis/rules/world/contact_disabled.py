@@ -45,7 +45,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Contacts are switched off"
 FAMILIES = ("falls-through",)
-SINCE = "0.2"
+SINCE = "0.1"
 
 FLAGS = {16: "contact", 1: "constraint"}  # mjtDisableBit
 

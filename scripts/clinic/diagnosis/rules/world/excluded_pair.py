@@ -47,7 +47,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "An exclude that forbids a contact that is needed"
 FAMILIES = ("falls-through",)
-SINCE = "0.2"
+SINCE = "0.1"
 UNPLANTED = "in the healthy models several bodies touch the floor: one exclusion drops nothing through it"
 
 

@@ -47,7 +47,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A medium that holds everything back"
 FAMILIES = ("slow", "stuck", "drifts")
-SINCE = "0.2"
+SINCE = "0.1"
 
 MOST = 0.1  # of the weight
 

@@ -51,7 +51,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Gravity points the wrong way, or has the wrong size"
 FAMILIES = ("falls-through", "drifts", "stuck", "sags")
-SINCE = "0.2"
+SINCE = "0.1"
 
 ANGLE, SHORT, LONG = 45.0, 0.025, 5.0  # degrees, s, s
 OFF = 128  # mjtDisableBit

@@ -1,0 +1,86 @@
+"""Fingers with a torsional friction that their contacts do not have.
+
+The second number of `friction` resists turning about the contact's normal, and the third one rolling. A contact has
+them from `condim="4"` and `condim="6"` on: with `condim="3"`, the default, what two fingers pinch turns between them.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="left_finger" pos="0 0.03 0.2">
+          <joint type="slide" axis="0 1 0" range="-0.02 0.02"/>
+          <geom name="left_pad" type="box" size="0.01 0.005 0.02" mass="0.02" friction="1 0.05 0.001"/>
+        </body>
+        <body name="right_finger" pos="0 -0.03 0.2">
+          <joint type="slide" axis="0 1 0" range="-0.02 0.02"/>
+          <geom name="right_pad" type="box" size="0.01 0.005 0.02" mass="0.02" friction="1 0.05 0.001"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="left_finger" pos="0 0.03 0.2">
+          <joint type="slide" axis="0 1 0" range="-0.02 0.02"/>
+          <geom name="left_pad" type="box" size="0.01 0.005 0.02" mass="0.02" friction="1 0.05 0.001" condim="4"/>
+        </body>
+        <body name="right_finger" pos="0 -0.03 0.2">
+          <joint type="slide" axis="0 1 0" range="-0.02 0.02"/>
+          <geom name="right_pad" type="box" size="0.01 0.005 0.02" mass="0.02" friction="1 0.05 0.001" condim="4"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: how many geoms of fingers, thumbs, jaws, pads and tips have more than the default of 0.005 m, in a model
+without any `condim` above 3; two at least are told. So are 3 of the 289 healthy models.
+
+When it is wrong: a number that was left over, in a task where nothing is to be held from turning.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect, counted
+
+TITLE = "Torsional friction that condim leaves out"
+FAMILIES = ("slips", "drifts")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "in none of the healthy models do fingers hold anything at the start"
+
+FINGER = re.compile(r"finger|thumb|grip|jaw|pad|(?<![a-z])tip", re.IGNORECASE)
+DEFAULT, PLAIN = 0.005, 3  # m; the condim up to which a contact has no torsional friction
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The fingers' geoms with torsional friction, where no contact can have it."""
+    of = model.simulation
+    condim, bodies, fixed = of.model("geom_condim"), of.model("geom_bodyid"), of.model("body_weldid")
+    if any(each > PLAIN for each in condim) or of.count("pair"):
+        return
+    masks = zip(of.model("geom_contype"), of.model("geom_conaffinity"), strict=True)
+    found = [
+        geom
+        for geom, solid in enumerate(masks)
+        if any(solid) and fixed[int(bodies[geom])] and of.row("geom_friction", geom, 3)[1] > 1.001 * DEFAULT
+    ]
+    found = [geom for geom in found if FINGER.search(f"{of.name('geom', geom)} {of.name('body', int(bodies[geom]))}")]
+    if len(found) < 2:
+        return
+    torsional = max(of.row("geom_friction", geom, 3)[1] for geom in found)
+    yield Suspect(
+        tuple(of.name("geom", geom) for geom in found),
+        "condim",
+        f"{int(condim[found[0]])}",
+        "4",
+        model.set("geom", found, "condim", "4"),
+        counted("geoms with a torsional friction that no contact has", len(found)),
+        1.0,
+        f"A torsional friction of {torsional:.3g} m has no effect: no geom's condim is above {PLAIN}.",
+        level="hint",
+    )

@@ -51,6 +51,14 @@ def test_the_tables_have_their_place_on_their_page(root: Path, anchor: str) -> N
     assert measured.put(measured.put(text, anchor, "x"), anchor, "y").count("\ny\n") == 1
 
 
+def test_the_aims_that_a_grown_site_misses_are_named() -> None:
+    least = growth.Site(100, Path(), Path(), [], 0.1, [10.0, 9.0])
+    largest = growth.Site(1000, Path(), Path(), [], 0.8, [80.0], index=growth.INDEX + 1, query=1.0)
+    assert largest.missed(least) == ["the search index"]
+    largest.spent, largest.index = [200.0], growth.INDEX
+    assert largest.missed(least) == ["the time a case"]
+
+
 def test_the_steps_of_all_runs_are_counted(tmp_path: Path) -> None:
     case = tiny_case(tmp_path, ("film: {}\n", ""))
     spent, physics = bench.parts([case])

@@ -12,7 +12,7 @@ from clinic.pages.playground import FILE as PLAYGROUND
 from clinic.pages.text.prose import opening
 from clinic.proof.evidence import collect
 from clinic.record.case import Case
-from helpers import tiny_case
+from helpers import script_case, tiny_case
 
 FAMILY = ("tags: [contact]", "tags: [contact]\nfamily: falls-through")
 PICTURES = ("thumb.webp", "clip.mp4", PLAYGROUND)
@@ -36,6 +36,15 @@ def test_a_card_has_the_failure_the_title_what_was_measured_and_says_that_one_ca
     assert repaired.startswith("0.04")
     assert "playable" in card
     assert "playable" not in home([shown(tiny_case(tmp_path / "other", FAMILY))])
+
+
+def test_what_a_script_prints_has_no_moment_of_its_own(tmp_path: Path) -> None:
+    final = script_case(tmp_path / "final")
+    largest = script_case(tmp_path / "largest", ("{signal: error, equals: 0}", "{signal: error, take: max, equals: 0}"))
+    for case, said in ((final, "error"), (largest, "error, highest")):
+        found = brief(case, collect(case))
+        assert found is not None
+        assert found.measured == said
 
 
 def test_a_tile_leads_to_the_page_of_its_symptom_and_names_its_film(tmp_path: Path) -> None:

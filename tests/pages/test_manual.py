@@ -27,6 +27,7 @@ def test_addresses_are_those_of_the_installed_version() -> None:
     [
         ("XMLreference.html#body-geom-contype", "XML Reference: contype"),
         ("XMLreference.html#body-quat", "XML Reference: quat"),
+        ("XMLreference.html#body-geom-solimp", "XML Reference: solimp"),
         ("XMLreference.html#body-camera", "XML Reference: body/camera"),
         ("modeling.html#corientation", "Modeling: Frame orientations"),
         ("modeling.html#frame-orientations", "Modeling: Frame orientations"),

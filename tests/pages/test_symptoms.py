@@ -37,7 +37,9 @@ def test_a_family_has_its_causes_the_procedure_and_what_it_prints(tmp_path: Path
     pages = {name: page.decode() for name, page in symptom_pages([shown], {"falls-through": told}).items()}
     listed, page = pages["symptoms.md"], pages["symptoms/falls-through.md"]
     assert "(cases/falling-box/index.md)" in listed.partition("{ #falls-through }")[2].partition("\n## ")[0]
-    assert "symptoms/falls-through.md" in listed
+    assert "(symptoms/falls-through.md) A script that measures your model.\n" in listed
+    without = symptom_pages([shown], {"falls-through": None})["symptoms.md"].decode()
+    assert "(symptoms/falls-through.md) What to look for in your code.\n" in without
     assert "Contacts at the start: below 1." in page
     assert "rows = [  # the case" in page
     assert "falling-box = 0\nit is falling-box: masks\n" in page

@@ -14,7 +14,7 @@ import yaml
 from clinic.pages.text.addresses import REPOSITORY, SITE, to_run
 from clinic.publish.for_programs import feed, lines, llms_text
 from clinic.publish.page_head import FORM, report_address, structured_data
-from clinic.publish.plain_markdown import plain_markdown
+from clinic.publish.plain_markdown import plain_markdown, with_listing
 from helpers import tiny_case
 from project import SILENT, run, write_project
 
@@ -70,6 +70,18 @@ def test_a_page_as_markdown_reads_without_a_browser() -> None:
         "# 1. A box falls\n\nIt goes by $\\frac{1}{2} < g$ [m].\n\n## Diagnosis\n\nPrint `data.ncon`:\n\n"
         '```python\nprint("<b>", data.ncon)  # { .kept }\n```\n\n![Height.](plot.svg)\n\n## Files\n\n'
         "- [`sinks`](../../symptoms/sinks.md#more)\n"
+    )
+
+
+def test_the_list_of_tags_stands_in_the_markdown_too() -> None:
+    text = "# Topics\n\n[By symptom](symptoms.md)\n\n###### tags.md:9-31/name { #tags.md:9-31/slug }\n"
+    html = (
+        '<ul><li><a href="no.html">none</a></li></ul>\n'
+        '<h2 id="tag:joint">\n<span class="md-tag">joint</span><a class="headerlink">¶</a></h2>\n'
+        '<ul>\n<li>\n  <a href="cases/x/index.html">\n    2. A &amp; B\n  </a>\n</li></ul>'
+    )
+    assert plain_markdown(with_listing(text, html)) == (
+        "# Topics\n\n[By symptom](symptoms.md)\n\n## joint\n\n- [2. A & B](cases/x/index.md)\n"
     )
 
 
@@ -149,6 +161,7 @@ def test_a_site_whose_addresses_are_known_says_them_and_another_says_none(tmp_pa
     assert "uvx --from git+https://example.org/some/where clinic show falling-box" in told
     assert not html.xpath("//*[@data-md-component='source']"), "this asks another host how many stars it has"
     for site in (none, known):
+        assert "\n## contact\n\n- [1. A box" in (site / "tags.md").read_text(encoding="utf-8")
         assert (site / "cases/falling-box/index.md").read_text(encoding="utf-8").startswith("# 1. A box falls")
 
 

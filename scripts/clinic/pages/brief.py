@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from clinic.pages.text.claim import TAKE_WORDS
 from clinic.proof.evidence import Evidence
 from clinic.record.case import Case
 from clinic.record.prose import quantity
@@ -45,5 +46,14 @@ def brief(case: Case, evidence: Evidence) -> Brief | None:
         unit = "s" if was.take == "onset" else signal.unit
         large = max(abs(was.measured), abs(now.measured))
         values = (quantity(v if abs(v) > NOTHING * large else 0.0, unit, 3) for v in (was.measured, now.measured))
-        return Brief(f"{signal.label or was.signal} {WHEN[was.take]}", *values)
+        return Brief(f"{signal.label or was.signal}{_when(case, was.signal, was.take)}", *values)
     return None
+
+
+def _when(case: Case, name: str, take: str) -> str:
+    """Of which moment the number is; what is measured or printed once has none of its own."""
+    if hasattr(case.record.signals[name], "measure"):
+        return ""
+    if case.record.script is None:
+        return f" {WHEN[take]}"
+    return "" if take in ("final", "first") else f", {TAKE_WORDS[take]}"

@@ -21,7 +21,8 @@ def symptom_pages(shown: Sequence[CasePage], told: Differentials) -> Files:
     by_slug = {one.case.slug: one for one in shown}
     own = {name: [by_slug[case.slug] for case in members(name, [one.case for one in shown])] for name in families()}
     others = [one for one in shown if one.case.record.family is None]
-    listed = render("symptoms", families=families(), own=own, others=others)
+    scripts = {name for name, found in told.items() if found and found.code}
+    listed = render("symptoms", families=families(), own=own, others=others, scripts=scripts)
     made = {"symptoms.md": listed.encode()}
     for name, causes in own.items():
         if causes:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from clinic.publish.page_head import about, report_address, structured_data
-from clinic.publish.plain_markdown import plain_markdown
+from clinic.publish.plain_markdown import plain_markdown, with_listing
 from clinic.publish.policy import policy
 
 
@@ -35,5 +35,5 @@ def on_post_page(output: str, *, page: Any, config: Any, **_: object) -> str:
     """Writes the page's Markdown beside it."""
     path = Path(config["site_dir"], page.file.src_uri)
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(plain_markdown(page.markdown), encoding="utf-8")
+    path.write_text(plain_markdown(with_listing(page.markdown, page.content)), encoding="utf-8")
     return output

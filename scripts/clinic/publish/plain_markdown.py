@@ -20,6 +20,11 @@ CODE = re.compile(r"</?code>")
 TAG = re.compile(r"</?(?:div|section|span|figure|figcaption|details|p|b|small|ul|ol|li|article)\b[^>]*>")
 ATTRIBUTES = re.compile(r"[ \n]?\{:? ?[#.][^{}\n]*\}|(?<=\))\{ ?[#.\w][^{}\n]*\}")
 EMPTY = re.compile(r"\n(?:[ \t]*\n){2,}")
+LISTING = re.compile(r"^#+ \S+/name \{ #\S+/slug \}$", re.MULTILINE)  # where the theme lists what bears each tag
+LISTED = re.compile(
+    r'<h\d id="tag:[^>]*>\s*<span[^>]*>(?P<tag>.*?)</span>|<li>\s*<a href="(?P<to>[^"]*)">\s*(?P<title>.*?)\s*</a>',
+    re.DOTALL,
+)
 
 
 def plain_markdown(text: str) -> str:
@@ -30,6 +35,16 @@ def plain_markdown(text: str) -> str:
         made += [_plain(text[at : fence.start()]), fence[0]]
         at = fence.end()
     return EMPTY.sub("\n\n", "".join([*made, _plain(text[at:])])).strip() + "\n"
+
+
+def with_listing(text: str, html: str) -> str:
+    """The Markdown of a page with the list of tags that the theme puts into its HTML alone, as the last thing there."""
+    _, mark, rest = html.partition('<h2 id="tag:')
+    rows = [
+        f"\n## {each['tag']}\n" if each["tag"] else f"- [{each['title']}]({_beside(each['to'])})"
+        for each in LISTED.finditer(mark + rest)
+    ]
+    return LISTING.sub(lambda _: "\n".join(rows), text)
 
 
 def _plain(text: str) -> str:

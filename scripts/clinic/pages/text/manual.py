@@ -47,13 +47,19 @@ def anchors(page: str) -> dict[str, str]:
         elif line.strip() and not RULE.match(line):
             heading = re.sub(r":[\w-]+:`([^`<]*?)\s*(?:<[^>]*>)?`|\s*\|[^|]*\|\s*|\*\*|``", r"\1", line).strip()
             if RULE.match(following):
-                labels.append(heading)
-            else:  # an attribute, or several, with their types
-                heading = re.split("[:,]", heading)[0]
-            slugs = (re.sub(r"[^a-z0-9]+", "-", label.lower()).strip("-") for label in labels)  # as Sphinx writes them
-            found |= dict.fromkeys(slugs, heading)
+                found |= dict.fromkeys(map(_slug, [*labels, heading]), heading)
+            else:  # an attribute, or several, with their types: each label ends with its own
+                several = [name.strip() for name in heading.partition(":")[0].split(",")]
+                for label in map(_slug, labels):
+                    own = (name for name in several if name and label.endswith(_slug(name)))
+                    found[label] = next(own, several[0])
             labels = []
     return found
+
+
+def _slug(label: str) -> str:
+    """A label as Sphinx writes it."""
+    return re.sub(r"[^a-z0-9]+", "-", label.lower()).strip("-")
 
 
 def manual_problems(case: Case) -> Iterator[Problem]:
@@ -95,7 +101,7 @@ def passage_words(page: str, anchor: str) -> set[str]:
     """The words of what stands at a label, and at the next one; empty if the anchor is that of a heading."""
     source = (Path(mujoco.__file__).parent / "doc" / Path(page).with_suffix(".rst")).read_text(encoding="utf-8")
     passages = re.split(r"^\.\. _", source, flags=re.MULTILINE)[1:]
-    labels = [re.sub(r"[^a-z0-9]+", "-", passage.partition(":")[0].lower()).strip("-") for passage in passages]
+    labels = [_slug(passage.partition(":")[0]) for passage in passages]
     if anchor not in labels:
         return set()
     place = labels.index(anchor)

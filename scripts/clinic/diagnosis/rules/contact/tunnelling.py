@@ -8,9 +8,9 @@ Bad:
     <mujoco>
       <worldbody>
         <geom name="shelf" type="box" pos="0 0 0.2" size="0.08 0.05 0.002"/>
-        <body name="ball" pos="0 0 2">
+        <body name="block" pos="0 0 2">
           <freejoint/>
-          <geom name="ball" type="sphere" size="0.01" mass="0.03"/>
+          <geom name="block" type="box" size="0.01 0.01 0.01" mass="0.03"/>
         </body>
       </worldbody>
     </mujoco>
@@ -20,9 +20,9 @@ Good:
     <mujoco>
       <worldbody>
         <geom name="shelf" type="box" pos="0 0 0.15" size="0.08 0.05 0.05"/>
-        <body name="ball" pos="0 0 0.3">
+        <body name="block" pos="0 0 2">
           <freejoint/>
-          <geom name="ball" type="sphere" size="0.01" mass="0.03"/>
+          <geom name="block" type="box" size="0.01 0.01 0.01" mass="0.03"/>
         </body>
       </worldbody>
     </mujoco>

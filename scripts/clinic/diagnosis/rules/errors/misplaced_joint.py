@@ -8,10 +8,10 @@ Bad:
     <mujoco>
       <worldbody>
         <body name="base">
-          <geom name="foot" size="0.1"/>
+          <geom name="foot" type="box" size="0.05 0.05 0.05"/>
           <body name="robot" pos="0 0 1">
             <freejoint name="root"/>
-            <geom name="trunk" size="0.1"/>
+            <geom name="trunk" type="box" size="0.05 0.05 0.05"/>
           </body>
         </body>
       </worldbody>
@@ -21,10 +21,10 @@ Good:
 
     <mujoco>
       <worldbody>
-        <geom name="foot" size="0.1"/>
+        <geom name="foot" type="box" size="0.05 0.05 0.05"/>
         <body name="robot" pos="0 0 1">
           <freejoint name="root"/>
-          <geom name="trunk" size="0.1"/>
+          <geom name="trunk" type="box" size="0.05 0.05 0.05"/>
         </body>
       </worldbody>
     </mujoco>

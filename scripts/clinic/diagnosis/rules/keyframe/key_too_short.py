@@ -39,8 +39,9 @@ Good:
       </keyframe>
     </mujoco>
 
-The number: how many numbers are missing. Where free bodies stand first, the edit puts their places
-before the numbers that are written. Seven, fourteen, ... missing numbers tell a cause.
+The number: how many numbers go to another joint than with the edit, which puts the places of free bodies that stand
+first before the numbers that are written. A cause is told where the count of the missing is a multiple of seven, and
+that of the written is not.
 
 When it is wrong: free bodies that come last and are meant to keep their places.
 """

@@ -7,7 +7,7 @@ Bad:
     <mujoco>
       <worldbody>
         <body name="palm" pos="0 0 1">
-          <joint axis="0 1 0"/>
+          <joint axis="0 1 0" range="-90 90"/>
           <geom type="box" size="0.05 0.02 0.04"/>
           <geom type="box" size="0.05 0.02 0.04"/>
         </body>
@@ -19,7 +19,7 @@ Good:
     <mujoco>
       <worldbody>
         <body name="palm" pos="0 0 1">
-          <joint axis="0 1 0"/>
+          <joint axis="0 1 0" range="-90 90"/>
           <geom type="box" size="0.05 0.02 0.04"/>
         </body>
       </worldbody>

@@ -1,7 +1,8 @@
-"""A force or torque sensor on a body that hangs on nothing reads 0.
+"""A force or torque sensor on a free body reads 0.
 
-`<force>` and `<torque>` measure what a body and its parent do to each other through their joint. A free body has no
-such joint: it reads 0, whatever it stands on.
+`<force>` and `<torque>` measure what a body and its parent do to each other through their joint. The parent of a
+free body is the world, and a free joint passes nothing to it of what contacts press: the sensor reads 0, whatever the
+body stands on.
 
 Bad:
 
@@ -84,7 +85,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             simulation.name("site", site),
             simulation.name("body", int(owners[site])),
         )
-        says = f"Contacts carry {seen.carried:.3g} N, the sensor reads {seen.reading:.3g}: the body has no parent."
+        says = f"Contacts carry {seen.carried:.3g} N, the sensor reads {seen.reading:.3g}: a free joint passes none."
         yield Suspect(names, element.tag, element.tag, "touch", edits, unread(sensor), MOST, says)
 
 
@@ -94,6 +95,6 @@ def _idle(simulation: Simulation, sensor: int, site: int) -> Suspect:
         simulation.name(kind, index)
         for kind, index in (("sensor", sensor), ("site", site), ("body", int(simulation.model("site_bodyid")[site])))
     )
-    says = "The body has no parent: it reads nothing of what it touches. A site in a body that hangs on it does."
-    probe = counted("sensors of a body without a parent", 1)
+    says = "A free joint does not pass on what contacts press. A site in a body that hangs on this one reads it."
+    probe = counted("sensors of a free body", 1)
     return Suspect(names, "site", "", "one in a body below", (), probe, 0.5, says, "0", level="hint")

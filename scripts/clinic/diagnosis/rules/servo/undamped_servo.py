@@ -1,4 +1,4 @@
-"""A position servo without damping rings.
+"""An undamped position servo rings.
 
 A position servo is a spring. Without damping, its own (`kv`, `dampratio`) or the joint's, what it drives swings about
 each target for ever.
@@ -49,7 +49,7 @@ from clinic.diagnosis.probes.servo import STEP, Servo, overshoot, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
-TITLE = "A servo without damping rings"
+TITLE = "An undamped servo rings"
 FAMILIES = ("oscillates", "explodes")
 SINCE = "0.1"
 CASE = "servo-oscillates"

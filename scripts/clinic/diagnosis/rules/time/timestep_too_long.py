@@ -6,25 +6,31 @@ is well at a shorter timestep, and explodes or rattles at its own, has no other 
 Bad:
 
     <mujoco>
-      <option timestep="0.01"/>
+      <option timestep="0.02"/>
       <worldbody>
         <body pos="0 0 1">
-          <joint name="hinge" axis="0 1 0" stiffness="2000" springref="2"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.01" mass="0.05"/>
+          <joint name="hinge" axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.01" mass="0.3"/>
         </body>
       </worldbody>
+      <actuator>
+        <position joint="hinge" kp="100" kv="2"/>
+      </actuator>
     </mujoco>
 
 Good:
 
     <mujoco>
-      <option timestep="0.0005"/>
+      <option timestep="0.002"/>
       <worldbody>
         <body pos="0 0 1">
-          <joint name="hinge" axis="0 1 0" stiffness="2000" springref="2"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.01" mass="0.05"/>
+          <joint name="hinge" axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.01" mass="0.3"/>
         </body>
       </worldbody>
+      <actuator>
+        <position joint="hinge" kp="100" kv="2"/>
+      </actuator>
     </mujoco>
 
 The number: the fastest joint within 2 s after letting go (100 rad/s are 16 turns a second), or, where that is calm, how

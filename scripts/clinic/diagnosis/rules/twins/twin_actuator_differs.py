@@ -42,7 +42,7 @@ Bad:
         <position name="left_middle" joint="left_middle" kp="5" kv="0.02"/>
         <position name="right_middle" joint="right_middle" kp="5" kv="0.02"/>
         <position name="left_rear" joint="left_rear" kp="5" kv="0.02"/>
-        <position name="right_rear" joint="right_rear" kp="50" kv="0.02"/>
+        <position name="right_rear" joint="right_rear" kp="10" kv="0.02"/>
       </actuator>
     </mujoco>
 

@@ -8,6 +8,7 @@ Bad:
     <mujoco>
       <worldbody>
         <body name="trunk" pos="0 0 1">
+          <inertial pos="0 0 0" mass="4" diaginertia="0.016 0.016 0.016"/>
           <freejoint/>
           <geom size="0.1"/>
           <body name="left_front" pos="0.2 0.1 0">
@@ -49,6 +50,7 @@ Good:
     <mujoco>
       <worldbody>
         <body name="trunk" pos="0 0 1">
+          <inertial pos="0 0 0" mass="4" diaginertia="0.016 0.016 0.016"/>
           <freejoint/>
           <geom size="0.1"/>
           <body name="left_front" pos="0.2 0.1 0">

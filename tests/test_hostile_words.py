@@ -7,9 +7,12 @@ from html import unescape
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import yaml
 from clinic.pages.cases import CasePage
+from clinic.pages.figures.film import HEIGHT, WIDTH
+from clinic.pages.figures.pictures import webp
 from clinic.pages.figures.plots import plots
 from clinic.pages.home import home
 from clinic.pages.text.prose import ProseError, markdown, opening
@@ -81,7 +84,8 @@ def test_prose_does_not_act(proof: Evidence, text: str) -> None:
 def test_lines_are_shown_on_every_page(proof: Evidence, tmp_path: Path) -> None:
     record = wild_record("Words.")
     case = load_case(write_folder(tmp_path, "falling-box", {"case.yaml": json.dumps(record), "model.xml": MODEL}))
-    files = dict.fromkeys(("film.mp4", "broken.webp", "strip.webp", "fixed.webp"), b"")
+    files = dict.fromkeys(("film.mp4", "broken.webp", "fixed.webp"), b"")
+    files["strip.webp"] = webp(np.zeros((2 * HEIGHT, 4 * WIDTH, 3), dtype=np.uint8))
     said = {key: variant.model_copy(update={"messages": [SCRIPTED, "```"]}) for key, variant in proof.variants.items()}
     evidence = proof.model_copy(update={"variants": said})
     shown = [CasePage(case, "", opening(case, evidence), files)]

@@ -113,6 +113,18 @@ def test_alternative_text_states_the_numbers(made: tuple[Case, Evidence], page: 
     assert "share-a-bit 0.0" in text
 
 
+def test_contrasts_are_told_apart_from_the_situations_in_which_repairs_hold(tmp_path: Path) -> None:
+    sound = "{id: heavy, title: Twice the gravity, set: {'model.opt.gravity[2]': -19.62}}"
+    checks = "checks: {broken: [{signal: contacts, take: max, equals: 0}], fixed: [{signal: height, below: 0.06}]}"
+    other = f"{{id: high, title: From above, start: {{'joint(free).qpos[2]': 0.12}}, contrast: true, {checks}}}"
+    case = tiny_case(tmp_path, ("no_sweep: The masks", f"trials: [{sound}, {other}]\nno_sweep: The masks"))
+    known = page_of(case, collect(case)).split("<summary>How we know")[1]
+    holds, _, contrasts = known.partition("A control, in which the broken model works, or the repaired one fails")
+    assert "in other situations too:\n\n- Twice the gravity" in holds
+    assert "- From above" not in holds
+    assert "- From above" in contrasts
+
+
 def test_files_to_download_and_the_command(page: str) -> None:
     assert "To download: [model.xml](model.xml)." in page
     known = page.split("<summary>How we know")[1]

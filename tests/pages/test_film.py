@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from clinic.engine.simulate import compile_model
-from clinic.pages.figures.film import FPS, HEIGHT, WIDTH, encode, film, frames
+from clinic.pages.figures.film import FPS, HEIGHT, WIDTH, encode, film, frames, strip
 from clinic.record.fields import Film, RunSpec
 from helpers import decoded, tiny_case
 
@@ -54,3 +54,11 @@ def test_an_exploding_run_stops_at_its_last_picture_and_says_when() -> None:
     assert 0 < first < 5
     assert len(set(clocks[first:])) == 1
     assert all(np.array_equal(picture, seen[first][0]) for picture, _ in seen[first:])
+
+
+def test_a_strip_shows_each_moment_once() -> None:
+    kinds = [np.full((HEIGHT, 2 * WIDTH, 3), shade, dtype=np.uint8) for shade in range(9)]
+    assert strip([kinds[0]] * 3 + [kinds[1]] * 3).shape == (2 * HEIGHT, 2 * WIDTH, 3)
+    assert strip([kinds[0], kinds[1], kinds[1], kinds[2]])[::HEIGHT, 0, 0].tolist() == [0, 1, 2]
+    many = strip([each for each in kinds for _ in range(3)])
+    assert many[::HEIGHT, :: 2 * WIDTH, 0].tolist() == [[0, 3], [5, 8]]

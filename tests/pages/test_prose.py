@@ -8,7 +8,8 @@ import pytest
 from clinic.pages.text.markup import code, fence, line
 from clinic.pages.text.prose import ProseError, fill, markdown, mistakes, resolve
 from clinic.proof.evidence import Evidence
-from clinic.record.prose import number, quantity
+from clinic.proof.sweep import Agreement, Point, SweepEvidence
+from clinic.record.prose import number, quantity, rounded_up
 from helpers import evidence_of_variants, variant_evidence
 
 BROKEN = variant_evidence(
@@ -214,3 +215,36 @@ def test_a_formula_holds_nothing_that_markdown_reads(evidence: Evidence) -> None
 )
 def test_text_to_the_letter(act: str, shown: str) -> None:
     assert act == shown
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "bound"),
+    [
+        (0.1276, 1, 0.2),
+        (0.1276, 2, 0.13),
+        (0.7212, 2, 0.73),
+        (5.000000000074e-4, 1, 5e-4),
+        (1e-7, 1, 1e-7),
+        (0.0, 1, 0.0),
+    ],
+)
+def test_a_bound_is_rounded_up(value: float, digits: int, bound: float) -> None:
+    assert rounded_up(value, digits) == pytest.approx(bound, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("worst", "outcome", "unit", "shown"),
+    [
+        pytest.param(2e-16, 0.4, "", "1%s×%s10⁻⁹", id="a-share"),
+        pytest.param(2e-16, 50.0, "rad", "1%s×%s10⁻⁷%srad", id="of-what-is-measured"),
+        pytest.param(0.0, 50.0, "rad", "0%srad", id="none"),
+        pytest.param(0.0012, 50.0, "rad", "0.002%srad", id="more-than-rounding"),
+    ],
+)
+def test_how_a_machine_rounds_is_not_told(worst: float, outcome: float, unit: str, shown: str) -> None:
+    agreement = Agreement(judged=1, wrong=0, worst=worst, good_from=None, unit=unit)
+    point = Point(at={"x": 1.0}, outcome=outcome, holds=None, predicted={"prediction": outcome})
+    swept = SweepEvidence(points=[point], agreement={"prediction": agreement}, marks={})
+    assert fill("{{ sweep.s.worst | 1 }}", EVIDENCE.model_copy(update={"sweep": {"s": swept}})) == shown.replace(
+        "%s", SPACE
+    )

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 
 import numpy as np
 import pytest
-from clinic.pages.figures.film import FPS, WIDTH
+from clinic.pages.figures.film import FPS, HEIGHT, WIDTH
 from clinic.pages.figures.replay import DURATION, places, replay
 from clinic.proof.model_problems import check_against_model
 from clinic.record.case import Case, load_case
 from clinic.record.fields import Picture
 from clinic.record.problem import CaseError
 from helpers import decoded, evidence_of_variants, variant_evidence, write_script_case
+from PIL import Image as Pictures
 
 SCENE = """
 <mujoco>
@@ -59,6 +61,18 @@ def test_a_film_has_every_sample_and_the_poster_is_where_the_two_differ_most(tmp
     apart = [np.abs(left - right).mean() for left, right in halves]
     assert max(apart) == apart[1] > 10 * max(apart[0], apart[2])
     assert {"poster.webp", "strip.webp", "clip.mp4", "broken.webp", "thumb.webp", "card.jpg"} <= set(made)
+
+
+def test_what_stays_the_same_has_every_sample_of_the_other(tmp_path: Path) -> None:
+    case = shown_case(tmp_path)
+    fix = case.record.fixes[0].id.replace("-", "_")
+    still = variant_evidence(kind="fix", error=[0.0, 0.0])
+    still.traces["error"].time[1] = 2 * still.traces["error"].time[1]
+    said = {"broken": variant_evidence(error=[0.0, 0.5, 1.5]), fix: still}
+
+    made = replay(case, evidence_of_variants(**said))
+
+    assert Pictures.open(io.BytesIO(made["strip.webp"])).size == (2 * WIDTH, 3 * HEIGHT)
 
 
 def test_what_is_no_number_leaves_the_joint_where_it_was() -> None:

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import html
+import io
 import json
 from collections.abc import Mapping
+
+from PIL import Image as Pictures
 
 from clinic.engine.variant import diff, variants
 from clinic.pages.certainty import releases, smaller_steps, steady, tried
 from clinic.pages.error_page import plain_page
+from clinic.pages.figures.film import HEIGHT, WIDTH
 from clinic.pages.measured import measure, table
 from clinic.pages.text import manual
-from clinic.pages.text.prose import markdown, opening, prose_problems
+from clinic.pages.text.prose import markdown, nine_digits, opening, prose_problems
 from clinic.pages.text.template import render
 from clinic.proof.evidence import Evidence
 from clinic.proof.procedure import Answer, Differential
@@ -19,10 +23,10 @@ from clinic.proof.prose_laws import PROSE
 from clinic.record.case import Case
 from clinic.record.families import families
 from clinic.record.problem import CaseError
-from clinic.record.prose import plain, quantity
+from clinic.record.prose import plain, quantity, rounded_up
 from clinic.work.cache import Files
 
-ROUNDING = 1e-9  # of what was measured; a prediction that is as near is right to nine digits
+MOMENTS = ("No", "One", "Two", "Three", "Four")
 
 
 def case_page(
@@ -36,6 +40,7 @@ def case_page(
     if problems := list(prose_problems(case, evidence)):
         raise CaseError(problems)
     record = case.record
+    trials, contrasts = tried(case, evidence)
     return render(
         "case",
         case=case,
@@ -50,12 +55,14 @@ def case_page(
         files=files,
         change=_change(case),
         outcome=_outcome(case, evidence),
+        strip=_strip(files),
         summary=_summary(case, evidence),
         sweeps=[_sweep(case, evidence, name) for name in record.sweep],
         smaller_steps=smaller_steps(case, evidence),
         releases=releases(case, evidence),
         steady=steady(case, evidence),
-        tried=tried(case, evidence),
+        tried=trials,
+        contrasts=contrasts,
         family=None if record.family is None else families()[record.family],
         procedure=told is not None and told.code,
         telling=telling(case, evidence),
@@ -93,40 +100,49 @@ def _lines(before: str, after: str, context: int) -> list[str]:
     return [line for line in diff(before, after, "", context).splitlines() if not line.startswith("@@")]
 
 
+def _strip(files: Files) -> dict[str, object]:
+    """The size of a film's strip, and how many moments are on it; nothing where there is none."""
+    if "strip.webp" not in files:
+        return {}
+    width, height = Pictures.open(io.BytesIO(files["strip.webp"])).size
+    return {"width": width, "height": height, "count": MOMENTS[width * height // (2 * WIDTH * HEIGHT)]}
+
+
 def _outcome(case: Case, evidence: Evidence) -> str:
     """What is seen, with its numbers, naming no remedy."""
-    broken, repaired = (_final(case, evidence, key) for key in ("broken", case.record.fixes[0].id))
-    return f"{_first_label(case)} at the end: broken {broken}, repaired {repaired}."
+    broken, repaired = (_measured(case, evidence, key) for key in ("broken", case.record.fixes[0].id))
+    return f"{_first_label(case)}: broken {broken}, repaired {repaired}."
 
 
 def _summary(case: Case, evidence: Evidence) -> str:
     """The plot in words, with its numbers."""
     kept = [key for key, variant in evidence.variants.items() if variant.kind != "refuted"]
-    return f"{_first_label(case)} at the end: {', '.join(f'{key} {_final(case, evidence, key)}' for key in kept)}."
+    return f"{_first_label(case)}: {', '.join(f'{key} {_measured(case, evidence, key)}' for key in kept)}."
 
 
 def _first_label(case: Case) -> str:
     name, signal = next(iter(case.record.signals.items()))
-    return (signal.label or name).capitalize()
+    label = signal.label or name
+    return f"Span of the {label}" if case.record.warnings else f"{label.capitalize()} at the end"
 
 
-def _final(case: Case, evidence: Evidence, key: str) -> str:
+def _measured(case: Case, evidence: Evidence, key: str) -> str:
+    """The first signal of a variant: at the end, or its span where MuJoCo warns, for it may have reset the state."""
     name = next(iter(case.record.signals))
-    return measure(evidence.variants[key].values[name]["final"], name, evidence, 3)
+    return measure(evidence.variants[key].values[name]["span" if case.record.warnings else "final"], name, evidence, 3)
 
 
 def _sweep(case: Case, evidence: Evidence, name: str) -> dict[str, str]:
     """A sweep's title, prose, and its figure in words."""
     sweep, found = case.record.sweep[name], evidence.sweep[name]
     own = found.agreement["prediction"]
-    largest = max((abs(point.outcome) for point in found.points if point.outcome is not None), default=0.0)
     if own.worst is None:
         result = f"{sweep.prediction.label} is right at {own.judged - own.wrong} of {own.judged} points"
-    elif own.worst < ROUNDING * (1 if sweep.prediction.relative else largest):
+    elif own.worst < nine_digits(found, sweep.prediction.relative):
         result = f"{sweep.prediction.label} is right to nine digits at all {own.judged} points"
     else:
         relative = sweep.prediction.relative
-        error = quantity(100 * own.worst, "%", 2) if relative else quantity(own.worst, own.unit, 2)
+        error = quantity(rounded_up(own.worst * (100 if relative else 1), 2), "%" if relative else own.unit, 2)
         result = f"{sweep.prediction.label} is within {error} of the measurement at all {own.judged} points"
     rivals = [f"; {r.label} is wrong at {found.agreement[r.id].wrong}" for r in sweep.rivals]
     return {

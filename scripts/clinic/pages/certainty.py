@@ -62,11 +62,12 @@ def steady(case: Case, evidence: Evidence) -> str:
     return " ".join([said, *([f"({', '.join(shaken)}.)"] if shaken else []), *reasons])
 
 
-def tried(case: Case, evidence: Evidence) -> list[str]:
-    """The other situations in which the broken model is broken and every repair holds; none if one does not."""
+def tried(case: Case, evidence: Evidence) -> tuple[list[str], list[str]]:
+    """The trials in which the broken variant is broken and every repair holds, and the contrasts; none if one fails."""
     as_told = (
         (variant.kind == "broken" and variant.broken) or (variant.kind == "fix" and variant.well)
         for variant in evidence.variants.values()
         if variant.kind != "refuted"
     )
-    return [trial.title for trial in case.record.trials] if all(as_told) else []
+    trials = case.record.trials if all(as_told) else []
+    return [each.title for each in trials if not each.contrast], [each.title for each in trials if each.contrast]

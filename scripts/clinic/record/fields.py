@@ -214,6 +214,16 @@ class Trial(Strict):
     file: FileName | None = Field(default=None, description="Code cases: the file that `edits` change; the script.")
     edits: list[Edit] = Field(default=[], description="Code cases: changes of the script, or of a file it reads.")
     checks: TrialChecks | None = Field(default=None, description="Checks whose bounds differ here.")
+    contrast: bool = Field(
+        default=False,
+        description="Whether, by its own `checks`, the broken variant works, or a fix fails or shows what changed.",
+    )
+
+    @model_validator(mode="after")
+    def _contrast_checks(self) -> Trial:
+        if self.contrast and self.checks is None:
+            raise ValueError("a trial that is a `contrast` has `checks` of its own")
+        return self
 
 
 class Task(Strict):

@@ -15,6 +15,8 @@ FIELD = re.compile(r"\{\{(.*?)\}\}", re.DOTALL)
 CONVERSIONS = {
     "mm": ("m", 1e3, "mm"),
     "cm": ("m", 1e2, "cm"),
+    "um": ("m", 1e6, "µm"),
+    "kN": ("N", 1e-3, "kN"),
     "ms": ("s", 1e3, "ms"),
     "deg": ("rad", 180 / math.pi, "°"),
     "percent": ("", 100.0, "%"),
@@ -31,6 +33,14 @@ def quantity(value: float, unit: str, digits: int = 3) -> str:
     """The number with significant digits and its unit: `49.9 mm`, `3.0 × 10⁻² m`."""
     space = "" if unit in ("", "°") else "\u00a0"
     return number(value, digits) + space + unit.replace(" ", "\u00a0")
+
+
+def rounded_up(value: float, digits: int) -> float:
+    """A bound with so many significant digits, never below it."""
+    if value <= 0 or not math.isfinite(value):
+        return value
+    step = 10.0 ** (math.floor(math.log10(value)) - digits + 1)
+    return math.ceil(value / step - 1e-6) * step  # what is short of a number by no more is that number
 
 
 def plain(value: float) -> str:

@@ -41,7 +41,7 @@ FLAGS = {
 
 
 def film(case: Case) -> Files:
-    """`film.mp4`, its `poster.webp`, `strip.webp`: four moments for paper, and `clip.mp4`: two seconds of the failure.
+    """`film.mp4`, its `poster.webp`, `strip.webp`: moments for paper, and `clip.mp4`: two seconds of the failure.
 
     Raises:
         RenderError: If images cannot be drawn on this machine.
@@ -60,13 +60,21 @@ def film(case: Case) -> Files:
 def films(broken: list[tuple[Image, str]], fixed: list[tuple[Image, str]], at: int) -> Files:
     """The files of a film, from its images with their clocks; `at` says which is the poster."""
     pictures = [beside(left, right) for left, right in zip(broken, fixed, strict=True)]
-    moments = np.linspace(0, len(pictures) - 1, STRIP).round().astype(int)
     return {
         "film.mp4": encode(pictures),
         "poster.webp": webp(pictures[at]),
         "clip.mp4": encode(two_seconds([image for image, _ in broken])),
-        "strip.webp": webp(np.vstack([np.hstack([pictures[i] for i in moments[k : k + 2]]) for k in (0, 2)])),
+        "strip.webp": webp(strip(pictures)),
     }
+
+
+def strip(pictures: list[Image]) -> Image:
+    """STRIP moments of a film in two columns; where fewer of its images differ, each of these once, in one column."""
+    differ = [k for k, each in enumerate(pictures) if k == 0 or not np.array_equal(each, pictures[k - 1])]
+    if len(differ) < STRIP:
+        return np.vstack([pictures[k] for k in differ])
+    shown = [pictures[differ[k]] for k in np.linspace(0, len(differ) - 1, STRIP).round().astype(int)]
+    return np.vstack([np.hstack(shown[k : k + 2]) for k in (0, 2)])
 
 
 def film_duration(spec: Film, run: RunSpec) -> float:

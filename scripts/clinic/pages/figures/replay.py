@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import mujoco
 import numpy as np
@@ -33,26 +33,32 @@ def replay(case: Case, evidence: Evidence) -> Files:
     picture = case.record.picture
     assert picture.scene is not None
     text = case.texts[picture.scene]
-    broken, fixed = (list(places(text, picture, evidence.variants[each.id])) for each in variants(case)[:2])
-    count = min(len(broken), len(fixed))
+    shown = [evidence.variants[each.id] for each in variants(case)[:2]]
+    times = [sorted({time for signal in picture.shows.values() for time in each.traces[signal].time}) for each in shown]
+    both = [time for time in sorted({*times[0], *times[1]}) if time <= min(times[0][-1], times[1][-1])]
+    broken, fixed = (list(places(text, picture, each, both)) for each in shown)
+    count = len(both)
     most = max(range(count), key=lambda k: float(np.abs(broken[k].astype(float) - fixed[k]).mean()))
     hold = max(SHORTEST, min(LONGEST, DURATION * FPS // count))
     told = [
-        [(_film_size(each), f"{k + 1} of {count}") for k, each in enumerate(drawn[:count]) for _ in range(hold)]
+        [(_film_size(each), f"{k + 1} of {count}") for k, each in enumerate(drawn) for _ in range(hold)]
         for drawn in (broken, fixed)
     ]
     stills = {"broken.webp": webp(broken[most])} | small(case, broken[most])
     return films(told[0], told[1], most * hold) | stills
 
 
-def places(text: str, picture: Picture, said: VariantEvidence) -> Iterator[Image]:
-    """The scene at each sample, shape (height, width, 3). What is not a number leaves its joint where it was."""
+def places(text: str, picture: Picture, said: VariantEvidence, times: Sequence[float] | None = None) -> Iterator[Image]:
+    """The scene at each of these times, or at each sample, shape (height, width, 3).
+
+    What is not a number leaves its joint where it was.
+    """
     model = compile_model(text)
     data = mujoco.MjData(model)
     if model.nkey:
         mujoco.mj_resetDataKeyframe(model, data, 0)
     traces = {joint: said.traces[signal] for joint, signal in picture.shows.items()}
-    for time in sorted({time for trace in traces.values() for time in trace.time}):
+    for time in times or sorted({time for trace in traces.values() for time in trace.time}):
         for joint, trace in traces.items():
             value = trace.value[bisect_right(trace.time, time) - 1]  # what stays the same is kept as its ends alone
             if value is not None and math.isfinite(value):

@@ -18,9 +18,10 @@ from clinic.proof.sweep import SweepEvidence
 from clinic.record.prose import plain
 from clinic.record.sweep import Parameter, Prediction, Sweep
 
-MANY = 1e4  # the last number, or its ratio to the first, from which on an axis names powers of ten alone
+MANY = 1e3  # the last number, or its ratio to the first, from which on an axis names powers of ten alone
 SHORT = 24  # characters of a formula that a legend has room for
 OPERATOR = re.compile(r" [-+·/] |\^")
+NOUGHT = re.compile(r"(?<![\d.])0 ·")  # an expression that has a parameter and does not depend on it
 WIDE = 60  # characters of the two longest labels, from which on a legend has one column
 
 
@@ -53,7 +54,8 @@ def legend(prediction: Prediction) -> str:
         .replace("pi", "π")
         .replace("omega", "ω")
     )
-    return f"{prediction.label}: {formula}" if len(formula) <= SHORT and OPERATOR.search(formula) else prediction.label
+    told = len(formula) <= SHORT and OPERATOR.search(formula) and not NOUGHT.search(formula)
+    return f"{prediction.label}: {formula}" if told else prediction.label
 
 
 def sweep_plot(axes: Axes, sweep: Sweep, outcome: str, unit: str, swept: SweepEvidence) -> None:
@@ -142,7 +144,8 @@ def _mark(axes: Axes, places: dict[str, tuple[float, float]]) -> None:
             style: dict[str, Any] = {"marker": "X", "color": BROKEN, "markeredgewidth": 0.8}
         else:
             style = {"marker": "Ds^"[fixes.index(name) % 3], "color": "none", "markeredgewidth": 2.2}
-        axes.plot([x], [y], label=name, linestyle="", markersize=10, markeredgecolor=INK, zorder=5, **style)
+        style |= {"markersize": 10, "markeredgecolor": INK, "zorder": 5, "clip_on": False}  # whole at an edge too
+        axes.plot([x], [y], label=name, linestyle="", **style)
 
 
 def _scale(axes: Axes, side: Literal["x", "y"], parameter: Parameter) -> None:

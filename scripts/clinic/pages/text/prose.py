@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import math
 import re
 from collections.abc import Iterator, Mapping
 from typing import Any, TypeVar
@@ -14,15 +15,16 @@ from clinic.pages.text.markup import escaped
 from clinic.proof.evidence import Evidence
 from clinic.proof.prose.formulas import sides_as_latex
 from clinic.proof.prose_laws import prose_of
-from clinic.proof.sweep import predictions
+from clinic.proof.sweep import SweepEvidence, predictions
 from clinic.record.case import Case
 from clinic.record.expression import ExpressionError, parse
 from clinic.record.latex import latex
 from clinic.record.problem import Problem, closest, listed
-from clinic.record.prose import CODE, CONVERSIONS, FIELD, FORMULA, quantity
+from clinic.record.prose import CODE, CONVERSIONS, FIELD, FORMULA, quantity, rounded_up
 
 T = TypeVar("T")
 LONG_ENOUGH = 150  # characters
+NINE_DIGITS = 1e-9  # of what was measured; less is how a machine rounds
 PARTS = re.compile(f"{CODE.pattern}|{FORMULA.pattern}|(?P<tag><)", re.DOTALL | re.MULTILINE)
 
 
@@ -125,9 +127,26 @@ def resolve(field: str, evidence: Evidence, case: Case | None = None) -> str:
     """
     name, *filters = (part.strip() for part in field.split("|"))
     value, unit = (None if case is None else _written(name, case)) or _measured(name, evidence)
+    if isinstance(value, float) and name.startswith("sweep.") and name.endswith(".worst"):
+        value = max(value, _least(name, evidence, case)) if value else value
     if value is None:
         raise ProseError(f"{{{{ {name} }}}}", "what the run measured", "name something else, or remove the field")
     return value if isinstance(value, str) else _shown(name, value, unit, filters)
+
+
+def nine_digits(swept: SweepEvidence, relative: bool) -> float:
+    """The error of a prediction that is right to nine digits, as a power of ten."""
+    largest = max((abs(point.outcome) for point in swept.points if point.outcome), default=0.0)
+    scale = 1.0 if relative or not largest else largest
+    return float(10.0 ** math.ceil(math.log10(scale * NINE_DIGITS) - 1e-9))
+
+
+def _least(name: str, evidence: Evidence, case: Case | None) -> float:
+    """The least error of a sweep's prediction, `sweep.ID.RIVAL.worst`, that says more than how a machine rounds."""
+    _, sweep, *which, _ = name.split(".")
+    key, swept = ".".join(which) or "prediction", evidence.sweep[sweep]
+    share = not swept.agreement[key].unit if case is None else predictions(case.record.sweep[sweep])[key].relative
+    return nine_digits(swept, share)
 
 
 def _written(name: str, case: Case) -> tuple[float | str, str] | None:
@@ -202,6 +221,8 @@ def _shown(name: str, value: float, unit: str, filters: list[str]) -> str:
             fitting = [key for key, (source, _, _) in CONVERSIONS.items() if source == unit]
             expected = f"{listed([*fitting, '2', '3'])}, ...: the digits to keep"
             raise ProseError(f"the filter {conversion} on {name} in {unit or 'no unit'}", expected, "change the filter")
+    if name.startswith("sweep.") and name.endswith(".worst"):
+        value = rounded_up(value, digits)
     return quantity(value, unit, digits)
 
 

@@ -56,3 +56,16 @@ def test_a_joint_of_a_type_that_urdf_has_not_gets_one(kind: str, value: str) -> 
 def test_a_joint_at_a_link_that_is_not_there_is_told(parent: str, value: str) -> None:
     (cause,) = diagnosed(parent=parent).causes
     assert (cause.rule, cause.now, cause.value) == ("unknown-reference", parent, value)
+
+
+@pytest.mark.parametrize(("height", "says"), [(-0.03, ""), (-0.01, "20 mm above"), (-0.04, "10 mm lower")])
+def test_a_caster_ends_where_the_wheels_do(height: float, says: str) -> None:
+    wheel = (
+        '<body name="{0}_wheel" pos="-0.1 {1} 0"><joint axis="0 1 0"/>'
+        '<geom type="cylinder" size="0.05 0.01" zaxis="0 1 0"/></body>'
+    )
+    parts = f'<geom name="caster" size="0.02" pos="0.12 0 {height}"/>{wheel.format("left", 0.1)}'
+    base = f'<freejoint/><geom type="box" size="0.15 0.08 0.02"/>{parts}{wheel.format("right", -0.1)}'
+    text = f'<mujoco><worldbody><body name="base" pos="0 0 0.1">{base}</body></worldbody></mujoco>'
+    found = examine(NativeEngine(), {"rover.xml": text}, select=["wheels-off-the-ground"]).hints
+    assert [says in each.says for each in found] == [True] * bool(says)

@@ -1,7 +1,8 @@
 """Something of a wheeled robot reaches lower than its wheels.
 
-A caster or a skid that is some millimetres too low takes the weight, the robot tilts and the wheels slip. A URDF whose
-`base_footprint` is not where the wheels touch the ground puts the robot into the floor, or above it.
+A caster or a skid that is some millimetres too low takes the weight, the robot tilts and the wheels slip; over one that
+is too high it tips. A URDF whose `base_footprint` is not where the wheels touch the ground puts the robot into the
+floor, or above it.
 
 Bad:
 
@@ -46,7 +47,8 @@ Good:
     </mujoco>
 
 The number: how far below the wheels the lowest other geom reaches at the start, or how far a root that is called a
-footprint is from the ground under the wheels: more than 1 mm, and less than a wheel's radius. A wheel is the last body
+footprint is from the ground under the wheels: more than 1 mm, and less than a wheel's radius. Or how far above the
+ground of two wheels the caster ends: more than 4 mm, and than a tenth of a wheel's radius. A wheel is the last body
 of a mechanism, on a level hinge without limits, and gravity is along z.
 
 When it is wrong: wheels that are let down later, on a suspension.
@@ -55,6 +57,7 @@ When it is wrong: wheels that are let down later, on a suspension.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import CYLINDER, HINGE, SPHERE
@@ -63,13 +66,15 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
-TITLE = "A part reaches lower than the wheels"
+TITLE = "Something lower than the wheels, or a caster above them"
 FAMILIES = ("drifts", "slips", "jumps-at-start", "stuck")
 SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "nearly no healthy model stands on wheels"
 
+CASTER = re.compile(r"caster|castor|ball_?wheel|roller", re.IGNORECASE)
+ALOFT = 0.004  # m
 LEAST, LEVEL_ENOUGH = 0.001, 0.1  # m; of the axle's direction along the vertical
 
 
@@ -94,6 +99,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             yield Suspect(
                 (of.name("geom", low), body), "pos", where, f"{below:.3g} mm higher", (), probe, LEAST, says, "0"
             )
+        aloft = [geom for geom in _casters(of, root, wheels) if _bottom(of, geom) - ground > max(ALOFT, radius / 10)]
+        if aloft:
+            high = max(aloft, key=lambda geom: _bottom(of, geom))
+            above = 1000 * (_bottom(of, high) - ground)
+            bodies = dict.fromkeys(of.name("body", int(of.model("geom_bodyid")[geom])) for geom in (high, *wheels))
+            probe = Probe("above the ground by", "m", _above, (root, high), dynamic=False)
+            says = f"It is {above:.3g} mm above the ground on which the wheels stand: the robot tips until it touches."
+            yield Suspect(tuple(bodies), "pos", "", f"{above:.3g} mm lower", (), probe, ALOFT, says, "0")
         off = _footprint_off(of, root)
         if LEAST < abs(off) < radius and "footprint" in of.engine.name("body", root):
             probe = Probe("footprint off the ground by", "m", _far_off, (root,), dynamic=False)
@@ -132,6 +145,23 @@ def _others(of: Simulation, root: int, wheels: list[int]) -> list[int]:
         for geom, body in enumerate(bodies)
         if owners[int(body)] == root and int(body) not in turning and solid(of, geom)
     ]
+
+
+def _casters(of: Simulation, root: int, wheels: list[int]) -> list[int]:
+    """The lowest geom of what is called a caster, of a robot with two wheels beside it."""
+    named = [geom for geom in (*_others(of, root, wheels), *wheels) if CASTER.search(_called(of, geom))]
+    bodies = of.model("geom_bodyid")
+    if len({bodies[geom] for geom in wheels if geom not in named}) != 2:
+        return []
+    return sorted(named, key=lambda geom: _bottom(of, geom))[:1]
+
+
+def _called(of: Simulation, geom: int) -> str:
+    return f"{of.name('geom', geom)} {of.name('body', int(of.model('geom_bodyid')[geom]))}"
+
+
+def _above(of: Simulation, root: int, geom: int) -> float:
+    return -_below(of, root, geom)
 
 
 def _children(of: Simulation, root: int) -> list[int]:

@@ -95,3 +95,29 @@ def test_a_pair_touches_whatever_the_masks_are(tmp_path, monkeypatch):
     assert "masks" in causes(inside, tmp_path, monkeypatch)
     pair = '<contact><pair geom1="floor" geom2="foot"/></contact>'
     assert "masks" not in causes(inside, tmp_path, monkeypatch, more=pair)
+
+
+@pytest.mark.parametrize(("gap", "told"), [(0.0, True), (0.004, False)])
+def test_a_link_that_grazes_the_base_it_turns_on_jams(gap, told):
+    turn = '<joint name="turn" axis="0.02 0 1" range="-90 90"/>'
+    link = f'<body name="link" pos="0 0 {0.04 + gap}">{turn}<geom type="box" size="0.1 0.03 0.02"/></body>'
+    base = f'<body name="base" pos="0 0 0.5"><geom type="box" size="0.1 0.1 0.02"/>{link}</body>'
+    text = f"<mujoco><worldbody>{base}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["jams-over-the-range"]).hints
+    assert [each.elements[0] for each in found] == ['joint "turn"'] * told
+
+
+def test_all_joints_that_jam_are_told_together():
+    leg = (
+        '<body name="hip{0}" pos="{1} 0 0"><joint axis="0 1 0" range="-20 20"/><geom size="0.02"/>'
+        '<body name="thigh{0}"><joint name="swing{0}" axis="1 0 0" range="-150 150"/>'
+        '<geom type="capsule" fromto="0 0 -0.06 0 0 -0.3" size="0.03"/></body></body>'
+    )
+    sides = (
+        '<geom type="box" size="0.5 0.05 0.3" pos="0 0.12 0"/><geom type="box" size="0.5 0.05 0.3" pos="0 -0.12 0"/>'
+    )
+    trunk = f'<body name="trunk" pos="0 0 1"><freejoint/>{sides}{leg.format("l", 0.2)}{leg.format("r", -0.2)}</body>'
+    text = f"<mujoco><worldbody>{trunk}</worldbody></mujoco>"
+    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["jams-over-the-range"]).hints
+    assert {'joint "swingl"', 'joint "swingr"'} <= set(found.elements)
+    assert found.says.endswith("So it is with 1 more joint.")

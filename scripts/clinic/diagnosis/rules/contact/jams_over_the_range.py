@@ -42,8 +42,8 @@ Good:
     </mujoco>
 
 The number: the share of 21 poses over the range, the other joints at their start, in which a body overlaps its
-grandparent by more than a tenth of the thinner one; told from half on: arms of
-humanoids may reach their own trunk in 40 %.
+grandparent by more than a tenth of the thinner one, or a parent that is fixed to the world by 0.1 mm; told from half
+on: arms of humanoids may reach their own trunk in 40 %.
 
 Where the same range about the opposite axis is free, the axis has the wrong sign, and is told in its place.
 
@@ -69,6 +69,7 @@ LEVEL = "hint"
 UNPLANTED = "a wider range is harm by itself, whether links jam in it or not"
 
 POSES, LINKS, DEEP, JAMMED, FREE = 21, 2, 0.1, 0.5, 0.06
+TOUCHES = 1e-4  # m
 MOST = 60  # joints
 
 
@@ -83,11 +84,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not limited or len(limited) > MOST:
         return
     shares = {joint: found for joint in limited if (found := _jams(of, joint))}
+    jammed: list[tuple[float, int, int, int]] = []
     for joint, pairs in shares.items():
         (one, other), share = max(pairs.items(), key=lambda each: each[1])
         if JAMMED < share < 1:
-            names = of.name("joint", joint), of.name("body", one), of.name("body", other)
-            says = f"In {100 * share:.0f} % of its range {names[1]} is inside of {names[2]}, which stops it."
+            names, says = _told(of, share, joint, one, other)
             probe = Probe("share of the range in which two links jam", "", _share, (joint,), dynamic=False)
             axis = of.row("jnt_axis", joint, 3)
             turned = model.set("joint", [joint], "axis", written(tuple(-x for x in axis)))
@@ -96,13 +97,25 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 now, value = written(axis), written(tuple(-x for x in axis))
                 yield Suspect(names, "axis", now, value, turned, probe, FREE, says, "the axis reversed", level="hint")
                 continue
-            yield Suspect(
-                names, "range", "", "", (), probe, JAMMED, says, "an <exclude>, or a smaller range", level="hint"
-            )
+            jammed.append((share, joint, one, other))
+    if jammed:
+        worst, *others = sorted(jammed, reverse=True)
+        names, says = _told(of, *worst)
+        names += tuple(of.name("joint", joint) for _, joint, _, _ in others)
+        says += f" So it is with {len(others)} more joint{'s' * (len(others) > 1)}." if others else ""
+        joints = tuple(joint for _, joint, _, _ in jammed)
+        probe = Probe("share of the range in which two links jam", "", _share, joints, dynamic=False)
+        yield Suspect(names, "range", "", "", (), probe, JAMMED, says, "an <exclude>, or a smaller range", level="hint")
 
 
-def _share(simulation: Simulation, joint: int) -> float:
-    return max(_jams(simulation, joint).values(), default=0.0)
+def _told(of: Simulation, share: float, joint: int, one: int, other: int) -> tuple[tuple[str, ...], str]:
+    """The joint and the two bodies that jam, and a sentence of it."""
+    names = of.name("joint", joint), of.name("body", one), of.name("body", other)
+    return names, f"In {100 * share:.0f} % of its range {names[1]} is inside of {names[2]}, which stops it."
+
+
+def _share(simulation: Simulation, *joints: int) -> float:
+    return max((share for joint in joints for share in _jams(simulation, joint).values()), default=0.0)
 
 
 def _jams(simulation: Simulation, joint: int) -> dict[tuple[int, int], float]:
@@ -117,12 +130,14 @@ def _jams(simulation: Simulation, joint: int) -> dict[tuple[int, int], float]:
         simulation.engine.forward()
         deep = set()
         for contact in simulation.engine.contacts():
-            if min(contact.geoms) < 0 or -contact.distance < DEEP * min(
-                thickness(simulation, g) for g in contact.geoms
-            ):
+            if min(contact.geoms) < 0:
                 continue
             one, other = sorted((int(bodies[geom]) for geom in contact.geoms), reverse=True)
-            if _between(simulation, body, one, other):
+            base = other == int(
+                simulation.model("body_parentid")[one]
+            )  # a contact of these two: the parent stands still
+            thin = min(thickness(simulation, geom) for geom in contact.geoms)
+            if -contact.distance > (TOUCHES if base else DEEP * thin) and _between(simulation, body, one, other):
                 deep.add((one, other))
         for pair in deep:
             made[pair] = made.get(pair, 0.0) + 1 / POSES

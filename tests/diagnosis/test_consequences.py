@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.process import diagnose
 
 MM = "-20 -20 -20  20 -20 -20  20 20 -20  -20 20 -20  -20 -20 20  20 -20 20  20 20 20  -20 20 20"
@@ -25,6 +27,12 @@ def test_a_mesh_in_millimetres_explains_that_it_begins_in_the_floor(tmp_path):
     assert [each.rule for each in found.causes] == ["mesh-in-another-unit"]
     assert "overlap-at-start" in [each.rule for each in found.hints]
     assert 'scale="0.001 0.001 0.001"' in next(iter(found.fixed.values()))
+
+
+def test_a_mesh_of_a_text_that_no_parser_reads_is_told_without_an_edit():
+    with_two_dashes = ALONE.replace("<asset>", "<!-- a -- b --><asset>")
+    found = examine(NativeEngine(), {"model.xml": with_two_dashes}, select=["mesh-in-another-unit"])
+    assert [(each.elements, each.edit) for each in found.hints] == [(('mesh "mug"',), ())]
 
 
 @pytest.mark.parametrize("scale", ["0.001 0.001 0.001", "1e-5 1e-5 1e-5"])

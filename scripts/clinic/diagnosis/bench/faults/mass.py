@@ -275,6 +275,4 @@ def mesh_in_millimetres(model: ReaderModel, random: Random) -> Fault | None:
     if not meshes:
         return None
     mesh = random.choice(meshes)
-    return Fault(
-        tuple(scaled(model, mesh, 1000.0)), (f'mesh "{model.simulation.engine.name("mesh", mesh)}"',), "scale", 1000.0
-    )
+    return Fault(tuple(scaled(model, mesh, 1000.0)), (model.simulation.name("mesh", mesh),), "scale", 1000.0)

@@ -57,7 +57,6 @@ from clinic.diagnosis.engine import HFIELD, MESH, PLANE
 from clinic.diagnosis.probes.vector import norm, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A mesh in another unit"
@@ -81,9 +80,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         worst = max(sizes[mesh] for mesh in meshes)
         beside = f"where the rest is of {usual:.3g} m" if usual else "and nothing else is there"
         yield Suspect(
-            tuple(f'mesh "{of.engine.name("mesh", mesh)}"' for mesh in meshes),
+            tuple(of.name("mesh", mesh) for mesh in meshes),
             "scale",
-            "left out" if not _written(model, meshes[0]) else " ".join(_written(model, meshes[0])),
+            "",
             edits[0].value if edits else f"{factor:g} times as much",
             edits,
             Probe("size of a mesh, times that of the rest or its inverse", "", _times, tuple(meshes), dynamic=False),
@@ -121,25 +120,14 @@ def _times(of: Simulation, *meshes: int) -> float:
     return max(max(sizes[mesh] / usual, usual / sizes[mesh]) for mesh in meshes)
 
 
-def _elements(model: ReaderModel, mesh: int) -> list[Element]:
-    """Where a mesh is written: as an asset, or by its file wherever a URDF shows it."""
-    name = model.simulation.engine.name("mesh", mesh)
-    written = model.source.elements("mesh") if model.source else ()
-    return [each for each in written if name == (each.get("name") or _stem(each.get("file") or each.get("filename")))]
+def scaled(model: ReaderModel, mesh: int, factor: float) -> Iterator[Edit]:
+    """The edits that make a mesh `factor` times as large, wherever it is written: as an asset, or in a URDF by file."""
+    name, source = model.simulation.engine.name("mesh", mesh), model.source
+    for element in source.elements("mesh") if source else ():
+        if source and name == (element.get("name") or _stem(element.get("file") or element.get("filename"))):
+            scale = (source.value(element, "scale") or "1 1 1").split()
+            yield set_attribute(element, "scale", written([factor * float(each) for each in scale]))
 
 
 def _stem(path: str) -> str:
     return path.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
-
-
-def _written(model: ReaderModel, mesh: int) -> list[str]:
-    """The scale that is written for a mesh."""
-    assert model.source is not None
-    return next((model.source.value(each, "scale") or "" for each in _elements(model, mesh)), "").split()
-
-
-def scaled(model: ReaderModel, mesh: int, factor: float) -> Iterator[Edit]:
-    """The edits that make a mesh `factor` times as large, wherever it is written."""
-    scale = [float(each) for each in _written(model, mesh)] or [1.0, 1.0, 1.0]
-    for element in _elements(model, mesh):
-        yield set_attribute(element, "scale", written([factor * each for each in scale]))

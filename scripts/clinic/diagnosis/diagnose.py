@@ -13,7 +13,7 @@ from clinic.diagnosis.engine import CompileError, Engine
 from clinic.diagnosis.errors import mended
 from clinic.diagnosis.finding import Diagnosis, finding_of
 from clinic.diagnosis.ignores import Ignores
-from clinic.diagnosis.judge import Judged, judge, order, suspects_of, without_consequences, without_rivals
+from clinic.diagnosis.judge import Judged, grouped, judge, order, suspects_of, without_consequences, without_rivals
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import Rule, rules
 from clinic.diagnosis.simulation import Start
@@ -54,6 +54,7 @@ def examine(
     tried = [rule for rule in wanted if rule.of_errors == bool(model.error)]
     if model.error:
         found, fixed = mended(model, tried, tell)
+        found = grouped(found)
     else:
         found, fixed, tried = _found(model, tried, ignores, tell, limit)
         if start is None and model.simulation.count("key") and not any(each.proved for each in found):
@@ -61,7 +62,7 @@ def examine(
             found, fixed, tried = _found(model, tried, ignores, tell, limit)
             seen = {rule.id for rule in tried}  # a hint of the model's own start that is not one of the keyframe's
             found += [each for each in before if each.rule.id not in seen]
-        found = order(found, (symptom,) if symptom else ())
+        found = order(grouped(found), (symptom,) if symptom else ())
     named = {each.rule.id for each in found}
     findings = [*(finding_of(each, model) for each in found), *ignores.findings({rule.id for rule in tried}, named)]
     kept = [each for each in findings if not each.silenced]

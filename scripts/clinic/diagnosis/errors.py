@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 
-from clinic.diagnosis.edit import apply
+from clinic.diagnosis.edit import Edit, apply
 from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.judge import Judged, suspects_of
 from clinic.diagnosis.reader_model import ReaderModel
@@ -15,12 +17,14 @@ from clinic.diagnosis.suspect import Suspect
 
 MOST = 12  # messages
 
+Change = tuple[str, int, int, int]  # a file, where a change begins, and where it ended before and ends after it
+
 
 def mended(
     model: ReaderModel, tried: Iterable[Rule], tell: Callable[[str], None]
 ) -> tuple[list[Judged], Mapping[str, str]]:
     """The faults in the order in which MuJoCo names them, and the texts as far as they could be mended."""
-    rules, found = list(tried), list[Judged]()
+    rules, found, changes = list(tried), list[Judged](), list[Change]()
     for _ in range(MOST):
         if not model.error:
             break
@@ -39,10 +43,40 @@ def mended(
                 break
         if best is None:
             break
-        found.append(Judged(*best, "cause", 1.0, 0.0))
-        texts = apply(model.texts, best[1].edits)
+        rule, suspect = best
+        written = tuple(_as_written(each, changes) for each in suspect.edits)
+        found.append(Judged(rule, replace(suspect, edits=written), "cause", 1.0, 0.0))
+        texts = apply(model.texts, suspect.edits)
+        changes += _changes(model.texts, suspect.edits)
         model = ReaderModel(model.engine, texts, read_source(texts), Start())
     return found, model.texts
+
+
+def _changes(texts: Mapping[str, str], edits: Sequence[Edit]) -> list[Change]:
+    """Where edits change bytes of the texts, one after the other from the end."""
+    made = list[Change]()
+    for each in sorted(dict.fromkeys(edits), key=lambda each: each.start, reverse=True):
+        after = apply(texts, [each])
+        one, other = texts[each.file].encode(), after[each.file].encode()
+        same = len(os.path.commonprefix([one, other]))
+        end = len(os.path.commonprefix([one[same:][::-1], other[same:][::-1]]))
+        made.append((each.file, same, len(one) - end, len(other) - end))
+        texts = after
+    return made
+
+
+def _as_written(each: Edit, changes: Sequence[Change]) -> Edit:
+    """An edit of texts that were changed, at its place in the reader's own."""
+
+    def back(place: int) -> int:
+        for file, start, before, after in reversed(changes):
+            if file == each.file and place >= after:
+                place += before - after
+            elif file == each.file and place > start:
+                place = start
+        return place
+
+    return replace(each, start=back(each.start), head_end=back(each.head_end), end=back(each.end))
 
 
 def _further(before: str, after: str, suspect: Suspect) -> bool:

@@ -20,6 +20,7 @@ SIDES = {"l": "r", "fl": "fr", "hl": "hr", "bl": "br", "ml": "mr", "rl": "rr"} |
     "lf": "rf", "lh": "rh", "lr": "rr", "lb": "rb", "lm": "rm"
 }  # fmt: skip
 WORDS = (("left", "right"), ("Left", "Right"), ("LEFT", "RIGHT"))
+EXCHANGED = {"l": "r", "r": "l", "L": "R", "R": "L"}
 TOKEN = re.compile(r"[A-Z](?=[A-Z][a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 KINDS = ("body", "joint", "geom", "site", "camera", "actuator", "sensor")
 SYMMETRIC = 0.85  # of the points fit their image: the parts are meant to be mirrored
@@ -35,6 +36,9 @@ def right_of(name: str) -> Iterator[str]:
     for left, right in WORDS:
         if left in name:
             yield name.replace(left, right)
+    both = [found for found in TOKEN.finditer(name) if found.group() in EXCHANGED]
+    if len({found.group().lower() for found in both}) > 1:  # the right finger of the left hand
+        yield "".join(EXCHANGED.get(part, part) for part in re.split(f"({TOKEN.pattern})", name))
     tokens = [found for found in TOKEN.finditer(name) if found.group().lower() in SIDES]
     for found in tokens:
         side = found.group()

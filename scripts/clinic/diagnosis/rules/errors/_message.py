@@ -42,7 +42,7 @@ def told(element: Element) -> str:
     around = element.parent
     while around is not None and not around.get("name"):
         around = around.parent
-    owned = element.tag in ("inertial", "inertia", "mass") and around is not None
+    owned = element.tag in ("inertial", "inertia", "mass", "sphere", "cylinder", "box") and around is not None
     return f"<{element.tag}>" + (f' of {around.tag} "{around.get("name")}"' if owned and around else "")
 
 

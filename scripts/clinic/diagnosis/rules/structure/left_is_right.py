@@ -99,9 +99,9 @@ def _wheels(of: Simulation) -> set[int]:
 
 
 def _stereo(of: Simulation, left: int, right: int) -> bool:
-    """Whether two cameras are on one body, which is not the world."""
+    """Whether two cameras are on one body."""
     bodies = of.model("cam_bodyid")
-    return bodies[left] == bodies[right] > 0
+    return bodies[left] == bodies[right]
 
 
 def _y(of: Simulation, body: int) -> Vector:

@@ -1,0 +1,74 @@
+"""The solver stops before it has found the contact forces.
+
+`iterations` of `<option>` is 100 and `tolerance` 1e-8 unless a model says otherwise; one or two iterations, which is
+what models for fast learning have, leave forces far from those of the constraints: feet sink, loops open, stacks creep.
+
+Bad:
+
+    <mujoco>
+      <option iterations="1" solver="PGS"/>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body pos="0 0 0.1"><freejoint/><geom type="box" size="0.1 0.1 0.1" mass="1"/></body>
+        <body pos="0 0 0.3"><freejoint/><geom type="box" size="0.1 0.1 0.1" mass="5"/></body>
+        <body pos="0 0 0.5"><freejoint/><geom type="box" size="0.1 0.1 0.1" mass="50"/></body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <option iterations="100" solver="PGS"/>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body pos="0 0 0.1"><freejoint/><geom type="box" size="0.1 0.1 0.1" mass="1"/></body>
+        <body pos="0 0 0.3"><freejoint/><geom type="box" size="0.1 0.1 0.1" mass="5"/></body>
+        <body pos="0 0 0.5"><freejoint/><geom type="box" size="0.1 0.1 0.1" mass="50"/></body>
+      </worldbody>
+    </mujoco>
+
+The number: the fastest joint after letting go and under command, and how deep contacts are; told where MuJoCo's own
+iterations and tolerance bring it to half and below the limit.
+
+When it is wrong: a model for learning, whose makers traded that for speed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.drive import commanded, pressed_in
+from clinic.diagnosis.probes.run import fastest, sunk
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "The solver stops too early"
+FAMILIES = ("explodes", "sinks", "oscillates", "slips", "drifts")
+SINCE = "0.1"
+LEVEL = "hint"
+
+USUAL = {"iterations": 100.0, "ls_iterations": 50.0, "tolerance": 1e-8}
+FEW, LOOSE = 50, 1e-5
+FAST, DEEP, HALF = 20.0, 0.005, 0.5  # rad/s; of the extent; of the symptom that may be left
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The solver's options, where its usual ones calm the model."""
+    if model.source is None or model.source.urdf:
+        return
+    of = model.simulation
+    now = {name: of.model(f"opt.{name}")[0] for name in USUAL}
+    early = [name for name in USUAL if (now[name] > LOOSE if name == "tolerance" else now[name] < FEW / (1 + (name != "iterations")))]
+    if not early:
+        return
+    edits: tuple[Edit, ...] = tuple(edit for name in early for edit in model.option(name, f"{USUAL[name]:g}"))
+    for probe, limit in ((fastest(), FAST), (commanded(), FAST), (sunk(), DEEP), (pressed_in(), DEEP)):
+        before = model.measured(probe)
+        if before > limit and model.measured(probe, edits) <= HALF * before:
+            says = f"With MuJoCo's own {' and '.join(early)} the same motion is calm."
+            yield Suspect(
+                tuple(f"the solver's {name}" for name in early), early[0], f"{now[early[0]]:g}", f"{USUAL[early[0]]:g}",
+                edits, probe, limit, says, "100 iterations, as MuJoCo has it", share=HALF, excess=10.0,
+            )  # fmt: skip
+            return

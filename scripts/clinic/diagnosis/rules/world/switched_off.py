@@ -1,0 +1,110 @@
+"""A flag or a group of `<option>` switches a part of the model off.
+
+Flags are set for a test and forgotten: without `actuation` no motor does anything, without `limit` no joint stops,
+without `equality` loops are open. `override` takes `o_friction` and `o_solref` of `<option>` for every contact, whatever
+the geoms have, and without `filterparent` each link collides with the one that it hangs on.
+
+Bad:
+
+    <mujoco>
+      <option>
+        <flag actuation="disable"/>
+      </option>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="hinge" axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor joint="hinge" ctrlrange="-5 5"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="hinge" axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor joint="hinge" ctrlrange="-5 5"/>
+      </actuator>
+    </mujoco>
+
+The number: how many actuators, limits, loops or pairs the model has of what is switched off.
+
+When it is wrong: a model in which the code switches things on, or an actuator group that is chosen at run time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import remove_attribute
+from clinic.diagnosis.probes.shape import collides
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.source import Element
+from clinic.diagnosis.suspect import Suspect, counted
+
+TITLE = "A flag switches it off"
+FAMILIES = ("stuck", "passes-limit", "drifts", "sags", "slips")
+SINCE = "0.1"
+LEVEL = "hint"
+
+GROUPS = 31
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Flags in force for which the model has something to switch off."""
+    if model.source is None or model.source.urdf:
+        return
+    of = model.simulation
+    for flag, (usual, number, what) in _flags(of).items():
+        for element in model.source.elements("flag"):
+            if number and element.get(flag) == {"enable": "disable", "disable": "enable"}[usual]:
+                yield _suspect(element, flag, element.get(flag) or "", number, f"The flag {flag} {what}", usual)
+    for element in model.source.elements("option"):
+        off = {int(word) for word in (element.get("actuatorgroupdisable") or "").split() if word.isdecimal()}
+        idle = sum(min(int(group), GROUPS) in off for group in of.model("actuator_group"))
+        if idle:
+            says = f"Group {min(off)} is switched off, and with it {idle} of {of.count('actuator')} actuators."
+            yield _suspect(element, "actuatorgroupdisable", " ".join(map(str, sorted(off))), idle, says, "left out")
+
+
+def _suspect(element: Element, attribute: str, now: str, number: int, says: str, value: str) -> Suspect:
+    edits = (remove_attribute(element, attribute),)
+    probe = counted("parts of the model that it concerns", number)
+    return Suspect((f"the flag {attribute}",), attribute, now, value, edits, probe, 0, says, f"{value}", level="hint")
+
+
+def _flags(of: Simulation) -> dict[str, tuple[str, int, str]]:
+    """What each flag usually is, how many parts of the model it concerns, and what it does to them now."""
+    limits = sum(map(bool, of.model("jnt_limited")))
+    springs = sum(stiffness > 0 for stiffness in of.model("jnt_stiffness"))
+    friction = sum(loss > 0 for loss in of.model("dof_frictionloss"))
+    motors, loops, parents = of.count("actuator"), of.count("equality"), _parents(of)
+    return {
+        "actuation": ("enable", motors, f"is disabled: none of {motors} actuators does anything."),
+        "limit": ("enable", limits, f"is disabled: none of {limits} ranges stops its joint."),
+        "equality": ("enable", loops, f"is disabled: none of {loops} equality constraints holds."),
+        "spring": ("enable", springs, f"is disabled: none of {springs} springs of joints pulls."),
+        "frictionloss": ("enable", friction, f"is disabled: {friction} degrees of freedom lose their dry friction."),
+        "filterparent": ("enable", parents, f"is disabled: {parents} links collide with what they hang on."),
+        "override": ("disable", of.count("geom"), "is enabled: every contact has what `<option>` says in o_friction, "
+                     "o_solref, o_solimp and o_margin, and nothing of its geoms."),
+    }  # fmt: skip
+
+
+def _parents(of: Simulation) -> int:
+    """How many bodies have geoms that may collide with those of their parent."""
+    parents = of.model("body_parentid")
+    return sum(
+        any(collides(of, one, other) for one in of.geoms_of(body) for other in of.geoms_of(int(parents[body])))
+        for body in of.moving_bodies
+        if int(parents[body]) in of.moving_bodies
+    )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 
@@ -58,11 +57,17 @@ def _changes(texts: Mapping[str, str], edits: Sequence[Edit]) -> list[Change]:
     for each in sorted(dict.fromkeys(edits), key=lambda each: each.start, reverse=True):
         after = apply(texts, [each])
         one, other = texts[each.file].encode(), after[each.file].encode()
-        same = len(os.path.commonprefix([one, other]))
-        end = len(os.path.commonprefix([one[same:][::-1], other[same:][::-1]]))
+        same = _alike(one, other)
+        end = _alike(one[same:][::-1], other[same:][::-1])
         made.append((each.file, same, len(one) - end, len(other) - end))
         texts = after
     return made
+
+
+def _alike(one: bytes, other: bytes) -> int:
+    """How many bytes at the beginning are the same."""
+    pairs = enumerate(zip(one, other, strict=False))
+    return next((place for place, (a, b) in pairs if a != b), min(len(one), len(other)))
 
 
 def _as_written(each: Edit, changes: Sequence[Change]) -> Edit:

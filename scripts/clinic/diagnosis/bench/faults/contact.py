@@ -159,6 +159,13 @@ def contact_disabled(model: ReaderModel, random: Random) -> Fault | None:
     return Fault(model.add("option", '<flag contact="disable"/>'), (), "contact")
 
 
+@kind("switched-off", harms=("commands", "reaches", *MOVES))
+def flag_disabled(model: ReaderModel, random: Random) -> Fault | None:
+    """Actuators, limits or equality constraints are switched off."""
+    flag = random.choice(("actuation", "limit", "equality"))
+    return Fault(model.add("option", f'<flag {flag}="disable"/>'), (), flag)
+
+
 @kind("solver-iterations", "iterations", harms=MOVES)
 def few_iterations(model: ReaderModel, random: Random) -> Fault | None:
     """The solver stops after one or two iterations."""

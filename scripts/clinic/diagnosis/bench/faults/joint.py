@@ -7,8 +7,9 @@ from dataclasses import replace
 from random import Random
 
 from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, text_of, written
+from clinic.diagnosis.edit import replace as replace_element
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.engine import FREE, HINGE, SLIDE
 from clinic.diagnosis.reader_model import ReaderModel
 
 ENDS = ("reaches", "jumps", "strays")
@@ -161,3 +162,23 @@ def damping_negative(model: ReaderModel, random: Random) -> Fault | None:
     joint, factor = random.choice(found), between(random, 0.3, 100)
     mass = model.simulation.mass_diagonal[model.simulation.dof(joint)]
     return _set(model, joint, "damping", text_of(-factor * mass), factor)
+
+
+@kind("free-joint-held", harms=("strays", "sinks", "jumps", "accelerates"))
+def free_joint_of_a_default(model: ReaderModel, random: Random) -> Fault | None:
+    """A free joint has damping, dry friction or armature, as joints have them from a default."""
+    of = model.simulation
+    free = [i for i in written(model, "joint") if of.joint_type(i) == FREE]
+    if not free:
+        return None
+    joint = random.choice(free)
+    element = model.element("joint", joint)
+    assert element is not None
+    mass = of.model("body_subtreemass")[int(of.model("jnt_bodyid")[joint])]
+    attribute = random.choice(("damping", "frictionloss", "armature"))
+    strength = between(random, 0.1, 10) * mass * (1 if attribute == "armature" else 9.81)
+    if element.tag == "joint":
+        return _set(model, joint, attribute, text_of(strength), strength)
+    name = f' name="{element.get("name")}"' if element.get("name") else ""
+    edit = replace_element(element, f'<joint{name} type="free" {attribute}="{text_of(strength)}"/>')
+    return Fault((edit,), (of.name("joint", joint),), attribute, strength)

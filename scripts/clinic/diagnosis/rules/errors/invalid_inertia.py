@@ -1,7 +1,8 @@
 """An inertia that no body can have.
 
 The three principal moments of a real body satisfy A + B >= C; a full inertia is positive definite; and an inertia is
-given once, by `diaginertia` or by `fullinertia`. Values that were rounded, typed or exported wrongly break this.
+given once, by `diaginertia` or by `fullinertia`. Values that were rounded, typed or exported wrongly break this, and so
+do six of `fullinertia` in the order of URDF: MJCF has the diagonal first, xx yy zz xy xz yz.
 
 Bad:
 
@@ -78,6 +79,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _put(inertial: Element, attribute: str, said: str) -> Iterator[Suspect]:
     now = inertial.get(attribute)
     numbers = [float(number) for number in now.split()]
+    if len(numbers) == 6:
+        xx, xy, xz, yy, yz, zz = numbers
+        rows = (xx, yy, zz), (xy, xz, yz)
+        if min(rows[0]) > 3 * max(map(abs, rows[1])) and 2 * max(rows[0]) < 1.001 * sum(rows[0]):
+            value = " ".join(f"{number:g}" for row in rows for number in row)
+            edits = (set_attribute(inertial, attribute, value),)
+            says = f"{said}. These six are in the order of URDF: ixx ixy ixz iyy iyz izz."
+            yield mends(inertial, edits, says, attribute=attribute, now=now, value=value)
     value = " ".join(f"{number:.4g}" for number in [*possible(numbers[:3]), *[0.0] * (len(numbers) - 3)])
     edits = (set_attribute(inertial, attribute, value),)
     yield mends(inertial, edits, f"{said}.", attribute=attribute, now=now, value=value)

@@ -54,6 +54,7 @@ KNOWN += " enable disable Euler RK4 implicit implicitfast discrete pyramidal ell
 URDF_TYPES = "revolute continuous prismatic fixed floating planar"
 URDF = {"hinge": ["revolute", "continuous"], "slide": ["prismatic"], "free": ["floating"], "ball": ["floating"]}
 ORIENTATIONS = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
+MINUS = re.compile(r"(?<!\w)-")
 RANGE = re.compile(r"(?:\w*range)\[0\] should be smaller than \w+\[1\]|invalid (?:\w+ )?range")
 
 
@@ -64,15 +65,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         for element in meant(model, "mesh")[:1]:
             says = f"{said}. Meshes that are in metres need no scale."
             yield mends(element, back[0], says, attribute="scale", now=back[1], value=back[2])
-    assert model.source is not None
+    if model.source is None:
+        return
     for element in model.source.elements("compiler") if "but not `" in said else ():
         if element.get("autolimits") == "false":
-            edits = (remove_attribute(element, "autolimits"),)
-            yield mends(element, edits, f"{said}.", attribute="autolimits", now="false", value="none")
+            taken = (remove_attribute(element, "autolimits"),)
+            yield mends(element, taken, f"{said}.", attribute="autolimits", now="false", value="none")
     if model.source.urdf and "must be positive" in said and (negative := _negative(model)):
         element, attribute, now = negative[0]
-        edits = tuple(set_attribute(each, name, value.replace("-", "")) for each, name, value in negative)
-        yield mends(element, edits, f"{said}.", attribute=attribute, now=now, value=now.replace("-", ""))
+        edits = tuple(set_attribute(each, name, MINUS.sub("", value)) for each, name, value in negative)
+        yield mends(element, edits, f"{said}.", attribute=attribute, now=now, value=MINUS.sub("", now))
     for element in meant(model):
         for edit, now in _edits(said, element):
             says = f"{said}."
@@ -84,7 +86,7 @@ def _negative(model: ReaderModel) -> list[tuple[Element, str, str]]:
     """The shapes of a URDF with a negative length, of which MuJoCo's message does not say where they are."""
     assert model.source is not None
     shapes = model.source.elements("sphere", "cylinder", "box")
-    return [(each, name, value) for each in shapes for name, value in each.attributes.items() if "-" in value]
+    return [(each, name, value) for each in shapes for name, value in each.attributes.items() if MINUS.search(value)]
 
 
 def _edits(said: str, element: Element) -> Iterator[tuple[Edit, str]]:

@@ -31,7 +31,9 @@ Good:
       </actuator>
     </mujoco>
 
-The number: the model's own weight at the joint over the greatest force of its servos, in the worst of 17 poses.
+The number: the model's own weight at the joint over the greatest force of its servos, in the worst of 17 poses. Or the
+height that a robot with a free base loses within 1 s, its servos told to stay where they are, where some give all they
+can.
 
 When it is wrong: a joint that a spring or a closed chain carries, or that never takes such a pose.
 """
@@ -44,6 +46,7 @@ from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.load import loads, strain, strains
 from clinic.diagnosis.probes.servo import Servo, servos
+from clinic.diagnosis.probes.stand import BENT, LOST, goes_down, stance
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
@@ -54,12 +57,14 @@ SINCE = "0.1"
 CASE = "arm-stops-short"
 
 STRAIN = 1.2
+MORE = 5.0  # times the force that is tried under a robot that goes down
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Servos that cannot hold the weight, all together."""
     simulation, found, load = model.simulation, strains(model.simulation), loads(model.simulation)
     yield from _undriven(model)
+    yield from _gives_way(model)
     weak = sorted(
         (each for each in servos(simulation) if found[each.actuator] > STRAIN), key=lambda each: -found[each.actuator]
     )
@@ -78,6 +83,27 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         f"The weight at {simulation.name('joint', worst.joint)} is up to {load[worst.dof]:.3g} {unit}, "
         f"and its servo gives {worst.force:.3g} {unit} at most.",
         "1 and less; motors are chosen for twice the weight and more",
+    )
+
+
+def _gives_way(model: ReaderModel) -> Iterator[Suspect]:
+    """Servos of legs that give all they can, and let the robot down that stands on them."""
+    of, seen = model.simulation, stance(model.simulation)
+    full = sorted(seen.full, key=lambda each: -seen.bent[each])
+    if not full or max(seen.bent.values()) <= BENT:
+        return
+    unit = "N m" if full[0].hinge else "N"
+    yield Suspect(
+        tuple(of.name("actuator", each.actuator) for each in full),
+        "forcerange",
+        f"{full[0].force:.3g}",
+        rounded(MORE * full[0].force),
+        tuple(edit for each in seen.bent for edit in _stronger(model, each, MORE * each.force)),
+        goes_down(),
+        LOST,
+        f"Standing, {of.name('joint', full[0].joint)} bends although its servo gives all of its {full[0].force:.3g} "
+        f"{unit}.",
+        "next to nothing: a robot that stands",
     )
 
 

@@ -33,6 +33,8 @@ Good:
 
 The number: the model's own weight at the joint over the gain, in the worst of 17 poses: more than 0.3 rad (0.3 m),
 0.55 rad where the base is free: legs that a learned policy drives go up to 0.5.
+Or a robot with a free base goes down by a quarter of its height within 1 s, its servos told to stay where they are, and
+one of them bends by more than 0.45 rad.
 Or more than 45 % of a step of 0.1 rad is left after 1 s, without gravity. Where the base is fixed, a hint tells of
 hinges that sag by more than 0.085 rad, and of slides that sag by more than 5 % of their range: fingers with 50 mm that
 swing by 5 mm as the arm turns.
@@ -49,6 +51,7 @@ from clinic.diagnosis.probes.load import loads, sag, sags
 from clinic.diagnosis.probes.run import resets
 from clinic.diagnosis.probes.servo import Servo, remaining, servos
 from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.stand import BENT, LOST, goes_down, stance
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, rounded
@@ -92,8 +95,29 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"{'N m' if hinge else 'N'}, and its servo gives {worst.stiffness:.3g} for each {worst.unit}.",
             f"below {most:g} {worst.unit}; of healthy models with servos 0.29 is the most, 0.5 where the base is free",
         )
+    yield from _bends(model, much)
     yield from _late(model, much)
     yield from _little(model, {each: far for each, far in found.items() if each not in much})
+
+
+def _bends(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
+    """Servos of legs that bend under the robot that stands on them."""
+    of, seen = model.simulation, stance(model.simulation)
+    bent = sorted((each for each in seen.bent if seen.bent[each] > BENT / 2), key=lambda each: -seen.bent[each])
+    if not bent or seen.bent[bent[0]] <= BENT or seen.full or {each.actuator for each in bent} & sagging:
+        return
+    times = max(4.0, seen.bent[bent[0]] / 0.1)
+    yield Suspect(
+        tuple(of.name("actuator", each.actuator) for each in bent),
+        "kp",
+        f"{bent[0].stiffness:.3g}",
+        rounded(times * bent[0].stiffness),
+        tuple(edit for each in seen.bent for edit in _stronger(model, each, times * each.stiffness)),
+        goes_down(),
+        LOST,
+        f"Standing, {of.name('joint', bent[0].joint)} is {seen.bent[bent[0]]:.2g} rad off its target.",
+        "next to nothing: a robot that stands",
+    )
 
 
 def _most(simulation: Simulation, servo: Servo) -> float:

@@ -35,19 +35,20 @@ Good:
 
 The number: the height in m of what hangs above the floor. Told are bodies of the world without joints and without
 others on them that collide, that reach neither a plane nor another thing that stands still, and whose mass somebody
-wrote down: the mass of what cannot move has no effect.
+wrote down (the mass of what cannot move has no effect), or that are called a cube, a ball, a bottle and the like.
 
 When it is wrong: a lamp, or an obstacle that is meant to stay where it is.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import insert
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.inertia import inertial
-from clinic.diagnosis.probes.vector import norm, sub
+from clinic.diagnosis.probes.shape import box
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -58,7 +59,10 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "only intent knows what is to stay where it is"
 
-HANGS = 0.005  # m above the floor
+HANGS, NEAR = 0.005, 0.001  # m above the floor, and from other things
+OBJECT = re.compile(
+    r"(?<![a-z])(cube|block|ball|object|brick|can|bottle|mug|dice|die|parcel|apple|banana)s?(?![a-z])", re.IGNORECASE
+)
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -74,6 +78,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         geoms = [geom for geom in of.geoms_of(body) if collides[geom]]
         weighed = any((model.value("geom", geom, "mass") or "0") != "0" for geom in geoms)
+        weighed |= len(geoms) == 1 and bool(OBJECT.search(of.names("body")[body]))
         if geoms and (weighed or inertial(model, body)) and _height(of, body) > HANGS:
             found[body] = element
     if found:
@@ -94,16 +99,17 @@ def _height(of: Simulation, body: int) -> float:
     of.begin()
     if of.joints_of(body):
         return 0.0
-    bodies, kinds, radii = of.model("geom_bodyid"), of.model("geom_type"), of.model("geom_rbound")
-    moving, collides, made = set(of.moving_bodies), of.model("geom_contype"), float("inf")
+    bodies, kinds, collides = of.model("geom_bodyid"), of.model("geom_type"), of.model("geom_contype")
+    positions, axes = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat"))
+    moving, made = set(of.moving_bodies), float("inf")
     for geom in of.geoms_of(body):
-        place = of.data_row("geom_xpos", geom, 3)
+        place, half = box(of, positions, axes, geom)
         for other in range(len(kinds)) if collides[geom] else ():
-            there = of.data_row("geom_xpos", other, 3)
             if int(bodies[other]) in (*moving, body) or not collides[other]:
                 continue
+            there, extent = box(of, positions, axes, other)
             if int(kinds[other]) == PLANE:
-                made = min(made, place[2] - there[2] - radii[geom])
-            elif norm(sub(place, there)) < radii[geom] + radii[other]:
+                made = min(made, place[2] - half[2] - of.data_row("geom_xpos", other, 3)[2])
+            elif all(abs(a - b) < c + d + NEAR for a, b, c, d in zip(place, there, half, extent, strict=True)):
                 return 0.0
     return made if made < float("inf") else 0.0

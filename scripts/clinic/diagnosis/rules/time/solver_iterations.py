@@ -37,9 +37,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.drive import commanded, pressed_in
 from clinic.diagnosis.probes.run import fastest, sunk
+from clinic.diagnosis.probes.solver import USUAL, early, patient
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -48,8 +48,6 @@ FAMILIES = ("explodes", "sinks", "oscillates", "slips", "drifts")
 SINCE = "0.1"
 LEVEL = "hint"
 
-USUAL = {"iterations": 100.0, "ls_iterations": 50.0, "tolerance": 1e-8}
-FEW, LOOSE = 50, 1e-5
 FAST, DEEP, HALF = 20.0, 0.005, 0.5  # rad/s; of the extent; of the symptom that may be left
 
 
@@ -57,18 +55,17 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The solver's options, where its usual ones calm the model."""
     if model.source is None or model.source.urdf:
         return
-    of = model.simulation
-    now = {name: of.model(f"opt.{name}")[0] for name in USUAL}
-    early = [name for name in USUAL if (now[name] > LOOSE if name == "tolerance" else now[name] < FEW / (1 + (name != "iterations")))]
-    if not early:
+    now, edits = early(model), patient(model)
+    if not edits:
         return
-    edits: tuple[Edit, ...] = tuple(edit for name in early for edit in model.option(name, f"{USUAL[name]:g}"))
+    first = next(iter(now))
     for probe, limit in ((fastest(), FAST), (commanded(), FAST), (sunk(), DEEP), (pressed_in(), DEEP)):
         before = model.measured(probe)
         if before > limit and model.measured(probe, edits) <= HALF * before:
-            says = f"With MuJoCo's own {' and '.join(early)} the same motion is calm."
+            says = f"With MuJoCo's own {' and '.join(now)} the same motion is calm."
+            names, value = tuple(f"the solver's {name}" for name in now), f"{USUAL[first]:g}"
             yield Suspect(
-                tuple(f"the solver's {name}" for name in early), early[0], f"{now[early[0]]:g}", f"{USUAL[early[0]]:g}",
-                edits, probe, limit, says, "100 iterations, as MuJoCo has it", share=HALF, excess=10.0,
+                names, first, f"{now[first]:g}", value, edits, probe, limit, says,
+                "100 iterations and a tolerance of 1e-8, as MuJoCo has them", share=HALF, excess=10.0,
             )  # fmt: skip
             return

@@ -48,6 +48,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.probes.drive import commanded, pressed_in
 from clinic.diagnosis.probes.run import fastest, sunk
 from clinic.diagnosis.probes.shake import SHAKES, shake
+from clinic.diagnosis.probes.solver import patient
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -58,7 +59,7 @@ SINCE = "0.1"
 FAST = 100.0  # rad/s
 SECONDS, WHOLE = 2.0, 0.9  # what is run, and the share of it that a run with a shorter step has to last
 SUNK, PRESSED = 0.05, 0.035  # of the model's extent
-TENTH, THIRD = 0.1, 1 / 3  # what is left of a symptom that is gone; contacts are never without depth
+TENTH, THIRD, HALF = 0.1, 1 / 3, 0.5  # what is left of a symptom that is gone; contacts are never without depth
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -74,6 +75,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         before = model.measured(probe)
         if before <= limit:
             continue
+        if (edits := patient(model)) and model.measured(probe, edits) <= HALF * before:
+            return  # the solver stops too early, which another rule tells
         for divisor in (2, 4, 8, 16):
             if probe == pressed_in() and of.steps(divisor * SECONDS) < WHOLE * divisor * of.steps(SECONDS):
                 break  # a run cut short may be calm because nothing has been touched yet; what explodes does so early

@@ -1,8 +1,8 @@
 """A flag or a group of `<option>` switches a part of the model off.
 
 Flags are set for a test and forgotten: without `actuation` no motor does anything, without `limit` no joint stops,
-without `equality` loops are open. `override` takes `o_friction` and `o_solref` of `<option>` for every contact, whatever
-the geoms have, and without `filterparent` each link collides with the one that it hangs on.
+without `equality` loops are open. `override` takes `o_friction` and `o_solref` of `<option>` for every contact,
+whatever the geoms have, and without `filterparent` each link collides with the one that it hangs on.
 
 Bad:
 

@@ -1,0 +1,90 @@
+"""Standing: whether servos that hold the start carry a robot with a free base, or let it go down."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from clinic.diagnosis.engine import PLANE
+from clinic.diagnosis.probes.servo import Servo, hold, servos
+from clinic.diagnosis.probes.shape import box, geoms_of_tree, root_of
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe
+
+SECONDS = 1.0
+LEAST = 4  # servos of one robot
+NEAR = 0.15  # of its height: so far above the floor it may begin
+LOST, BENT = 0.25, 0.45  # of its height, rad: more, and the servos do not carry it
+FULL = 0.98  # of the greatest force
+
+
+@dataclass(frozen=True)
+class Stance:
+    """What was seen of one robot.
+
+    Attributes:
+        lost: The share of its height that its base went down; 0 where nothing stands.
+        bent: How far each of its hinges is off its target at the end in rad, by servo.
+        full: The servos that give all that they can.
+    """
+
+    lost: float
+    bent: dict[Servo, float]
+    full: tuple[Servo, ...]
+
+
+def stance(simulation: Simulation) -> Stance:
+    """The robot with most servos, 1 s after they were told to hold the start."""
+    if "stance" not in simulation.kept:
+        simulation.kept["stance"] = _stance(simulation)
+    return simulation.kept["stance"]  # type: ignore[return-value]
+
+
+def _stance(simulation: Simulation) -> Stance:
+    none = Stance(0.0, {}, ())
+    owner, bodies = root_of(simulation), simulation.model("jnt_bodyid")
+    by_root: dict[int, list[Servo]] = {}
+    for servo in servos(simulation):
+        if servo.hinge:
+            by_root.setdefault(owner[int(bodies[servo.joint])], []).append(servo)
+    root, own = max(by_root.items(), key=lambda each: len(each[1]), default=(0, []))
+    if root not in simulation.free_bodies or len(own) < LEAST or not any(simulation.model("opt.gravity")):
+        return none
+    simulation.begin()
+    hold(simulation)
+    low, floor = _lowest(simulation, root), _floor(simulation)
+    high = simulation.data_row("xpos", root, 3)[2]
+    height = high - low
+    if floor is None or height <= 0 or abs(low - floor) > NEAR * height:
+        return none
+    for _ in simulation.run(SECONDS):
+        if simulation.unstable():
+            return none
+    down = floor + height - simulation.data_row("xpos", root, 3)[2]
+    targets = simulation.data("ctrl")
+    bent = {s: abs(s.offset + s.scale * targets[s.actuator] - simulation.position(s.joint)) for s in own}
+    forces, gears = simulation.data("actuator_force"), simulation.model("actuator_gear")
+    full = [s for s in own if abs(forces[s.actuator] * gears[6 * s.actuator]) >= FULL * s.force]
+    return Stance(down / height, bent, tuple(full))
+
+
+def _floor(simulation: Simulation) -> float | None:
+    planes = [geom for geom, kind in enumerate(simulation.model("geom_type")) if int(kind) == PLANE]
+    return max((simulation.data_row("geom_xpos", geom, 3)[2] for geom in planes), default=None)
+
+
+def _lowest(simulation: Simulation, root: int) -> float:
+    """The lowest point of what collides of a tree, in m."""
+    places, axes = tuple(simulation.data("geom_xpos")), tuple(simulation.data("geom_xmat"))
+    collides = simulation.model("geom_contype")
+    boxes = [box(simulation, places, axes, geom) for geom in geoms_of_tree(simulation, root) if collides[geom]]
+    return min((centre[2] - half[2] for centre, half in boxes), default=float("inf"))
+
+
+def _lost(simulation: Simulation) -> float:
+    return stance(simulation).lost
+
+
+def goes_down() -> Probe:
+    """How far a robot goes down whose servos hold the start."""
+    title = f"height that the base loses within {SECONDS:g} s while all servos hold the start"
+    return Probe(title, "of its height", _lost)

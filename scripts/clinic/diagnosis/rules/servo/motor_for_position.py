@@ -1,0 +1,89 @@
+"""A motor has the range of its joint as its control range.
+
+`<motor>` takes a force, `<position>` an angle. A control range that repeats the joint's range says that angles are
+sent; as N m they push the joint to one of its ends, or do not move it at all. `<velocity>` takes a speed.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" range="-120 10" damping="1"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor joint="elbow" ctrlrange="-2.0944 0.17453"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" range="-120 10" damping="1"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="elbow" kp="100" ctrlrange="-2.0944 0.17453"/>
+      </actuator>
+    </mujoco>
+
+The number: how many motors and velocity servos have the range of their joint, to 1 %. Ranges of 1 are left out, for
+they are those of scaled controls, and whole numbers are where no other actuator is a servo.
+
+When it is wrong: a force that happens to be as large in N m as the angle in rad.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.servo import servos
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A motor that is told angles"
+FAMILIES = ("sags", "stuck", "drifts", "passes-limit")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "which unit a control has, only intent knows"
+
+NEAR = 0.01  # of the range
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Motors whose controls have the range of their joints, all together."""
+    of = model.simulation
+    found = _told(of)
+    if not found:
+        return
+    joint = of.driven_joint(found[0])
+    ends = " ".join(f"{end:.4g}" for end in of.row("actuator_ctrlrange", found[0], 2))
+    says = f"Its controls go from {ends.replace(' ', ' to ')}, the range of {of.name('joint', joint or 0)}, as N m."
+    probe = Probe("motors whose control range is the range of the joint", "", _count, (), dynamic=False)
+    names = tuple(of.name("actuator", actuator) for actuator in found)
+    yield Suspect(names, "ctrlrange", ends, "<position>", (), probe, 0, says, "<position> for angles", level="hint")
+
+
+def _count(simulation: Simulation) -> float:
+    return float(len(_told(simulation)))
+
+
+def _told(of: Simulation) -> list[int]:
+    positions, made = {each.actuator for each in servos(of)}, []
+    for actuator in range(of.count("actuator")):
+        joint = of.driven_joint(actuator)
+        limited = of.model("actuator_ctrllimited")[actuator]
+        if actuator in positions or joint is None or not limited or not of.model("jnt_limited")[joint]:
+            continue
+        ends, reach = of.row("actuator_ctrlrange", actuator, 2), of.row("jnt_range", joint, 2)
+        near = NEAR * (reach[1] - reach[0])
+        alike = all(abs(one - other) <= near for one, other in zip(ends, reach, strict=True))
+        round_ = all(end == round(end) for end in ends) if not positions else {*map(abs, ends)} <= {0.0, 1.0}
+        if alike and not round_:
+            made.append(actuator)
+    return made

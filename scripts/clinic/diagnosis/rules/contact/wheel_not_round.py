@@ -84,10 +84,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         kind = int(of.model("geom_type")[geom])
         edits = _edits(model, joint, geom) if kind == CYLINDER else ()
+        if kind == CYLINDER and not _level(of, joint):  # the hinge is what stands across
+            axle = written(tuple(of_quaternion(of.row("geom_quat", geom, 4))[2::3]))
+            edits = model.set("joint", [joint], "axis", axle)
         what = {CYLINDER: "cylinder lies across the hinge", BOX: "shape is a box", MESH: "mesh is not round"}[kind]
         yield Suspect(
             (of.name("geom", geom), of.name("joint", joint)),
-            "zaxis",
+            edits[-1].attribute if edits else "zaxis",
             "",
             edits[-1].value if edits else "",
             edits,
@@ -112,7 +115,8 @@ def _wheels(simulation: Simulation) -> Iterator[tuple[int, int]]:
             off = sub(simulation.row("geom_pos", geoms[0], 3), simulation.row("jnt_pos", joint, 3))
             axis = simulation.row("jnt_axis", joint, 3)
             aside = norm(sub(off, tuple(dot(off, axis) * x for x in axis)))
-            if aside < CENTRED * simulation.model("geom_rbound")[geoms[0]] and _level(simulation, joint):
+            level = _level(simulation, joint) or (kinds[0] == CYLINDER and _lies(simulation, geoms[0]))
+            if aside < CENTRED * simulation.model("geom_rbound")[geoms[0]] and level:
                 yield joint, geoms[0]
 
 
@@ -120,6 +124,11 @@ def _level(simulation: Simulation, joint: int) -> bool:
     """Whether the hinge lies level at the start."""
     simulation.begin()
     return abs(simulation.data_row("xaxis", joint, 3)[2]) < 0.3
+
+
+def _lies(simulation: Simulation, geom: int) -> bool:
+    """Whether a cylinder lies on its round side at the start."""
+    return abs(simulation.data_row("geom_xmat", geom, 9)[8]) < 0.3
 
 
 def _varies(simulation: Simulation, joint: int, geom: int) -> float:

@@ -30,7 +30,8 @@ Good:
     </mujoco>
 
 The number: the angle between the image's up and the world's, at most 100 degrees, for a camera that is fixed to the
-world or follows a robot, and does not look straight up or down.
+world or follows a robot, and does not look straight up or down. A hint tells of an image that lies on its side by more
+than 45 degrees, of a body with a free joint too.
 
 When it is wrong: a camera that is mounted upside down on purpose. Cameras on arms are left alone.
 """
@@ -40,7 +41,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.view import axes, onlookers, turned
+from clinic.diagnosis.probes.view import FIXED, axes, onlookers, turned
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -50,7 +51,7 @@ FAMILIES = ("camera",)
 SINCE = "0.1"
 CASE = "camera-upside-down"
 
-MOST, UPSIDE = 100.0, 0.9  # degrees; of the view's direction along the vertical
+MOST, ASIDE, UPSIDE = 100.0, 45.0, 0.9  # degrees, degrees; of the view's direction along the vertical
 
 
 def _tilt(simulation: Simulation, camera: int) -> float:
@@ -73,3 +74,26 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             says = "The image's up points down in the world."
             value = edits[-1].value if edits else "turned by 180 degrees"
             yield Suspect((name,), "xyaxes", "", value, edits, probe, MOST, says, "0 to 90 degrees")
+    yield from _aside(simulation)
+
+
+def _aside(simulation: Simulation) -> Iterator[Suspect]:
+    """Each camera of the world or of a body with a free joint whose image lies on its side."""
+    bodies, modes = simulation.model("cam_bodyid"), simulation.model("cam_mode")
+    for camera, body in enumerate(map(int, bodies)):
+        outside = camera in onlookers(simulation)
+        if int(modes[camera]) != FIXED or not (outside or body in simulation.free_bodies):
+            continue
+        roll = _roll(simulation, camera)
+        if roll > ASIDE:
+            probe = Probe("image's horizon against the world's", "degrees", _roll, (camera,), dynamic=False)
+            says = f"The image's right points {roll:.0f} degrees up or down in the world: the image lies on its side."
+            name, turned_by = (simulation.name("camera", camera),), f"turned by {roll:.0f} degrees"
+            yield Suspect(name, "xyaxes", "", turned_by, (), probe, ASIDE, says, "0 to 45 degrees", level="hint")
+
+
+def _roll(simulation: Simulation, camera: int) -> float:
+    """The angle in degrees between the image's right and the level."""
+    simulation.begin()
+    right, _, _ = axes(simulation, camera)
+    return math.degrees(math.asin(min(1.0, abs(right[2]))))

@@ -1,0 +1,159 @@
+"""Two wheels of one axle turn against each other, or are not equally large.
+
+A robot with two driven wheels goes straight when both get the same control. With one `axis` or `gear` turned round it
+spins on the spot; with one radius larger it goes in a circle.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="5 5 0.1"/>
+        <body name="car" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.03"/>
+          <body name="left_wheel" pos="0 0.15 0">
+            <joint name="left_wheel" axis="0 1 0"/>
+            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
+          </body>
+          <body name="right_wheel" pos="0 -0.15 0">
+            <joint name="right_wheel" axis="0 -1 0"/>
+            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
+          </body>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor joint="left_wheel" ctrlrange="-1 1"/>
+        <motor joint="right_wheel" ctrlrange="-1 1"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="5 5 0.1"/>
+        <body name="car" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.03"/>
+          <body name="left_wheel" pos="0 0.15 0">
+            <joint name="left_wheel" axis="0 1 0"/>
+            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
+          </body>
+          <body name="right_wheel" pos="0 -0.15 0">
+            <joint name="right_wheel" axis="0 1 0"/>
+            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
+          </body>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor joint="left_wheel" ctrlrange="-1 1"/>
+        <motor joint="right_wheel" ctrlrange="-1 1"/>
+      </actuator>
+    </mujoco>
+
+The number: of the two driven wheels on one axle, the cosine between the ways that equal controls roll them, which is -1
+where they turn against each other; and by how much the smaller radius is less than the other, from 2 % on.
+
+When it is wrong: a robot whose code turns one side round, as for motors that are mounted as mirror images.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, HINGE, SPHERE
+from clinic.diagnosis.probes.shape import root_of, solid
+from clinic.diagnosis.probes.vector import Vector, dot, norm, sub
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "Two wheels of one axle that are not alike"
+FAMILIES = ("drifts", "stuck")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "nearly no healthy model stands on wheels"
+
+AGAINST, ALONG, LEVEL_ENOUGH, UNLIKE = 0.9, 0.95, 0.2, 0.02
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Axles whose two wheels turn against each other, and such as have two radii."""
+    of = model.simulation
+    for one, other in _axles(of):
+        names = tuple(of.name("joint", joint) for joint in (one, other))
+        if (against := _against(of, one, other)) > AGAINST:
+            probe = Probe("equal controls turn the wheels against each other", "", _against, (one, other), dynamic=False)
+            says = "Equal controls turn the one forwards and the other backwards."
+            axes = [" ".join(f"{x:g}" for x in of.row("jnt_axis", joint, 3)) for joint in (one, other)]
+            attribute = "axis" if axes[0] != axes[1] else "gear"
+            now = axes[1] if attribute == "axis" else f"{_gear(of, other):g}"
+            value = axes[0] if attribute == "axis" else f"{-_gear(of, other):g}"
+            kind, element = ("joint", other) if attribute == "axis" else ("actuator", _actuator(of, other))
+            edits = model.set(kind, [element], attribute, value)
+            told = (*names, *(of.name("actuator", _actuator(of, joint)) for joint in (one, other)))
+            yield Suspect(told, attribute, now, value, edits, probe, AGAINST, says, "both the same way", share=against)
+        if _unlike(of, one, other) > UNLIKE:
+            probe = Probe("radius of one wheel below that of the other by", "", _unlike, (one, other), dynamic=False)
+            radii = [_radius(of, joint) for joint in (one, other)]
+            geoms = tuple(of.name("geom", _tyre(of, joint)) for joint in (one, other))
+            says = f"One has a radius of {radii[0]:.3g} m, the other one of {radii[1]:.3g} m."
+            now, value = f"{radii[1]:.3g}", f"{radii[0]:.3g}"
+            yield Suspect((*geoms, *names), "size", now, value, (), probe, UNLIKE, says, "equal radii")
+
+
+def _axles(of: Simulation) -> Iterator[tuple[int, int]]:
+    """Pairs of driven wheels of one robot that lie on one line along their hinges."""
+    of.begin()
+    wheels = [joint for joint in range(of.count("joint")) if _is_wheel(of, joint)]
+    owner, bodies = root_of(of), of.model("jnt_bodyid")
+    for one, other in combinations(wheels, 2):
+        between = sub(of.data_row("xanchor", one, 3), of.data_row("xanchor", other, 3))
+        far = norm(between)
+        along = [abs(dot(between, _axis(of, joint))) for joint in (one, other)]
+        if owner[int(bodies[one])] == owner[int(bodies[other])] and far > 0 and min(along) > ALONG * far:
+            yield one, other
+
+
+def _is_wheel(of: Simulation, joint: int) -> bool:
+    body = int(of.model("jnt_bodyid")[joint])
+    free = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
+    driven = sum(of.driven_joint(actuator) == joint for actuator in range(of.count("actuator"))) == 1
+    return free and driven and abs(_axis(of, joint)[2]) < LEVEL_ENOUGH and _tyre(of, joint) >= 0 and body > 0
+
+
+def _axis(of: Simulation, joint: int) -> Vector:
+    return of.data_row("xaxis", joint, 3)
+
+
+def _tyre(of: Simulation, joint: int) -> int:
+    """The largest round geom that collides, of a wheel's body; -1 for none."""
+    round_ = [
+        geom
+        for geom in of.geoms_of(int(of.model("jnt_bodyid")[joint]))
+        if int(of.model("geom_type")[geom]) in (SPHERE, CYLINDER, ELLIPSOID) and solid(of, geom)
+    ]
+    return max(round_, key=lambda geom: of.model("geom_size")[3 * geom], default=-1)
+
+
+def _radius(of: Simulation, joint: int) -> float:
+    return of.model("geom_size")[3 * _tyre(of, joint)]
+
+
+def _actuator(of: Simulation, joint: int) -> int:
+    return next(each for each in range(of.count("actuator")) if of.driven_joint(each) == joint)
+
+
+def _gear(of: Simulation, joint: int) -> float:
+    return of.model("actuator_gear")[6 * _actuator(of, joint)]
+
+
+def _against(of: Simulation, one: int, other: int) -> float:
+    of.begin()
+    return -dot(_axis(of, one), _axis(of, other)) * (1 if _gear(of, one) * _gear(of, other) > 0 else -1)
+
+
+def _unlike(of: Simulation, one: int, other: int) -> float:
+    low, high = sorted((_radius(of, one), _radius(of, other)))
+    return 1 - low / high

@@ -11,7 +11,7 @@ from clinic.diagnosis.probes.pairs import FITS, SYMMETRIC, Pairs
 from clinic.diagnosis.probes.vector import Vector, add, apart, diagonal, dot, norm, sub, times, turned
 from clinic.diagnosis.simulation import Simulation
 
-EXACT, PAIRS = 1.0, 5  # %, and how many pairs there must be
+EXACT, EXACT_MASS, PAIRS = 1.0, 4.0, 5  # %, %, and how many pairs there must be
 
 
 @dataclass(frozen=True)
@@ -79,13 +79,17 @@ class Twins(Pairs):
 
     @staticmethod
     def _sharpened(found: list[Comparison]) -> list[Comparison]:
-        """Ranges are held to `EXACT` where all pairs of a model but one nearly have the same."""
-        exact = set()
-        for of in (("joint", "range"), ("actuator", "ctrlrange")):
+        """Ranges and masses are held to more where all pairs of a model but few nearly have the same."""
+        exact = {}
+        for of, most, few in (
+            (("joint", "range"), EXACT, 1),
+            (("actuator", "ctrlrange"), EXACT, 1),
+            (("body", "mass"), EXACT_MASS, 2),
+        ):
             unlike = sorted(each.unlike for each in found if (each.kind, each.quantity) == of)
-            if len(unlike) >= PAIRS and unlike[-2] < EXACT / 2:
-                exact.add(of)
-        return [replace(each, limit=EXACT) if (each.kind, each.quantity) in exact else each for each in found]
+            if len(unlike) >= PAIRS + few - 1 and unlike[-1 - few] < EXACT / 2:
+                exact[of] = most
+        return [replace(each, limit=exact.get((each.kind, each.quantity), each.limit)) for each in found]
 
     def interval_sign(self, each: Comparison) -> float:
         """Whether a range of the pair is the same on both sides (1) or mirrored (-1)."""

@@ -84,7 +84,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for one, other in _axles(of):
         names = tuple(of.name("joint", joint) for joint in (one, other))
         if (against := _against(of, one, other)) > AGAINST:
-            probe = Probe("equal controls turn the wheels against each other", "", _against, (one, other), dynamic=False)
+            probe = Probe(
+                "equal controls turn the wheels against each other", "", _against, (one, other), dynamic=False
+            )
             says = "Equal controls turn the one forwards and the other backwards."
             axes = [" ".join(f"{x:g}" for x in of.row("jnt_axis", joint, 3)) for joint in (one, other)]
             attribute = "axis" if axes[0] != axes[1] else "gear"

@@ -1,0 +1,98 @@
+"""A position servo's gain is MuJoCo's default of 1, among servos that have gains of their own.
+
+`kp` is 1 unless somebody writes it. A class that gives it to one group of servos and not to another leaves those as
+soft as 1 N m/rad (1 N/m of a slide).
+
+Bad:
+
+    <mujoco>
+      <default>
+        <default class="arm"><position kp="60" kv="3"/></default>
+        <default class="head"><joint damping="0.1"/></default>
+      </default>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="shoulder" axis="0 1 0" damping="1" armature="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.1 0 0" size="0.02" mass="0.2"/>
+          <body pos="0.1 0 0">
+            <joint name="elbow" axis="0 1 0" damping="1" armature="0.1"/>
+            <geom type="capsule" fromto="0 0 0 0.1 0 0" size="0.02" mass="0.1"/>
+          </body>
+        </body>
+        <body pos="0 0 1.3">
+          <joint name="neck" axis="0 0 1" damping="1" armature="0.1"/>
+          <geom type="box" size="0.05 0.05 0.05" mass="0.3"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="shoulder" class="arm"/>
+        <position joint="elbow" class="arm"/>
+        <position joint="neck" class="head"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <default>
+        <default class="arm"><position kp="60" kv="3"/></default>
+        <default class="head"><position kp="60" kv="3"/></default>
+      </default>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="shoulder" axis="0 1 0" damping="1" armature="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.1 0 0" size="0.02" mass="0.2"/>
+          <body pos="0.1 0 0">
+            <joint name="elbow" axis="0 1 0" damping="1" armature="0.1"/>
+            <geom type="capsule" fromto="0 0 0 0.1 0 0" size="0.02" mass="0.1"/>
+          </body>
+        </body>
+        <body pos="0 0 1.3">
+          <joint name="neck" axis="0 0 1" damping="1" armature="0.1"/>
+          <geom type="box" size="0.05 0.05 0.05" mass="0.3"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="shoulder" class="arm"/>
+        <position joint="elbow" class="arm"/>
+        <position joint="neck" class="head"/>
+      </actuator>
+    </mujoco>
+
+The number: how many `<position>` have no `kp`, neither themselves nor by their class, where as many others and more
+have one.
+
+When it is wrong: a servo for which 1 N m/rad is enough.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect, counted
+
+TITLE = "A servo without a gain among others that have one"
+FAMILIES = ("sags", "stuck", "oscillates")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "a gain that is as small as the default is planted as a weak servo"
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The position servos that nobody gave a gain, all together."""
+    of = model.simulation
+    servos = [i for i in range(of.count("actuator")) if (e := model.element("actuator", i)) and e.tag == "position"]
+    bare = [each for each in servos if model.value("actuator", each, "kp") is None]
+    tuned = [each for each in servos if each not in bare]
+    if not bare or len(tuned) < max(2, len(bare)):
+        return
+    gains = sorted(float(model.value("actuator", each, "kp") or 1) for each in tuned)
+    usual = gains[len(gains) // 2]
+    if usual == 1:
+        return
+    probe = counted("position servos without a gain of their own", len(bare))
+    says = f"No kp is written for it, so that it is 1; the median of the {len(tuned)} others is {usual:g}."
+    names = tuple(of.name("actuator", each) for each in bare)
+    edits = model.set("actuator", bare, "kp", f"{usual:g}")
+    yield Suspect(names, "kp", "left out", f"{usual:g}", edits, probe, 0, says, "a gain by its load", level="hint")

@@ -57,7 +57,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.probes.vector import add, at, cross, dot, norm, sub, times, transpose
+from clinic.diagnosis.probes.rotors import rotors
+from clinic.diagnosis.probes.vector import add, dot, norm
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -68,60 +69,33 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "only one of the healthy models flies"
 
-SITE, ROTORS, LEAST = 4, 4, 0.01
+ROTORS, LEAST = 4, 0.01
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Four motors at sites of one free body, with thrust and drag, whose effects are not independent."""
     of = model.simulation
     for body in of.free_bodies:
-        rotors = _rotors(of, body)
-        if len(rotors) != ROTORS or _spanned(of, body) >= LEAST:
+        found = rotors(of, body)
+        if len(found) != ROTORS or _spanned(of, body) >= LEAST:
             continue
-        gears = [of.row("actuator_gear", each, 6) for each in rotors]
+        gears = [of.row("actuator_gear", each.actuator, 6) for each in found]
         if not all(gear[5] for gear in gears):
             continue
         edits: tuple[Edit, ...] = ()
-        for each, gear, place in zip(rotors, gears, _places(of, body, rotors), strict=True):
-            yaw = abs(gear[5]) if place[0] * place[1] < 0 else -abs(gear[5])
-            edits += model.set("actuator", [each], "gear", " ".join(f"{x:g}" for x in (*gear[:5], yaw)))
+        for each, gear in zip(found, gears, strict=True):
+            yaw = abs(gear[5]) if each.place[0] * each.place[1] < 0 else -abs(gear[5])
+            edits += model.set("actuator", [each.actuator], "gear", " ".join(f"{x:g}" for x in (*gear[:5], yaw)))
         probe = Probe("how little the rotors' effects are independent", "", _alike, (body,), dynamic=False)
-        names = tuple(of.name("actuator", each) for each in rotors)
+        names = tuple(of.name("actuator", each.actuator) for each in found)
         says = "Those on one side turn alike, so that yaw comes with roll or pitch."
         now = ", ".join(f"{gear[5]:+g}" for gear in gears)
         yield Suspect(names, "gear", now, "diagonal ones alike", edits, probe, 1 - LEAST, says, "diagonal rotors alike")
 
 
-def _rotors(of: Simulation, body: int) -> list[int]:
-    bodies = of.model("site_bodyid")
-    kinds, sites = of.model("actuator_trntype"), of.model("actuator_trnid")
-    return [
-        each
-        for each in range(of.count("actuator"))
-        if int(kinds[each]) == SITE
-        and int(bodies[int(sites[2 * each])]) == body
-        and norm(of.row("actuator_gear", each, 6)[:3]) > 0
-    ]
-
-
-def _places(of: Simulation, body: int, rotors: Sequence[int]) -> list[Sequence[float]]:
-    """Where the rotors are about the centre of mass, in the body's axes, in m."""
-    of.begin()
-    turn, centre = of.data_row("xmat", body, 9), of.data_row("xipos", body, 3)
-    sites = [int(of.model("actuator_trnid")[2 * each]) for each in rotors]
-    return [times(transpose(turn), sub(of.data_row("site_xpos", site, 3), centre)) for site in sites]
-
-
 def _spanned(of: Simulation, body: int) -> float:
     """The volume that thrust and the three torques span."""
-    rotors = _rotors(of, body)
-    turn = transpose(of.data_row("xmat", body, 9))
-    columns = []
-    for each, place in zip(rotors, _places(of, body, rotors), strict=True):
-        site = of.data_row("site_xmat", int(of.model("actuator_trnid")[2 * each]), 9)
-        gear = of.row("actuator_gear", each, 6)
-        push, drag = (times(turn, times(site, at(gear, k))) for k in (0, 1))
-        columns.append((norm(push), *add(cross(place, push), drag)))
+    columns = [(norm(each.push), *each.torque) for each in rotors(of, body)]
     rows = [[column[k] for column in columns] for k in range(4)]
     volume = 1.0
     for k, row in enumerate(rows):  # what is left of each once the earlier ones are taken out

@@ -40,6 +40,7 @@ Good:
     </mujoco>
 
 The number: the share of the leader's range that leads the follower out of its own; more than a half.
+A `polycoef` of a constant alone, which holds the follower in one place, is told as well.
 
 When it is wrong: a leader that something else keeps to a part of its range.
 """
@@ -72,6 +73,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Followers whose range leaves out most of what they are led to, all together."""
     simulation = model.simulation
     found = [each for _, each in couplings(simulation) if lost(simulation, (each,)) > LOST]
+    yield from _constant(model)
+    found = [each for each in found if any(each[2][1:])]
     if not found:
         return
     edits: tuple[Edit, ...] = ()
@@ -94,6 +97,24 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         f"{max(led):.3g}, and its range is {low:.3g} to {high:.3g}.",
         "a range that holds all that the leader asks for",
     )
+
+
+def _constant(model: ReaderModel) -> Iterator[Suspect]:
+    """Couplings of a constant alone, which hold the follower in one place."""
+    of = model.simulation
+    for equality, (follower, leader, factors) in couplings(of):
+        if any(factors[1:]) or not factors[0]:
+            continue
+        now, value = " ".join(f"{x:g}" for x in factors), f"0 {factors[0]:g} 0 0 0"
+        says = f"The first number is a constant: {of.name('joint', follower)} stays at {factors[0]:g}."
+        names = (of.name("joint", follower), of.name("joint", leader))
+        probe = Probe("couplings of a constant alone", "", _constants, (equality,), dynamic=False)
+        edits = model.set("equality", [equality], "polycoef", value)
+        yield Suspect(names, "polycoef", now, value, edits, probe, 0, says, "0 1 0 0 0, MuJoCo's own")
+
+
+def _constants(of: Simulation, equality: int) -> float:
+    return float(not any(of.equality_data(equality)[1:5]))
 
 
 def couplings(simulation: Simulation) -> Iterator[tuple[int, Coupling]]:

@@ -43,6 +43,7 @@ Good:
     </mujoco>
 
 The number: the share of the moving mass of a mechanism on a fixed base that is not compensated; above 2 % is told.
+A hint tells of a free body that has `gravcomp` of 0.9 and more where no other has any: it floats.
 
 When it is wrong: an arm that is to feel what it holds. Where only the last links lack it, or half of
 the mass does, it is a hint.
@@ -64,7 +65,7 @@ SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 
-LEFT = 0.02  # of the mass
+LEFT, FLOATS = 0.02, 0.9  # of the mass, of gravity
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -74,6 +75,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for root in roots(of):
         tree = [body for body, top in enumerate(owner) if top == root and masses[body] > 0]
         if any(of.joint_type(joint) == FREE for joint in of.joints_of(root)):
+            yield from _floats(model, tree)
             continue
         bare = [body for body in tree if compensated[body] == 0]
         joints = [joint for body in tree for joint in of.joints_of(body)]
@@ -97,6 +99,29 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "all links of a mechanism, or none",
             level="cause" if not some or (inner and kilograms < sum(masses[body] for body in tree) / 2) else "hint",
         )
+
+
+def _floats(model: ReaderModel, tree: list[int]) -> Iterator[Suspect]:
+    """A free body that gravity does not pull, where others of the model are pulled."""
+    of, compensated = model.simulation, model.simulation.model("body_gravcomp")
+    pulled = [body for body in of.moving_bodies if body not in tree and of.model("body_mass")[body] > 0]
+    if (
+        tree
+        and pulled
+        and min(compensated[body] for body in tree) >= FLOATS
+        and not any(compensated[b] for b in pulled)
+    ):
+        names, now = tuple(of.name("body", body) for body in tree), f"{compensated[tree[0]]:g}"
+        probe = Probe("least of its gravity that is taken away", "", _least, tuple(tree), dynamic=False)
+        says = f"Nothing pulls {names[0]} down: gravcomp takes its weight away, and no other body has any."
+        edits = model.set("body", tree, "gravcomp", "0")
+        yield Suspect(
+            names, "gravcomp", now, "0", edits, probe, FLOATS - 0.01, says, "0 for what is to fall", level="hint"
+        )
+
+
+def _least(simulation: Simulation, *bodies: int) -> float:
+    return min(simulation.model("body_gravcomp")[body] for body in bodies)
 
 
 def _left(simulation: Simulation, *bodies: int) -> float:

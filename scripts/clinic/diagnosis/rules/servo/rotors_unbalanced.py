@@ -182,7 +182,7 @@ def _most(of: Simulation, drone: Drone) -> float:
         [force * dot(each.push, drone.up) for each, force in zip(drone.rotors, given, strict=True)]
         for given in (forces(of, drone.rotors, _ends(of, drone, end)) for end in (0, 1))
     ]
-    return sum(map(max, *sides))
+    return float(sum(map(max, *sides)))
 
 
 def _short(of: Simulation, body: int) -> float:

@@ -54,7 +54,10 @@ def diagnose(
     failed: list[tuple[str, str]] = []
     try:
         check_rules(select, ignore)
-        symptom = family_of(symptom)
+        family, others = family_of(symptom)
+        if family != symptom:
+            or_else = f"; if you mean another one: --symptom {' or --symptom '.join(others)}" if others else ""
+            print(f"clinic: --symptom is read as {family}{or_else}", file=sys.stderr)
         check_output(models, form, fix, force)
         start = start_of(keyframe, ctrl, duration, seed)
         with terminal.console(stderr=True).status("compiling") as status:
@@ -62,7 +65,7 @@ def diagnose(
                 source = read_source(model)
                 tell = status.update
                 try:
-                    found = run(source, symptom=symptom, start=start, select=select, ignore=ignore, tell=tell)
+                    found = run(source, symptom=family, start=start, select=select, ignore=ignore, tell=tell)
                     made.append((model, found))
                 except DiagnosisError as error:
                     failed.append((model, str(error)))

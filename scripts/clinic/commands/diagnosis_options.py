@@ -12,9 +12,10 @@ from pathlib import Path
 from clinic.diagnosis.ignores import unknown
 from clinic.diagnosis.rules import Rule, rules
 from clinic.diagnosis.simulation import Start
-from clinic.record.families import families, likely_families
+from clinic.record.families import families, family_shares, likely_families
 
 STDIN = "-"
+DOUBT = 0.05  # the likelihood from which on another symptom is named beside the first
 
 
 class OptionError(ValueError):
@@ -112,19 +113,20 @@ def read_source(model: str) -> str:
     return text
 
 
-def family_of(symptom: str) -> str:
-    """The family that a symptom names, or that its words speak of; empty for an empty one.
+def family_of(symptom: str) -> tuple[str, list[str]]:
+    """The family that a symptom names, or that its words speak of, and others that they may; empty for an empty one.
 
     Raises:
         OptionError: If there is none.
     """
     if not symptom or symptom in families():
-        return symptom
-    if not (found := likely_families(symptom)):
+        return symptom, []
+    found = [name for name, share in family_shares(symptom).items() if share >= DOUBT]
+    if not likely_families(symptom):
         raise OptionError(
             f"--symptom {symptom}: expected one of {', '.join(families())}, or what you see in your words"
         )
-    return found[0]
+    return found[0], found[1:3]
 
 
 def check_rules(select: Collection[str], ignore: Collection[str]) -> None:

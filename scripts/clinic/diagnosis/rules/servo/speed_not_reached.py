@@ -1,0 +1,139 @@
+"""A wheel does not get near the speed that its servo is told.
+
+A velocity servo gives kv times the error of the speed. Where that is less than friction and damping at a small error,
+the wheel turns slowly whatever is asked: kv is too small, or the joint's `damping` too large.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="5 5 0.1"/>
+        <body name="car" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.03" mass="3"/>
+          <body name="left_wheel" pos="0 0.15 0">
+            <joint name="left_wheel" axis="0 1 0" damping="5"/>
+            <geom type="cylinder" size="0.1 0.02" euler="90 0 0" mass="0.3"/>
+          </body>
+          <body name="right_wheel" pos="0 -0.15 0">
+            <joint name="right_wheel" axis="0 1 0" damping="5"/>
+            <geom type="cylinder" size="0.1 0.02" euler="90 0 0" mass="0.3"/>
+          </body>
+        </body>
+      </worldbody>
+      <actuator>
+        <velocity joint="left_wheel" kv="0.2" ctrlrange="-20 20"/>
+        <velocity joint="right_wheel" kv="0.2" ctrlrange="-20 20"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="5 5 0.1"/>
+        <body name="car" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.03" mass="3"/>
+          <body name="left_wheel" pos="0 0.15 0">
+            <joint name="left_wheel" axis="0 1 0" damping="0.01"/>
+            <geom type="cylinder" size="0.1 0.02" euler="90 0 0" mass="0.3"/>
+          </body>
+          <body name="right_wheel" pos="0 -0.15 0">
+            <joint name="right_wheel" axis="0 1 0" damping="0.01"/>
+            <geom type="cylinder" size="0.1 0.02" euler="90 0 0" mass="0.3"/>
+          </body>
+        </body>
+      </worldbody>
+      <actuator>
+        <velocity joint="left_wheel" kv="0.2" ctrlrange="-20 20"/>
+        <velocity joint="right_wheel" kv="0.2" ctrlrange="-20 20"/>
+      </actuator>
+    </mujoco>
+
+The number: all velocity servos of hinges without limits are told half of their greatest speed; the share of it that is
+missing after 2 s, of the fastest wheel. Above 0.8 is told.
+
+When it is wrong: a robot that stands against something, or wheels that are meant to be slow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect, rounded
+
+TITLE = "A wheel far below the speed it is told"
+FAMILIES = ("stuck", "slow")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "nearly no healthy model has velocity servos of wheels"
+
+AFFINE = 1  # mjtBias
+MISSING, HALF, SECONDS, MORE = 0.8, 0.5, 2.0, 20.0
+
+
+@dataclass(frozen=True)
+class Wheel:
+    """A hinge without limits and its velocity servo: kv at the joint in N m s/rad, and the greatest speed in rad/s."""
+
+    actuator: int
+    joint: int
+    gain: float
+    fastest: float
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The wheels of a model, where none comes near to what it is told."""
+    of = model.simulation
+    wheels = _wheels(of)
+    if not wheels or _missing(of) <= MISSING:
+        return
+    damping = of.model("dof_damping")[of.dof(wheels[0].joint)]
+    joints, actuators = [each.joint for each in wheels], [each.actuator for each in wheels]
+    if damping > wheels[0].gain:
+        attribute, now, value = "damping", damping, rounded(wheels[0].gain / MORE)
+        edits = model.set("joint", joints, attribute, value)
+    else:
+        attribute, now, value = "kv", wheels[0].gain, rounded(MORE * wheels[0].gain)
+        edits = model.set("actuator", actuators, attribute, value)
+    names = tuple(
+        name for each in wheels for name in (of.name("joint", each.joint), of.name("actuator", each.actuator))
+    )
+    says = f"Told {HALF * wheels[0].fastest:.3g} rad/s, the fastest wheel misses {100 * _missing(of):.0f} % after 2 s: "
+    says += f"kv is {wheels[0].gain:.3g}, damping {damping:.3g}."
+    probe = Probe("share of the speed that is missing", "", _missing)
+    yield Suspect(names, attribute, f"{now:.3g}", value, edits, probe, MISSING, says, "next to nothing")
+
+
+def _wheels(of: Simulation) -> list[Wheel]:
+    made = []
+    for actuator in range(of.count("actuator")):
+        joint = of.driven_joint(actuator)
+        limited = of.model("actuator_ctrllimited")[actuator]
+        if joint is None or not limited or int(of.model("actuator_biastype")[actuator]) != AFFINE:
+            continue
+        bias = of.row("actuator_biasprm", actuator, len(of.model("actuator_biasprm")) // of.count("actuator"))
+        gear = of.model("actuator_gear")[6 * actuator]
+        turns = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
+        fastest = of.row("actuator_ctrlrange", actuator, 2)[1]
+        if turns and bias[1] == 0 > bias[2] and gear and fastest > 0:
+            made.append(Wheel(actuator, joint, -bias[2] * gear**2, fastest / abs(gear)))
+    return made
+
+
+def _missing(of: Simulation) -> float:
+    """The share of what the fastest wheel was told that it lacks; 0 without wheels."""
+    wheels = _wheels(of)
+    of.begin()
+    for each in wheels:
+        of.engine.write("ctrl", [HALF * of.row("actuator_ctrlrange", each.actuator, 2)[1]], each.actuator)
+    for _ in of.run(SECONDS, samples=10):
+        if of.unstable():
+            return 0.0
+    speeds = of.data("qvel")
+    return min((1 - abs(speeds[of.dof(each.joint)]) / (HALF * each.fastest) for each in wheels), default=0.0)

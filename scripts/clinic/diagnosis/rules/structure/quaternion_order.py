@@ -1,7 +1,7 @@
 """Quaternions are written x y z w, and MuJoCo reads w x y z.
 
-ROS, Unity, Isaac and SciPy put the real part last, MuJoCo and Eigen's constructor put it first. `quat="0 0 0 1"`, no
-turn for them, is half a turn about z here.
+ROS and SciPy put the real part last, MuJoCo puts it first. `quat="0 0 0 1"`, no turn for them, is half a turn about z
+here.
 
 Bad:
 
@@ -32,7 +32,7 @@ Good:
     </mujoco>
 
 The number: how many `quat` of bodies, geoms, sites, cameras and frames turn by more than a right angle as they stand,
-where none turns by less and all turn by less in the other order. Two and more are told.
+where none turns by less and all turn by less than 120 degrees in the other order. Two and more are told.
 
 When it is wrong: parts that are all turned by half a turn about their own z.
 """

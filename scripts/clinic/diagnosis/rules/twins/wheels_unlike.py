@@ -51,8 +51,8 @@ Good:
       </actuator>
     </mujoco>
 
-The number: of the two driven wheels on one axle, the cosine between the ways that equal controls roll them, which is -1
-where they turn against each other; and by how much the smaller radius is less than the other, from 2 % on.
+The number: of the two driven wheels on one axle, how much equal controls roll them against each other, from -1, both
+the same way, to 1; and by how much the smaller radius is less than the other, from 2 % on.
 
 When it is wrong: a robot whose code turns one side round, as for motors that are mounted as mirror images.
 """

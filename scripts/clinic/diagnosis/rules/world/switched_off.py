@@ -89,12 +89,12 @@ def _flags(of: Simulation) -> dict[str, tuple[str, int, str]]:
     friction = sum(loss > 0 for loss in of.model("dof_frictionloss"))
     motors, loops, parents = of.count("actuator"), of.count("equality"), _parents(of)
     return {
-        "actuation": ("enable", motors, f"is disabled: none of {motors} actuators does anything."),
-        "limit": ("enable", limits, f"is disabled: none of {limits} ranges stops its joint."),
-        "equality": ("enable", loops, f"is disabled: none of {loops} equality constraints holds."),
-        "spring": ("enable", springs, f"is disabled: none of {springs} springs of joints pulls."),
-        "frictionloss": ("enable", friction, f"is disabled: {friction} degrees of freedom lose their dry friction."),
-        "filterparent": ("enable", parents, f"is disabled: {parents} links collide with what they hang on."),
+        "actuation": ("enable", motors, f"is disabled: no actuator does anything ({motors} of them)."),
+        "limit": ("enable", limits, f"is disabled: no range stops its joint ({limits} of them)."),
+        "equality": ("enable", loops, f"is disabled: no equality constraint holds ({loops} of them)."),
+        "spring": ("enable", springs, f"is disabled: no spring of a joint pulls ({springs} of them)."),
+        "frictionloss": ("enable", friction, f"is disabled: no dry friction holds a joint ({friction} of them)."),
+        "filterparent": ("enable", parents, f"is disabled: links collide with what they hang on ({parents} of them)."),
         "override": ("disable", of.count("geom"), "is enabled: every contact has what `<option>` says in o_friction, "
                      "o_solref, o_solimp and o_margin, and nothing of its geoms."),
     }  # fmt: skip

@@ -1,7 +1,8 @@
-"""Two fingers that are coupled move the same way, so that the gap between them never changes.
+"""Two fingers move the same way, so that the gap between them never changes.
 
 The factor of the coupling and the axes of two slides belong together: with opposite axes it is 1, with the same axis
--1. With one of the signs wrong a gripper carries its fingers to and fro, and grasps nothing.
+-1. With one of the signs wrong a gripper carries its fingers to and fro, and grasps nothing. Fingers that nothing
+couples close at equal controls: with the same axis and the same range they go side by side.
 
 Bad:
 
@@ -40,15 +41,18 @@ Good:
     </mujoco>
 
 The number: how far the two move the same way, as a share of how far they move; 0 for fingers that close, 1 for two that
-keep their distance. The axis is turned where the coupling leads within the range, and else the factor. Two slides that
-nothing couples are compared too, where they have one range and are on both sides of the body that carries them.
+keep their distance. The axis is turned where the coupling leads within the range, and else the factor.
+Without a coupling it is two slides of one hand, one called a finger or the like, that begin at the same end of ranges
+which are alike and go to one side, and stand beside each other along their axes.
 
 When it is wrong: a telescope, whose stages follow each other; they do not hang on one body.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+import re
+from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import SLIDE
@@ -64,13 +68,16 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "no healthy model has two slides that are coupled"
 
-MOST, ACROSS = 0.9, 0.8
+MOST = 0.9
+FINGER = re.compile(r"(?i)finger|gripper|claw|jaw|thumb|pinch|hand(?!le)")
+ALIKE, BESIDE = 0.05, 0.7  # of the range; of the distance
+JOINT_WRAP = 1  # mjtWrap
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Slides of one body that do not change their distance, coupled or not."""
-    yield from _uncoupled(model)
+    """Slides of one body that do not change their distance: coupled ones, and fingers that nothing couples."""
     of = model.simulation
+    yield from _uncoupled(model)
     parents, bodies = of.model("body_parentid"), of.model("jnt_bodyid")
     for each, coupling in couplings(of):
         follower, leader, factors = coupling
@@ -99,37 +106,70 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _uncoupled(model: ReaderModel) -> Iterator[Suspect]:
-    """Two slides of one body with one range, on both sides of it, that go the same way."""
+    """Pairs of fingers without a coupling that equal ways carry to the same side."""
     of = model.simulation
-    of.begin()
+    hands: dict[int, list[int]] = {}
     parents, bodies = of.model("body_parentid"), of.model("jnt_bodyid")
-    led = {follower for _, (follower, _, _) in couplings(of)} | {leader for _, (_, leader, _) in couplings(of)}
-    slides = [j for j in range(of.count("joint")) if of.joint_type(j) == SLIDE and of.model("jnt_limited")[j]]
-    by_parent: dict[int, list[int]] = {}
-    for joint in slides:
-        if joint not in led and len(of.joints_of(int(bodies[joint]))) == 1:
-            by_parent.setdefault(int(parents[int(bodies[joint])]), []).append(joint)
-    for parent, two in by_parent.items():
-        if len(two) != 2 or parent == 0 or _parallel(of, *two) <= MOST:
+    bound = {joint for _, (follower, leader, _) in couplings(of) for joint in (follower, leader)}
+    for each, kind in enumerate(of.model("wrap_type")):
+        if int(kind) == JOINT_WRAP:
+            bound.add(int(of.model("wrap_objid")[each]))
+    for joint, kind in enumerate(of.model("jnt_type")):
+        if int(kind) == SLIDE and joint not in bound:
+            hands.setdefault(int(parents[int(bodies[joint])]), []).append(joint)
+    for hand, joints in hands.items():
+        if len(joints) != 2 or not _fingers(of, hand, joints) or _aside(of, *joints) <= MOST:
             continue
-        turned = written([-x for x in of.row("jnt_axis", two[1], 3)])
-        probe = Probe("share of their way that two fingers go together", "", _parallel, tuple(two), dynamic=False)
-        names = tuple(of.name("joint", joint) for joint in two)
-        says = f"{names[1]} goes where {names[0]} goes at equal controls: the gap never changes."
-        edits = model.set("joint", [two[1]], "axis", turned)
-        now = written(of.row("jnt_axis", two[1], 3))
-        yield Suspect(names, "axis", now, turned, edits, probe, MOST, says, "fingers that close")
+        other = joints[1]
+        axis = written([-x for x in of.row("jnt_axis", other, 3)])
+        yield Suspect(
+            tuple(of.name("joint", joint) for joint in joints),
+            "axis",
+            "",
+            axis,
+            model.set("joint", [other], "axis", axis),
+            Probe("share of their way that two fingers go together", "", _aside, tuple(joints), dynamic=False),
+            MOST,
+            f"{of.name('joint', other)} goes to the side of {of.name('joint', joints[0])}, and their ranges are alike.",
+            "fingers that close",
+        )
 
 
-def _parallel(simulation: Simulation, one: int, other: int) -> float:
-    """The cosine between two slides of one range that lie on both sides along their axes; 0 for others."""
-    simulation.begin()
-    ways = [simulation.data_row("xaxis", joint, 3) for joint in (one, other)]
-    places = [simulation.data_row("xipos", int(simulation.model("jnt_bodyid")[joint]), 3) for joint in (one, other)]
-    between = sub(*places)
-    alike = simulation.row("jnt_range", one, 2) == simulation.row("jnt_range", other, 2)
-    beside = abs(dot(between, ways[0])) > ACROSS * norm(between)
-    return dot(*ways) if alike and beside else 0.0
+def _fingers(of: Simulation, hand: int, joints: Sequence[int]) -> bool:
+    """Whether two slides are fingers by name, with ranges that are alike and go to one side, and driven alike."""
+    bodies = [int(of.model("jnt_bodyid")[joint]) for joint in joints]
+    names = [of.engine.name("joint", joint) for joint in joints]
+    names += [of.engine.name("body", body) for body in (hand, *bodies)]
+    (low, high), other = (of.row("jnt_range", joint, 2) for joint in joints)
+    alike = max(abs(low - other[0]), abs(high - other[1])) < ALIKE * (high - low)
+    oneway = min(abs(low), abs(high)) < ALIKE * (high - low)
+    limited = all(of.model("jnt_limited")[joint] for joint in joints)
+    if bodies[0] == bodies[1] or not any(map(FINGER.search, names)):
+        return False
+    return limited and alike and oneway and _driven(of, joints)
+
+
+def _driven(of: Simulation, joints: Sequence[int]) -> bool:
+    """Whether the actuators of both push to the same side of the joints at the same control."""
+    sides: dict[int, list[float]] = {joint: [] for joint in joints}
+    for each in range(of.count("actuator")):
+        joint = of.driven_joint(each)
+        if joint in sides:
+            gain = of.model("actuator_gainprm")[len(of.model("actuator_gainprm")) // of.count("actuator") * each]
+            sides[joint].append(math.copysign(1.0, gain * of.model("actuator_gear")[6 * each]))
+    return sides[joints[0]] == sides[joints[1]]
+
+
+def _aside(of: Simulation, one: int, other: int) -> float:
+    """The share of their way that two slides go together, where they stand beside each other along it; else 0."""
+    of.begin()
+    axes = [of.data_row("xaxis", joint, 3) for joint in (one, other)]
+    bodies = [int(of.model("jnt_bodyid")[joint]) for joint in (one, other)]
+    apart = sub(of.data_row("subtree_com", bodies[0], 3), of.data_row("subtree_com", bodies[1], 3))
+    if abs(dot(axes[0], apart)) <= BESIDE * norm(apart):
+        return 0.0
+    together = norm(add(axes[0], axes[1]))
+    return together / max(together + norm(sub(axes[0], axes[1])), 1e-9)
 
 
 def _together(simulation: Simulation, equality: int) -> float:

@@ -39,8 +39,8 @@ Good:
       </equality>
     </mujoco>
 
-The number: the share of the leader's range that leads the follower out of its own; more than a half.
-A `polycoef` of a constant alone, which holds the follower in one place, is told as well.
+The number: the share of the leader's range that leads the follower out of its own; more than a half. A `polycoef` of a
+constant alone, such as `1 0 0 0 0` for `0 1 0 0 0`, leads the follower nowhere: 1 where that is so.
 
 When it is wrong: a leader that something else keeps to a part of its range.
 """
@@ -72,9 +72,8 @@ Coupling = tuple[int, int, tuple[float, ...]]  # follower, leader, factors of th
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Followers whose range leaves out most of what they are led to, all together."""
     simulation = model.simulation
-    found = [each for _, each in couplings(simulation) if lost(simulation, (each,)) > LOST]
     yield from _constant(model)
-    found = [each for each in found if any(each[2][1:])]
+    found = [each for _, each in couplings(simulation) if lost(simulation, (each,)) > LOST and any(each[2][1:])]
     if not found:
         return
     edits: tuple[Edit, ...] = ()
@@ -100,21 +99,30 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _constant(model: ReaderModel) -> Iterator[Suspect]:
-    """Couplings of a constant alone, which hold the follower in one place."""
+    """Couplings whose polynomial has a constant alone."""
     of = model.simulation
-    for equality, (follower, leader, factors) in couplings(of):
-        if any(factors[1:]) or not factors[0]:
+    for each, (follower, leader, factors) in couplings(of):
+        if not _unled(of, each):
             continue
-        now, value = " ".join(f"{x:g}" for x in factors), f"0 {factors[0]:g} 0 0 0"
-        says = f"The first number is a constant: {of.name('joint', follower)} stays at {factors[0]:g}."
-        names = (of.name("joint", follower), of.name("joint", leader))
-        probe = Probe("couplings of a constant alone", "", _constants, (equality,), dynamic=False)
-        edits = model.set("equality", [equality], "polycoef", value)
-        yield Suspect(names, "polycoef", now, value, edits, probe, 0, says, "0 1 0 0 0, MuJoCo's own")
+        yield Suspect(
+            (of.name("joint", follower),),
+            "polycoef",
+            " ".join(f"{factor:g}" for factor in factors),
+            "0 1 0 0 0",
+            model.set("equality", [each], "polycoef", "0 1 0 0 0"),
+            Probe("1 where a joint does not follow the one that it is coupled to", "", _unled, (each,), dynamic=False),
+            0.5,
+            f"{of.name('joint', follower)} is held at {factors[0]:g} from its start, wherever "
+            f"{of.name('joint', leader)} goes: the first number is a constant, the second the factor.",
+            "a factor, the second number",
+            level="cause" if factors[0] == 1 else "hint",
+        )
 
 
-def _constants(of: Simulation, equality: int) -> float:
-    return float(not any(of.equality_data(equality)[1:5]))
+def _unled(of: Simulation, equality: int) -> float:
+    """1 where a coupling holds its follower at a constant other than its start."""
+    found = (factors for each, (_, _, factors) in couplings(of) if each == equality)
+    return float(any(factors[0] and not any(factors[1:]) for factors in found))
 
 
 def couplings(simulation: Simulation) -> Iterator[tuple[int, Coupling]]:

@@ -1,86 +1,112 @@
-"""A joint's spring pulls against its servo.
+"""The spring of a joint keeps its servo from the target.
 
-A position servo is a spring towards its target, and `stiffness` is one towards `springref`. Between the two the joint
-stops short by stiffness / (stiffness + kp) of the way.
+A position servo and the spring of its joint pull at the same joint: it rests between the servo's target and where the
+spring is at rest, nearer to the end of the stiffer one. With `kp` 10 and `stiffness` 10 it goes half of the way, and
+needs no load for that. A `stiffness` in a default for joints comes so to joints that a servo drives.
 
 Bad:
 
     <mujoco>
-      <default>
-        <joint stiffness="50" damping="1" armature="0.1"/>
-      </default>
       <worldbody>
         <body pos="0 0 1">
-          <joint name="elbow" axis="0 0 1" range="-90 90"/>
-          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
+          <joint name="elbow" axis="0 1 0" range="-60 60" stiffness="10" damping="1"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02" mass="0.1"/>
         </body>
       </worldbody>
       <actuator>
-        <position joint="elbow" kp="100" kv="6" ctrlrange="-1.57 1.57"/>
+        <position name="elbow" joint="elbow" kp="10" ctrlrange="-1 1"/>
       </actuator>
     </mujoco>
 
 Good:
 
     <mujoco>
-      <default>
-        <joint damping="1" armature="0.1"/>
-      </default>
       <worldbody>
         <body pos="0 0 1">
-          <joint name="elbow" axis="0 0 1" range="-90 90"/>
-          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
+          <joint name="elbow" axis="0 1 0" range="-60 60" damping="1"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02" mass="0.1"/>
         </body>
       </worldbody>
       <actuator>
-        <position joint="elbow" kp="100" kv="6" ctrlrange="-1.57 1.57"/>
+        <position name="elbow" joint="elbow" kp="10" ctrlrange="-1 1"/>
       </actuator>
     </mujoco>
 
-The number: stiffness over stiffness and gain, which is the share of the way that is missing at rest, without load;
-above 0.2.
+The number: the joint is put at 0.8 of the way from the spring's rest to the farther end of what range and control range
+allow, without gravity and contacts; what its spring pulls there, over that and what the servo pulls per rad (m) times
+the way. It is the share of the way that is left when both are in balance. Above 0.2 is told, and of the healthy models
+one: a fruit fly with springs in its head, whose lips go a quarter of the way.
 
-When it is wrong: a finger that a spring opens, or a creature whose muscles work against tissue.
+When it is wrong: a joint that is elastic by nature, such as a finger that its spring opens, and a learned policy that
+was trained with it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.servo import Servo, servos
+from clinic.diagnosis.probes.servo import Servo, alone, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
-TITLE = "A spring that pulls against the servo"
+TITLE = "A spring that holds its servo back"
 FAMILIES = ("sags", "stuck")
 SINCE = "0.1"
 LEVEL = "hint"
-UNPLANTED = "whether a spring is meant, its maker knows"
+UNPLANTED = "a spring beside a servo may be meant"
 
 MOST = 0.2  # of the way
+WAY = 0.8
+FREE = {True: 1.0, False: 0.1}  # rad, m: the way without a range
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """The servos that springs keep off their targets, all together."""
-    of = model.simulation
-    found = sorted((each for each in servos(of) if _share(of, each) > MOST), key=lambda each: -_share(of, each))
-    if not found:
+    """Servos that the springs of their joints keep from their targets, all together."""
+    of, springs = model.simulation, model.simulation.model("jnt_stiffness")
+    stiff = [each for each in servos(of) if springs[each.joint] > MOST * (springs[each.joint] + each.stiffness)]
+    kept = {each: share for each in stiff if (share := _kept(of, each)) > MOST}
+    if not kept:
         return
-    worst, joints = found[0], [each.joint for each in found]
-    stiffness = of.model("jnt_stiffness")[worst.joint]
-    says = f"A spring of {stiffness:.3g} against a gain of {worst.stiffness:.3g} N m/rad (N/m) keeps "
-    says += f"{100 * _share(of, worst):.0f} % of the way."
-    names = tuple(name for each in found for name in (of.name("joint", each.joint), of.name("actuator", each.actuator)))
-    probe = Probe("share of the way to a target that springs keep", "", _most, (), dynamic=False)
-    edits = model.set("joint", joints, "stiffness", "0")
-    yield Suspect(names, "stiffness", f"{stiffness:.3g}", "0", edits, probe, MOST, says, "0, or far below the gain")
+    worst, *_ = kept = dict(sorted(kept.items(), key=lambda pair: -pair[1]))
+    numbers = tuple(each.actuator for each in kept)
+    joints = tuple(dict.fromkeys(each.joint for each in kept))
+    stiffness, unit = springs[worst.joint], "N m/rad" if worst.hinge else "N/m"
+    yield Suspect(
+        tuple(of.name("joint", joint) for joint in joints),
+        "stiffness",
+        f"{stiffness:g}",
+        "0",
+        model.set("joint", joints, "stiffness", "0"),
+        Probe("share of the way that the spring keeps the servo from", "", _most, (numbers,), dynamic=False),
+        MOST,
+        f"{of.name('joint', worst.joint)} has a spring of {stiffness:.3g} {unit} against the {worst.stiffness:.3g} of "
+        f"{of.name('actuator', worst.actuator)}.",
+        "0, or far below kp",
+    )
 
 
-def _share(of: Simulation, servo: Servo) -> float:
-    stiffness = of.model("jnt_stiffness")[servo.joint]
-    return stiffness / (stiffness + servo.stiffness)
+def _most(of: Simulation, actuators: tuple[int, ...]) -> float:
+    return max((_kept(of, each) for each in servos(of) if each.actuator in actuators), default=0.0)
 
 
-def _most(of: Simulation) -> float:
-    return max((_share(of, each) for each in servos(of)), default=0.0)
+def _kept(of: Simulation, servo: Servo) -> float:
+    """The share of the way from the spring's rest that is left when spring and servo are in balance."""
+    place = int(of.model("jnt_qposadr")[servo.joint])
+    rest = of.model("qpos_spring")[place]
+    goal = _goal(servo, rest)
+    with alone(of):
+        of.begin(forward=False)
+        of.engine.write("qpos", [goal], place)
+        of.engine.forward()
+        pull = abs(of.data("qfrc_passive")[servo.dof])
+    return pull / (pull + servo.stiffness * abs(goal - rest))
+
+
+def _goal(servo: Servo, rest: float) -> float:
+    """Where the servo is told to go: towards the end that is farther from the spring's rest."""
+    ends = [each for each in (servo.range, servo.targets) if each]
+    far = FREE[servo.hinge]
+    low, high = max([rest - far, *(each[0] for each in ends)]), min([rest + far, *(each[1] for each in ends)])
+    way = max(high - rest, low - rest, key=abs)
+    return rest + WAY * way if abs(way) > 1e-6 else rest + 1e-6

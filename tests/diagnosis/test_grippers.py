@@ -1,0 +1,100 @@
+"""Fingers and what is coupled, beyond the laws: near misses, and healthy models that look ill."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.native import NativeEngine
+
+HAND = """
+<mujoco>
+  <worldbody>
+    <body name="{hand}" pos="0 0 1">
+      <geom type="box" size="0.05 0.05 0.01"/>
+      <body name="{kind}_1" pos="0.03 0 0">
+        <joint name="a" type="slide" axis="1 0 0" range="{range}"/>
+        <geom type="box" size="0.01 0.01 0.04" pos="0 0 0.05"/>
+      </body>
+      <body name="{kind}_2" {place}>
+        <joint name="b" type="slide" axis="{axis}" range="{other}"/>
+        <geom type="box" size="0.01 0.01 0.04" pos="0 0 0.05"/>
+      </body>
+    </body>
+  </worldbody>
+  <actuator>
+    <position joint="a" kp="100" kv="10"/>
+    <position joint="b" kp="100" kv="10" {gear}/>
+  </actuator>
+  {more}
+</mujoco>
+"""
+USUAL = {
+    "hand": "palm",
+    "kind": "finger",
+    "range": "0 0.04",
+    "other": "0 0.04",
+    "place": 'pos="-0.03 0 0"',
+    "axis": "1 0 0",
+    "gear": "",
+    "more": "",
+}
+TENDON = '<tendon><fixed><joint joint="a" coef="0.5"/><joint joint="b" coef="-0.5"/></fixed></tendon>'
+LINKS = """
+<mujoco>
+  <worldbody>
+    <body pos="0 0 1">
+      <joint name="knuckle" axis="0 1 0" range="0 80"/>
+      <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
+    </body>
+    <body pos="0 0.1 1">
+      <joint name="tip" axis="0 1 0" range="0 80"/>
+      <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
+    </body>
+  </worldbody>
+  <equality>
+    <joint joint1="tip" {coupling}/>
+  </equality>
+</mujoco>
+"""
+
+
+def told(text: str, rule: str) -> list[tuple[str, str, str]]:
+    found = examine(NativeEngine(), {"model.xml": text})
+    assert not found.error
+    return [(each.level, each.attribute, each.value) for each in (*found.causes, *found.hints) if each.rule == rule]
+
+
+@pytest.mark.parametrize(
+    ("change", "ill"),
+    [
+        ({}, True),
+        ({"hand": "world_hand", "kind": "part"}, True),
+        ({"axis": "-1 0 0"}, False),
+        ({"place": 'pos="-0.03 0 0" quat="0 0 0 1"'}, False),
+        ({"other": "-0.04 0"}, False),
+        ({"range": "-0.02 0.02", "other": "-0.02 0.02"}, False),
+        ({"gear": 'gear="-1"'}, False),
+        ({"more": TENDON}, False),
+        ({"hand": "rail", "kind": "carriage"}, False),
+        ({"place": 'pos="0.03 0.05 0"'}, False),
+    ],
+)
+def test_fingers_that_nothing_couples_go_to_one_side(change, ill):
+    found = told(HAND.format(**(USUAL | change)), "fingers-move-together")
+    assert found == ([("hint", "axis", "-1 0 0")] if ill else [])
+
+
+@pytest.mark.parametrize(
+    ("coupling", "level"),
+    [
+        ('joint2="knuckle" polycoef="1 0 0 0 0"', "cause"),
+        ('joint2="knuckle" polycoef="0.5 0 0 0 0"', "hint"),
+        ('joint2="knuckle" polycoef="0 1 0 0 0"', ""),
+        ('joint2="knuckle" polycoef="0 0 0.5 0 0"', ""),
+        ('joint2="knuckle" polycoef="0 0 0 0 0"', ""),
+        ('polycoef="1 0 0 0 0"', ""),
+    ],
+)
+def test_a_coupling_of_a_constant_alone_leads_nowhere(coupling, level):
+    found = told(LINKS.format(coupling=coupling), "follower-out-of-range")
+    assert found == ([(level, "polycoef", "0 1 0 0 0")] if level else [])

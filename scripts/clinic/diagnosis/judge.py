@@ -95,24 +95,26 @@ def without_consequences(found: Sequence[Judged], model_of: Callable[[Rule], Rea
 def grouped(found: Sequence[Judged]) -> list[Judged]:
     """The verdicts, those that say the same of several elements as one: of the worst, with the edits of all.
 
-    Hints are alike that measure one attribute by one rule; causes also have to write one value for another.
+    Alike are those that measure one attribute by one rule. Two causes also have to write one value for another.
     """
     groups: dict[tuple[object, ...], list[Judged]] = {}
     for each in found:
         suspect = each.suspect
-        written = (suspect.now, suspect.value) if each.level == "cause" else ()
         told = (each.rule.id, each.level, suspect.attribute, suspect.probe.measure, each.keyframe, each.silenced)
-        groups.setdefault((*told, each.after is None, bool(suspect.edits), *written), []).append(each)
-    return [_together(alike) if len(alike) > 1 else alike[0] for alike in groups.values()]
+        groups.setdefault((*told, each.after is None, bool(suspect.edits)), []).append(each)
+    return [each for alike in groups.values() for each in _together(alike)]
 
 
-def _together(alike: Sequence[Judged]) -> Judged:
+def _together(alike: Sequence[Judged]) -> Sequence[Judged]:
+    written = {(each.suspect.now, each.suspect.value) for each in alike}
+    if len(alike) == 1 or (alike[0].level == "cause" and len(alike) == len(written) == 2):
+        return alike
     worst = max(alike, key=lambda each: each.before)
     all_of_them = [worst, *(each for each in alike if each is not worst)]
     elements = tuple(dict.fromkeys(name for each in all_of_them for name in each.suspect.elements))
     edits = tuple(dict.fromkeys(edit for each in all_of_them for edit in each.suspect.edits))
     says = f"{worst.suspect.says} So it is with {len(alike) - 1} more."
-    return replace(worst, suspect=replace(worst.suspect, elements=elements, edits=edits, says=says))
+    return [replace(worst, suspect=replace(worst.suspect, elements=elements, edits=edits, says=says))]
 
 
 def _same_symptom(one: Judged, other: Judged) -> bool:

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, wraps
+from typing import TypeVar, TypeVarTuple
 
 from clinic.diagnosis.engine import BALL, FREE, HINGE, SLIDE, Compiled
 
 WIDTH = {FREE: (7, 6), BALL: (4, 3), SLIDE: (1, 1), HINGE: (1, 1)}  # of a joint in qpos and qvel
 REFERENCES = {"body": "body_parentid", "joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid"}
 UNSTABLE = ("BADQPOS", "BADQVEL", "BADQACC")
+Made = TypeVar("Made")
+Of = TypeVarTuple("Of")
 
 
 @dataclass(frozen=True)
@@ -209,3 +212,16 @@ class Simulation:
         """Whether the simulation went to infinity since the last `begin`."""
         found = self.engine.warnings()
         return any(found.get(kind) for kind in UNSTABLE)
+
+
+def kept(make: Callable[[Simulation, *Of], Made]) -> Callable[[Simulation, *Of], Made]:
+    """Lets a function run once for a simulation and its other arguments: what it gave is kept with the simulation."""
+
+    @wraps(make)
+    def once(of: Simulation, *rest: *Of) -> Made:
+        key = (make, *rest)
+        if key not in of.kept:
+            of.kept[key] = make(of, *rest)
+        return of.kept[key]  # type: ignore[return-value]
+
+    return once

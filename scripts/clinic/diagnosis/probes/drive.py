@@ -6,7 +6,7 @@ import math
 
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.servo import alone, command, hold, servos
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 SECONDS = 2.0
@@ -16,12 +16,10 @@ def _left(simulation: Simulation, joints: tuple[int, ...]) -> float:
     return max((_left_of(simulation, joint) for joint in joints), default=0.0)
 
 
+@kept
 def _left_of(simulation: Simulation, joint: int) -> float:
-    key = ("driven", joint)
-    if key not in simulation.kept:
-        with alone(simulation):
-            simulation.kept[key] = _driven(simulation, joint)
-    return simulation.kept[key]  # type: ignore[return-value]
+    with alone(simulation):
+        return _driven(simulation, joint)
 
 
 def _driven(simulation: Simulation, joint: int) -> float:

@@ -8,7 +8,7 @@ from clinic.diagnosis.engine import BOX, HFIELD, PLANE
 from clinic.diagnosis.probes.run import State, let_go
 from clinic.diagnosis.probes.shape import box, falling, root_of, size, solid
 from clinic.diagnosis.probes.vector import at, dot, sub
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 
@@ -24,11 +24,10 @@ def _above(simulation: Simulation, now: State, body: int, geom: int) -> float | 
     return centre[2] - middle[2] - half[2]
 
 
+@kept
 def fallen(simulation: Simulation) -> list[tuple[int, int]]:
     """Bodies and the geoms that they fell through after letting go: roots of trees, and what `bare` gives."""
-    if "fallen" not in simulation.kept:
-        simulation.kept["fallen"] = list(_fallen(simulation))
-    return simulation.kept["fallen"]  # type: ignore[return-value]
+    return list(_fallen(simulation))
 
 
 def _fallen(simulation: Simulation) -> Iterator[tuple[int, int]]:

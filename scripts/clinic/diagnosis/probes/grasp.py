@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from clinic.diagnosis.probes.servo import hold
 from clinic.diagnosis.probes.touch import Deciding, deciding
 from clinic.diagnosis.probes.vector import dot
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 SECONDS = 1.0
@@ -26,13 +26,12 @@ class Grasp:
     deciding: tuple[Deciding, ...]
 
 
+@kept
 def grasps(simulation: Simulation) -> list[Grasp]:
     """What is held when all fingers go to one end of their controls, without gravity."""
-    if "grasps" not in simulation.kept:
-        gravity = list(simulation.model("opt.gravity"))
-        fingers = _fingers(simulation) if simulation.free_bodies and any(gravity) else []
-        simulation.kept["grasps"] = [each for end in (0, 1) for each in _held(simulation, fingers, end) if fingers]
-    return simulation.kept["grasps"]  # type: ignore[return-value]
+    gravity = simulation.model("opt.gravity")
+    fingers = _fingers(simulation) if simulation.free_bodies and any(gravity) else []
+    return [each for end in (0, 1) for each in _held(simulation, fingers, end)] if fingers else []
 
 
 def _fingers(simulation: Simulation) -> list[int]:
@@ -50,8 +49,6 @@ def _fingers(simulation: Simulation) -> list[int]:
 
 def _held(simulation: Simulation, fingers: list[int], end: int) -> list[Grasp]:
     gravity, bodies = list(simulation.model("opt.gravity")), simulation.model("geom_bodyid")
-    if not fingers:
-        return []
     simulation.engine.write_model("opt.gravity", [0.0, 0.0, 0.0])
     try:
         simulation.begin()

@@ -9,7 +9,7 @@ from itertools import combinations, permutations
 from clinic.diagnosis.engine import BALL, FREE, HINGE, PLANE, SLIDE
 from clinic.diagnosis.probes import servo
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import WIDTH, Simulation
+from clinic.diagnosis.simulation import WIDTH, Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 UNIT = 0.02  # how far from 1 the length of a quaternion may be
@@ -108,15 +108,12 @@ def reordered(model: ReaderModel, key: int) -> list[float] | None:
     Its quaternions tell: as they are read one is not of length 1, and with the free joints and what stands between
     them in another order all are.
     """
-    of, element = model.simulation, model.element("key", key)
-    if ("reordered", key) not in of.kept:
-        values = [float(text) for text in element.get("qpos").split()] if element is not None else []
-        of.kept["reordered", key] = _reordered(of, values)
-    found = of.kept["reordered", key]
-    assert found is None or isinstance(found, list)
-    return found
+    element = model.element("key", key)
+    values = element.get("qpos").split() if element is not None else []
+    return _reordered(model.simulation, tuple(map(float, values)))
 
 
+@kept
 def _reordered(of: Simulation, values: Sequence[float]) -> list[float] | None:
     parts = _parts(of)
     if len(values) != len(of.model("qpos0")) or len(parts) > MOST_PARTS or _turns(of, values):

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.servo import alone, servos
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 POSES = 16
@@ -36,12 +36,11 @@ def poses(simulation: Simulation) -> list[list[float]]:
     return drawn
 
 
+@kept
 def loads(simulation: Simulation) -> list[float]:
     """The largest force of gravity on each degree of freedom over the poses, in N m or N."""
-    if "loads" not in simulation.kept:
-        with alone(simulation, gravity=True):
-            simulation.kept["loads"] = _loads(simulation)
-    return simulation.kept["loads"]  # type: ignore[return-value]
+    with alone(simulation, gravity=True):
+        return _loads(simulation)
 
 
 def _loads(simulation: Simulation) -> list[float]:

@@ -22,7 +22,7 @@ from clinic.diagnosis.probes.vector import (
     unit,
 )
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 ABSURD = 6.0  # a radius of gyration as many times that of the geoms, or that in it
@@ -119,17 +119,9 @@ def _trace(tensor_: Vector) -> float:
     return tensor_[0] + tensor_[4] + tensor_[8]
 
 
+@kept
 def matter(simulation: Simulation, body: int) -> Matter | None:
     """What a body is made of; None for one without geoms or without mass."""
-    kept = simulation.kept
-    if ("matter", body) not in kept:
-        kept["matter", body] = _matter(simulation, body)
-    found = kept["matter", body]
-    assert found is None or isinstance(found, Matter)
-    return found
-
-
-def _matter(simulation: Simulation, body: int) -> Matter | None:
     mass = simulation.model("body_mass")[body]
     kinds = simulation.model("geom_type")
     geoms = [geom for geom in simulation.geoms_of(body) if kinds[geom] not in (PLANE, HFIELD)]

@@ -8,32 +8,30 @@ from clinic.diagnosis.engine import HINGE, SLIDE, Contact
 from clinic.diagnosis.probes.run import State, state
 from clinic.diagnosis.probes.shape import falling, geoms_of_tree, root_of, thickness
 from clinic.diagnosis.probes.vector import at
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 LINKS = 3  # bodies further apart in the tree are no relatives
 
 
+@kept
 def beginning(simulation: Simulation) -> State:
     """The start that the reader chose."""
-    if "beginning" not in simulation.kept:
-        simulation.begin()
-        simulation.kept["beginning"] = state(simulation)
-    return simulation.kept["beginning"]  # type: ignore[return-value]
+    simulation.begin()
+    return state(simulation)
 
 
+@kept
 def _within(simulation: Simulation) -> State:
     """The start with each hinge and slide inside of its range."""
-    if "within" not in simulation.kept:
-        simulation.begin()
-        for joint in range(simulation.count("joint")):
-            if simulation.joint_type(joint) in (HINGE, SLIDE) and simulation.model("jnt_limited")[joint]:
-                low, high = simulation.row("jnt_range", joint, 2)
-                place = int(simulation.model("jnt_qposadr")[joint])
-                simulation.engine.write("qpos", [min(max(simulation.data("qpos")[place], low), high)], place)
-        simulation.engine.forward()
-        simulation.kept["within"] = state(simulation)
-    return simulation.kept["within"]  # type: ignore[return-value]
+    simulation.begin()
+    for joint in range(simulation.count("joint")):
+        if simulation.joint_type(joint) in (HINGE, SLIDE) and simulation.model("jnt_limited")[joint]:
+            low, high = simulation.row("jnt_range", joint, 2)
+            place = int(simulation.model("jnt_qposadr")[joint])
+            simulation.engine.write("qpos", [min(max(simulation.data("qpos")[place], low), high)], place)
+    simulation.engine.forward()
+    return state(simulation)
 
 
 def _outside(simulation: Simulation) -> set[int]:

@@ -6,18 +6,16 @@ import math
 from collections.abc import Sequence
 
 from clinic.diagnosis.probes.servo import alone, hold, servos
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 SECONDS = 1.0
 
 
+@kept
 def _past(simulation: Simulation, actuators: Sequence[int]) -> float:
-    key = ("past", actuators)
-    if key not in simulation.kept:
-        with alone(simulation):
-            simulation.kept[key] = max(_pressed(simulation, actuators, end) for end in (0, 1))
-    return simulation.kept[key]  # type: ignore[return-value]
+    with alone(simulation):
+        return max(_pressed(simulation, actuators, end) for end in (0, 1))
 
 
 def _pressed(simulation: Simulation, actuators: Sequence[int], end: int) -> float:

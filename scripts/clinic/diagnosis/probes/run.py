@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from clinic.diagnosis.engine import Contact
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 
@@ -47,17 +47,9 @@ class LetGo:
     late: tuple[Contact, ...] = ()
 
 
+@kept
 def let_go(simulation: Simulation) -> LetGo:
-    """Runs the model from its start with the controls of the start; the run is kept with the simulation."""
-    kept = simulation.kept
-    if "let go" not in kept:
-        kept["let go"] = _let_go(simulation)
-    found = kept["let go"]
-    assert isinstance(found, LetGo)
-    return found
-
-
-def _let_go(simulation: Simulation) -> LetGo:
+    """Runs the model from its start with the controls of the start."""
     simulation.begin()
     made = LetGo(0, 0.0, None, 0.0, {}, state(simulation))
     owners = simulation.dof_joints

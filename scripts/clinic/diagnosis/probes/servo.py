@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 from clinic.diagnosis.engine import HINGE
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 FIXED, AFFINE = 0, 1  # mjtGain; mjtBias: none, affine
@@ -63,13 +63,11 @@ class Servo:
         return min(max(wanted, self.ctrl[0]), self.ctrl[1]) if self.ctrl else wanted
 
 
+@kept
 def servos(simulation: Simulation) -> list[Servo]:
     """The position servos of hinges and slides that the model has, however they are written."""
-    if "servos" not in simulation.kept:
-        simulation.kept["servos"] = [
-            found for i in range(simulation.count("actuator")) if (found := _servo(simulation, i)) is not None
-        ]
-    return simulation.kept["servos"]  # type: ignore[return-value]
+    found = (_servo(simulation, actuator) for actuator in range(simulation.count("actuator")))
+    return [each for each in found if each is not None]
 
 
 def _servo(simulation: Simulation, actuator: int) -> Servo | None:
@@ -151,13 +149,11 @@ def _overshoot(simulation: Simulation, actuators: Sequence[int]) -> float:
     return max((_rings(simulation, actuator) for actuator in actuators), default=0.0)
 
 
+@kept
 def _rings(simulation: Simulation, actuator: int) -> float:
-    key = ("rings", actuator)
-    if key not in simulation.kept:
-        servo = _of(simulation, actuator)
-        with alone(simulation):
-            simulation.kept[key] = _stepped(simulation, servo) if servo else 0.0
-    return simulation.kept[key]  # type: ignore[return-value]
+    servo = _of(simulation, actuator)
+    with alone(simulation):
+        return _stepped(simulation, servo) if servo else 0.0
 
 
 def _begun(simulation: Simulation, servo: Servo) -> tuple[float, float]:
@@ -197,18 +193,18 @@ def _remaining(simulation: Simulation, actuators: Sequence[int]) -> float:
     return max((_late(simulation, actuator) for actuator in actuators), default=0.0)
 
 
+@kept
 def _late(simulation: Simulation, actuator: int) -> float:
     """The share of a step that is left after 1 s."""
-    key = ("late", actuator)
     servo = _of(simulation, actuator)
-    if key not in simulation.kept and servo:
-        with alone(simulation):
-            goal, way = _begun(simulation, servo)
-            for _ in simulation.run(1.0, samples=5):
-                pass
-            left = abs(goal - simulation.position(servo.joint)) / max(abs(way), 1e-9)
-            simulation.kept[key] = math.inf if simulation.unstable() else left
-    return simulation.kept.get(key, 0.0)  # type: ignore[return-value]
+    if servo is None:
+        return 0.0
+    with alone(simulation):
+        goal, way = _begun(simulation, servo)
+        for _ in simulation.run(1.0, samples=5):
+            pass
+        left = abs(goal - simulation.position(servo.joint)) / max(abs(way), 1e-9)
+        return math.inf if simulation.unstable() else left
 
 
 def remaining(actuators: Sequence[int]) -> Probe:

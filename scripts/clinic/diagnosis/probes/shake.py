@@ -6,7 +6,7 @@ import math
 
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.servo import alone, hold
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 NUDGE = 0.01  # rad or m
@@ -15,11 +15,10 @@ LOOKED_AT = 40  # steps
 SHAKES = 5.0  # rad/s a step, above which a joint rattles
 
 
+@kept
 def _shake(simulation: Simulation) -> float:
-    if "shake" not in simulation.kept:
-        with alone(simulation):
-            simulation.kept["shake"] = _shaken(simulation)
-    return simulation.kept["shake"]  # type: ignore[return-value]
+    with alone(simulation):
+        return _shaken(simulation)
 
 
 def _shaken(simulation: Simulation) -> float:

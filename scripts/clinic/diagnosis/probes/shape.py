@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from clinic.diagnosis.engine import FREE, PLANE, SLIDE
 from clinic.diagnosis.probes.vector import Vector, at
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 
 
 def roots(simulation: Simulation) -> list[int]:
@@ -13,16 +13,14 @@ def roots(simulation: Simulation) -> list[int]:
     return [body for body in simulation.moving_bodies if int(parents[body]) not in moving]
 
 
+@kept
 def root_of(simulation: Simulation) -> list[int]:
     """For each body the root of its tree; 0 for what does not move."""
-    kept = simulation.kept
-    if "root of" not in kept:
-        parents, tops = simulation.model("body_parentid"), set(roots(simulation))
-        made = [0] * simulation.count("body")
-        for body in range(1, len(made)):
-            made[body] = body if body in tops else made[int(parents[body])]
-        kept["root of"] = made
-    return kept["root of"]  # type: ignore[return-value]
+    parents, tops = simulation.model("body_parentid"), set(roots(simulation))
+    made = [0] * simulation.count("body")
+    for body in range(1, len(made)):
+        made[body] = body if body in tops else made[int(parents[body])]
+    return made
 
 
 def geoms_of_tree(simulation: Simulation, root: int) -> list[int]:

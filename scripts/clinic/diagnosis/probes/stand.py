@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.servo import Servo, hold, servos
 from clinic.diagnosis.probes.shape import box, geoms_of_tree, root_of
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 SECONDS = 1.0
@@ -32,14 +32,9 @@ class Stance:
     full: tuple[Servo, ...]
 
 
+@kept
 def stance(simulation: Simulation) -> Stance:
     """The robot with most servos, 1 s after they were told to hold the start."""
-    if "stance" not in simulation.kept:
-        simulation.kept["stance"] = _stance(simulation)
-    return simulation.kept["stance"]  # type: ignore[return-value]
-
-
-def _stance(simulation: Simulation) -> Stance:
     none = Stance(0.0, {}, ())
     owner, bodies = root_of(simulation), simulation.model("jnt_bodyid")
     by_root: dict[int, list[Servo]] = {}

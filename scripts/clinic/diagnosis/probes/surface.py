@@ -7,7 +7,7 @@ import math
 from clinic.diagnosis.engine import MESH
 from clinic.diagnosis.probes.shape import root_of, roots
 from clinic.diagnosis.probes.vector import Vector, add, at, dot, sub, times, transpose
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 SDF = 8  # mjtGeom
@@ -18,17 +18,12 @@ Triangle = tuple[Vector, Vector, Vector]
 Ball = tuple[Vector, float]
 
 
+@kept
 def touched_off_surface(simulation: Simulation) -> dict[int, float]:
     """How far from each mesh geom's surface other things touched it after letting go, as a share of its radius.
 
     Two mechanisms that collide are left out: what falls into a hole or passes through it is a single thing.
     """
-    if "off surface" not in simulation.kept:
-        simulation.kept["off surface"] = _run(simulation)
-    return simulation.kept["off surface"]  # type: ignore[return-value]
-
-
-def _run(simulation: Simulation) -> dict[int, float]:
     kinds, radii = simulation.model("geom_type"), simulation.model("geom_rbound")
     made: dict[int, float] = {}
     if not any(int(kind) in (MESH, SDF) for kind in kinds):
@@ -69,20 +64,19 @@ def _inner_joints(simulation: Simulation) -> list[int]:
     return [joint for joint, body in enumerate(bodies) if owner[int(body)] != int(body)]
 
 
+@kept
 def _faces(simulation: Simulation, mesh: int) -> list[tuple[Triangle, Ball]]:
-    """A mesh's triangles in the geom's frame, each with a ball around it."""
-    kept = simulation.kept
-    if ("faces", mesh) not in kept:
-        first, count = (int(simulation.model(f"mesh_face{of}")[mesh]) for of in ("adr", "num"))
-        offset, made = int(simulation.model("mesh_vertadr")[mesh]), []
-        if count <= MOST_FACES:
-            points, corners = simulation.model("mesh_vert"), simulation.model("mesh_face")
-            for face in range(first, first + count):
-                one, two, three = (at(points, offset + int(corners[3 * face + k])) for k in range(3))
-                middle = tuple(sum(each) / 3 for each in zip(one, two, three, strict=True))
-                made.append(((one, two, three), (middle, max(math.dist(middle, each) for each in (one, two, three)))))
-        kept["faces", mesh] = made
-    return kept["faces", mesh]  # type: ignore[return-value]
+    """A mesh's triangles in the geom's frame, each with a ball around it; none of one that is too fine."""
+    first, count = (int(simulation.model(f"mesh_face{of}")[mesh]) for of in ("adr", "num"))
+    if count > MOST_FACES:
+        return []
+    offset, made = int(simulation.model("mesh_vertadr")[mesh]), []
+    points, corners = simulation.model("mesh_vert"), simulation.model("mesh_face")
+    for face in range(first, first + count):
+        one, two, three = (at(points, offset + int(corners[3 * face + k])) for k in range(3))
+        middle = tuple(sum(each) / 3 for each in zip(one, two, three, strict=True))
+        made.append(((one, two, three), (middle, max(math.dist(middle, each) for each in (one, two, three)))))
+    return made
 
 
 def _distance(simulation: Simulation, mesh: int, point: Vector, near: float) -> float:

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from clinic.diagnosis.probes.vector import at
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 TOUCH, FORCE, TORQUE, RANGE = 0, 4, 5, 7  # mjtSensor
@@ -25,14 +25,9 @@ class Read:
     reach: float = 0.0
 
 
+@kept
 def touched(simulation: Simulation) -> dict[int, Read]:
     """Each touch, force and torque sensor, over the time after letting go."""
-    if "touched" not in simulation.kept:
-        simulation.kept["touched"] = _touched(simulation)
-    return simulation.kept["touched"]  # type: ignore[return-value]
-
-
-def _touched(simulation: Simulation) -> dict[int, Read]:
     kinds, of, places = (simulation.model(f"sensor_{name}") for name in ("type", "objid", "adr"))
     made = {i: Read() for i, kind in enumerate(kinds) if int(kind) in (TOUCH, FORCE, TORQUE)}
     if not made:

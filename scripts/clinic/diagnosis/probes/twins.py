@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from clinic.diagnosis.engine import BALL, FREE, HINGE, MESH, SLIDE
 from clinic.diagnosis.probes.pairs import FITS, SYMMETRIC, Pairs
 from clinic.diagnosis.probes.vector import Vector, add, apart, diagonal, dot, norm, sub, times, turned
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 
 EXACT, EXACT_MASS, PAIRS = 1.0, 4.0, 5  # %, %, and how many pairs there must be
 
@@ -336,10 +336,7 @@ def _intervals(left: Vector, right: Vector, sign: float) -> float:
     return 100 * max(abs(a - b) for a, b in zip(image, right, strict=True)) / wide
 
 
+@kept
 def twins(simulation: Simulation) -> Twins:
-    """The pairs of a model, found once."""
-    if "twins" not in simulation.kept:
-        simulation.kept["twins"] = Twins(simulation)
-    found = simulation.kept["twins"]
-    assert isinstance(found, Twins)
-    return found
+    """The pairs of a model."""
+    return Twins(simulation)

@@ -31,7 +31,6 @@ class Servo:
     hinge: bool
     stiffness: float
     damping: float
-    own_damping: float
     scale: float
     offset: float
     force: float
@@ -100,7 +99,6 @@ def _servo(simulation: Simulation, actuator: int) -> Servo | None:
         simulation.joint_type(joint) == HINGE,
         -bias[1] * gear**2,
         -bias[2] * gear**2 + damping,
-        -bias[2] * gear**2,
         gain / (-bias[1] * gear),
         bias[0] / (-bias[1] * gear),
         min(limits),

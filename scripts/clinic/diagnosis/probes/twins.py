@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 
 from clinic.diagnosis.engine import BALL, FREE, HINGE, MESH, SLIDE
 from clinic.diagnosis.probes.pairs import FITS, SYMMETRIC, Pairs
@@ -12,6 +13,7 @@ from clinic.diagnosis.probes.vector import Vector, add, apart, diagonal, dot, no
 from clinic.diagnosis.simulation import Simulation, kept
 
 EXACT, EXACT_MASS, PAIRS = 1.0, 4.0, 5  # %, %, and how many pairs there must be
+OWNERS = {"joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid", "camera": "cam_bodyid"}
 
 
 @dataclass(frozen=True)
@@ -19,9 +21,9 @@ class Comparison:
     """One quantity of a pair: how unlike it is, and the number above which it is."""
 
     kind: str
-    quantity: str
     left: int
     right: int
+    quantity: str
     unlike: float
     limit: float
     unit: str = "%"
@@ -55,21 +57,19 @@ class Twins(Pairs):
 
     def group(self, each: Comparison) -> int:
         """The body that both sides of a comparison hang on; -1 for actuators and sensors."""
-        owners = {"joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid", "camera": "cam_bodyid"}
         if each.kind in ("actuator", "sensor"):
             return -1
-        return self.common[each.left if each.kind == "body" else int(self.of.model(owners[each.kind])[each.left])]
+        return self.common[each.left if each.kind == "body" else int(self.of.model(OWNERS[each.kind])[each.left])]
 
     def bodies(self, each: Comparison) -> tuple[int, int]:
         """The bodies that a comparison is of; those of the joints that actuators drive."""
-        owners = {"joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid", "camera": "cam_bodyid"}
         pair = (each.left, each.right)
         if each.kind == "actuator":
             left, right = (self.of.driven_joint(one) for one in pair)
             pair = (-1 if left is None else left, -1 if right is None else right)
         if each.kind in ("body", "sensor") or -1 in pair:
             return pair
-        field = self.of.model(owners.get(each.kind, "jnt_bodyid"))
+        field = self.of.model(OWNERS.get(each.kind, "jnt_bodyid"))
         return int(field[pair[0]]), int(field[pair[1]])
 
     def trusted(self, group: int, compared: list[Comparison]) -> bool:
@@ -115,7 +115,7 @@ class Twins(Pairs):
         for left, right in self.pairs["site"]:
             if (body := int(self.of.model("site_bodyid")[left])) in self.images:
                 unlike = self._offset(body, "site_xpos", left, right, int(self.of.model("site_bodyid")[right]))
-                yield Comparison("site", "pos", left, right, unlike, FITS * self.size[body], "m")
+                yield Comparison("site", left, right, "pos", unlike, FITS * self.size[body], "m")
         for left, right in self.pairs["camera"]:
             if (body := int(self.of.model("cam_bodyid")[left])) in self.images:
                 yield from self._cameras(body, left, right)
@@ -133,17 +133,13 @@ class Twins(Pairs):
     def _alike(self, geom: int) -> list[int]:
         """The geoms of the same body that have its type and size: which is which needs no order."""
         of = self.of
-        body, kind, size = (
-            int(of.model("geom_bodyid")[geom]),
-            of.model("geom_type")[geom],
-            norm(of.row("geom_size", geom, 3)),
-        )
-        kinds = of.model("geom_type")
-        same = [each for each in of.geoms_of(body) if kinds[each] == kind]
+        kinds, size = of.model("geom_type"), norm(of.row("geom_size", geom, 3))
+        same = [each for each in of.geoms_of(int(of.model("geom_bodyid")[geom])) if kinds[each] == kinds[geom]]
         return [each for each in same if apart(norm(of.row("geom_size", each, 3)), size) < 5]
 
     def _bodies(self, left: int, right: int) -> Iterator[Comparison]:
-        of, image, size = self.of, self.images[left], self.size[left]
+        of, pair = self.of, partial(Comparison, "body", left, right)
+        image, size = self.images[left], self.size[left]
         parents = [int(of.model("body_parentid")[each]) for each in (left, right)]
         if parents[0] == parents[1]:
             unlike = norm(sub(image.of(self.at("xpos", left)), self.at("xpos", right)))
@@ -152,67 +148,46 @@ class Twins(Pairs):
                 sub(self.at("xpos", b), self.at("xpos", p)) for b, p in zip((left, right), parents, strict=True)
             )
             unlike = norm(sub(times(image.matrix, here), there))
-        yield Comparison("body", "pos", left, right, unlike, FITS * size, "m")
+        yield pair("pos", unlike, FITS * size, "m")
         masses = of.model("body_mass")[left], of.model("body_mass")[right]
-        yield Comparison("body", "mass", left, right, apart(*masses), 10)
+        yield pair("mass", apart(*masses), 10)
         if min(masses) > 1e-9:
-            yield Comparison(
-                "body",
-                "center of mass",
-                left,
-                right,
-                self._offset(left, "xipos", left, right, right),
-                2 * FITS * size,
-                "m",
-            )
+            yield pair("center of mass", self._offset(left, "xipos", left, right, right), 2 * FITS * size, "m")
             tensors = [
                 tuple(x / mass for x in self.tensor(body)) for body, mass in zip((left, right), masses, strict=True)
             ]
             difference = sub(turned(image.matrix, tensors[0]), tensors[1])
-            yield Comparison(
-                "body", "inertia", left, right, 100 * norm(difference) / max(norm(tensors[0]), norm(tensors[1])), 25
-            )
-        yield Comparison(
-            "body", "gravcomp", left, right, apart(of.model("body_gravcomp")[left], of.model("body_gravcomp")[right]), 5
-        )
+            yield pair("inertia", 100 * norm(difference) / max(norm(tensors[0]), norm(tensors[1])), 25)
+        yield pair("gravcomp", apart(of.model("body_gravcomp")[left], of.model("body_gravcomp")[right]), 5)
 
     def tensor(self, body: int) -> Vector:
         """A body's inertia about its centre of mass in the world's axes, in kg m2."""
         return turned(self.at("ximat", body, 9), diagonal(self.of.row("body_inertia", body, 3)))
 
     def _joints(self, left: int, right: int) -> Iterator[Comparison]:
-        of = self.of
+        of, pair = self.of, partial(Comparison, "joint", left, right)
         body = int(of.model("jnt_bodyid")[left])
         if of.joint_type(left) != of.joint_type(right):
-            yield Comparison("joint", "type", left, right, 100, 1)
+            yield pair("type", 100, 1)
             return
         if of.joint_type(left) == FREE:
             return
         springs = of.model("jnt_stiffness")
-        yield Comparison("joint", "stiffness", left, right, apart(springs[left], springs[right]), 30)
+        yield pair("stiffness", apart(springs[left], springs[right]), 30)
         for quantity in ("damping", "armature", "frictionloss"):
             field = of.model(f"dof_{quantity}")
-            yield Comparison("joint", quantity, left, right, apart(field[of.dof(left)], field[of.dof(right)]), 30)
+            yield pair(quantity, apart(field[of.dof(left)], field[of.dof(right)]), 30)
         other = int(of.model("jnt_bodyid")[right])
-        yield Comparison(
-            "joint", "pos", left, right, self._offset(body, "xanchor", left, right, other), FITS * self.size[body], "m"
-        )
+        yield pair("pos", self._offset(body, "xanchor", left, right, other), FITS * self.size[body], "m")
         limited = [bool(of.model("jnt_limited")[each]) for each in (left, right)]
         if of.joint_type(left) == BALL:
             return
         sign, angle = self.joint_sign(left, right)
-        yield Comparison("joint", "axis", left, right, angle, 5, "degrees")
+        yield pair("axis", angle, 5, "degrees")
         if angle < 30:
-            yield Comparison("joint", "limited", left, right, 100 * (limited[0] != limited[1]), 1)
+            yield pair("limited", 100 * (limited[0] != limited[1]), 1)
             if all(limited):
-                yield Comparison(
-                    "joint",
-                    "range",
-                    left,
-                    right,
-                    _intervals(of.row("jnt_range", left, 2), of.row("jnt_range", right, 2), sign),
-                    10,
-                )
+                yield pair("range", _intervals(of.row("jnt_range", left, 2), of.row("jnt_range", right, 2), sign), 10)
 
     def _signs(self) -> Iterator[Comparison]:
         """Joint axes against the habit of the model: those along the normal of the mirror, and those across it."""
@@ -235,90 +210,70 @@ class Twins(Pairs):
             for found in normals.values():
                 most = sum(sign for _, _, sign in found)
                 for left, right, sign in found if abs(most) >= len(found) - 2 and len(found) >= 4 else ():
-                    yield Comparison("joint", "axis sign", left, right, 100 * (sign * most < 0), 1)
+                    yield Comparison("joint", left, right, "axis sign", 100 * (sign * most < 0), 1)
 
     def _geoms(self, left: int, right: int) -> Iterator[Comparison]:
-        of = self.of
+        of, pair = self.of, partial(Comparison, "geom", left, right)
         body, other = (int(of.model("geom_bodyid")[each]) for each in (left, right))
         size = self.size[body]
         if not any(of.model(field)[each] for field in ("geom_contype", "geom_conaffinity") for each in (left, right)):
             return
         kinds = of.model("geom_type")[left], of.model("geom_type")[right]
-        yield Comparison("geom", "type", left, right, 100 * (kinds[0] != kinds[1]), 1)
-        for quantity, field in (
-            ("contype", "geom_contype"),
-            ("conaffinity", "geom_conaffinity"),
-            ("condim", "geom_condim"),
-        ):
-            yield Comparison("geom", quantity, left, right, 100 * (of.model(field)[left] != of.model(field)[right]), 1)
+        yield pair("type", 100 * (kinds[0] != kinds[1]), 1)
+        for quantity in ("contype", "conaffinity", "condim"):
+            field = of.model(f"geom_{quantity}")
+            yield pair(quantity, 100 * (field[left] != field[right]), 1)
         frictions = [of.row("geom_friction", each, 3) for each in (left, right)]
-        yield Comparison("geom", "friction", left, right, apart(frictions[0][0], frictions[1][0]), 5)
+        yield pair("friction", apart(frictions[0][0], frictions[1][0]), 5)
         if kinds[0] == kinds[1] != MESH:
             boxes = [of.row("geom_aabb", each, 6)[3:] for each in (left, right)]
-            yield Comparison(
-                "geom", "size", left, right, max(apart(a, b) for a, b in zip(*map(sorted, boxes), strict=True)), 10
-            )
+            yield pair("size", max(apart(a, b) for a, b in zip(*map(sorted, boxes), strict=True)), 10)
             nearest = min(self._offset(body, "geom_xpos", left, each, other) for each in self._alike(right))
-            yield Comparison("geom", "pos", left, right, nearest, FITS * size, "m")
+            yield pair("pos", nearest, FITS * size, "m")
             if nearest < self._offset(body, "geom_xpos", left, right, other) - FITS * size:
                 return
             shapes = [turned(self.at("geom_xmat", each, 9), diagonal(tuple(x * x for x in box)))
                       for each, box in zip((left, right), boxes, strict=True)]  # fmt: skip
             turn = sub(turned(self.images[body].matrix, shapes[0]), shapes[1])
-            yield Comparison(
-                "geom", "quat", left, right, 100 * norm(turn) / max(norm(shapes[0]), norm(shapes[1]), 1e-12), 20
-            )
+            yield pair("quat", 100 * norm(turn) / max(norm(shapes[0]), norm(shapes[1]), 1e-12), 20)
 
     def _cameras(self, body: int, left: int, right: int) -> Iterator[Comparison]:
-        of = self.of
+        of, pair = self.of, partial(Comparison, "camera", left, right)
         other = int(of.model("cam_bodyid")[right])
-        yield Comparison(
-            "camera",
-            "pos",
-            left,
-            right,
-            self._offset(body, "cam_xpos", left, right, other),
-            FITS * self.size[body],
-            "m",
-        )
+        yield pair("pos", self._offset(body, "cam_xpos", left, right, other), FITS * self.size[body], "m")
         views = [tuple(self.at("cam_xmat", each, 9)[2::3]) for each in (left, right)]
         cosine = dot(times(self.images[body].matrix, views[0]), views[1])
-        yield Comparison(
-            "camera", "direction", left, right, math.degrees(math.acos(max(-1.0, min(1.0, cosine)))), 5, "degrees"
-        )
-        yield Comparison(
-            "camera", "fovy", left, right, apart(of.model("cam_fovy")[left], of.model("cam_fovy")[right]), 5
-        )
+        yield pair("direction", math.degrees(math.acos(max(-1.0, min(1.0, cosine)))), 5, "degrees")
+        yield pair("fovy", apart(of.model("cam_fovy")[left], of.model("cam_fovy")[right]), 5)
 
     def _actuators(self, left: int, right: int) -> Iterator[Comparison]:
-        of = self.of
+        of, pair = self.of, partial(Comparison, "actuator", left, right)
         joints = of.driven_joint(left), of.driven_joint(right)
         gears = of.row("actuator_gear", left, 6), of.row("actuator_gear", right, 6)
-        yield Comparison("actuator", "gear", left, right, apart(norm(gears[0]), norm(gears[1])), 30)
+        yield pair("gear", apart(norm(gears[0]), norm(gears[1])), 30)
         if all(any(gear) for gear in gears):
-            yield Comparison("actuator", "gear sign", left, right, 100 * (dot(gears[0], gears[1]) < 0), 1)
-        for quantity, field in (("gain", "actuator_gainprm"), ("bias", "actuator_biasprm")):
-            width = len(of.model(field)) // max(1, of.count("actuator"))
+            yield pair("gear sign", 100 * (dot(gears[0], gears[1]) < 0), 1)
+        for quantity in ("gain", "bias"):
+            field = f"actuator_{quantity}prm"
+            width = len(of.model(field)) // of.count("actuator")
             rows = of.row(field, left, width), of.row(field, right, width)
-            yield Comparison(
-                "actuator", quantity, left, right, max(apart(abs(a), abs(b)) for a, b in zip(*rows, strict=True)), 30
-            )
+            yield pair(quantity, max(apart(abs(a), abs(b)) for a, b in zip(*rows, strict=True)), 30)
         if joints[0] is None or joints[1] is None:
             return
         paired = self.partner("joint", joints[0])
         if paired is not None or joints[0] == joints[1] or self.partner("joint", joints[1]) is not None:
-            yield Comparison("actuator", "joint", left, right, 100 * (paired != joints[1]), 1)
+            yield pair("joint", 100 * (paired != joints[1]), 1)
         if paired != joints[1] or int(of.model("jnt_bodyid")[joints[0]]) not in self.images:
             return
         for quantity in ("ctrl", "force"):
             limited = [bool(of.model(f"actuator_{quantity}limited")[each]) for each in (left, right)]
             if all(limited):
-                same = Comparison("actuator", f"{quantity}range", left, right, 0.0, 10)
+                same = pair(f"{quantity}range", 0.0, 10)
                 ranges = [of.row(f"actuator_{quantity}range", each, 2) for each in (left, right)]
                 yield replace(same, unlike=_intervals(ranges[0], ranges[1], self.interval_sign(same)))
 
     def _sensors(self, left: int, right: int) -> Iterator[Comparison]:
-        of = self.of
+        of, pair = self.of, partial(Comparison, "sensor", left, right)
         if of.model("sensor_objtype")[left] != of.model("sensor_objtype")[right]:
             return
         kind = {1: "body", 2: "body", 3: "joint", 5: "geom", 6: "site", 7: "camera", 19: "actuator"}
@@ -326,7 +281,7 @@ class Twins(Pairs):
         targets = [int(of.model("sensor_objid")[each]) for each in (left, right)]
         partner = self.partner(found, targets[0]) if found else None
         if partner is not None or targets[0] == targets[1]:
-            yield Comparison("sensor", "target", left, right, 100 * (partner != targets[1]), 1)
+            yield pair("target", 100 * (partner != targets[1]), 1)
 
 
 def _intervals(left: Vector, right: Vector, sign: float) -> float:

@@ -85,7 +85,18 @@ class Simulation:
 
     def equality_data(self, each: int) -> tuple[float, ...]:
         """The row of `eq_data` of an equality, whose width differs between releases."""
-        return self.row("eq_data", each, len(self.model("eq_data")) // self.count("equality"))
+        return self._wide_row("eq_data", each, "equality")
+
+    def gain(self, actuator: int) -> tuple[float, ...]:
+        """The row of `actuator_gainprm` of an actuator."""
+        return self._wide_row("actuator_gainprm", actuator, "actuator")
+
+    def bias(self, actuator: int) -> tuple[float, ...]:
+        """The row of `actuator_biasprm` of an actuator."""
+        return self._wide_row("actuator_biasprm", actuator, "actuator")
+
+    def _wide_row(self, field: str, index: int, kind: str) -> tuple[float, ...]:
+        return self.row(field, index, len(self.model(field)) // self.count(kind))
 
     def data(self, field: str) -> Sequence[float]:
         """A field of mjData, flat, as it is now."""

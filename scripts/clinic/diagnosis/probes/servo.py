@@ -74,12 +74,7 @@ def _servo(simulation: Simulation, actuator: int) -> Servo | None:
     kinds = [int(simulation.model(f"actuator_{kind}")[actuator]) for kind in ("gaintype", "biastype", "dyntype")]
     if joint is None or kinds[0] != FIXED or kinds[1] != AFFINE or kinds[2] in (INTEGRATOR, USER):
         return None
-    gain = simulation.row(
-        "actuator_gainprm", actuator, len(simulation.model("actuator_gainprm")) // simulation.count("actuator")
-    )[0]
-    bias = simulation.row(
-        "actuator_biasprm", actuator, len(simulation.model("actuator_biasprm")) // simulation.count("actuator")
-    )
+    gain, bias = simulation.gain(actuator)[0], simulation.bias(actuator)
     gear = simulation.row("actuator_gear", actuator, 6)[0]
     if not gain or not gear or bias[1] >= 0:
         return None

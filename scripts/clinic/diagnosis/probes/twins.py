@@ -253,10 +253,8 @@ class Twins(Pairs):
         yield pair("gear", apart(norm(gears[0]), norm(gears[1])), 30)
         if all(any(gear) for gear in gears):
             yield pair("gear sign", 100 * (dot(gears[0], gears[1]) < 0), 1)
-        for quantity in ("gain", "bias"):
-            field = f"actuator_{quantity}prm"
-            width = len(of.model(field)) // of.count("actuator")
-            rows = of.row(field, left, width), of.row(field, right, width)
+        for quantity, row in (("gain", of.gain), ("bias", of.bias)):
+            rows = row(left), row(right)
             yield pair(quantity, max(apart(abs(a), abs(b)) for a, b in zip(*rows, strict=True)), 30)
         if joints[0] is None or joints[1] is None:
             return

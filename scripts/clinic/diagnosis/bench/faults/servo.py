@@ -45,8 +45,7 @@ def _servos(model: ReaderModel) -> list[int]:
 
 
 def _gain(model: ReaderModel, i: int) -> float:
-    bias = model.simulation.model("actuator_biasprm")
-    return -float(bias[i * (len(bias) // model.simulation.count("actuator")) + 1])
+    return -float(model.simulation.bias(i)[1])
 
 
 def _names(model: ReaderModel, i: int) -> tuple[str, ...]:
@@ -67,8 +66,7 @@ def _gains(model: ReaderModel, random: Random, factor: float, damping: float = 1
     if (chosen := _position(model, random)) is None:
         return None
     i, element = chosen
-    bias = model.simulation.model("actuator_biasprm")
-    kv = -float(bias[i * (len(bias) // model.simulation.count("actuator")) + 2])
+    kv = -float(model.simulation.bias(i)[2])
     edits = [set_attribute(element, "kp", text_of(_gain(model, i) * factor)), remove_attribute(element, "dampratio")]
     if model.value("actuator", i, "dampratio") is None or "dampratio" in element.attributes:
         edits.append(set_attribute(element, "kv", text_of(max(0.0, kv) * damping)))

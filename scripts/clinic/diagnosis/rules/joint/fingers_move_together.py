@@ -155,8 +155,7 @@ def _driven(of: Simulation, joints: Sequence[int]) -> bool:
     for each in range(of.count("actuator")):
         joint = of.driven_joint(each)
         if joint in sides:
-            gain = of.model("actuator_gainprm")[len(of.model("actuator_gainprm")) // of.count("actuator") * each]
-            sides[joint].append(math.copysign(1.0, gain * of.model("actuator_gear")[6 * each]))
+            sides[joint].append(math.copysign(1.0, of.gain(each)[0] * of.model("actuator_gear")[6 * each]))
     return sides[joints[0]] == sides[joints[1]]
 
 

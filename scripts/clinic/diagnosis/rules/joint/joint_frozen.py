@@ -151,13 +151,10 @@ def _forces(simulation: Simulation) -> dict[int, float]:
         if joint is None:
             continue
         if actuator not in known:
-            gain = simulation.model("actuator_gainprm")
             ends = simulation.row("actuator_ctrlrange", actuator, 2)
             gear = simulation.model("actuator_gear")[6 * actuator]
             if not simulation.model("actuator_ctrllimited")[actuator]:
                 continue
-            known[actuator] = abs(gain[len(gain) // simulation.count("actuator") * actuator] * gear) * max(
-                map(abs, ends)
-            )
+            known[actuator] = abs(simulation.gain(actuator)[0] * gear) * max(map(abs, ends))
         made[joint] = made.get(joint, 0.0) + known[actuator]
     return {joint: force for joint, force in made.items() if force > 0}

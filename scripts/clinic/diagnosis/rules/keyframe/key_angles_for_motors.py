@@ -73,12 +73,10 @@ FEW = 1.0
 def _copied(simulation: Simulation, key: int) -> float:
     """How many motors have their joint's position as their control; none where two and more have something else."""
     start_at(simulation, key)
-    ctrl, bias = simulation.data("ctrl"), simulation.model("actuator_biasprm")
-    width = len(bias) // max(1, len(ctrl))
     given, same = 0, 0
-    for actuator, value in enumerate(ctrl):
+    for actuator, value in enumerate(simulation.data("ctrl")):
         joint = simulation.driven_joint(actuator)
-        if joint is None or value == 0 or any(bias[width * actuator : width * actuator + 3]):
+        if joint is None or value == 0 or any(simulation.bias(actuator)[:3]):
             continue
         given += 1
         same += abs(simulation.position(joint) - value) < 1e-6

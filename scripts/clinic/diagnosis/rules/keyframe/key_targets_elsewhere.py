@@ -91,11 +91,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         most = len(off) >= max(2, 0.5 * len(found))
         ctrl = list(of.data("ctrl"))
-        gain, bias = of.model("actuator_gainprm"), of.model("actuator_biasprm")
-        width = len(gain) // of.count("actuator")
         for actuator, (_, at) in found.items():
             gear = of.row("actuator_gear", actuator, 6)[0]
-            ctrl[actuator] = at * gear * -bias[width * actuator + 1] / gain[width * actuator]
+            ctrl[actuator] = at * gear * -of.bias(actuator)[1] / of.gain(actuator)[0]
         worst = max(off, key=lambda actuator: abs(found[actuator][0] - found[actuator][1]))
         target, at = found[worst]
         yield Suspect(

@@ -99,7 +99,7 @@ def _force(of: Simulation, actuator: int) -> float:
     kinds = [int(of.model(f"actuator_{kind}")[actuator]) for kind in ("gaintype", "biastype", "dyntype")]
     if any(kinds):
         return math.inf
-    gain = of.row("actuator_gainprm", actuator, len(of.model("actuator_gainprm")) // of.count("actuator"))[0]
+    gain = of.gain(actuator)[0]
     limits = [math.inf]
     if of.model("actuator_ctrllimited")[actuator]:
         limits.append(abs(gain) * max(map(abs, of.row("actuator_ctrlrange", actuator, 2))))

@@ -138,15 +138,11 @@ def _gains(simulation: Simulation) -> dict[int, tuple[float, float, float, float
     """Position gain, velocity gain where it is explicit, inertia, and velocity gain where it is implicit, by joint."""
     made: dict[int, tuple[float, float, float, float]] = {}
     implicit = int(simulation.model("opt.integrator")[0]) in IMPLICIT
-    width = len(simulation.model("actuator_biasprm")) // max(1, simulation.count("actuator"))
     for actuator in range(simulation.count("actuator")):
         joint = simulation.driven_joint(actuator)
         if joint is None or int(simulation.model("actuator_biastype")[actuator]) != 1:
             continue
-        bias, gear = (
-            simulation.row("actuator_biasprm", actuator, width),
-            simulation.model("actuator_gear")[6 * actuator],
-        )
+        bias, gear = simulation.bias(actuator), simulation.model("actuator_gear")[6 * actuator]
         kp, kv = max(0.0, -bias[1] * gear**2), max(0.0, -bias[2] * gear**2)
         old = made.get(joint, (0.0, 0.0, 0.0, 0.0))
         inertia = max(simulation.mass_diagonal[simulation.dof(joint)], 1e-12)

@@ -117,7 +117,7 @@ def _wheels(of: Simulation) -> list[Wheel]:
         limited = of.model("actuator_ctrllimited")[actuator]
         if joint is None or not limited or int(of.model("actuator_biastype")[actuator]) != AFFINE:
             continue
-        bias = of.row("actuator_biasprm", actuator, len(of.model("actuator_biasprm")) // of.count("actuator"))
+        bias = of.bias(actuator)
         gear = of.model("actuator_gear")[6 * actuator]
         turns = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
         fastest = of.row("actuator_ctrlrange", actuator, 2)[1]

@@ -53,15 +53,11 @@ SINCE = "0.1"
 AFFINE = 1  # mjtBias
 
 
-def _prm(simulation: Simulation, field: str, actuator: int) -> tuple[float, ...]:
-    return simulation.row(field, actuator, len(simulation.model(field)) // simulation.count("actuator"))
-
-
 def _away(simulation: Simulation, actuators: tuple[int, ...]) -> float:
     """1 where a position gain is missing, 2 and more where it pushes away from the target."""
     found = 0.0
     for actuator in actuators:
-        gain, bias = _prm(simulation, "actuator_gainprm", actuator)[0], _prm(simulation, "actuator_biasprm", actuator)
+        gain, bias = simulation.gain(actuator)[0], simulation.bias(actuator)
         found = max(found, 1 + bias[1] / gain)
     return found
 
@@ -73,7 +69,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for actuator in range(simulation.count("actuator")):
         if int(simulation.model("actuator_biastype")[actuator]) != AFFINE or simulation.driven_joint(actuator) is None:
             continue
-        gain, bias = _prm(simulation, "actuator_gainprm", actuator)[0], _prm(simulation, "actuator_biasprm", actuator)
+        gain, bias = simulation.gain(actuator)[0], simulation.bias(actuator)
         if gain and (not any(bias[:3]) or bias[1] / gain > 0):
             found.append((actuator, gain, bias))
     if not found:

@@ -92,7 +92,7 @@ def _damped(model: ReaderModel, servo: Servo) -> tuple[Edit, ...]:
     gear = model.simulation.row("actuator_gear", servo.actuator, 6)[0]
     value = 2 * math.sqrt(servo.stiffness * servo.inertia) / gear**2
     if written.tag == "general":
-        bias = model.simulation.row("actuator_biasprm", servo.actuator, 10)
+        bias = model.simulation.bias(servo.actuator)
         return model.set("actuator", kinds, "biasprm", f"{bias[0]:g} {bias[1]:g} {-value:.3g}")
     if model.value("actuator", servo.actuator, "kv") is not None:
         return model.set("actuator", kinds, "kv", f"{value:.3g}")

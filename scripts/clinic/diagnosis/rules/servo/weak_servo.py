@@ -195,10 +195,7 @@ def _stronger(model: ReaderModel, servo: Servo, stiffness: float, *, damped: boo
     element, one = model.element("actuator", servo.actuator), [servo.actuator]
     if element is None:
         return ()
-    gain = model.simulation.model("actuator_gainprm")
-    width = len(gain) // model.simulation.count("actuator")
-    bias = model.simulation.row("actuator_biasprm", servo.actuator, width)
-    own = gain[width * servo.actuator]
+    own, bias = model.simulation.gain(servo.actuator)[0], model.simulation.bias(servo.actuator)
     if element.tag == "general":
         return (
             *model.set("actuator", one, "gainprm", f"{own * times:.3g}"),

@@ -190,6 +190,13 @@ class Simulation:
         kinds, bodies = self.model("jnt_type"), self.model("jnt_bodyid")
         return [int(bodies[joint]) for joint, kind in enumerate(kinds) if int(kind) == FREE]
 
+    def ancestors(self, body: int) -> list[int]:
+        """A body, the one that it hangs on, and so on up to the world."""
+        made = [body]
+        while made[-1]:
+            made.append(int(self.model("body_parentid")[made[-1]]))
+        return made
+
     def joints_of(self, body: int) -> list[int]:
         """The joints of a body."""
         first, count = int(self.model("body_jntadr")[body]), int(self.model("body_jntnum")[body])

@@ -42,20 +42,13 @@ def _outside(simulation: Simulation) -> set[int]:
     return {int(simulation.model("jnt_bodyid")[j]) for j in joints if before[places[j]] != after[places[j]]}
 
 
-def _line(simulation: Simulation, body: int) -> list[int]:
-    parents, made = simulation.model("body_parentid"), [body]
-    while made[-1]:
-        made.append(int(parents[made[-1]]))
-    return made
-
-
 def relatives(simulation: Simulation) -> list[tuple[int, int, Contact]]:
     """Bodies of one mechanism that overlap at the start, put inside of the joints' ranges, with the contact."""
     bodies, owner, falls = simulation.model("geom_bodyid"), root_of(simulation), falling(simulation)
     made = []
     for contact in _within(simulation).contacts:
         one, other = (int(bodies[geom]) for geom in contact.geoms)
-        lines = _line(simulation, one), _line(simulation, other)
+        lines = simulation.ancestors(one), simulation.ancestors(other)
         common = next(body for body in lines[0] if body in lines[1])
         links = lines[0].index(common) + lines[1].index(common)
         same = owner[one] == owner[other]

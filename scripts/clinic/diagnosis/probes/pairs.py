@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from clinic.diagnosis.engine import SLIDE
-from clinic.diagnosis.probes.vector import Vector, add, dot, norm, sub, times, transpose, unit
+from clinic.diagnosis.probes.vector import IDENTITY, Vector, add, dot, norm, sub, times, transpose, unit
 from clinic.diagnosis.simulation import Simulation
 
 SIDES = {"l": "r", "fl": "fr", "hl": "hr", "bl": "br", "ml": "mr", "rl": "rr"} | {
@@ -143,17 +143,11 @@ class Pairs:
             pair("geom", of.geoms_of(left), of.geoms_of(right))
             done += 1
 
-    def _ancestors(self, body: int) -> list[int]:
-        made = [body]
-        while made[-1]:
-            made.append(int(self.of.model("body_parentid")[made[-1]]))
-        return made
-
     def _find_images(self) -> None:
         groups: dict[int, list[tuple[int, int]]] = {}
         for left, right in self.pairs["body"]:
-            above = set(self._ancestors(right))
-            common = next(body for body in self._ancestors(left) if body in above)
+            above = set(self.of.ancestors(right))
+            common = next(body for body in self.of.ancestors(left) if body in above)
             if common not in (left, right):
                 groups.setdefault(common, []).append((left, right))
         for common, pairs in groups.items():
@@ -244,10 +238,9 @@ class Pairs:
         axes = [tuple(frame[column + 3 * row] for row in range(3)) for column in range(3)]
         axes += [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
         axes += [unit(sub(self.at("xpos", left), self.at("xpos", right))) for left, right in pairs[:2]]
-        still = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
         tried = [(_reflection(axis), -1, axis) for axis in axes]
-        tried += [*((_half_turn(axis), 1, axis) for axis in axes[:6]), (still, 1, (0.0, 0.0, 0.0))]
-        best, most = Image(still, (0.0, 0.0, 0.0), 1), -1.0
+        tried += [*((_half_turn(axis), 1, axis) for axis in axes[:6]), (IDENTITY, 1, (0.0, 0.0, 0.0))]
+        best, most = Image(IDENTITY, (0.0, 0.0, 0.0), 1), -1.0
         for matrix, sign, normal in tried:
             offsets = [sub(right, times(matrix, left)) for left, right in points]
             offset = tuple(sorted(each[axis] for each in offsets)[len(offsets) // 2] for axis in range(3))

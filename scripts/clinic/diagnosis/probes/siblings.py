@@ -80,12 +80,12 @@ def groups(simulation: Simulation, kind: str) -> list[list[int]]:
         if kind == "body":
             for found in WHICH.finditer(name):
                 key = (name[: found.start()], name[found.end() :], int(simulation.model("body_jntnum")[index]))
-                made.setdefault(key, []).append((index, _depth(simulation, index)))
+                made.setdefault(key, []).append((index, len(simulation.ancestors(index))))
             continue
         joint = index if kind == "joint" else simulation.driven_joint(index)
         if joint is None or (kind == "joint" and simulation.joint_type(joint) < 2):
             continue
-        depth = _depth(simulation, int(simulation.model("jnt_bodyid")[joint]))
+        depth = len(simulation.ancestors(int(simulation.model("jnt_bodyid")[joint])))
         for found in WHICH.finditer(name):
             key = (name[: found.start()], name[found.end() :], simulation.joint_type(joint))
             made.setdefault(key, []).append((index, depth))
@@ -94,13 +94,6 @@ def groups(simulation: Simulation, kind: str) -> list[list[int]]:
         for some in made.values()
         if len(some) >= 3 and max(depth for _, depth in some) - min(depth for _, depth in some) <= 1
     ]
-
-
-def _depth(simulation: Simulation, body: int) -> int:
-    depth = 0
-    while body:
-        body, depth = int(simulation.model("body_parentid")[body]), depth + 1
-    return depth
 
 
 def odd_ones(simulation: Simulation, kind: str, more: float = UNLIKE) -> Iterator[Odd]:

@@ -49,13 +49,7 @@ def touched_off_surface(simulation: Simulation) -> dict[int, float]:
 
 def _hung(simulation: Simulation) -> set[tuple[int, int]]:
     """Bodies that do not move, and the roots of what hangs on them."""
-    made, parents = set(), simulation.model("body_parentid")
-    for root in roots(simulation):
-        above = int(parents[root])
-        while above:
-            made.add((above, root))
-            above = int(parents[above])
-    return made
+    return {(above, root) for root in roots(simulation) for above in simulation.ancestors(root)[1:-1]}
 
 
 def _inner_joints(simulation: Simulation) -> list[int]:

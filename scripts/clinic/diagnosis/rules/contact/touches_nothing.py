@@ -96,13 +96,11 @@ def _count(simulation: Simulation) -> float:
 
 def _bare(of: Simulation) -> list[int]:
     """The parts that should touch something, and cannot."""
-    parents, owner, names = of.model("body_parentid"), root_of(of), of.names("body")
+    owner, names = root_of(of), of.names("body")
     touches = {body for body in range(1, of.count("body")) if any(solid(of, geom) for geom in of.geoms_of(body))}
     paired = {int(of.model("geom_bodyid")[int(geom)]) for side in (1, 2) for geom in of.model(f"pair_geom{side}")}
-    near = set(touches | paired)
-    for body in sorted(touches | paired, reverse=True):  # whatever carries something that collides
-        while body := int(parents[body]):
-            near.add(body)
+    carriers = {above for body in touches | paired for above in of.ancestors(body)[1:-1]}
+    near = touches | paired | carriers
     robots = {owner[body] for body in touches if owner[body]}
     welds = of.model("body_weldid")
     stiff = {int(welds[body]) for body in touches}  # a pad is often the skin of what it is fixed to; a caster is not

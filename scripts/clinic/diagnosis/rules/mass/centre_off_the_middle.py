@@ -127,11 +127,10 @@ def _off(of: Simulation) -> dict[int, float]:
     if len(lefts) < 2:
         return {}
     wide = max(_aside(found, lefts[0], "xpos", left) for left in lefts)
-    made, body = {}, common
-    while body > 0:
+    made = {}
+    for body in of.ancestors(common)[:-1]:
         if _aside(found, lefts[0], "xpos", body) < ON * wide:
             made[body] = _aside(found, lefts[0], "xipos", body) / wide
-        body = int(of.model("body_parentid")[body])
     return made
 
 

@@ -71,14 +71,9 @@ LEG = re.compile(r"(?<![a-z])[lr]?(hip|thigh|knee|calf|shin|ankle|leg|foot|femur
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The body without a joint that carries wheels on the floor, or legs."""
     urdf = model.source is not None and model.source.urdf  # each has a fixed root: MuJoCo makes it the world
-    wheels = _limbs(model.simulation, by_name=not urdf)
-    of, parents = model.simulation, model.simulation.model("body_parentid")
-    roots = set()
-    for body in wheels:
-        root = body
-        while parents[root]:
-            root = int(parents[root])
-        roots.add(root)
+    of = model.simulation
+    wheels = _limbs(of, by_name=not urdf)
+    roots = {of.ancestors(body)[-2] for body in wheels}
     if len(roots) != 1:
         return
     root = roots.pop()
@@ -120,14 +115,12 @@ def _limbs(of: Simulation, *, by_name: bool) -> list[int]:
 
 def _called_legs(of: Simulation) -> list[int]:
     """The limbs of a fixed body that has two legs and more, by two words for parts of them that stand twice."""
-    parents, moving = of.model("body_parentid"), set(of.moving_bodies)
+    moving = set(of.moving_bodies)
     names, joints = of.names("body"), of.names("joint")
     limbs: dict[int, set[int]] = {}
     legs: dict[tuple[int, str], list[int]] = {}
     for body in of.moving_bodies:
-        above = [body]
-        while parents[above[-1]]:
-            above.append(int(parents[above[-1]]))
+        above = of.ancestors(body)[:-1]
         root = above[-1]
         if root in moving:
             continue

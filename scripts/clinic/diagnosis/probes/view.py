@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import product
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.engine import HFIELD, PLANE
 from clinic.diagnosis.probes.shape import root_of
-from clinic.diagnosis.probes.vector import Vector, add, at, cross, dot, sub, times, transpose
+from clinic.diagnosis.probes.vector import IDENTITY, Vector, add, at, cross, dot, sub, times, transpose
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 
@@ -49,26 +49,31 @@ def things(simulation: Simulation) -> list[int]:
     ]
 
 
-def in_sight(simulation: Simulation, camera: int) -> list[tuple[int, float]]:
-    """The things whose centre is in a camera's image, and how far along its view they are in m."""
+def _sight(simulation: Simulation, camera: int) -> Callable[[Vector], float]:
+    """Tells of a point how far along a camera's view it is in m at the start; 0 where it is out of the image."""
     simulation.begin()
     right, up, forward = axes(simulation, camera)
-    place = simulation.data_row("cam_xpos", camera, 3)
-    tall, aspect = _opening(simulation, camera)
-    positions, made = tuple(simulation.data("geom_xpos")), []
-    for geom in things(simulation):
-        way = sub(at(positions, geom), place)
-        ahead = dot(way, forward)
-        if ahead > 0 and abs(dot(way, up)) <= tall * ahead and abs(dot(way, right)) <= aspect * tall * ahead:
-            made.append((geom, ahead))
-    return made
+    place, tall, aspect = simulation.data_row("cam_xpos", camera, 3), *_opening(simulation, camera)
+
+    def ahead(point: Vector) -> float:
+        way = sub(point, place)
+        far = dot(way, forward)
+        return far if abs(dot(way, up)) <= tall * far and abs(dot(way, right)) <= aspect * tall * far else 0.0
+
+    return ahead
+
+
+def in_sight(simulation: Simulation, camera: int) -> list[tuple[int, float]]:
+    """The things whose centre is in a camera's image, and how far along its view they are in m."""
+    sight = _sight(simulation, camera)
+    positions = tuple(simulation.data("geom_xpos"))
+    return [(geom, ahead) for geom in things(simulation) if (ahead := sight(at(positions, geom)))]
 
 
 def sees(simulation: Simulation, camera: int, geom: int) -> bool:
     """Whether some of a geom may be in a camera's image: its box's middle, or a corner, or what is straight ahead."""
-    simulation.begin()
-    right, up, forward = axes(simulation, camera)
-    place, tall, aspect = simulation.data_row("cam_xpos", camera, 3), *_opening(simulation, camera)
+    sight = _sight(simulation, camera)
+    place, (_, _, forward) = simulation.data_row("cam_xpos", camera, 3), axes(simulation, camera)
     frame, middle = simulation.data_row("geom_xmat", geom, 9), simulation.data_row("geom_xpos", geom, 3)
     x, y, z, *half = simulation.row("geom_aabb", geom, 6)
     near, far = 0.0, math.inf
@@ -78,12 +83,7 @@ def sees(simulation: Simulation, camera: int, geom: int) -> bool:
         ends = [(centre + side * reach - at_axis) / (along or 1e-12) for side in (-1, 1)]
         near, far = max(near, min(ends)), min(far, max(ends))
     corners = [(x + i * half[0], y + j * half[1], z + k * half[2]) for i, j, k in product((-1, 1), repeat=3)]
-    seen = near <= far
-    for point in ((x, y, z), *corners):
-        way = sub(add(middle, times(frame, point)), place)
-        ahead = dot(way, forward)
-        seen |= ahead > 0 and abs(dot(way, up)) <= tall * ahead and abs(dot(way, right)) <= aspect * tall * ahead
-    return seen
+    return near <= far or any(sight(add(middle, times(frame, point))) for point in ((x, y, z), *corners))
 
 
 def _opening(simulation: Simulation, camera: int) -> tuple[float, float]:
@@ -115,7 +115,7 @@ def turned(model: ReaderModel, camera: int, right: Sequence[float], up: Sequence
     body = int(simulation.model("cam_bodyid")[camera])
     m = simulation.data_row("xmat", body, 9)
     if int(simulation.model("cam_mode")[camera]) in (TRACK, TRACKCOM):
-        m = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0) if not any(m) else m
+        m = m if any(m) else IDENTITY
     local = [sum(m[3 * row + column] * axis[row] for row in range(3)) for axis in (right, up) for column in range(3)]
     gone = tuple(remove_attribute(element, name) for name in TURNS[1:] if name in element.attributes)
     return (*gone, set_attribute(element, "xyaxes", " ".join(f"{each + 0.0:.4g}" for each in local)))

@@ -41,6 +41,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.engine import MESH, CompileError
 from clinic.diagnosis.probes.inertia import inertial
 from clinic.diagnosis.probes.matter import mass_of
+from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect
@@ -61,8 +62,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for body in of.moving_bodies:
         if inertial(model, body) is not None:
             continue
-        mine = [geom for geom in of.geoms_of(body) if not _collides(of, geom) and not _written(model, geom)]
-        others = [geom for geom in of.geoms_of(body) if _collides(of, geom)]
+        mine = [geom for geom in of.geoms_of(body) if not solid(of, geom) and not _written(model, geom)]
+        others = [geom for geom in of.geoms_of(body) if solid(of, geom)]
         if others:
             seen += [geom for geom in mine if _is_skin(of, geom, others)]
     edits = model.set("geom", seen, "mass", "0")
@@ -86,10 +87,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             share=0.95,
             excess=now / rest,
         )
-
-
-def _collides(of: Simulation, geom: int) -> bool:
-    return bool(of.model("geom_contype")[geom] or of.model("geom_conaffinity")[geom])
 
 
 def _is_skin(of: Simulation, geom: int, others: list[int]) -> bool:

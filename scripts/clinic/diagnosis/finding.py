@@ -194,31 +194,26 @@ def _written(model: ReaderModel, first: Edit | Element | None, attribute: str) -
 
 def ending(of: Diagnosis, died: Mapping[str, str], file: str) -> Diagnosis:
     """A diagnosis with what its failed rules say: the clinic's own mistake, or nothing where the engine ended."""
-    ends = [
-        _delay(rule, file) if said == LATE else _failure(rule, file, said) if said else _death(rule, file)
-        for rule, said in died.items()
-    ]
+    ends = [_end(rule, said, file) for rule, said in died.items()]
     causes, hints = ([each for each in ends if each.level == level] for level in ("cause", "hint"))
     return replace(of, causes=(*causes, *of.causes), hints=(*hints, *of.hints))
 
 
-def _failure(rule: str, file: str, said: str) -> Finding:
-    """That a rule failed on a model file, by a mistake of the clinic."""
-    says = f"{rule} failed ({said}): a mistake of the clinic, not of the model."
-    return Finding(FAILS, "A rule failed", "hint", (), file, None, "", "", "", (), "", "", 1.0, None, says, "")
-
-
-def _delay(rule: str, file: str) -> Finding:
-    """That a rule gave no answer in time."""
-    says = f"{rule} gave no answer in time: whether it finds something is not known."
-    return Finding(LATE, "A rule takes too long", "hint", (), file, None, "", "", "", (), "", "", 1.0, None, says, "")
-
-
-def _death(rule: str, file: str) -> Finding:
-    """That the engine ended while a rule was tried on a model file."""
+def _end(rule: str, said: str, file: str) -> Finding:
+    """How the trial of a rule on a model file ended: too late, by a mistake, or with the engine."""
+    if said == LATE:
+        says = f"{rule} gave no answer in time: whether it finds something is not known."
+        return remark(LATE, "A rule takes too long", says, file)
+    if said:
+        says = f"{rule} failed ({said}): a mistake of the clinic, not of the model."
+        return remark(FAILS, "A rule failed", says, file)
     says = f"MuJoCo ended while {rule} was tried on this model."
-    title = "The engine does not survive the model"
-    return Finding(DIES, title, "cause", (), file, None, "", "", "", (), "", "", 1.0, None, says, "")
+    return remark(DIES, "The engine does not survive the model", says, file, level="cause")
+
+
+def remark(rule: str, title: str, says: str, file: str, line: int | None = None, level: Level = "hint") -> Finding:
+    """A finding of which no probe has a number."""
+    return Finding(rule, title, level, (), file, line, "", "", "", (), "", "", 1.0, None, says, "")
 
 
 def _cause(number: int, found: Finding) -> list[str]:

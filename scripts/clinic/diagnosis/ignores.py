@@ -14,7 +14,7 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.finding import Finding
+from clinic.diagnosis.finding import Finding, remark
 from clinic.diagnosis.judge import Judged
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import rules
@@ -104,8 +104,7 @@ class Ignores:
 
 
 def _told(comment: Comment, says: str) -> Finding:
-    title, file, line = "A comment that silences nothing", comment.file, comment.line
-    return Finding(ID, title, "hint", (), file, line, "", "", "", (), "", "", 1.0, None, f"{says}.", "")
+    return remark(ID, "A comment that silences nothing", f"{says}.", comment.file, comment.line)
 
 
 def unknown(rule: str) -> str:

@@ -181,9 +181,8 @@ def _file_problems(case: Case) -> Iterator[Problem]:
 
 
 def _reference_problems(case: Case) -> Iterator[Problem]:
-    """Names that nothing bears, ids taken twice, units that the numbers do not have."""
+    """Names that nothing bears, ids taken twice, and what is wrong with signals and sweeps."""
     record = case.record
-    paths = [name for name, signal in record.signals.items() if isinstance(signal, PathSignal)]
     taken = ["broken"]
     for kind in ("fixes", "refuted"):
         for index, remedy in enumerate(getattr(record, kind)):
@@ -204,7 +203,15 @@ def _reference_problems(case: Case) -> Iterator[Problem]:
         yield from _unknown(case, ("picture", "scene"), [record.picture.scene], list(case.texts), "file")
     for joint, shown in record.picture.shows.items():
         yield from _unknown(case, ("picture", "shows", joint), [shown], record.signals, "signal")
-    for name, signal in record.signals.items():
+    yield from _signal_problems(case)
+    yield from _sweep_problems(case, taken)
+
+
+def _signal_problems(case: Case) -> Iterator[Problem]:
+    """Names that no signal bears where one is computed from others, units that the numbers do not have."""
+    signals = case.record.signals
+    paths = [name for name, signal in signals.items() if isinstance(signal, PathSignal)]
+    for name, signal in signals.items():
         if isinstance(signal, StartsSignal):
             place = ("signals", name, "holds", "signal")
             yield from _unknown(case, place, [signal.holds.signal], paths, "path signal")
@@ -215,11 +222,16 @@ def _reference_problems(case: Case) -> Iterator[Problem]:
             expected = "the unit that MuJoCo computes in, such as m, rad, s, kg, N"
             repair = "write it; convert in prose, `{{ broken.x.final | mm }}`, or by `expr`"
             yield case.problem(("signals", name, "unit"), signal.unit, expected, repair)
+
+
+def _sweep_problems(case: Case, variants: list[str]) -> Iterator[Problem]:
+    """Names that nothing bears in what a sweep varies, measures and predicts."""
+    record = case.record
     numbers = [key for key, s in record.signals.items() if isinstance(s, PathSignal | ExpressionSignal)]
     for name, sweep in record.sweep.items():
-        place = ("sweep", name, "outcome", "signal")
+        place: Where = ("sweep", name, "outcome", "signal")
         yield from _unknown(case, place, [sweep.outcome.signal], record.signals, "signal")
-        yield from _unknown(case, ("sweep", name, "base"), [sweep.base], taken, "variant")
+        yield from _unknown(case, ("sweep", name, "base"), [sweep.base], variants, "variant")
         known = [*(parameter.name for parameter in sweep.vary), *numbers, *MODEL_NUMBERS]
         forms: dict[Where, Prediction] = {("prediction",): sweep.prediction}
         forms |= {("rivals", index): rival for index, rival in enumerate(sweep.rivals)}

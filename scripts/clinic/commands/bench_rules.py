@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -11,6 +12,7 @@ import typer
 if TYPE_CHECKING:
     from clinic.diagnosis.bench.healthy import Healthy
     from clinic.diagnosis.bench.table import Task
+    from clinic.diagnosis.bench.trial import Plant
 
 app = typer.Typer()
 
@@ -67,6 +69,13 @@ def bench_rules(
     if as_json:
         print(json.dumps(table, indent=1, ensure_ascii=False))
         return
+    _print(table, made.plants if every else [], held_out)
+
+
+def _print(table: dict[str, Any], plants: Iterable[Plant], held_out: bool) -> None:
+    """Two tables, the sums of each side, and in a line each what was named in healthy models and what was missed."""
+    from clinic.commands import terminal
+
     out = terminal.console()
     for each in (_rules(table, held_out), _kinds(table, held_out)):
         out.print(each)
@@ -80,7 +89,7 @@ def bench_rules(
     for model, found in table["models"].items():
         if found["causes"] and (held_out or not found["held_out"]):
             print(f"healthy, but named: {model}: {', '.join(found['causes'])}")
-    for plant in made.plants if every else []:
+    for plant in plants:
         if plant.harm and plant.outcome != "cause":
             named = ", ".join(f"{each['level']} {each['rule']}" for each in plant.told.findings) or "nothing"
             what = ", ".join(plant.elements[:2])

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from clinic.engine.checks import TAKES, Trace, expected, judge, satisfies, take
-from clinic.record.fields import Check
+from clinic.record.parts import Check
 
 NAN = math.nan
 

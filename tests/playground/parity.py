@@ -21,7 +21,8 @@ from clinic.engine.simulate import compile_model
 from clinic.engine.variant import apply_edits
 from clinic.proof.judge import judge_text
 from clinic.record.case import load_case
-from clinic.record.fields import Edit, RowSignal, StartsSignal
+from clinic.record.parts import Edit
+from clinic.record.signal import RowSignal, StartsSignal
 
 IMAGES = 3  # every how many repairs of a case with images are judged
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 from clinic.record.case import load_case, read_cases
-from clinic.record.fields import Check, Record
-from clinic.record.parts import WARNINGS
+from clinic.record.fields import Record
+from clinic.record.parts import WARNINGS, Check
 from clinic.record.problem import CaseError, Problem, listed
 from helpers import MODEL, RECORD, SLUG, SWEEP, changed, script_case, tiny_case, write_case, write_folder
 

@@ -10,8 +10,7 @@ from typing import get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from clinic.record.fields import Check
-from clinic.record.parts import Comparison, Interval, Take
+from clinic.record.parts import Check, Comparison, Interval, Take
 
 TAKES: tuple[Take, ...] = get_args(Take)
 OVER_ALL: dict[str, Callable[..., float]] = {"min": np.min, "max": np.max, "mean": np.mean, "span": np.ptp}

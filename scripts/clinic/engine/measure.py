@@ -16,7 +16,8 @@ from clinic.engine.signals import Path, parse_path
 from clinic.engine.simulate import Nudge, Run, RunError, data_at, simulate
 from clinic.record.expression import ExpressionError, evaluate, parse
 from clinic.record.expression import names as names_in
-from clinic.record.fields import ExpressionSignal, PathSignal, Record, RowSignal, RunSpec, StartsSignal
+from clinic.record.fields import Record, RunSpec
+from clinic.record.signal import ExpressionSignal, PathSignal, RowSignal, StartsSignal
 
 NOTHING = Trace(np.empty(0), np.empty(0))
 

@@ -9,8 +9,7 @@ from clinic.engine.checks import expected, satisfies
 from clinic.pages.text.claim import taken
 from clinic.proof.evidence import Evidence, VariantEvidence
 from clinic.record.case import Case
-from clinic.record.fields import Check
-from clinic.record.parts import Interval
+from clinic.record.parts import Check, Interval
 from clinic.record.prose import plain, quantity
 
 NOTHING = 1e-9  # of the largest that a signal was, or of what a check allows; less is what rounding left of zero

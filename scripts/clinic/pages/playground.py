@@ -23,7 +23,8 @@ from clinic.pages.text.claim import claim
 from clinic.proof.evidence import Evidence
 from clinic.record.case import Case
 from clinic.record.expression import names, parse
-from clinic.record.fields import ExpressionSignal, PathSignal, Remedy, Signal, Trial
+from clinic.record.fields import Remedy, Trial
+from clinic.record.signal import ExpressionSignal, PathSignal, Signal
 
 FILE = "playground.json"
 MOTION = re.compile(r"^(?!model\.).*\b(?:xpos|xquat|xmat|xipos|qpos|qvel|cvel)\b")

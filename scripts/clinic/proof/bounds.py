@@ -12,7 +12,8 @@ from clinic.engine.variant import variants
 from clinic.proof.trials import changed_numbers, checks_in, far
 from clinic.record.case import Case
 from clinic.record.expression import parse
-from clinic.record.fields import Check, Trial
+from clinic.record.fields import Trial
+from clinic.record.parts import Check
 from clinic.record.problem import Problem
 from clinic.record.sweep import Sweep
 from clinic.record.yaml_lines import Where

@@ -23,9 +23,10 @@ from clinic.proof.sweep import SweepEvidence, names_read
 from clinic.proof.tightness import Loose
 from clinic.proof.trials import checks_in, run_trial, trial_problems
 from clinic.record.case import Case
-from clinic.record.fields import Check, PathSignal, RowSignal, Trial
-from clinic.record.parts import Strict
+from clinic.record.fields import Trial
+from clinic.record.parts import Check, Strict
 from clinic.record.problem import CaseError, MissingRequirementError, Problem, listed
+from clinic.record.signal import PathSignal, RowSignal
 from clinic.record.yaml_lines import Where
 
 MAX_SAMPLES = 400

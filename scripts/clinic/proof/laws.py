@@ -34,8 +34,7 @@ from clinic.proof.task import changes
 from clinic.proof.tightness import covers, value_of, words_of
 from clinic.proof.trials import checks_in
 from clinic.record.case import Case
-from clinic.record.fields import Check
-from clinic.record.parts import Edit
+from clinic.record.parts import Check, Edit
 from clinic.record.problem import Problem, listed
 from clinic.record.prose import quantity
 from clinic.record.yaml_lines import Where

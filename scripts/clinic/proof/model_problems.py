@@ -13,8 +13,8 @@ from clinic.engine.signals import SignalError, bind, missing_element, parse_path
 from clinic.engine.simulate import RunError, compile_model, controls, initial_data, step_count
 from clinic.engine.variant import BROKEN, Variant, variants
 from clinic.record.case import Case
-from clinic.record.fields import ExpressionSignal, PathSignal, RowSignal, StartsSignal
 from clinic.record.problem import CaseError, Problem
+from clinic.record.signal import ExpressionSignal, PathSignal, RowSignal, StartsSignal
 from clinic.record.yaml_lines import Where
 
 

@@ -14,8 +14,9 @@ from clinic.engine.measure import measure_model
 from clinic.engine.simulate import Nudge, compile_model
 from clinic.engine.variant import variants
 from clinic.record.case import Case
-from clinic.record.fields import Check, ExpressionSignal, PathSignal, Record
-from clinic.record.parts import Strict
+from clinic.record.fields import Record
+from clinic.record.parts import Check, Strict
+from clinic.record.signal import ExpressionSignal, PathSignal
 
 STARTS = 8
 NUDGE = 1e-3

@@ -30,11 +30,12 @@ from clinic.record.claims import CLAIMS, Claims, read_claims
 from clinic.record.closed_forms import MODEL_NUMBERS
 from clinic.record.expression import ExpressionError, names, parse
 from clinic.record.field_errors import field_problems
-from clinic.record.fields import ExpressionSignal, PathSignal, Record, StartsSignal
+from clinic.record.fields import Record
 from clinic.record.folder import INSTRUMENT, RECORD, folder_problems
 from clinic.record.parts import WARNINGS
 from clinic.record.problem import CaseError, Problem, article, closest, listed
 from clinic.record.salvage import Salvage, salvage
+from clinic.record.signal import ExpressionSignal, PathSignal, StartsSignal
 from clinic.record.sweep import Prediction
 from clinic.record.yaml_lines import Lines, Where, dotted, read_yaml, yaml_problem
 

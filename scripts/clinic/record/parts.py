@@ -1,4 +1,4 @@
-"""The parts that a record and its sweeps share: names, edits, and a number taken from a signal."""
+"""The parts that a record and its sweeps share: names, edits, and a number taken from a signal, compared or not."""
 
 from __future__ import annotations
 
@@ -68,3 +68,7 @@ class Comparison(Strict):
             if pair is not None and pair[0] >= pair[1]:
                 raise ValueError(f"{name}: {list(pair)}||a low bound below the high bound||swap the two numbers")
         return self
+
+
+class Check(Taken, Comparison):
+    """One number taken from a signal, compared with a bound."""

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from clinic.engine.checks import expected
 from clinic.record.case import Case
-from clinic.record.fields import Check
-from clinic.record.parts import Interval
+from clinic.record.parts import Check, Interval
 
 TAKE_WORDS = {
     "final": "at the end",

@@ -12,8 +12,8 @@ from clinic.engine.variant import variants
 from clinic.proof.evidence import Evidence
 from clinic.record.case import Case
 from clinic.record.expression import names, parse
-from clinic.record.fields import ExpressionSignal, PathSignal
 from clinic.record.problem import Problem, listed
+from clinic.record.signal import ExpressionSignal, PathSignal
 
 NAMED = re.compile(r"\(([^)]*)\)")
 ARITHMETIC = {"minus": ast.Sub, "plus": ast.Add, "ratio": ast.Div, "divided by": ast.Div, "share": ast.Div}

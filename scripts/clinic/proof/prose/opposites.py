@@ -12,9 +12,9 @@ from clinic.proof.prose.signals import beside
 from clinic.proof.prose.titles import VALUES
 from clinic.proof.prose_laws import prose_of
 from clinic.record.case import Case
-from clinic.record.fields import PathSignal
 from clinic.record.problem import Problem
 from clinic.record.prose import FIELD, bare
+from clinic.record.signal import PathSignal
 from clinic.record.yaml_lines import Where
 
 OPPOSITES = (

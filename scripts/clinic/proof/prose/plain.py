@@ -11,7 +11,7 @@ from clinic.engine.variant import Variant, variants
 from clinic.proof.prose.labels import NAMED, PRINTED, changed_names, related, words_in
 from clinic.proof.prose.titles import ACTS, CODE_NAME, changed_attributes
 from clinic.record.case import Case
-from clinic.record.fields import PathSignal
+from clinic.record.signal import PathSignal
 
 FIELDS = (
     (r"\.xpos\[0\]", "x place along"),

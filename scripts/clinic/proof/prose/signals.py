@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 from clinic.proof.prose_laws import ELSEWHERE, prose_of
 from clinic.proof.trials import checks_in
 from clinic.record.case import Case
-from clinic.record.fields import Signal
 from clinic.record.problem import Problem, listed
 from clinic.record.prose import FIELD
+from clinic.record.signal import Signal
 
 if TYPE_CHECKING:
     from clinic.proof.evidence import Evidence

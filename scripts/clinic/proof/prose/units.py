@@ -15,9 +15,9 @@ from clinic.proof.evidence import Evidence
 from clinic.proof.prose_laws import prose_of
 from clinic.record.case import Case
 from clinic.record.expression import parse
-from clinic.record.fields import ExpressionSignal, PathSignal
 from clinic.record.problem import Problem, listed
 from clinic.record.prose import FORMULA, bare
+from clinic.record.signal import ExpressionSignal, PathSignal
 from clinic.record.units import Unit, UnitError, powers_of, unit
 
 PLAIN = {

@@ -46,7 +46,7 @@ def _fallen(simulation: Simulation) -> Iterator[tuple[int, int]]:
                 continue
             before = _above(simulation, run.start, root, geom)
             after = _above(simulation, run.end, root, geom)
-            if before is not None and after is not None and before > 0 and after < -limit(simulation, root, geom):
+            if before is not None and after is not None and before > 0 and after < -limit(simulation, root):
                 yield root, geom
 
 
@@ -61,8 +61,8 @@ def bare(simulation: Simulation) -> list[int]:
     return made
 
 
-def limit(simulation: Simulation, root: int, geom: int) -> float:
-    """How far a body's centre may be below a surface in m: a part of its size, and of what it may be pressed in."""
+def limit(simulation: Simulation, root: int) -> float:
+    """How far a body's centre may be below a surface in m: a part of its size."""
     return 0.25 * size(simulation, root)
 
 

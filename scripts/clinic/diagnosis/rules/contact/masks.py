@@ -99,7 +99,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             ", ".join(value.values()),
             made,
             below(root, surface),
-            limit(simulation, root, surface),
+            limit(simulation, root),
             says,
             excess=3.0,
         )

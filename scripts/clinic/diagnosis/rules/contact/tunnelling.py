@@ -62,7 +62,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         own = [geom for geom in geoms_of_tree(simulation, root) if collides(simulation, geom, surface)]
         if not own or int(simulation.model("geom_type")[surface]) == PLANE or len(own) > 8:
             continue
-        probe, most = below(root, surface), limit(simulation, root, surface)
+        probe, most = below(root, surface), limit(simulation, root)
         for divisor in (2, 4, 8):
             step = simulation.timestep / divisor
             value = f"{2 * step:g} 1"

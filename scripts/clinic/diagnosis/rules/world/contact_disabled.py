@@ -63,7 +63,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         edits = tuple(set_attribute(each, name, "enable") for each in written)
         for root, surface in fallen(simulation)[:1]:
             says = f"The flag switches every {name} off."
-            most = limit(simulation, root, surface)
+            most = limit(simulation, root)
             yield Suspect(
                 (f"the flag {name}", simulation.name("body", root)), name, "disable", "enable", edits,
                 below(root, surface), most, says, excess=5.0,

@@ -66,7 +66,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             if body in bodies and any(owner[other] == root for other in bodies):
                 meant.append(each)
         if meant:
-            most, says = limit(simulation, root, surface), "The pair is taken out of collision detection."
+            most, says = limit(simulation, root), "The pair is taken out of collision detection."
             yield Suspect(
                 (simulation.name("body", root), simulation.name("body", body)), "exclude", "there", "removed",
                 tuple(map(delete, meant)), below(root, surface), most, says, excess=4.0,

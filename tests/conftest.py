@@ -39,6 +39,12 @@ def root() -> Path:
     return ROOT
 
 
+@pytest.fixture
+def cache(tmp_path: Path) -> Cache:
+    """An empty one."""
+    return Cache(tmp_path / "cache")
+
+
 @pytest.fixture(scope="session")
 def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The cache of the small project without a film, built once: tests that begin with it build what they change."""

@@ -35,11 +35,6 @@ MEASURED_IN_IMAGES = [
 
 
 @pytest.fixture
-def cache(tmp_path: Path) -> Cache:
-    return Cache(tmp_path / "cache")
-
-
-@pytest.fixture
 def blind(monkeypatch: pytest.MonkeyPatch) -> None:
     """Leaves this process without OpenGL."""
 

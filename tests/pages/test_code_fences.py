@@ -12,11 +12,6 @@ from clinic.work.cache import Cache
 from helpers import SLUG, tiny_case
 
 
-@pytest.fixture
-def cache(tmp_path: Path) -> Cache:
-    return Cache(tmp_path / "cache")
-
-
 def test_a_run_fence_is_followed_by_its_output(cache: Cache) -> None:
     text = "# Page\n\n```python run\nprint(1 + 1)\nprint('two')\n```\n\nEnd.\n"
     assert run_fences("docs/x.md", text, {}, cache) == (

@@ -1,11 +1,13 @@
-"""Pages for the playground."""
+"""Pages and cases for the playground."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
+from clinic.record.case import Case, read_cases
 from playwright.sync_api import Browser, Page, ViewportSize
 
 SMALL: ViewportSize = {"width": 600, "height": 600}  # drawing without a graphics card takes a processor
@@ -20,6 +22,12 @@ def opened(browser: Browser) -> Iterator[Page]:
 
 tab = pytest.fixture(scope="module")(opened)
 fresh = pytest.fixture(opened)
+
+
+@pytest.fixture(scope="session")
+def cases(root: Path) -> list[Case]:
+    """The cases of models."""
+    return [case for case in read_cases(root / "cases")[0] if case.record.model is not None]
 
 
 @pytest.fixture

@@ -17,7 +17,7 @@ from clinic.engine.mjcf import SINCE, release_needed
 from clinic.engine.node import executable as node
 from clinic.engine.variant import apply_edits
 from clinic.pages.playground import playground
-from clinic.record.case import Case, read_cases
+from clinic.record.case import Case
 from clinic.record.expression import evaluate, parse
 from clinic.record.parts import Edit
 from project import ROOT
@@ -28,11 +28,6 @@ TOLERANCE = 1e-9
 REPAIRS = yaml.safe_load((ROOT / "tests/proof/repairs.yaml").read_text(encoding="utf-8"))
 PIXEL = 1 / 120  # of an image, which the browser measures with rays
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]\d+)?")
-
-
-@pytest.fixture(scope="module")
-def cases(root: Path) -> list[Case]:
-    return [case for case in read_cases(root / "cases")[0] if case.record.model is not None]
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,8 @@ import pytest
 import yaml
 from clinic.record.case import Case, load_case
 from clinic.record.folder import INSTRUMENT
-from live import PASTE, address
+from helpers import changed
+from live import address, type_text
 from playwright.sync_api import Page, expect
 from project import ROOT
 
@@ -35,23 +36,9 @@ def open_bench(page: Page, served: str) -> None:
     expect(page.locator(".cm-content")).to_be_visible()
 
 
-def put(page: Page, text: str) -> None:
-    editor = page.locator(".cm-content")
-    editor.focus()
-    page.keyboard.press("Control+a")
-    editor.evaluate(PASTE, text)
-
-
 def press(page: Page, name: str) -> None:
     page.get_by_role("button", name=name, exact=True).click()
     expect(page.get_by_role("button", name=name, exact=True)).to_be_enabled()
-
-
-def edited(text: str, edits: list[str]) -> str:
-    for find, replace in zip(edits[::2], edits[1::2], strict=True):
-        assert text.count(find) == 1, find
-        text = text.replace(find, replace)
-    return text
 
 
 def test_it_prints_what_the_page_says(page: Page, served: str) -> None:
@@ -76,7 +63,7 @@ def test_every_repair_is_judged_as_the_terminal_judges_it(page: Page, served: st
     for kind, well in (("right", "yes"), ("wrong", "no")):
         texts |= {name: (well, edits) for name, edits in REPAIRS[kind].items()}
     for name, (well, edits) in texts.items():
-        put(page, edited(case.text, edits))
+        type_text(page, changed(case.text, *zip(edits[::2], edits[1::2], strict=True)))
         press(page, "Check my fix")
         assert page.locator(".pg-result").get_attribute("data-well") == well, (
             f"{name}: {page.locator('.pg').inner_text()}"
@@ -85,14 +72,14 @@ def test_every_repair_is_judged_as_the_terminal_judges_it(page: Page, served: st
 
 def test_what_a_script_says_when_it_fails_stands_at_its_line(page: Page, served: str, case: Case) -> None:
     open_bench(page, served)
-    put(page, case.text.replace("let ghost,", "nothing.at.all;\nlet ghost,"))
+    type_text(page, case.text.replace("let ghost,", "nothing.at.all;\nlet ghost,"))
     press(page, "Run")
 
     line = case.text.splitlines().index("let ghost, frames = 0;") + 1
     expect(page.locator(".pg-complaint")).to_have_text(f"Line {line}: ReferenceError: nothing is not defined")
     expect(page.locator(".cm-lintRange-error")).to_have_text("nothing.at.all;")
 
-    put(page, case.text.replace('from "node:fs"', 'from "node:net"'))
+    type_text(page, case.text.replace('from "node:fs"', 'from "node:net"'))
     press(page, "Run")
     expect(page.locator(".pg-complaint")).to_have_text(
         "node:net cannot be imported here: only @mujoco/mujoco and node:fs"
@@ -101,7 +88,7 @@ def test_what_a_script_says_when_it_fails_stands_at_its_line(page: Page, served:
 
 def test_a_script_has_no_network(page: Page, served: str) -> None:
     open_bench(page, served)
-    put(page, NETWORK)
+    type_text(page, NETWORK)
     press(page, "Run")
     expect(page.locator(".pg-output")).to_have_text(" ".join(["undefined"] * 6))
 
@@ -111,29 +98,29 @@ def test_a_script_has_no_network(page: Page, served: str) -> None:
         """const far = await Function("return im" + "port('./evidence.json')")();""",
         """const far = await (() => {}).constructor("return im" + "port('./evidence.json')")();""",
     ):
-        put(page, hidden)
+        type_text(page, hidden)
         press(page, "Run")
         expect(page.locator(".pg-complaint")).to_contain_text("the word import is for lines of its own here")
 
-    put(page, 'const far = await (async () => {}).constructor("return 1")();')
+    type_text(page, 'const far = await (async () => {}).constructor("return 1")();')
     press(page, "Run")
     expect(page.locator(".pg-complaint")).to_contain_text("is not a function")
 
 
 def test_an_endless_script_can_be_stopped(page: Page, served: str) -> None:
     open_bench(page, served)
-    put(page, "for (;;);")
+    type_text(page, "for (;;);")
     page.get_by_role("button", name="Run", exact=True).click()
     page.get_by_role("button", name="Stop").click()
     expect(page.locator(".pg-complaint")).to_have_text("It was stopped.")
-    put(page, 'console.log("again");')
+    type_text(page, 'console.log("again");')
     press(page, "Run")
     expect(page.locator(".pg-output")).to_have_text("again")
 
 
 def test_a_link_brings_the_text_and_runs_nothing(page: Page, served: str) -> None:
     open_bench(page, served)
-    put(page, 'console.log("from a link");')
+    type_text(page, 'console.log("from a link");')
     page.get_by_role("button", name="Copy link").click()
     link = page.locator(".pg-address")
     expect(link).to_have_value(re.compile("#model="))

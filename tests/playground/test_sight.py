@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import json
 import re
-from pathlib import Path
 from typing import Any
 
 import pytest
 from clinic.pages.playground import playground
-from clinic.record.case import Case, read_cases
+from clinic.record.case import Case
 from live import LIMIT, address, check, edited, no_engine, open_playground, type_text, wait_for_steps
 from playwright.sync_api import Page, expect
 
@@ -155,11 +154,6 @@ def test_an_engine_that_cannot_be_fetched_is_tried_again(fresh: Page, served: st
 
     fresh.wait_for_function("document.querySelector('.pg-clock')?.dataset.steps", timeout=LIMIT)
     expect(fresh.locator(".pg-complaint")).to_be_empty()
-
-
-@pytest.fixture(scope="module")
-def cases(root: Path) -> list[Case]:
-    return [case for case in read_cases(root / "cases")[0] if case.record.model is not None]
 
 
 def test_nothing_tells_the_cause_before_it_is_asked_for(page: Page, served: str, cases: list[Case]) -> None:

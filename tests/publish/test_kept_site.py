@@ -52,11 +52,6 @@ def checkout(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def cache(tmp_path: Path) -> Cache:
-    return Cache(tmp_path / "cache")
-
-
-@pytest.fixture
 def build(checkout: Path, cache: Cache, monkeypatch: pytest.MonkeyPatch) -> Callable[..., bool]:
     """Builds; whether the site was made, and not found."""
 

@@ -51,6 +51,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.probes.couplings import Coupling, couplings
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -60,13 +61,9 @@ FAMILIES = ("stuck", "jumps-at-start")
 SINCE = "0.1"
 UNPLANTED = "one healthy model has a joint that follows another"
 
-JOINT = 2  # mjtEq
 POINTS = 41
 LOST = 0.5
 SLACK = 0.02  # of the follower's range
-
-
-Coupling = tuple[int, int, tuple[float, ...]]  # follower, leader, factors of the powers of the leader's way
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -123,14 +120,6 @@ def _unled(of: Simulation, equality: int) -> float:
     """1 where a coupling holds its follower at a constant other than its start."""
     found = (factors for each, (_, _, factors) in couplings(of) if each == equality)
     return float(any(factors[0] and not any(factors[1:]) for factors in found))
-
-
-def couplings(simulation: Simulation) -> Iterator[tuple[int, Coupling]]:
-    """The equalities that couple two joints, and how."""
-    for each in range(simulation.count("equality")):
-        follower, leader = (int(simulation.model(f"eq_obj{side}id")[each]) for side in (1, 2))
-        if int(simulation.model("eq_type")[each]) == JOINT and leader >= 0 and simulation.model("eq_active0")[each]:
-            yield each, (follower, leader, simulation.equality_data(each)[:5])
 
 
 def _led(simulation: Simulation, coupling: Coupling) -> list[float]:

@@ -1,0 +1,155 @@
+"""A tendon that no joint makes longer or shorter.
+
+All of its sites are on parts that do not move against each other, or the coefficients of a fixed tendon are 0, or take
+each other away: two fingers that an equality lets close together, with coefficients 0.5 and -0.5. What drives the
+tendon moves nothing, its limit stops nothing, and a sensor of it reads a constant.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <geom type="box" size="0.05 0.05 0.02"/>
+          <body pos="0 0.02 0.05">
+            <joint name="left" type="slide" axis="0 1 0" range="0 0.04"/>
+            <geom type="box" size="0.01 0.005 0.02"/>
+          </body>
+          <body pos="0 -0.02 0.05">
+            <joint name="right" type="slide" axis="0 -1 0" range="0 0.04"/>
+            <geom type="box" size="0.01 0.005 0.02"/>
+          </body>
+        </body>
+      </worldbody>
+      <tendon>
+        <fixed name="split">
+          <joint joint="left" coef="0.5"/>
+          <joint joint="right" coef="-0.5"/>
+        </fixed>
+      </tendon>
+      <equality>
+        <joint joint1="left" joint2="right"/>
+      </equality>
+      <actuator>
+        <position tendon="split" kp="100" ctrlrange="0 0.04"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <geom type="box" size="0.05 0.05 0.02"/>
+          <body pos="0 0.02 0.05">
+            <joint name="left" type="slide" axis="0 1 0" range="0 0.04"/>
+            <geom type="box" size="0.01 0.005 0.02"/>
+          </body>
+          <body pos="0 -0.02 0.05">
+            <joint name="right" type="slide" axis="0 -1 0" range="0 0.04"/>
+            <geom type="box" size="0.01 0.005 0.02"/>
+          </body>
+        </body>
+      </worldbody>
+      <tendon>
+        <fixed name="split">
+          <joint joint="left" coef="0.5"/>
+          <joint joint="right" coef="0.5"/>
+        </fixed>
+      </tendon>
+      <equality>
+        <joint joint1="left" joint2="right"/>
+      </equality>
+      <actuator>
+        <position tendon="split" kp="100" ctrlrange="0 0.04"/>
+      </actuator>
+    </mujoco>
+
+The number: how many actuators, limits, springs and sensors such a tendon has. A tendon that is drawn, and no more, is
+left alone.
+
+When it is wrong: nothing known.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.couplings import couplings
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A tendon whose length never changes"
+FAMILIES = ("stuck", "sensor-reads-zero")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "what it is meant to cross, only intent knows"
+
+TENDON_DRIVEN, TENDON = 3, 18  # mjtTrn, mjtObj
+JOINT, PULLEY, SITE = 1, 2, 3  # mjtWrap
+LEAST = 1e-3  # of the largest coefficient
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Tendons of constant length that something uses."""
+    of = model.simulation
+    for tendon in range(of.count("tendon")):
+        if not _used(of, tendon):
+            continue
+        fixed = int(of.model("wrap_type")[int(of.model("tendon_adr")[tendon])]) == JOINT
+        what = "coefficients of its joints are 0 or take each other away" if fixed else "sites do not move apart"
+        yield Suspect(
+            (of.name("tendon", tendon),),
+            "coef" if fixed else "site",
+            "",
+            "coefficients that add up" if fixed else "sites on both sides of a joint",
+            (),
+            Probe("uses of a tendon whose length never changes", "", _used, (tendon,), dynamic=False),
+            0.5,
+            f"No joint changes its length: the {what}. {_used(of, tendon):g} actuators, limits, springs or sensors "
+            "use it.",
+            "a tendon across a joint",
+        )
+
+
+def _used(of: Simulation, tendon: int) -> float:
+    """How much a tendon of constant length is used; 0 for another one."""
+    if not _constant(of, tendon):
+        return 0.0
+    driven = sum(
+        int(kind) == TENDON_DRIVEN and int(of.model("actuator_trnid")[2 * each]) == tendon
+        for each, kind in enumerate(of.model("actuator_trntype"))
+    )
+    read = zip(of.model("sensor_objtype"), of.model("sensor_objid"), strict=True)
+    uses = [of.model("tendon_limited")[tendon], of.model("tendon_stiffness")[tendon]]
+    return float(driven + sum(map(bool, uses)) + sum((int(a), int(b)) == (TENDON, tendon) for a, b in read))
+
+
+def _constant(of: Simulation, tendon: int) -> bool:
+    first, number = int(of.model("tendon_adr")[tendon]), int(of.model("tendon_num")[tendon])
+    wraps = range(first, first + number)
+    kinds = [int(of.model("wrap_type")[each]) for each in wraps]
+    ids = [int(of.model("wrap_objid")[each]) for each in wraps]
+    if JOINT in kinds:
+        return _cancelled(of, ids, [of.model("wrap_prm")[each] for each in wraps])
+    owner = {SITE: "site_bodyid"}
+    bodies = {
+        int(of.model(owner.get(kind, "geom_bodyid"))[index])
+        for kind, index in zip(kinds, ids, strict=True)
+        if kind != PULLEY
+    }
+    return len({int(of.model("body_weldid")[body]) for body in bodies}) == 1
+
+
+def _cancelled(of: Simulation, joints: list[int], coefficients: list[float]) -> bool:
+    """Whether the ways of joints, followers taken by the factors of their couplings, add up to nothing."""
+    leads = {follower: (leader, factors[1]) for _, (follower, leader, factors) in couplings(of)}
+    sums: dict[int, float] = {}
+    for joint, coefficient in zip(joints, coefficients, strict=True):
+        top, way = joint, coefficient
+        for _ in leads:
+            leader, factor = leads.get(top, (top, 1.0))
+            top, way = leader, way * factor
+        sums[top] = sums.get(top, 0.0) + way
+    largest = max(map(abs, coefficients), default=0.0)
+    return all(abs(each) <= LEAST * largest for each in sums.values())

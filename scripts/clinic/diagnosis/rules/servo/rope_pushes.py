@@ -1,0 +1,119 @@
+"""A motor on a rope can do nothing but push it.
+
+The length of a spatial tendon grows under a positive force: a winch pulls with a negative one. With a control range
+of positive numbers, or a `gear` with the wrong sign, the finger opens where it should close, and a cable robot pushes
+its platform away.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <site name="winch" pos="0 0 2"/>
+        <body name="weight" pos="0 0 1">
+          <joint type="slide" axis="0 0 1"/>
+          <geom type="sphere" size="0.05" mass="1"/>
+          <site name="eye" pos="0 0 0.05"/>
+        </body>
+      </worldbody>
+      <tendon>
+        <spatial name="rope">
+          <site site="winch"/>
+          <site site="eye"/>
+        </spatial>
+      </tendon>
+      <actuator>
+        <motor tendon="rope" ctrlrange="0 50"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <site name="winch" pos="0 0 2"/>
+        <body name="weight" pos="0 0 1">
+          <joint type="slide" axis="0 0 1"/>
+          <geom type="sphere" size="0.05" mass="1"/>
+          <site name="eye" pos="0 0 0.05"/>
+        </body>
+      </worldbody>
+      <tendon>
+        <spatial name="rope">
+          <site site="winch"/>
+          <site site="eye"/>
+        </spatial>
+      </tendon>
+      <actuator>
+        <motor tendon="rope" ctrlrange="0 50" gear="-1"/>
+      </actuator>
+    </mujoco>
+
+The number: the most that the motor pushes over its control range in N, at least ten times what it can pull. Actuators
+with a bias are left out: servos of length, and muscles, which pull with positive controls.
+
+When it is wrong: a tendon that stands for a piston.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.vector import written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A motor that pushes a rope"
+FAMILIES = ("drifts", "stuck")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "a tendon may stand for a piston"
+
+TENDON, JOINT_WRAP = 3, 1  # mjtTrn; mjtWrap
+MOST = 10.0  # times what it pulls
+PISTON = re.compile(r"(?i)piston|cylinder|hydraul|pneum|strut|linear")
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Motors on spatial tendons that push and do not pull."""
+    of = model.simulation
+    for each in range(of.count("actuator")):
+        push, pull = _forces(of, each)
+        tendon = int(of.model("actuator_trnid")[2 * each])
+        if push <= 0 or push < MOST * pull or PISTON.search(of.name("tendon", tendon) + of.name("actuator", each)):
+            continue
+        gear = of.row("actuator_gear", each, 6)[0]
+        edits: tuple[Edit, ...] = model.set("actuator", [each], "gear", written([-gear]))
+        yield Suspect(
+            (of.name("actuator", each), of.name("tendon", tendon)),
+            "gear",
+            f"{gear:g}",
+            f"{-gear:g}",
+            edits,
+            Probe("the most that a motor pushes a rope", "N", _pushes, (each,), dynamic=False),
+            1e-9,
+            f"{of.name('actuator', each)} pushes the ends of {of.name('tendon', tendon)} apart with up to "
+            f"{push:.3g} N, and pulls with {pull:.3g} N at most.",
+            "a negative force, which pulls",
+        )
+
+
+def _pushes(of: Simulation, actuator: int) -> float:
+    push, pull = _forces(of, actuator)
+    return push if push >= MOST * pull else 0.0
+
+
+def _forces(of: Simulation, actuator: int) -> tuple[float, float]:
+    """The most that a motor on a spatial tendon pushes and pulls in N; zeros for another actuator."""
+    fields = [of.model(f"actuator_{field}")[actuator] for field in ("trntype", "gaintype", "biastype", "ctrllimited")]
+    tendon = int(of.model("actuator_trnid")[2 * actuator])
+    if tuple(map(int, fields)) != (TENDON, 0, 0, 1):
+        return 0.0, 0.0
+    if int(of.model("wrap_type")[int(of.model("tendon_adr")[tendon])]) == JOINT_WRAP:
+        return 0.0, 0.0
+    gain = of.model("actuator_gainprm")[len(of.model("actuator_gainprm")) // of.count("actuator") * actuator]
+    gear = of.row("actuator_gear", actuator, 6)[0]
+    forces = [gain * gear * ctrl for ctrl in of.row("actuator_ctrlrange", actuator, 2)]
+    return max(0.0, *forces), max(0.0, *(-force for force in forces))

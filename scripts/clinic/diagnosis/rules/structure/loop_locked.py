@@ -1,0 +1,219 @@
+"""Loops and couplings leave a driven joint no way to go.
+
+One connection too much, the wrong body, a `weld` where a pin is meant, a pin with another axis than the others of a
+planar linkage, or a pin that was forgotten: what is connected is a frame, not a mechanism. The motor pulls at it, and
+the constraints, which are soft, creak.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="crank" pos="0 0 0.2">
+          <joint name="crank" axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0 0 0.1" size="0.01" contype="0"/>
+          <body name="coupler" pos="0 0 0.1">
+            <joint name="pin" axis="0 1 0"/>
+            <geom type="capsule" fromto="0 0 0 0.3 0 0.1" size="0.01" contype="0"/>
+          </body>
+        </body>
+        <body name="rocker" pos="0.3 0 0.2">
+          <joint name="rocker"/>
+          <geom type="capsule" fromto="0 0 0 0 0 0.2" size="0.01" contype="0"/>
+        </body>
+      </worldbody>
+      <equality>
+        <connect body1="coupler" body2="rocker" anchor="0.3 0 0.1"/>
+      </equality>
+      <actuator>
+        <motor joint="crank" ctrlrange="-5 5"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="crank" pos="0 0 0.2">
+          <joint name="crank" axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0 0 0.1" size="0.01" contype="0"/>
+          <body name="coupler" pos="0 0 0.1">
+            <joint name="pin" axis="0 1 0"/>
+            <geom type="capsule" fromto="0 0 0 0.3 0 0.1" size="0.01" contype="0"/>
+          </body>
+        </body>
+        <body name="rocker" pos="0.3 0 0.2">
+          <joint name="rocker" axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0 0 0.2" size="0.01" contype="0"/>
+        </body>
+      </worldbody>
+      <equality>
+        <connect body1="coupler" body2="rocker" anchor="0.3 0 0.1"/>
+      </equality>
+      <actuator>
+        <motor joint="crank" ctrlrange="-5 5"/>
+      </actuator>
+    </mujoco>
+
+The number: of how fast a driven joint would tear the connections open if it moved alone, the share that no motion of
+all the other joints takes away; 0 in a mechanism, 1 where nothing else gives way. More than 0.1. At the start, by small
+motions of one joint after the other.
+
+When it is wrong: a joint that an equality locks for a while, until code sets it free.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+from clinic.diagnosis.engine import BALL, FREE
+from clinic.diagnosis.probes.couplings import JOINT as COUPLED
+from clinic.diagnosis.probes.vector import add, sub, times, transpose
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import WIDTH, Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A mechanism that its loops lock"
+FAMILIES = ("stuck", "drifts")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "the healthy models have few loops"
+
+CONNECT, WELD, SITE = 0, 1, 6  # mjtEq; mjtObj
+TENDON, JOINT_WRAP = 3, 1  # mjtTrn; mjtWrap
+MOST, SMALL = 0.1, 1e-3  # shares of how fast a joint tears at the connections
+STEP = 1e-5  # rad, m
+LARGE = 80  # degrees of freedom
+Column = tuple[float, ...]
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Driven joints that connections hold, all together."""
+    of = model.simulation
+    if not any(of.model("eq_active0")) or of.count("dof") > LARGE:
+        return
+    held = {joint: share for joint in _driven(of) if (share := _held(of, joint)) > MOST}
+    if not held:
+        return
+    worst = max(held, key=lambda joint: held[joint])
+    names = [of.name("joint", joint) for joint in sorted(held, key=lambda joint: -held[joint])]
+    yield Suspect(
+        tuple(names),
+        "equality",
+        "",
+        "the bodies, anchors and axes of its loop",
+        (),
+        Probe("what no other joint takes away of a joint's pull at the connections", "", _most, tuple(held)),
+        MOST,
+        f"{names[0]} is driven, and no motion of the other joints lets it turn: of its pull at the equalities "
+        f"{100 * held[worst]:.0f} % is left.",
+        "a loop that moves",
+    )
+
+
+def _driven(of: Simulation) -> list[int]:
+    """The hinges and slides that actuators drive, themselves or by a fixed tendon."""
+    found = [of.driven_joint(each) for each in range(of.count("actuator"))]
+    for each, kind in enumerate(of.model("actuator_trntype")):
+        if int(kind) == TENDON:
+            tendon = int(of.model("actuator_trnid")[2 * each])
+            first, number = int(of.model("tendon_adr")[tendon]), int(of.model("tendon_num")[tendon])
+            wraps = range(first, first + number)
+            found += [int(of.model("wrap_objid")[i]) for i in wraps if int(of.model("wrap_type")[i]) == JOINT_WRAP]
+    return list(dict.fromkeys(joint for joint in found if joint is not None))
+
+
+def _most(of: Simulation, *joints: int) -> float:
+    return max(_held(of, joint) for joint in joints)
+
+
+def _held(of: Simulation, joint: int) -> float:
+    """What is left of a joint's column once all others are taken out of it, as a share of it."""
+    columns = _columns(of)
+    dof = of.dof(joint)
+    own = columns[dof]
+    size = math.hypot(*own)
+    if size < SMALL:
+        return 0.0
+    spanned: list[Column] = []
+    for each in range(len(columns)):
+        if each != dof:
+            left, full = columns[each], math.hypot(*columns[each])
+            left = _without(left, spanned)
+            rest = math.hypot(*left)
+            if rest > SMALL * max(full, 1e-6):
+                spanned.append(tuple(x / rest for x in left))
+    return math.hypot(*_without(own, spanned)) / size
+
+
+def _without(column: Column, directions: Sequence[Column]) -> Column:
+    """A column without its parts along directions of length 1; twice, for what rounding leaves."""
+    for direction in (*directions, *directions):
+        along = sum(x * y for x, y in zip(column, direction, strict=True))
+        column = tuple(x - along * y for x, y in zip(column, direction, strict=True))
+    return column
+
+
+def _columns(of: Simulation) -> list[Column]:
+    """How fast each degree of freedom opens the connections; translations alone of a free joint, none of a ball."""
+    if "columns" in of.kept:
+        return of.kept["columns"]  # type: ignore[return-value]
+    of.begin()
+    rest, start = _gaps(of), list(of.data("qpos"))
+    made: list[Column] = [(0.0,) * len(rest)] * of.count("dof")
+    for joint in range(of.count("joint")):
+        kind, place = of.joint_type(joint), int(of.model("jnt_qposadr")[joint])
+        for each in range(WIDTH[kind][1]):
+            of.engine.write("qpos", _moved(start[place : place + WIDTH[kind][0]], kind, each), place)
+            of.engine.forward()
+            made[of.dof(joint) + each] = tuple((x - y) / STEP for x, y in zip(_gaps(of), rest, strict=True))
+            of.engine.write("qpos", start, 0)
+    of.kept["columns"] = made
+    return made
+
+
+def _moved(position: Sequence[float], kind: int, each: int) -> list[float]:
+    """A joint's position after a small motion in one of its degrees of freedom."""
+    made = list(position)
+    if kind == BALL or (kind == FREE and each > 2):
+        first, axis = (0, each) if kind == BALL else (3, each - 3)
+        w, x, y, z = made[first : first + 4]
+        turned = ((-x, w, z, -y), (-y, -z, w, x), (-z, y, -x, w))[axis]
+        made[first : first + 4] = [a + 0.5 * STEP * b for a, b in zip((w, x, y, z), turned, strict=True)]
+    else:
+        made[each] += STEP
+    return made
+
+
+def _gaps(of: Simulation) -> Column:
+    """How far apart, and turned, is what the active equalities hold together."""
+    made: list[float] = []
+    for each, kind in enumerate(of.model("eq_type")):
+        ids = [int(of.model(f"eq_obj{i}id")[each]) for i in (1, 2)]
+        if not of.model("eq_active0")[each]:
+            continue
+        if int(kind) == COUPLED:
+            made.append(_apart(of, ids, of.equality_data(each)))
+        elif int(kind) in (CONNECT, WELD):
+            made += _between(of, int(kind), ids, int(of.model("eq_objtype")[each]) == SITE, of.equality_data(each))
+    return tuple(made)
+
+
+def _apart(of: Simulation, joints: Sequence[int], factors: Sequence[float]) -> float:
+    ways = [of.position(each) - of.model("qpos0")[int(of.model("jnt_qposadr")[each])] for each in joints if each >= 0]
+    led = sum(factor * ways[1] ** power for power, factor in enumerate(factors[:5])) if len(ways) > 1 else factors[0]
+    return ways[0] - led
+
+
+def _between(of: Simulation, kind: int, ids: Sequence[int], sited: bool, data: Sequence[float]) -> list[float]:
+    place, turn = ("site_xpos", "site_xmat") if sited else ("xpos", "xmat")
+    frames = [(of.data_row(place, each, 3), of.data_row(turn, each, 9)) for each in ids]
+    anchors = ((0.0,) * 3,) * 2 if sited else (data[:3], data[3:6]) if kind == CONNECT else (data[3:6], data[:3])
+    ends = [add(where, times(axes, anchor)) for (where, axes), anchor in zip(frames, anchors, strict=True)]
+    made = list(sub(*ends))
+    if kind == WELD:
+        one, other = (transpose(axes) for _, axes in frames)
+        size = max(of.model("stat.extent")[0], 1e-6)  # a turn weighs as much as the way that it moves the far end
+        columns = [(one[3 * i : 3 * i + 3], other[3 * j : 3 * j + 3]) for i in range(3) for j in range(3)]
+        made += [size * 0.5 * sum(x * y for x, y in zip(a, b, strict=True)) for a, b in columns]
+    return made

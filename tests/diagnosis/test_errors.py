@@ -12,7 +12,6 @@ MENDED = {  # messages that no rule mends, with the reason
     "lengthrange": "a muscle's geometry",
     "mesh-coplanar": "a mesh that is flat",
     "mesh-vertices": "a mesh of three points",
-    "cable-plugin": "a plugin that is gone",
     "unrecognized-root": "no model",
     "file-not-found": "a file that is nowhere",
     "include-not-found": "a file that is nowhere",

@@ -63,7 +63,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if model.source is not None and model.source.urdf and "parent or child missing" in said:
         yield from _links(model, model.source)
         return
-    if not SAID.search(said) or model.source is None or "attribute" in said or "element" in said or "keyword" in said:
+    if not SAID.search(said) or model.source is None or "attribute" in said or "keyword" in said:
+        return
+    if "element" in said and "unknown element '" not in said:
         return
     names = NAME.findall(said)
     every = list(model.source.root.walk())

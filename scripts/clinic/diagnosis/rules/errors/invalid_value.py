@@ -71,6 +71,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if element.get("autolimits") == "false":
             taken = (remove_attribute(element, "autolimits"),)
             yield mends(element, taken, f"{said}.", attribute="autolimits", now="false", value="none")
+    if "flex elasticity is no longer integrated" in said:
+        edits = model.option("integrator", "discrete")
+        for element in model.source.elements("option") if edits else ():
+            now = element.get("integrator")
+            yield mends(element, edits, f"{said}.", attribute="integrator", now=now, value="discrete")
+            return
     if model.source.urdf and "must be positive" in said and (negative := _negative(model)):
         element, attribute, now = negative[0]
         edits = tuple(set_attribute(each, name, MINUS.sub("", value)) for each, name, value in negative)
@@ -113,7 +119,11 @@ def _edits(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
     elif "range[0] should be 0" in said:
         yield put("range", f"0 {element.get('range').split()[-1]}")
     elif "axis too small" in said:
-        yield put("axis", "0 0 1")
+        holder = next((each for each in element.walk() if each.tag == "axis"), None)
+        if holder is not None:  # of URDF
+            yield set_attribute(holder, "xyz", "0 0 1"), holder.get("xyz", "nothing")
+        else:
+            yield put("axis", "0 0 1")
     elif re.search(r"size \d+ must be positive", said):
         sizes = [abs(float(number)) or 0.01 for number in element.get("size", "0.01").split()]
         count = int(re.findall(r"size (\d+)", said)[0])

@@ -69,6 +69,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     ill = [each for each in named if posixpath.basename(_file(each)) == base]
     if not ill:
         return
+    if (folder := _folder_of_all(model, ill[0])) is not None:
+        yield folder
+        return
     edits = [edit for element in named for edit in _moved(model, element, _called(_file(element)))]
     first = ill[0]
     if not any(each.start == first.start for each in edits):
@@ -93,6 +96,22 @@ def _directory(model: ReaderModel, element: Element) -> int:
     assert model.source is not None
     compiler = model.source.root.first("compiler")
     return compiler.start if compiler else -1
+
+
+def _folder_of_all(model: ReaderModel, element: Element) -> Suspect | None:
+    """The `meshdir` under which the file is, where `strippath` leaves nothing of the folders that are written."""
+    assert model.source is not None
+    for compiler in model.source.elements("compiler"):
+        there = _called(_file(element))
+        if compiler.get("strippath") != "true" or not there:
+            continue
+        folder = posixpath.dirname(min(there, key=len)) or "."
+        edits = (set_attribute(compiler, "meshdir", folder),)
+        now = compiler.get("meshdir")
+        if folder != now and (model.measured(COMPILES, edits) == 0 or not model.source.urdf):
+            says = f"strippath drops the folders of {_file(element)}, and the meshes are in {folder!r}."
+            return mends(compiler, edits, says, attribute="meshdir", now=now or "left out", value=folder)
+    return None
 
 
 def _moved(model: ReaderModel, element: Element, there: Sequence[str]) -> list[Edit]:

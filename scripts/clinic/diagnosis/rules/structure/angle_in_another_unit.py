@@ -29,8 +29,8 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: elements with an angle of more than a turn in radians; or whose angles in degrees are all quarters of pi.
-Of 289 healthy models none has one of the first kind.
+The number: elements with an angle of more than a turn in radians, in URDF an `rpy`, which has no other unit; or whose
+angles in degrees are all quarters of pi. Of 289 healthy models none has one of the first kind.
 
 When it is wrong: a part that is turned by 1.57 degrees.
 """
@@ -57,10 +57,11 @@ TURN, CLOSE = 2 * math.pi, 0.002  # rad
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """All angles of the other unit, together."""
-    if model.source is None or model.source.urdf:
+    if model.source is None:
         return
     radians = model.angle_unit == 1.0
-    found = {each: angles for each in model.source.elements(*TURNED) if (angles := _angles(each, radians))}
+    turned = ("origin",) if model.source.urdf else TURNED
+    found = {each: angles for each in model.source.elements(*turned) if (angles := _angles(each, radians))}
     if not found:
         return
     edits = tuple(edit for each, angles in found.items() for edit in _edits(each, angles, radians))
@@ -83,7 +84,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _angles(each: Element, radians: bool) -> dict[str, list[float]]:
     """The angles that are written in an element and belong to the other unit, with what stands beside them."""
     made = {}
-    for name, first in (("euler", 0), ("axisangle", 3)):
+    for name, first in (("euler", 0), ("axisangle", 3), ("rpy", 0)):
         try:
             numbers = [float(text) for text in each.get(name).split()]
         except ValueError:
@@ -112,5 +113,7 @@ def _edits(each: Element, angles: dict[str, list[float]], radians: bool) -> Iter
 
 
 def _name(each: Element) -> str:
+    if each.tag == "origin":  # of a joint, or of a visual, a collision or an inertial of a link
+        each = next((outer for outer in each.around() if outer.get("name")), each)
     name = each.get("name")
     return f'{each.tag} "{name}"' if name else f"<{each.tag}> of line {each.line}"

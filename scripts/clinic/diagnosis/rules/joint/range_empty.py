@@ -25,6 +25,8 @@ Good:
       </worldbody>
     </mujoco>
 
+In URDF a `<limit>` that has no lower and upper, or none at all, is the same, where another joint has a range.
+
 The number: 1 where nothing pushes the joint back from beyond its range. A point becomes the control range of the
 joint's position servo, or the range of its twin; where it has neither, it is a hint.
 
@@ -35,13 +37,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.servo import alone, servos
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.source import Element
+from clinic.diagnosis.suspect import Probe, Suspect, counted
 
 TITLE = "A range without any extent"
 FAMILIES = ("passes-limit", "stuck")
@@ -51,6 +54,7 @@ LEVEL = "hint"
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Hinges and slides with a written range that ends before it begins."""
+    yield from _urdf(model)
     simulation = model.simulation
     for joint in range(simulation.count("joint")):
         text = (model.value("joint", joint, "range") or "").split()
@@ -71,6 +75,42 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"Its range is {what}, and MuJoCo takes that for none.",
             "the lower end first",
         )
+
+
+def _urdf(model: ReaderModel) -> Iterator[Suspect]:
+    """Revolute and prismatic joints of a URDF without an upper limit above the lower one, by what is wrong."""
+    found: dict[str, list[Element]] = {}
+    bounded = False
+    root = model.source.root if model.source is not None and model.source.urdf else None
+    for joint in root.children if root is not None else ():
+        if joint.tag != "joint" or joint.get("type") not in ("revolute", "prismatic"):
+            continue
+        limit = joint.first("limit")
+        low, high = (float(limit.get(name) or "0") if limit is not None else 0.0 for name in ("lower", "upper"))
+        if limit is None or not {"lower", "upper"} & set(limit.attributes):
+            found.setdefault("left out", []).append(joint)
+        elif low >= high:
+            found.setdefault("a point" if low == high else "written from its upper end to its lower", []).append(joint)
+        else:
+            bounded = True
+    if not bounded and "written from its upper end to its lower" not in found:
+        return  # a pendulum that is meant to turn, in the words of another type
+    for what, joints in found.items():
+        limit = joints[0].first("limit")
+        now = f"{limit.get('lower')} {limit.get('upper')}".strip() if limit is not None else "left out"
+        says = f"Its range is {what}, and MuJoCo takes that for none: it goes without end, as a continuous joint does."
+        edits: tuple[Edit, ...] = ()
+        if what.startswith("written"):
+            limits = [each for joint in joints if (each := joint.first("limit")) is not None]
+            edits = tuple(
+                set_attribute(each, end, each.get(other))
+                for each in limits
+                for end, other in (("lower", "upper"), ("upper", "lower"))
+            )
+        names = tuple(f'joint "{joint.get("name")}"' for joint in joints)
+        probe = counted("joints whose range is none", len(joints))
+        healthy = 'lower below upper, or type="continuous"'
+        yield Suspect(names, "limit", now, " ".join(each.value for each in edits[:2]), edits, probe, 0.5, says, healthy)
 
 
 def _edits(model: ReaderModel, joint: int, text: list[str]) -> tuple[Edit, ...]:

@@ -33,16 +33,20 @@ Good:
       </joint>
     </robot>
 
-The number: how many such elements stand in joints, and in the inertials, visuals and collisions of links.
+The number: how many such elements stand in joints, and in the inertials, visuals and collisions of links. So is a
+`<mimic>` passed over that names a joint which is not there.
 
 When it is wrong: an element of another program, which reads it.
 """
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Iterator
 
+from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.source import Source
 from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "An element that is passed over"
@@ -64,6 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """What stands in joints and parts of links and is none of URDF's elements, by its tag."""
     if model.source is None or not model.source.urdf:
         return
+    yield from _mimics(model.source)
     found: dict[str, list[str]] = {}
     for each in model.source.root.walk():
         holder = each.parent
@@ -77,3 +82,18 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         says = f"URDF has no <{tag}> there, and it is passed over."
         probe = counted("elements that are passed over", len(holders))
         yield Suspect(tuple(holders), tag, f"<{tag}>", meant, (), probe, 0.0, says, "none")
+
+
+def _mimics(source: Source) -> Iterator[Suspect]:
+    """Joints that mimic none of the file's joints."""
+    joints = [each for each in source.root.children if each.tag == "joint"]
+    names = {each.get("name") for each in joints}
+    for joint in joints:
+        mimic = joint.first("mimic")
+        if mimic is None or mimic.get("joint") in names:
+            continue
+        now, near = mimic.get("joint"), difflib.get_close_matches(mimic.get("joint"), names - {joint.get("name")}, 1, 0)
+        says = f"No joint is called {now!r}: nothing leads it, and it moves by itself."
+        edits = tuple(set_attribute(mimic, "joint", name) for name in near)
+        told, probe = f'joint "{joint.get("name")}"', counted("followers without a leader", 1)
+        yield Suspect((told,), "joint", now, near[0] if near else "", edits, probe, 0.5, says, "a joint of the file")

@@ -87,12 +87,17 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if len(hang) > 1 or kinds != {SLIDE} or _together(of, each) <= MOST:
             continue
         element, joint = model.element("equality", each), model.element("joint", follower)
-        if element is None or joint is None:
+        axis = joint.first("axis") if joint is not None else None  # of URDF, whose <mimic> has no place of its own
+        if joint is None or (element is None and axis is None):
             continue
         turned = written([-x for x in of.row("jnt_axis", follower, 3)])
         coefficients = written([factors[0], *(-x for x in factors[1:])])
         within = lost(of, (coupling,)) <= 0.5
-        edit = set_attribute(joint, "axis", turned) if within else set_attribute(element, "polycoef", coefficients)
+        edit = set_attribute(joint, "axis", turned)
+        if axis is not None:
+            edit = set_attribute(axis, "xyz", turned)
+        elif element is not None and not within:
+            edit = set_attribute(element, "polycoef", coefficients)
         yield Suspect(
             tuple(of.name("joint", joint) for joint in (follower, leader)),
             edit.attribute,

@@ -96,7 +96,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         for body in bare:
             placed = [each for geom in of.geoms_of(body) if (each := model.element("geom", geom)) is not None]
-            if not placed or any((each.get(name) or "0") != "0" for each in placed for name in ("mass", "density")):
+            if not (placed or (model.source and model.source.urdf and of.geoms_of(body))) or any(
+                (each.get(name) or "0") != "0" for each in placed for name in ("mass", "density")
+            ):
                 continue
             mass = of.model("body_mass")[body]
             others = len(jointed) - len(bare)

@@ -46,6 +46,9 @@ Good:
 The number: bodies that are called a wheel, caster, tyre, foot, finger, pad, jaw or claw, that have geoms and none which
 collides, nor has what hangs on them, while other parts of the same robot collide.
 
+So is a geom of the world that is called a floor, ground, terrain, table, step, stair, ramp or wall, has masks of zero,
+and has nothing around it that stands still and collides, where others of the world collide or nothing does.
+
 When it is wrong: parts that another geom stands in for, such as a sphere of the calf for the foot.
 """
 
@@ -54,7 +57,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.shape import root_of, solid
+from clinic.diagnosis.engine import PLANE
+from clinic.diagnosis.probes.shape import box, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -71,12 +75,16 @@ PART = re.compile(
     re.IGNORECASE,
 )
 
+GROUND = re.compile(r"(?<![a-z])(floor|ground|terrain|table|step|stair|ramp|wall)s?(?![a-z])", re.IGNORECASE)
+SEEN = re.compile(r"visual|(?<![a-z])vis(?![a-z])|light|marker|line|goal|target|shadow", re.IGNORECASE)
+CONTACT, THIN = 1 << 4, 0.01  # mjtDisableBit; m
 CASTER = re.compile(r"caster|castor", re.IGNORECASE)
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The parts by name that do not collide, all together."""
     of = model.simulation
+    yield from _ground(model)
     found = _bare(of)
     if not found:
         return
@@ -88,6 +96,55 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield Suspect(
         names, "contype, conaffinity", masks, "1, 1", (), probe, 0, says, "a geom that collides", level="hint"
     )  # fmt: skip
+
+
+def _ground(model: ReaderModel) -> Iterator[Suspect]:
+    """What is called a floor, a table or a step and cannot be touched, all together."""
+    of = model.simulation
+    if int(of.model("opt.disableflags")[0]) & CONTACT or not of.free_bodies:
+        return
+    found = _untouched(of)
+    if not found:
+        return
+    names = tuple(of.name("geom", geom) for geom in found)
+    says = f"{names[0]} touches nothing, and nothing in its place does."
+    masks = ", ".join(f"{int(of.model(f'geom_{mask}')[found[0]])}" for mask in ("contype", "conaffinity"))
+    edits = model.set("geom", found, "contype", "1") + model.set("geom", found, "conaffinity", "1")
+    probe = Probe("floors, tables and steps that nothing touches", "", _count_ground, (), dynamic=False)
+    yield Suspect(names, "contype, conaffinity", masks, "1, 1", edits, probe, 0, says, "a geom that collides")
+
+
+def _count_ground(of: Simulation) -> float:
+    return float(len(_untouched(of)))
+
+
+def _untouched(of: Simulation) -> list[int]:
+    of.begin()
+    bodies, moving, kinds = of.model("geom_bodyid"), set(of.moving_bodies), of.model("geom_type")
+    still = [
+        geom for geom, body in enumerate(bodies) if int(body) not in moving and of.model("body_mocapid")[int(body)] < 0
+    ]
+    paired = {int(geom) for side in (1, 2) for geom in of.model(f"pair_geom{side}")}
+    solids = [geom for geom in still if solid(of, geom) or geom in paired]
+    geoms, names = of.names("geom"), of.names("body")
+    found = []
+    for geom in still:
+        called = f"{geoms[geom]} {names[int(bodies[geom])] if bodies[geom] else ''}"
+        if geom in solids or int(kinds[geom]) == PLANE or not GROUND.search(called) or SEEN.search(called):
+            continue
+        if of.row("geom_rgba", geom, 4)[3] >= 1 and not any(_around(of, each, geom) for each in solids):
+            found.append(geom)
+    return found
+
+
+def _around(of: Simulation, solid_: int, geom: int) -> bool:
+    """Whether something that collides reaches into the box around a geom; a plane does where it is not far below."""
+    positions, axes = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat"))
+    place, half = box(of, positions, axes, geom)
+    if int(of.model("geom_type")[solid_]) == PLANE:
+        return abs(place[2] + half[2] - positions[3 * solid_ + 2]) < THIN
+    there, extent = box(of, positions, axes, solid_)
+    return all(abs(a - b) < c + d - THIN for a, b, c, d in zip(place, there, half, extent, strict=True))
 
 
 def _count(simulation: Simulation) -> float:

@@ -32,7 +32,8 @@ Good:
     </mujoco>
 
 The number: driven for 2 s with all that its actuators give, without gravity and contacts, more than 80 % of the way to
-1 rad (0.1 m), or to the far limit, is left.
+1 rad (0.1 m), or to the far limit, is left. In a URDF, whose efforts no actuator gives yet, friction above the effort,
+or damping above it at half a rad/s (m/s), is told.
 
 When it is wrong: a brake, or a worm gear that is meant to hold.
 """
@@ -95,6 +96,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "full force that reaches 1 rad/s and more",
         )
     yield from _hung(model)
+    yield from _beyond_effort(model)
 
 
 def _hung(model: ReaderModel) -> Iterator[Suspect]:
@@ -117,6 +119,35 @@ def _hung(model: ReaderModel) -> Iterator[Suspect]:
             f"{loads(simulation)[simulation.dof(joint)]:.3g} N m (N) at most, does not move it.",
             "a joint that swings where nothing drives it",
         )
+
+
+def _beyond_effort(model: ReaderModel) -> Iterator[Suspect]:
+    """Joints of a URDF whose `<dynamics>` resists more than their effort gives, all together by what resists."""
+    if model.source is None or not model.source.urdf or model.simulation.count("actuator"):
+        return
+    of = model.simulation
+    for attribute, resists in (("damping", SLOW), ("frictionloss", 1.0)):
+        found = [joint for joint in range(of.count("joint")) if _beyond(of, attribute, joint) * resists > 1]
+        if not found:
+            continue
+        now, effort = of.model(f"dof_{attribute}")[of.dof(found[0])], of.row("jnt_actfrcrange", found[0], 2)[1]
+        edits = model.set("joint", found, attribute, f"{effort / 10:.2g}")
+        names = tuple(of.name("joint", joint) for joint in found)
+        what = "at 1 rad/s (m/s)" if attribute == "damping" else "before it moves"
+        says = f"The {attribute} of {names[0]} takes {now:.3g} N m (N) {what}, and its effort is {effort:.3g}."
+        probe = Probe("what resists over the effort", "", _most_beyond, (attribute, *found), dynamic=False)
+        yield Suspect(names, attribute, f"{now:.3g}", "", edits, probe, 1 / resists, says, "below the effort")
+
+
+def _beyond(of: Simulation, attribute: str, joint: int) -> float:
+    effort = of.row("jnt_actfrcrange", joint, 2)[1]
+    if of.joint_type(joint) not in (HINGE, SLIDE) or not of.model("jnt_actfrclimited")[joint] or effort <= 0:
+        return 0.0
+    return of.model(f"dof_{attribute}")[of.dof(joint)] / effort
+
+
+def _most_beyond(of: Simulation, attribute: str, *joints: int) -> float:
+    return max(_beyond(of, attribute, joint) for joint in joints)
 
 
 def _held(simulation: Simulation) -> dict[int, float]:

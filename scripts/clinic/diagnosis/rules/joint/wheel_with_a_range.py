@@ -1,0 +1,104 @@
+"""A wheel's joint has a range, and the wheel stops after a turn.
+
+`type="revolute"` with limits of 3.14 in a URDF, or a default class of the arm's joints that reaches the wheels.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="5 5 0.1"/>
+        <body name="car" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.03"/>
+          <body name="left_wheel" pos="0 0.15 0">
+            <joint axis="0 1 0" range="-180 180"/>
+            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="5 5 0.1"/>
+        <body name="car" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.03"/>
+          <body name="left_wheel" pos="0 0.15 0">
+            <joint axis="0 1 0"/>
+            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: how many turns the range lets a wheel make, at most 4; a wheel is a body or joint that is called so, with a
+level hinge through the middle of its geoms.
+
+When it is wrong: a steering wheel, or a wheel that is to turn but a little.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.probes.vector import add, norm, times
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Suspect, counted
+
+TITLE = "A wheel with a range"
+FAMILIES = ("stuck", "drifts")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "nearly no healthy model stands on wheels"
+
+WHEEL = re.compile(r"wheel|tyre|tire(?![a-z])", re.IGNORECASE)
+OTHER = re.compile(r"steer|swivel|fork|yaw|susp|camber|arm|pivot|hand|prism|valve", re.IGNORECASE)
+TURNS, LEVEL_ENOUGH, MIDDLE = 4.0, 0.3, 0.1
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """All wheels whose hinge has a range of a few turns."""
+    of = model.simulation
+    of.begin()
+    found = [joint for joint in range(of.count("joint")) if _wheel(of, joint)]
+    if not found:
+        return
+    low, high = of.row("jnt_range", found[0], 2)
+    names = tuple(of.name("joint", joint) for joint in found)
+    says = f"{names[0]} lets its wheel turn from {low:.3g} to {high:.3g} rad and no farther."
+    edits = model.set("joint", found, "limited", "false")
+    if model.source is not None and model.source.urdf:
+        placed = [each for joint in found if (each := model.element("joint", joint)) is not None]
+        edits = tuple(set_attribute(each, "type", "continuous") for each in placed)
+    probe = counted("wheels that a range stops", len(found))
+    yield Suspect(names, "range", f"{low:.3g} {high:.3g}", "none", edits, probe, 0.5, says, "a wheel without a range")
+
+
+def _wheel(of: Simulation, joint: int) -> bool:
+    body = int(of.model("jnt_bodyid")[joint])
+    name = f"{of.names('joint')[joint]} {of.names('body')[body]}"
+    if of.joint_type(joint) != HINGE or not of.model("jnt_limited")[joint] or not WHEEL.search(name):
+        return False
+    low, high = of.row("jnt_range", joint, 2)
+    level = abs(of.data_row("xaxis", joint, 3)[2]) < LEVEL_ENOUGH
+    return not OTHER.search(name) and high - low < TURNS * 2 * math.pi and level and _round_about(of, joint, body)
+
+
+def _round_about(of: Simulation, joint: int, body: int) -> bool:
+    """Whether a geom of the body has its middle on the hinge."""
+    anchor, axis = of.data_row("xanchor", joint, 3), of.data_row("xaxis", joint, 3)
+    for geom in of.geoms_of(body):
+        middle = times(of.data_row("geom_xmat", geom, 9), of.row("geom_aabb", geom, 6)[:3])
+        off = add(add(of.data_row("geom_xpos", geom, 3), middle), anchor, -1)
+        along = sum(a * b for a, b in zip(off, axis, strict=True))
+        if norm(add(off, axis, -along)) < MIDDLE * of.model("geom_rbound")[geom]:
+            return True
+    return False

@@ -1,0 +1,124 @@
+"""A drawer, or another slide that nothing drives, leaves what carries it.
+
+Its range is longer than its guide, is in millimetres, or is missing: pulled out, it hangs in the air.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="cabinet" pos="0 0 0.5">
+          <geom type="box" size="0.2 0.2 0.01" pos="0 0 -0.1"/>
+          <body name="drawer">
+            <joint type="slide" axis="1 0 0" range="0 35" damping="5"/>
+            <geom type="box" size="0.18 0.18 0.05" mass="1"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="cabinet" pos="0 0 0.5">
+          <geom type="box" size="0.2 0.2 0.01" pos="0 0 -0.1"/>
+          <body name="drawer">
+            <joint type="slide" axis="1 0 0" range="0 0.3" damping="5"/>
+            <geom type="box" size="0.18 0.18 0.05" mass="1"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the gap, along the slide, between what moves and the body that carries it where the range ends, in lengths
+of what moves, told from 0 on; for a slide without a range, whether its body is called a drawer, a tray or a door.
+
+When it is wrong: a carriage on a rail that is not drawn.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import HFIELD, PLANE, SLIDE
+from clinic.diagnosis.probes.shape import box
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A slide that leaves its guide"
+FAMILIES = ("passes-limit", "drifts", "falls-through")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "few healthy models have drawers"
+
+GUIDED = re.compile(r"drawer|tray|(?<![a-z])door|shelf|lid(?![a-z])", re.IGNORECASE)
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The slides that leave the body which carries them, each."""
+    of = model.simulation
+    parents, bodies, names = of.model("body_parentid"), of.model("jnt_bodyid"), of.names("body")
+    driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
+    for joint in range(of.count("joint")):
+        body = int(bodies[joint])
+        if of.joint_type(joint) != SLIDE or not parents[body] or joint in driven or len(of.joints_of(body)) > 1:
+            continue
+        if of.count("tendon") or _gap(of, joint, at_start=True) > 0:
+            continue
+        named = bool(GUIDED.search(f"{names[body]} {of.names('joint')[joint]}"))
+        if not of.model("jnt_limited")[joint]:
+            if named:
+                says = "It has no range: nothing stops it at either end."
+                probe = Probe("1 where no range stops it", "", _unlimited, (joint,), dynamic=False)
+                told = (of.name("joint", joint), of.name("body", body))
+                yield Suspect(told, "range", "left out", "", (), probe, 0.5, says, "a range within its guide")
+        elif (gap := _gap(of, joint)) > 0:
+            low, high = of.row("jnt_range", joint, 2)
+            guide = of.name("body", int(parents[body]))
+            says = f"Where its range ends it is {gap:.3g} times its own length out of {guide}."
+            probe = Probe("gap to what carries it at the end of its range", "lengths", _gap, (joint,), dynamic=False)
+            told = (of.name("joint", joint), of.name("body", body))
+            yield Suspect(told, "range", f"{low:.3g} {high:.3g}", "", (), probe, 0.0, says, "a range within its guide")
+
+
+def _unlimited(of: Simulation, joint: int) -> float:
+    return float(not of.model("jnt_limited")[joint])
+
+
+def _gap(of: Simulation, joint: int, *, at_start: bool = False) -> float:
+    """How far what slides is from the body that carries it at the worse end of its range, in its own lengths."""
+    of.begin()
+    body = int(of.model("jnt_bodyid")[joint])
+    parent = int(of.model("body_parentid")[body])
+    axis, now = of.data_row("xaxis", joint, 3), of.position(joint)
+    mine, guide = _extent(of, _below(of, body), axis), _extent(of, [parent], axis)
+    if mine is None or guide is None:
+        return -1.0
+    gaps = []
+    for end in (now, now) if at_start else of.row("jnt_range", joint, 2):
+        low, high = (each + end - now for each in mine)
+        gaps.append(max(low - guide[1], guide[0] - high) / max(mine[1] - mine[0], 1e-9))
+    return max(gaps)
+
+
+def _below(of: Simulation, body: int) -> list[int]:
+    """A body and all that hangs on it."""
+    parents, made = of.model("body_parentid"), [body]
+    for each in range(body + 1, of.count("body")):
+        if int(parents[each]) in made and each not in made:
+            made.append(each)
+    return made
+
+
+def _extent(of: Simulation, bodies: list[int], axis: tuple[float, ...]) -> tuple[float, float] | None:
+    """From where to where the geoms of bodies reach along a direction."""
+    positions, axes, kinds = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat")), of.model("geom_type")
+    ends = []
+    for geom in (geom for body in bodies for geom in of.geoms_of(body) if int(kinds[geom]) not in (PLANE, HFIELD)):
+        place, half = box(of, positions, axes, geom)
+        middle = sum(a * b for a, b in zip(place, axis, strict=True))
+        reach = sum(abs(a) * b for a, b in zip(axis, half, strict=True))
+        ends += [middle - reach, middle + reach]
+    return (min(ends), max(ends)) if ends else None

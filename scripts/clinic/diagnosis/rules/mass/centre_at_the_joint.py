@@ -1,0 +1,109 @@
+"""The centre of mass of a link is put into its joint: the place of the `<inertial>` was left out.
+
+An `<inertial>` of URDF without `<origin>`, or with `pos="0 0 0"` in MJCF, has its centre where the joint is. Gravity
+does not turn such a link, and its inertia about the joint is too small.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="upper" pos="0 0 1">
+          <joint axis="0 1 0"/>
+          <inertial pos="0 0 0.15" mass="1" diaginertia="0.008 0.008 0.0005"/>
+          <geom type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
+          <body name="fore" pos="0 0 0.3">
+            <joint axis="0 1 0"/>
+            <inertial pos="0 0 0" mass="1" diaginertia="0.008 0.008 0.0005"/>
+            <geom type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
+            <body name="hand" pos="0 0 0.3">
+              <joint axis="0 1 0"/>
+              <inertial pos="0 0 0.05" mass="0.3" diaginertia="0.0005 0.0005 0.0002"/>
+              <geom type="capsule" fromto="0 0 0 0 0 0.1" size="0.03"/>
+            </body>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="upper" pos="0 0 1">
+          <joint axis="0 1 0"/>
+          <inertial pos="0 0 0.15" mass="1" diaginertia="0.008 0.008 0.0005"/>
+          <geom type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
+          <body name="fore" pos="0 0 0.3">
+            <joint axis="0 1 0"/>
+            <inertial pos="0 0 0.15" mass="1" diaginertia="0.008 0.008 0.0005"/>
+            <geom type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
+            <body name="hand" pos="0 0 0.3">
+              <joint axis="0 1 0"/>
+              <inertial pos="0 0 0.05" mass="0.3" diaginertia="0.0005 0.0005 0.0002"/>
+              <geom type="capsule" fromto="0 0 0 0 0 0.1" size="0.03"/>
+            </body>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: how far the middle of the geoms is from the joint, in half lengths of the box around them; told from 0.7 on
+of one link that a hinge turns, where no other is so. Of two it may be a habit: the URDF of the UR10 has two.
+
+When it is wrong: a link that a counterweight balances.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.probes.inertia import set_inertial
+from clinic.diagnosis.probes.matter import explicit, matter
+from clinic.diagnosis.probes.vector import norm, sub, written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A centre of mass in the joint"
+FAMILIES = ("wrong-mass", "sags", "drifts")
+SINCE = "0.1"
+AFLOAT = True
+LEVEL = "hint"
+UNPLANTED = "which link a counterweight balances, only its maker knows"
+
+FAR = 0.7
+LIGHT = 0.01  # of the mass of all
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Jointed links with the centre of mass at their origin and the geoms beside it, where the others' is elsewhere."""
+    of = model.simulation
+    all_mass = sum(of.model("body_mass")[body] for body in of.moving_bodies)
+    heavy = [(body, each) for body, each in explicit(model) if each.mass > LIGHT * all_mass and _turns(of, body)]
+    here = [(body, each) for body, each in heavy if not any(each.centre)]
+    found = [(body, each) for body, each in here if norm(each.solid_centre) > FAR * max(each.half)]
+    if len(found) != 1 or len(heavy) - len(here) < 2:
+        return
+    for body, each in found:
+        far = norm(each.solid_centre)
+        yield Suspect(
+            (of.name("body", body),),
+            "inertial",
+            "pos 0 0 0",
+            f"pos {written(each.solid_centre)}",
+            set_inertial(model, body, each.mass, each.solid_centre, each.about),
+            Probe("middle of the geoms from the centre of mass", "half lengths", _apart, (body,), dynamic=False),
+            FAR,
+            f"{each.mass:.3g} kg lie in its joint, and the middle of its geoms {far:.3g} m from there.",
+            "where the geoms are",
+        )
+
+
+def _turns(of: Simulation, body: int) -> bool:
+    return any(of.joint_type(joint) == HINGE for joint in of.joints_of(body))
+
+
+def _apart(of: Simulation, body: int) -> float:
+    found = matter(of, body)
+    return norm(sub(found.solid_centre, found.centre)) / max(found.half) if found is not None else 0.0

@@ -1,0 +1,110 @@
+"""A link lies far from what it hangs on: its position is in millimetres or centimetres.
+
+The meshes were scaled and the places of the joints were not, or one number of one body lacks its point.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="upper" pos="0 0 1">
+          <joint axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
+          <body name="fore" pos="0 0 300">
+            <joint axis="0 1 0"/>
+            <geom type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="upper" pos="0 0 1">
+          <joint axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
+          <body name="fore" pos="0 0 0.3">
+            <joint axis="0 1 0"/>
+            <geom type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: how far a body with a joint is from the body that it hangs on, in sizes (radii of the largest geom) of its
+mechanism; told from 20 on.
+
+When it is wrong: a carriage on a long cable that is not drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.engine import HFIELD, PLANE
+from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.vector import norm, written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A link far from what it hangs on"
+FAMILIES = ("sags", "jumps-at-start", "wrong-numbers")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "where a link belongs, only a drawing tells"
+
+FAR = 20.0
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """All bodies with a joint that are far from their parent."""
+    of = model.simulation
+    found = [body for body in _hung(model) if _apart(of, body) > FAR]
+    if not found:
+        return
+    place = of.row("body_pos", found[0], 3)
+    scaled = 1e-3 if max(map(abs, place)) > 20 else 1e-2
+    edits = tuple(edit for body in found for edit in _scaled(model, body, scaled))
+    names = tuple(of.name("body", body) for body in found)
+    says = (
+        f"It is {norm(place):.3g} m from what it hangs on, {_apart(of, found[0]):.3g} times the largest part's radius."
+    )
+    probe = Probe("distance from what it hangs on", "of the largest radius", _farthest, tuple(found), dynamic=False)
+    value = written([scaled * x for x in place])
+    yield Suspect(names, "pos", written(place), value, edits, probe, FAR, says, "below 20")
+
+
+def _hung(model: ReaderModel) -> list[int]:
+    """The bodies with joints that hang on another body; in a URDF, whose root is the world, all."""
+    of, urdf = model.simulation, model.source is not None and model.source.urdf
+    return [body for body in of.moving_bodies if of.joints_of(body) and (urdf or of.model("body_parentid")[body])]
+
+
+def _scaled(model: ReaderModel, body: int, times: float) -> Iterator[Edit]:
+    of = model.simulation
+    place = written([times * x for x in of.row("body_pos", body, 3)])
+    if model.source is not None and model.source.urdf:
+        joint = model.element("joint", of.joints_of(body)[0])
+        origin = joint.first("origin") if joint is not None else None
+        if origin is not None:
+            yield set_attribute(origin, "xyz", place)
+    elif (element := model.element("body", body)) is not None:
+        yield set_attribute(element, "pos", place)
+
+
+def _apart(of: Simulation, body: int) -> float:
+    """How far a body is from its parent, in radii of the largest geom of its mechanism."""
+    owner, bodies, kinds = root_of(of), of.model("geom_bodyid"), of.model("geom_type")
+    radii = [
+        radius
+        for geom, radius in enumerate(of.model("geom_rbound"))
+        if int(kinds[geom]) not in (PLANE, HFIELD) and owner[int(bodies[geom])] in (0, owner[body])
+    ]
+    return norm(of.row("body_pos", body, 3)) / max(radii) if radii and max(radii) > 0 else 0.0
+
+
+def _farthest(of: Simulation, *bodies: int) -> float:
+    return max(_apart(of, body) for body in bodies)

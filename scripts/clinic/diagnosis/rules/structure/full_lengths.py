@@ -1,0 +1,108 @@
+"""A box stands half in the ground: its size has full lengths.
+
+The `size` of a box, and the second one of a cylinder, are half lengths in MuJoCo. Written in full, a box that was
+meant to stand on the floor is twice as large, and a quarter of it is below the floor.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="5 5 0.1"/>
+        <geom name="step" type="box" size="0.3 1.2 0.1" pos="0.65 0 0.05"/>
+        <body pos="0 0 1">
+          <freejoint/>
+          <geom size="0.1"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="5 5 0.1"/>
+        <geom name="step" type="box" size="0.15 0.6 0.05" pos="0.65 0 0.05"/>
+        <body pos="0 0 1">
+          <freejoint/>
+          <geom size="0.1"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: upright boxes and cylinders whose middle is as high above a plane, or above the box that they stand on, as a
+half of their half height: with half the size they would stand on it.
+
+When it is wrong: a box that is to be sunk by exactly so much.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.engine import BOX, CYLINDER, PLANE
+from clinic.diagnosis.probes.shape import solid
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Suspect, counted
+
+TITLE = "A size with full lengths"
+FAMILIES = ("jumps-at-start", "explodes", "wrong-numbers")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "how large a box should be, only its maker knows"
+
+NEAR, LOOSE, UPRIGHT = 0.01, 0.06, 0.999  # of the half height, for what stands still and for what may fall
+FALLS = 0.003  # m that what may fall is put above what it stands on
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """All boxes and cylinders that would stand on something with half their size."""
+    of = model.simulation
+    of.begin()
+    found = [geom for geom in range(of.count("geom")) if _sunk(of, geom)]
+    placed = [(geom, element) for geom in found if (element := model.element("geom", geom)) is not None]
+    placed = [(geom, element) for geom, element in placed if element.get("size") and not element.get("fromto")]
+    if not placed:
+        return
+    edits, names = [], tuple(of.name("geom", geom) for geom, _ in placed)
+    for geom, element in placed:
+        sizes = [float(word) for word in element.get("size").split()]
+        round_ = int(of.model("geom_type")[geom]) == CYLINDER
+        halves = [size if round_ and not index else size / 2 for index, size in enumerate(sizes)]
+        edits.append(set_attribute(element, "size", " ".join(f"{size:.6g}" for size in halves)))
+    says = "A size is half a length, and with half of it it would stand on what it is sunk into."
+    now, probe = placed[0][1].get("size"), counted("boxes that are sunk by half their half height", len(placed))
+    yield Suspect(names, "size", now, edits[0].value, tuple(edits), probe, 0.5, says, "half lengths")
+
+
+def _sunk(of: Simulation, geom: int) -> bool:
+    """Whether a geom's middle is half its half height above what is below it."""
+    kind, height = int(of.model("geom_type")[geom]), of.row("geom_size", geom, 3)
+    half = height[1] if kind == CYLINDER else height[2]
+    if kind not in (BOX, CYLINDER) or not solid(of, geom) or of.data_row("geom_xmat", geom, 9)[8] < UPRIGHT:
+        return False
+    body = int(of.model("geom_bodyid")[geom])
+    moves = body in of.moving_bodies
+    if moves and (body not in of.free_bodies or len(of.geoms_of(body)) != 1):
+        return False
+    wrong = LOOSE * half if moves else NEAR * half
+    over = FALLS if moves else 0.0
+    return any(-wrong < above - half / 2 < wrong + over for above in _above(of, geom, body))
+
+
+def _above(of: Simulation, geom: int, body: int) -> Iterator[float]:
+    """How high the middle of a geom is above the planes and the boxes below it that stand still."""
+    kinds, bodies, moving = of.model("geom_type"), of.model("geom_bodyid"), of.moving_bodies
+    place = of.data_row("geom_xpos", geom, 3)
+    for other, kind in enumerate(kinds):
+        if int(kind) not in (PLANE, BOX) or other == geom or not solid(of, other) or int(bodies[other]) in moving:
+            continue
+        there, up = of.data_row("geom_xpos", other, 3), of.data_row("geom_xmat", other, 9)[8]
+        if up < UPRIGHT or (int(bodies[other]) == body and body):
+            continue
+        sizes = of.row("geom_size", other, 3)
+        if int(kind) == PLANE:
+            yield place[2] - there[2]
+        elif body in moving and all(abs(place[axis] - there[axis]) < sizes[axis] for axis in (0, 1)):
+            yield place[2] - there[2] - sizes[2]

@@ -1,0 +1,88 @@
+"""A cloth, rope or soft body has nothing that holds it together.
+
+A `<flexcomp>` without `<edge equality="true"/>` and without elasticity is a swarm of points: it falls to dust. For a
+cloth (dimension 2), `young` acts only with `elastic2d`, which is `none` by default.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <flexcomp name="towel" type="grid" dim="2" count="4 4 1" spacing="0.1 0.1 0.1" pos="0 0 1" radius="0.01">
+          <edge damping="0.1"/>
+        </flexcomp>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <flexcomp name="towel" type="grid" dim="2" count="4 4 1" spacing="0.1 0.1 0.1" pos="0 0 1" radius="0.01">
+          <edge damping="0.1" equality="true"/>
+        </flexcomp>
+      </worldbody>
+    </mujoco>
+
+The number: flexcomps that move and have no equality, no stiffness of their edges, no elasticity and no plugin.
+
+When it is wrong: grains that are meant to be loose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit, insert, set_attribute
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.source import Element, Source
+from clinic.diagnosis.suspect import Suspect, counted
+
+TITLE = "A flex that nothing holds together"
+FAMILIES = ("explodes", "falls-through", "sags")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "no healthy model with a flex is planted with faults"
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Flexcomps of loose points, each."""
+    if model.source is None or not any(model.simulation.model("opt.gravity")):
+        return
+    for flex in model.source.elements("flexcomp"):
+        if flex.get("rigid") == "true" or _held(model.source, flex):
+            continue
+        elastic = flex.first("elasticity")
+        flat = flex.get("dim", "2") == "2" and elastic is not None and elastic.get("young", "0") != "0"
+        edits: tuple[Edit, ...]
+        if flat and elastic is not None:
+            says = (
+                "young acts on a flex of dimension 2 only with elastic2d, which is none by default: points fall apart."
+            )
+            attribute, now, value = "elastic2d", elastic.get("elastic2d", "left out"), "both"
+            edits = (set_attribute(elastic, attribute, value),)
+        else:
+            says = "Its edges have no equality and no stiffness, and it has no elasticity: its points fall apart."
+            attribute, now, value = "equality", "left out", "true"
+            edge = flex.first("edge")
+            edits = (
+                insert(flex, '<edge equality="true"/>') if edge is None else set_attribute(edge, "equality", "true"),
+            )
+        name = f'flexcomp "{flex.get("name")}"'
+        probe = counted("flexes of loose points", 1)
+        yield Suspect((name,), attribute, now, value, edits, probe, 0.5, says, "edges or elasticity that hold it")
+
+
+def _held(source: Source, flex: Element) -> bool:
+    """Whether anything holds the points of a flexcomp to each other."""
+    edge, elastic = flex.first("edge"), flex.first("elasticity")
+    if flex.first("plugin") is not None or any(flex.get("name") in each.attributes.values() for each in _equal(source)):
+        return True
+    if edge is not None and (edge.get("equality", "false") != "false" or float(edge.get("stiffness") or "0") > 0):
+        return True
+    if elastic is None or float(elastic.get("young") or "0") <= 0:
+        return False
+    return flex.get("dim", "2") != "2" or elastic.get("elastic2d", "none") != "none"
+
+
+def _equal(source: Source) -> Iterator[Element]:
+    return (each for each in source.section("equality") if each.tag.startswith("flex"))

@@ -1,0 +1,112 @@
+"""A keyframe puts the robot into the air, from where it falls.
+
+The height of another robot's pose, or of one in millimetres, while the model itself starts on the floor.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <body name="robot" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.1"/>
+        </body>
+      </worldbody>
+      <keyframe>
+        <key name="home" qpos="0 0 100 1 0 0 0"/>
+      </keyframe>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <body name="robot" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.1"/>
+        </body>
+      </worldbody>
+      <keyframe>
+        <key name="home" qpos="0 0 0.1 1 0 0 0"/>
+      </keyframe>
+    </mujoco>
+
+The number: how far the lowest geom of the one free robot is above the planes at the keyframe, in sizes of the robot;
+told from 1 on, where it starts at less than a quarter without the keyframe.
+
+When it is wrong: a drop or a flight, if its name does not say so.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.engine import HFIELD, PLANE
+from clinic.diagnosis.probes.key import reordered, start_at
+from clinic.diagnosis.probes.shape import box
+from clinic.diagnosis.probes.vector import written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A keyframe is in the air"
+FAMILIES = ("jumps-at-start", "falls-through")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "from where a robot should fall, only intent knows"
+
+HIGH, LOW = 1.0, 0.25  # sizes of the robot
+MEANT = re.compile(r"jump|air|fly|flight|drop|fall|hover|high|above|take", re.IGNORECASE)
+SITE = 4  # mjtTrn
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Keyframes of one free robot that begin far above the planes."""
+    of = model.simulation
+    flies = any(int(kind) == SITE for kind in of.model("actuator_trntype")) or of.model("opt.gravity")[2] >= 0
+    if len(of.free_bodies) != 1 or flies or (not of.count("key") or _gap(of, -1) > LOW):
+        return
+    height = int(of.model("jnt_qposadr")[of.joints_of(of.free_bodies[0])[0]]) + 2
+    for key, name in enumerate(of.names("key")):
+        gap, element = _gap(of, key), model.element("key", key)
+        if gap <= HIGH or element is None or MEANT.search(name) or reordered(model, key):
+            continue
+        start_at(of, key)
+        qpos = list(of.data("qpos"))
+        now, lower = qpos[height], gap * _size(of)
+        qpos[height] = now - lower
+        probe = Probe("height above the floor at the keyframe", "sizes of the robot", _gap, (key,), dynamic=False)
+        says = f"At the keyframe {of.name('body', of.free_bodies[0])} begins {lower:.3g} m above the floor, and falls."
+        edits = (set_attribute(element, "qpos", written(qpos)),)
+        told, value = (of.name("key", key),), f"height {qpos[height]:.4g}"
+        yield Suspect(told, "qpos", f"height {now:.4g}", value, edits, probe, HIGH, says, "on the floor")
+
+
+def _gap(of: Simulation, key: int) -> float:
+    """How high the lowest moving geom is above the highest plane below it, in sizes of the robot; 0 without a plane."""
+    start_at(of, key)
+    kinds, bodies, moving = of.model("geom_type"), of.model("geom_bodyid"), set(of.moving_bodies)
+    planes = [of.data_row("geom_xpos", geom, 3)[2] for geom, kind in enumerate(kinds) if int(kind) == PLANE]
+    low = min((_ends(of, geom)[0] for geom, body in enumerate(bodies) if int(body) in moving), default=0.0)
+    below = [height for height in planes if height <= low]
+    if not below or any(int(kind) == HFIELD for kind in kinds):
+        return 0.0
+    return (low - max(below)) / max(_size(of), 1e-9)
+
+
+def _size(of: Simulation) -> float:
+    """How tall the moving geoms together are, at least as much as the largest of them."""
+    bodies, moving = of.model("geom_bodyid"), set(of.moving_bodies)
+    ends = [(_ends(of, geom), of.model("geom_rbound")[geom]) for geom, body in enumerate(bodies) if int(body) in moving]
+    if not ends:
+        return 0.0
+    tall = max(end[1] for end, _ in ends) - min(end[0] for end, _ in ends)
+    return max(tall, *(radius for _, radius in ends))
+
+
+def _ends(of: Simulation, geom: int) -> tuple[float, float]:
+    place, half = box(of, tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat")), geom)
+    return place[2] - half[2], place[2] + half[2]

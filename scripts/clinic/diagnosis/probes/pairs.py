@@ -22,6 +22,8 @@ SIDES = {"l": "r", "fl": "fr", "hl": "hr", "bl": "br", "ml": "mr", "rl": "rr"} |
 WORDS = (("left", "right"), ("Left", "Right"), ("LEFT", "RIGHT"))
 EXCHANGED = {"l": "r", "r": "l", "L": "R", "R": "L"}
 TOKEN = re.compile(r"[A-Z](?=[A-Z][a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
+FIRST_FINGER = re.compile(r"(?<![a-z])ff(?![a-z])", re.IGNORECASE)  # beside it lf and rf are the little and ring finger
+LITTLE_FINGER, RING_FINGER = (re.compile(rf"(?<![a-z]){name}(?![a-z])", re.IGNORECASE) for name in ("lf", "rf"))
 KINDS = ("body", "joint", "geom", "site", "camera", "actuator", "sensor")
 SYMMETRIC = 0.85  # of the points fit their image: the parts are meant to be mirrored
 SAME, UNTURNED = 1e-3, 2.9  # m or quaternion's length that tells a copy; trace of a turn by 18 degrees
@@ -265,8 +267,11 @@ def _by_name(simulation: Simulation, kind: str) -> list[tuple[int, int]]:
     places = {name: index for index, name in enumerate(names) if name}
     made: list[tuple[int, int]] = []
     used: set[int] = set()
+    hand = any(FIRST_FINGER.search(name) for name in names)
     for index, name in enumerate(names):
         right = next((places[other] for other in right_of(name) if other in places), None) if name else None
+        if right is not None and hand and RING_FINGER.search(names[right]) and LITTLE_FINGER.search(name):
+            continue
         if right is not None and not used & {index, right}:
             made.append((index, right))
             used |= {index, right}

@@ -187,7 +187,28 @@ class Twins(Pairs):
         if angle < 30:
             yield pair("limited", 100 * (limited[0] != limited[1]), 1)
             if all(limited):
-                yield pair("range", _intervals(of.row("jnt_range", left, 2), of.row("jnt_range", right, 2), sign), 10)
+                unlike = _intervals(of.row("jnt_range", left, 2), of.row("jnt_range", right, 2), sign)
+                yield pair("range", 0.0 if self._crossed(left, right) else unlike, 10)
+
+    def _crossed(self, left: int, right: int) -> bool:
+        """Whether a slide is the image of its twin's neighbour: both hands have finger a on the same side."""
+        of, parents, owners = self.of, self.of.model("body_parentid"), self.of.model("jnt_bodyid")
+        hands = [int(parents[int(owners[joint])]) for joint in (left, right)]
+        if of.joint_type(left) != SLIDE or hands[0] == hands[1]:
+            return False
+        beside = [each for each in self.pairs["joint"] if [int(parents[int(owners[one])]) for one in each] == hands]
+        for other in beside:
+            crosses = (left, other[1]), (other[0], right)
+            slides = other != (left, right) and all(of.joint_type(joint) == SLIDE for joint in other)
+            if slides and all(self._mirrored(*cross) for cross in crosses):
+                return True
+        return False
+
+    def _mirrored(self, left: int, right: int) -> bool:
+        """Whether axis and range of a joint are the image of another's."""
+        sign, angle = self.joint_sign(left, right)
+        ranges = [self.of.row("jnt_range", joint, 2) for joint in (left, right)]
+        return angle < 30 and _intervals(ranges[0], ranges[1], sign) < 1
 
     def _signs(self) -> Iterator[Comparison]:
         """Joint axes against the habit of the model: those along the normal of the mirror, and those across it."""
@@ -268,7 +289,10 @@ class Twins(Pairs):
             if all(limited):
                 same = pair(f"{quantity}range", 0.0, 10)
                 ranges = [of.row(f"actuator_{quantity}range", each, 2) for each in (left, right)]
-                yield replace(same, unlike=_intervals(ranges[0], ranges[1], self.interval_sign(same)))
+                bounded = all(of.model("jnt_limited")[joint] for joint in (joints[0], joints[1]))
+                crossed = bounded and self._crossed(joints[0], joints[1])
+                sign = 1.0 if crossed else self.interval_sign(same)
+                yield replace(same, unlike=_intervals(ranges[0], ranges[1], sign))
 
     def _sensors(self, left: int, right: int) -> Iterator[Comparison]:
         of, pair = self.of, partial(Comparison, "sensor", left, right)

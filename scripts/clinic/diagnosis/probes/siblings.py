@@ -22,6 +22,7 @@ FIELDS = {  # attribute: field, width of a row, columns compared
         "frictionloss": ("dof_frictionloss", 1, (0,)),
         "stiffness": ("jnt_stiffness", 1, (0,)),
         "range": ("jnt_range", 2, (0, 1)),
+        "axis": ("jnt_axis", 3, (0, 1, 2)),
     },
     "actuator": {
         "gear": ("actuator_gear", 6, (0,)),

@@ -28,8 +28,8 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: the body's mass, and without that of geoms for which no mass and no density is written. Half as much again
-tells a cause.
+The number: the body's mass, and without that of geoms for which no mass and no density is written, or the very mass of
+a colliding geom of the same type. Half as much again tells a cause.
 
 When it is wrong: where the visible geoms are meant to be the mass; a mass or density that is written says so.
 """
@@ -62,8 +62,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for body in of.moving_bodies:
         if inertial(model, body) is not None:
             continue
-        mine = [geom for geom in of.geoms_of(body) if not solid(of, geom) and not _written(model, geom)]
         others = [geom for geom in of.geoms_of(body) if solid(of, geom)]
+        mine = [
+            geom
+            for geom in of.geoms_of(body)
+            if not solid(of, geom) and (not _written(model, geom) or _copies(model, geom, others))
+        ]
         if others:
             seen += [geom for geom in mine if _is_skin(of, geom, others)]
     edits = model.set("geom", seen, "mass", "0")
@@ -87,6 +91,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             share=0.95,
             excess=now / rest,
         )
+
+
+def _copies(model: ReaderModel, geom: int, others: list[int]) -> bool:
+    """Whether a geom has the mass and the type of one that collides, so that the mass counts twice."""
+    types, mass = model.simulation.model("geom_type"), model.value("geom", geom, "mass")
+    like = [other for other in others if types[other] == types[geom]]
+    return mass is not None and any(model.value("geom", other, "mass") == mass for other in like)
 
 
 def _is_skin(of: Simulation, geom: int, others: list[int]) -> bool:

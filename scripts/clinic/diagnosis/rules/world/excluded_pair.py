@@ -30,7 +30,9 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: how far the centre of a body ends below a surface that it began above, 2 s after letting go.
+The number: how far the centre of a body ends below a surface that it began above, 2 s after letting go; and how many
+excludes are between the world and one of the parts that a robot stands on, which reach as low as any other of it but
+for 2 % of its height, at the start or in its first keyframe.
 
 When it is wrong: something that is meant to pass.
 """
@@ -40,15 +42,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import delete
+from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.fall import below, fallen, limit
-from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.shape import box, geoms_of_tree, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.source import Element
+from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "An exclude that forbids a contact that is needed"
 FAMILIES = ("falls-through",)
 SINCE = "0.1"
 UNPLANTED = "in the healthy models several bodies touch the floor: one exclusion drops nothing through it"
+
+NEAR = 0.02  # of the height of a robot: so much higher than its lowest point may a foot of it be
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -71,3 +78,40 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 (simulation.name("body", root), simulation.name("body", body)), "exclude", "there", "removed",
                 tuple(map(delete, meant)), below(root, surface), most, says, excess=4.0,
             )  # fmt: skip
+    yield from _feet(model, written)
+
+
+def _feet(model: ReaderModel, written: list[Element]) -> Iterator[Suspect]:
+    """The excludes between the floor and what a robot stands on, where it does not fall through."""
+    of = model.simulation
+    if not written or not any(int(of.model("geom_type")[geom]) == PLANE for geom in of.geoms_of(0)):
+        return
+    owner, lowest = root_of(of), {of.names("body")[body]: body for body in _lowest(of)}
+    fall = {root for root, _ in fallen(of)}
+    meant = []
+    for each in written:
+        other = {each.get("body1"): each.get("body2"), each.get("body2"): each.get("body1")}.get("world")
+        if other in lowest and owner[lowest[other]] not in fall:
+            meant.append((each, of.name("body", lowest[other])))
+    if meant:
+        says = f"{meant[0][1]} is what it stands on, and the floor is excluded from touching it."
+        probe = counted("excludes of the floor and what stands on it", len(meant))
+        edits = tuple(delete(each) for each, _ in meant)
+        names = tuple(name for _, name in meant)
+        yield Suspect(names, "exclude", "there", "removed", edits, probe, 0, says, "no such exclude", level="hint")
+
+
+def _lowest(of: Simulation) -> set[int]:
+    """The bodies with a solid geom about as low as the lowest of their tree, which floats freely."""
+    made: set[int] = set()
+    for key in range(-1, min(1, of.count("key"))):
+        of.engine.reset(key)
+        of.engine.forward()
+        places, axes = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat"))
+        for root in of.free_bodies:
+            boxes = {geom: box(of, places, axes, geom) for geom in geoms_of_tree(of, root) if solid(of, geom)}
+            lows = {geom: centre[2] - half[2] for geom, (centre, half) in boxes.items()}
+            tops = [centre[2] + half[2] for centre, half in boxes.values()]
+            near = min(lows.values(), default=0.0) + NEAR * (max(tops, default=0.0) - min(lows.values(), default=0.0))
+            made |= {int(of.model("geom_bodyid")[geom]) for geom, low in lows.items() if low <= near}
+    return made

@@ -1,0 +1,107 @@
+"""A driven joint takes nothing of the default class that the other joints take.
+
+A class applies where it is named: as `class` of the joint, or as `childclass` of a body around it. Where neither is
+written, the joint has no damping and no armature, and nothing says so.
+
+Bad:
+
+    <mujoco>
+      <default>
+        <default class="arm">
+          <joint damping="1" armature="0.1"/>
+        </default>
+      </default>
+      <worldbody>
+        <body name="upper" pos="0 0 1">
+          <joint name="shoulder" axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.5"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="shoulder" kp="50" kv="5"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <default>
+        <default class="arm">
+          <joint damping="1" armature="0.1"/>
+        </default>
+      </default>
+      <worldbody>
+        <body name="upper" pos="0 0 1" childclass="arm">
+          <joint name="shoulder" axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.5"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="shoulder" kp="50" kv="5"/>
+      </actuator>
+    </mujoco>
+
+The number: how many driven joints have no class and none of damping, armature and frictionloss, where a class gives
+joints some of it.
+
+When it is wrong: a class that is meant for other joints, which are the only ones with damping.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.source import Element, Source
+from clinic.diagnosis.suspect import Suspect, counted
+
+TITLE = "A default class that does not reach a joint"
+FAMILIES = ("oscillates", "explodes", "drifts")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "which class a joint was meant to have, only its maker knows"
+
+FIELDS = ("damping", "armature", "frictionloss")
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The driven joints that no class reaches, all together."""
+    of, source = model.simulation, model.source
+    if source is None or source.urdf or not (classes := _classes(source)):
+        return
+    driven = sorted({joint for each in range(of.count("actuator")) if (joint := of.driven_joint(each)) is not None})
+    bare = [joint for joint in driven if (e := model.element("joint", joint)) is not None and _unreached(source, e)]
+    if not bare:
+        return
+    says = f"No class and no childclass gives it anything; class {classes[0]} has {_given(source, classes[0])}."
+    probe = counted("driven joints that no class reaches", len(bare))
+    names = tuple(of.name("joint", joint) for joint in bare)
+    yield Suspect(names, "class", "none", classes[0], (), probe, 0, says, "damping and armature of a class")
+
+
+def _classes(source: Source) -> list[str]:
+    """The classes but the main one that give joints damping, armature or dry friction."""
+    return [
+        each.get("class")
+        for each in source.elements("default")
+        if each.parent is not None and each.parent.tag == "default" and each.get("class") and _fields(each)
+    ]
+
+
+def _fields(default: Element) -> list[tuple[str, str]]:
+    """What a class itself gives joints, but for zeros."""
+    joints = [child for child in default.children if child.tag == "joint"]
+    found = [(name, joint.get(name)) for joint in joints for name in FIELDS]
+    return [(name, value) for name, value in found if value.strip("0. ")]
+
+
+def _given(source: Source, name: str) -> str:
+    """What a class gives joints, in words."""
+    found = next(each for each in source.elements("default") if each.get("class") == name)
+    return ", ".join(f"{attribute} {value}" for attribute, value in _fields(found))
+
+
+def _unreached(source: Source, joint: Element) -> bool:
+    """Whether nothing gives a joint any of the fields, and no class is named for it."""
+    named = joint.get("class") or any(outer.get("childclass") for outer in joint.around())
+    return joint.tag == "joint" and not named and all(source.written(joint, name) is None for name in FIELDS)

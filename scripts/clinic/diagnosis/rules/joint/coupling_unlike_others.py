@@ -1,0 +1,163 @@
+"""One coupling of several joints it to another place than the others do.
+
+The last joint of each finger follows the one before it, and one finger's follows that of its neighbour, or the first
+joint: a line was copied and half adapted.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="a1" axis="0 1 0" damping="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.008"/>
+          <body pos="0.06 0 0">
+            <joint name="a2" axis="0 1 0" damping="0.1"/>
+            <geom type="capsule" fromto="0 0 0 0.03 0 0" size="0.008"/>
+          </body>
+        </body>
+        <body pos="0 0.03 1">
+          <joint name="b1" axis="0 1 0" damping="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.008"/>
+          <body pos="0.06 0 0">
+            <joint name="b2" axis="0 1 0" damping="0.1"/>
+            <geom type="capsule" fromto="0 0 0 0.03 0 0" size="0.008"/>
+          </body>
+        </body>
+        <body pos="0 0.06 1">
+          <joint name="c1" axis="0 1 0" damping="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.008"/>
+          <body pos="0.06 0 0">
+            <joint name="c2" axis="0 1 0" damping="0.1"/>
+            <geom type="capsule" fromto="0 0 0 0.03 0 0" size="0.008"/>
+          </body>
+        </body>
+      </worldbody>
+      <equality>
+        <joint joint1="a2" joint2="a1"/>
+        <joint joint1="b2" joint2="a1"/>
+        <joint joint1="c2" joint2="c1"/>
+      </equality>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="a1" axis="0 1 0" damping="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.008"/>
+          <body pos="0.06 0 0">
+            <joint name="a2" axis="0 1 0" damping="0.1"/>
+            <geom type="capsule" fromto="0 0 0 0.03 0 0" size="0.008"/>
+          </body>
+        </body>
+        <body pos="0 0.03 1">
+          <joint name="b1" axis="0 1 0" damping="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.008"/>
+          <body pos="0.06 0 0">
+            <joint name="b2" axis="0 1 0" damping="0.1"/>
+            <geom type="capsule" fromto="0 0 0 0.03 0 0" size="0.008"/>
+          </body>
+        </body>
+        <body pos="0 0.06 1">
+          <joint name="c1" axis="0 1 0" damping="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.008"/>
+          <body pos="0.06 0 0">
+            <joint name="c2" axis="0 1 0" damping="0.1"/>
+            <geom type="capsule" fromto="0 0 0 0.03 0 0" size="0.008"/>
+          </body>
+        </body>
+      </worldbody>
+      <equality>
+        <joint joint1="a2" joint2="a1"/>
+        <joint joint1="b2" joint2="b1"/>
+        <joint joint1="c2" joint2="c1"/>
+      </equality>
+    </mujoco>
+
+The number: three and more couplings of two joints each, of which all but one couple joints that stand alike in the
+tree: one above the other by as many joints, or beside each other.
+
+When it is wrong: a mechanism in which one coupling is of another kind than all others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A coupling unlike the others"
+FAMILIES = ("stuck", "drifts", "jumps-at-start")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "few healthy models have three couplings"
+
+JOINTS, ENOUGH = 2, 3  # mjEQ_JOINT
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The one coupling that stands apart."""
+    of = model.simulation
+    if (each := _odd(of)) is None:
+        return
+    follower, leader = (int(of.model(f"eq_obj{side}id")[each]) for side in (1, 2))
+    others = [one for one in _relations(of) if one != each]
+    says = f"It couples {of.name('joint', follower)} to {of.name('joint', leader)}: {_words(_relations(of)[each])}; "
+    says += f"in all {len(others)} others, {_words(_relations(of)[others[0]])}."
+    probe = Probe("couplings that stand apart from all others", "", _count, dynamic=False)
+    names = (of.name("joint", follower), of.name("joint", leader))
+    yield Suspect(names, "joint2", of.names("joint")[leader], "as in the others", (), probe, 0, says, "couplings alike")
+
+
+def _count(of: Simulation) -> float:
+    return 0.0 if _odd(of) is None else 1.0
+
+
+def _odd(of: Simulation) -> int | None:
+    """The coupling whose relation no other has, where all others have one and the same."""
+    found = _relations(of)
+    for each, relation in found.items():
+        others = {other for one, other in found.items() if one != each}
+        if len(found) >= ENOUGH and len(others) == 1 and not others & {relation, None}:
+            return each
+    return None
+
+
+def _relations(of: Simulation) -> dict[int, int | None]:
+    """By coupling of two joints: how many joints the second is above the first; 0 beside it, None elsewhere."""
+    made: dict[int, int | None] = {}
+    parents, owners = of.model("body_parentid"), of.model("jnt_bodyid")
+    for each, kind in enumerate(of.model("eq_type")):
+        joints = [int(of.model(f"eq_obj{side}id")[each]) for side in (1, 2)]
+        if int(kind) != JOINTS or min(joints) < 0:
+            continue
+        lines = [_line(of, joint) for joint in joints]
+        if joints[1] in lines[0]:
+            made[each] = lines[0].index(joints[1])
+        elif joints[0] in lines[1]:
+            made[each] = -lines[1].index(joints[0])
+        else:
+            beside = len({int(parents[int(owners[joint])]) for joint in joints}) == 1
+            made[each] = 0 if beside else None
+    return made
+
+
+def _line(of: Simulation, joint: int) -> list[int]:
+    """A joint and those above it, the nearest first."""
+    body = int(of.model("jnt_bodyid")[joint])
+    made = [each for each in reversed(of.joints_of(body)) if each <= joint]
+    while body := int(of.model("body_parentid")[body]):
+        made += reversed(of.joints_of(body))
+    return made
+
+
+def _words(relation: int | None) -> str:
+    """How the second joint stands to the first."""
+    if relation is None:
+        return "the second is on another branch than the first"
+    if relation == 0:
+        return "the second is beside the first"
+    return f"the second is {abs(relation)} above the first" if relation > 0 else "the second hangs on the first"

@@ -1,0 +1,130 @@
+"""A joint has no actuator, and those that are like it have.
+
+A line of `<actuator>` was forgotten, or a coupling: of left and right, or of all fingers, one hangs loose.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="trunk" pos="0 0 1">
+          <geom type="box" size="0.1 0.1 0.1"/>
+          <body name="left_arm" pos="0 0.15 0">
+            <joint name="left_arm" axis="0 1 0" damping="0.1"/>
+            <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02"/>
+          </body>
+          <body name="right_arm" pos="0 -0.15 0">
+            <joint name="right_arm" axis="0 1 0" damping="0.1"/>
+            <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02"/>
+          </body>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor joint="left_arm" gear="10" ctrlrange="-1 1"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="trunk" pos="0 0 1">
+          <geom type="box" size="0.1 0.1 0.1"/>
+          <body name="left_arm" pos="0 0.15 0">
+            <joint name="left_arm" axis="0 1 0" damping="0.1"/>
+            <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02"/>
+          </body>
+          <body name="right_arm" pos="0 -0.15 0">
+            <joint name="right_arm" axis="0 1 0" damping="0.1"/>
+            <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02"/>
+          </body>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor joint="left_arm" gear="10" ctrlrange="-1 1"/>
+        <motor joint="right_arm" gear="10" ctrlrange="-1 1"/>
+      </actuator>
+    </mujoco>
+
+The number: joints that no actuator, tendon, coupling or spring moves, where the twin of left and right is moved, or all
+others of three and more that are called alike but for a number or a finger. More than two are meant so.
+
+When it is wrong: a mechanism that is driven on one side, and whose other side the load closes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.probes.siblings import groups
+from clinic.diagnosis.probes.twins import twins
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A joint without an actuator among others that have one"
+FAMILIES = ("stuck", "sags", "drifts")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "no kind of fault in the bench takes an actuator away"
+
+JOINT_EQUALITY, TENDON, BY_JOINT, WRAPPED = 2, 3, (0, 1), 1  # mjEQ_JOINT, mjTRN_TENDON, mjTRN_JOINT, mjWRAP_JOINT
+MOST = 2
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The joints that hang loose, all together."""
+    of = model.simulation
+    found = _loose(of)
+    if not 0 < len(found) <= MOST:
+        return
+    joint, like = next(iter(found.items()))
+    says = f"Nothing drives {of.name('joint', joint)}, and {of.name('joint', like)} is driven."
+    probe = Probe("joints that nothing drives beside others that are driven", "", _count, dynamic=False)
+    names = tuple(of.name("joint", each) for each in found)
+    yield Suspect(names, "joint", "no actuator", "an actuator", (), probe, 0, says, "each joint driven as its twin")
+
+
+def _count(of: Simulation) -> float:
+    return float(len(_loose(of)))
+
+
+def _loose(of: Simulation) -> dict[int, int]:
+    """The joints that nothing moves, and one that is like each and is moved."""
+    moved = _moved(of)
+    if not moved:
+        return {}
+    made = {}
+    for pair in twins(of).pairs["joint"]:
+        some = [joint for joint in pair if joint in moved]
+        if len(some) == 1 and _turns(of, *pair):
+            made[pair[0] + pair[1] - some[0]] = some[0]
+    for group in groups(of, "joint"):
+        still = [joint for joint in group if joint not in moved]
+        if len(still) == 1 and _turns(of, *group):
+            made[still[0]] = next(joint for joint in group if joint in moved)
+    return made
+
+
+def _turns(of: Simulation, *joints: int) -> bool:
+    return all(of.joint_type(joint) in (HINGE, SLIDE) for joint in joints)
+
+
+def _moved(of: Simulation) -> set[int]:
+    """The joints that an actuator, a tendon, a coupling or a spring moves; none where other things are driven."""
+    kinds = [int(each) for each in of.model("actuator_trntype")]
+    if any(kind not in (*BY_JOINT, TENDON) for kind in kinds):
+        return set()
+    made = {joint for each in range(len(kinds)) if (joint := of.driven_joint(each)) is not None}
+    if not made:
+        return made
+    wraps = zip(of.model("wrap_type"), of.model("wrap_objid"), strict=True) if of.count("tendon") else ()
+    for wrapped, on in wraps:
+        if int(wrapped) != WRAPPED:
+            return set()
+        made.add(int(on))
+    for each, kind in enumerate(of.model("eq_type")):
+        if int(kind) != JOINT_EQUALITY:
+            return set()
+        made |= {int(of.model(f"eq_obj{side}id")[each]) for side in (1, 2)}
+    return made | {joint for joint, stiffness in enumerate(of.model("jnt_stiffness")) if stiffness}

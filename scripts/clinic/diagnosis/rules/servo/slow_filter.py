@@ -1,0 +1,81 @@
+"""An actuator's filter takes seconds to let a control through.
+
+`dyntype="filter"` and `filterexact` smooth the control with the time constant `dynprm`, which is 1 s where nobody wrote
+it; `timeconst` of `<position>` and `<velocity>` is the same. The robot follows what it was told a second ago.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" damping="0.5" armature="0.01"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.2" size="0.02" mass="0.3"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <general joint="elbow" gainprm="20" biastype="affine" biasprm="0 -20 -1" dyntype="filter"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" damping="0.5" armature="0.01"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.2" size="0.02" mass="0.3"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <general joint="elbow" gainprm="20" biastype="affine" biasprm="0 -20 -1" dyntype="filter" dynprm="0.02"/>
+      </actuator>
+    </mujoco>
+
+The number: the greatest time constant of the actuators with a filter; 0.5 s and more is told.
+
+When it is wrong: a heater, a pump, or another actuator that is as slow as that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A filter that lags by a second"
+FAMILIES = ("slow", "oscillates")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "few healthy models have actuators with a filter"
+
+FILTERS, SLOW, USUAL = (2, 3), 0.5, "0.02"  # mjDYN_FILTER and mjDYN_FILTEREXACT; s
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The actuators with a slow filter, all together."""
+    of = model.simulation
+    slow = {each: time for each, time in _times(of).items() if time >= SLOW}
+    if not slow:
+        return
+    worst = max(slow, key=lambda each: slow[each])
+    attribute = "timeconst" if model.value("actuator", worst, "timeconst") else "dynprm"
+    edits = model.set("actuator", list(slow), attribute, USUAL)
+    now = model.value("actuator", worst, attribute) or "left out"
+    says = f"After a control changes, {of.name('actuator', worst)} gives 63 % of it {slow[worst]:.3g} s later."
+    probe = Probe("greatest time constant of an actuator's filter", "s", _slowest, dynamic=False)
+    names = tuple(of.name("actuator", each) for each in slow)
+    yield Suspect(names, attribute, now, USUAL, edits, probe, SLOW - 1e-6, says, "0.01 to 0.1 s", level="hint")
+
+
+def _times(of: Simulation) -> dict[int, float]:
+    """The time constants of the actuators with a filter in s."""
+    count = of.count("actuator")
+    width = len(of.model("actuator_dynprm")) // max(1, count)
+    kinds = of.model("actuator_dyntype")
+    return {i: of.row("actuator_dynprm", i, width)[0] for i in range(count) if int(kinds[i]) in FILTERS}
+
+
+def _slowest(of: Simulation) -> float:
+    return max(_times(of).values(), default=0.0)

@@ -1,0 +1,97 @@
+"""A motor spins its joint up to thousands of rad/s.
+
+A gear of 1000 where N mm were meant, or the torque limit of a leg at a wheel: full control turns the joint so fast
+that nothing can be controlled, and wheels spin or the robot flips.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="hinge" axis="0 1 0" damping="0.01"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.5" size="0.02" mass="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor joint="hinge" gear="1000" ctrlrange="-2 2"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="hinge" axis="0 1 0" damping="0.01"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.5" size="0.02" mass="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor joint="hinge" gear="1" ctrlrange="-2 2"/>
+      </actuator>
+    </mujoco>
+
+The number: the speed in rad/s that the greatest force of a motor gives its hinge within 0.2 s at the inertia of the
+start, or that damping lets it reach, if that is less; more than 1000, where no range ends it.
+
+When it is wrong: a spindle or a gyroscope.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A motor far too strong for its joint"
+FAMILIES = ("explodes", "oscillates", "slips")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "a gear that is too large by a hundred is planted as that of a pair"
+
+FAST, SECONDS = 1000.0, 0.2  # rad/s, s
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The motors that spin their joints too fast, all together."""
+    of = model.simulation
+    fast = {each: speed for each, speed in _speeds(of).items() if speed > FAST}
+    if not fast:
+        return
+    worst = max(fast, key=lambda each: fast[each])
+    gear = of.model("actuator_gear")[6 * worst]
+    low, high = of.row("actuator_ctrlrange", worst, 2)
+    attribute = "gear" if abs(gear) > max(abs(low), abs(high)) else "ctrlrange"
+    now = f"{gear:.3g}" if attribute == "gear" else f"{low:.3g} {high:.3g}"
+    says = f"Full control turns {of.name('joint', of.driven_joint(worst) or 0)} at {fast[worst]:.3g} rad/s after "
+    says += f"{SECONDS:g} s at most."
+    probe = Probe("speed that full control gives a hinge within 0.2 s", "rad/s", _fastest, dynamic=False)
+    names = tuple(of.name("actuator", each) for each in fast)
+    yield Suspect(names, attribute, now, "a hundredth of it", (), probe, FAST, says, "below 300 rad/s")
+
+
+def _fastest(of: Simulation) -> float:
+    return max(_speeds(of).values(), default=0.0)
+
+
+def _speeds(of: Simulation) -> dict[int, float]:
+    """By motor of a hinge without a range: the speed in rad/s that full control gives it."""
+    made = {}
+    for each in range(of.count("actuator")):
+        joint = of.driven_joint(each)
+        plain = not int(of.model("actuator_biastype")[each]) and not int(of.model("actuator_dyntype")[each])
+        free = joint is not None and of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
+        if joint is None or not free or not plain or not of.model("actuator_ctrllimited")[each]:
+            continue
+        gain = of.model("actuator_gainprm")[len(of.model("actuator_gainprm")) // of.count("actuator") * each]
+        force = abs(gain) * max(map(abs, of.row("actuator_ctrlrange", each, 2)))
+        if of.model("actuator_forcelimited")[each]:
+            force = min(force, max(map(abs, of.row("actuator_forcerange", each, 2))))
+        torque = force * abs(of.model("actuator_gear")[6 * each])
+        dof = of.dof(joint)
+        damping, inertia = of.model("dof_damping")[dof], of.mass_diagonal[dof]
+        made[each] = min(SECONDS * torque / max(inertia, 1e-12), torque / damping if damping > 0 else float("inf"))
+    return made

@@ -1,0 +1,139 @@
+"""A wheel cannot go on turning: a position servo drives it, or it has no joint.
+
+`<position>` stands where `<velocity>` or `<motor>` was meant, and turns the wheel to an angle, where it stops; or two
+of four wheels have no joint, and drag.
+
+Bad:
+
+    <mujoco>
+      <compiler angle="radian"/>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <body name="car" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.03"/>
+          <body name="left_wheel" pos="0 0.15 0">
+            <joint name="left_wheel" axis="0 1 0"/>
+            <geom type="cylinder" size="0.1 0.02" euler="1.5708 0 0"/>
+          </body>
+          <body name="right_wheel" pos="0 -0.15 0">
+            <joint name="right_wheel" axis="0 1 0"/>
+            <geom type="cylinder" size="0.1 0.02" euler="1.5708 0 0"/>
+          </body>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="left_wheel" kp="20" kv="2" ctrlrange="-10 10"/>
+        <position joint="right_wheel" kp="20" kv="2" ctrlrange="-10 10"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <compiler angle="radian"/>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <body name="car" pos="0 0 0.1">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.03"/>
+          <body name="left_wheel" pos="0 0.15 0">
+            <joint name="left_wheel" axis="0 1 0"/>
+            <geom type="cylinder" size="0.1 0.02" euler="1.5708 0 0"/>
+          </body>
+          <body name="right_wheel" pos="0 -0.15 0">
+            <joint name="right_wheel" axis="0 1 0"/>
+            <geom type="cylinder" size="0.1 0.02" euler="1.5708 0 0"/>
+          </body>
+        </body>
+      </worldbody>
+      <actuator>
+        <velocity joint="left_wheel" kv="2" ctrlrange="-10 10"/>
+        <velocity joint="right_wheel" kv="2" ctrlrange="-10 10"/>
+      </actuator>
+    </mujoco>
+
+The number: how many wheels of a free base cannot go on turning. A wheel is a body that is called so, or whose hinge is,
+with a cylinder, sphere, ellipsoid or mesh that collides; a hinge across the vertical turns it.
+
+When it is wrong: wheels that are blocked on purpose, or turned to an angle that the controller moves on.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, HINGE, MESH, SPHERE
+from clinic.diagnosis.probes.servo import servos
+from clinic.diagnosis.probes.shape import root_of, solid
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A wheel that cannot go on turning"
+FAMILIES = ("stuck", "slow")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "only names say what is a wheel"
+
+WHEEL = re.compile(r"(?<![a-z])[lr]?(wheel|tyre|tire)s?(?![a-z])", re.IGNORECASE)
+OTHER = re.compile(r"steer|caster|castor|susp|fork|hub|spare|swivel|mount|knuckle|motor|axle|arm|leg", re.IGNORECASE)
+ROUND, ACROSS = (SPHERE, ELLIPSOID, CYLINDER, MESH), 0.7
+
+BARE, SERVO = "it has no joint, and others have", "a position servo turns it to an angle, where it stops"
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The wheels that are held, all of one reason together."""
+    of = model.simulation
+    found = _held(of)
+    for reason in dict.fromkeys(found.values()):
+        bodies = [body for body, each in found.items() if each == reason]
+        joints = [joint for body in bodies for joint in _hinges(of, body)]
+        attribute, value = ("joint", "a hinge") if reason == BARE else ("actuator", "velocity or motor")
+        probe = Probe("wheels that cannot go on turning", "", _count, (), dynamic=False)
+        names = tuple(of.name("joint", joint) for joint in joints) or tuple(of.name("body", body) for body in bodies)
+        says = f"{of.name('body', bodies[0])} is a wheel, and {reason}."
+        yield Suspect(names, attribute, "", value, (), probe, 0, says, "wheels that turn without an end", level="hint")
+
+
+def _count(of: Simulation) -> float:
+    return float(len(_held(of)))
+
+
+def _held(of: Simulation) -> dict[int, str]:
+    """The wheels that cannot go on turning, and why."""
+    by_joint = {each.joint for each in servos(of)}
+    wheels, owner = _wheels(of), root_of(of)
+    turning = {owner[body] for body in wheels if _hinges(of, body)}
+    made = {}
+    for body in wheels:
+        hinges = _hinges(of, body)
+        if not hinges and owner[body] in turning:
+            made[body] = BARE
+        elif set(hinges) & by_joint:
+            made[body] = SERVO
+    return made
+
+
+def _wheels(of: Simulation) -> list[int]:
+    """The wheels of free bases."""
+    owner, free, kinds, names = root_of(of), set(of.free_bodies), of.model("geom_type"), of.names("body")
+    made = []
+    for body in of.moving_bodies:
+        called = [names[body], *(of.names("joint")[joint] for joint in _hinges(of, body))]
+        is_round = any(int(kinds[geom]) in ROUND and solid(of, geom) for geom in of.geoms_of(body))
+        is_wheel = any(WHEEL.search(name) for name in called) and not any(OTHER.search(name) for name in called)
+        if owner[body] in free and body not in free and is_round and is_wheel:
+            made.append(body)
+    return made
+
+
+def _hinges(of: Simulation, body: int) -> list[int]:
+    """The hinges of a body that lie across the vertical at the zero pose, or its other joints that turn it."""
+    of.engine.reset(-1)
+    of.engine.forward()
+    hinges = [joint for joint in of.joints_of(body) if of.joint_type(joint) == HINGE]
+    across = [joint for joint in hinges if abs(of.data_row("xaxis", joint, 3)[2]) < ACROSS]
+    return across or of.joints_of(body)

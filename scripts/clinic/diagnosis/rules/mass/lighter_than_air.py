@@ -28,13 +28,15 @@ Good:
 
 The number: the mass of the air that its geoms displace (1.2 kg/m3) over its own, for everything that moves together,
 and for single links with a joint. More than 300 tells a cause: Gymnasium's second pusher pushes a puck of 120, its
-first one of 120,000. A model in centimetres has 10.
+first one of 120,000. A model in centimetres has 10. More than 1, under the gravity of metres, tells a hint: a density
+of 1.2 in g/cm3 is taken for kg/m3, and a cube has a mass of milligrams.
 
 When it is wrong: a balloon. Where all of the model is so, it may be written in mm: another rule tells that.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
@@ -48,7 +50,8 @@ TITLE = "Lighter than air"
 FAMILIES = ("falls-through", "explodes", "stuck")
 SINCE = "0.1"
 
-AIR, LIMIT = 1.2, 300.0
+AIR, LIMIT, LIGHT = 1.2, 300.0, 1.0
+METRES = 5.0, 20.0  # m/s2
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -64,6 +67,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         while int(parents[root]) in moving:
             root = int(parents[root])
         trees.setdefault(root, []).append(body)
+    in_metres = METRES[0] < math.hypot(*of.model("opt.gravity")) < METRES[1]
+    most = LIGHT if in_metres else LIMIT
     light = [body for body in moving if of.joints_of(body) and _air(of, body) > LIMIT]
     groups = list(trees.items())
     if len(light) <= 2:  # a link of a tree that is heavy enough
@@ -73,7 +78,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if not any(of.model("geom_contype")[geom] or of.model("geom_conaffinity")[geom] for geom in geoms):
             continue
         probe = Probe("mass of the air in its place over its own", "", _air, tuple(bodies), dynamic=False)
-        if model.measured(probe) <= LIMIT:
+        if (times := model.measured(probe)) <= most:
             continue
         edits = list(model.set("geom", geoms, "density", "500"))
         edits += model.remove("geom", geoms, "mass")
@@ -91,9 +96,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "500",
             tuple(edits),
             probe,
-            LIMIT,
+            LIMIT if times > LIMIT else LIGHT,
             f"All that moves with it weighs {mass:.3g} kg: 1 mN accelerates it by {1e-3 / max(mass, 1e-30):.3g} m/s2.",
             "wood has 500 kg/m3, air 1.2",
+            level="cause" if times > LIMIT else "hint",
         )
 
 

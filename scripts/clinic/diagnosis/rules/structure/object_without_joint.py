@@ -81,13 +81,39 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         weighed |= len(geoms) == 1 and bool(OBJECT.search(of.names("body")[body]))
         if geoms and (weighed or inertial(model, body)) and _height(of, body) > HANGS:
             found[body] = element
+    found |= {body: element for body in _like_free(of) if (element := model.element("body", body)) is not None}
     if found:
+        most = HANGS
         first = next(iter(found))
         says = f"{of.name('body', first)} has {of.model('body_mass')[first]:.3g} kg and no joint: nothing can move it."
         edits = tuple(insert(element, "<freejoint/>") for element in found.values())
         probe = Probe("height above the floor at which it hangs", "m", _highest, tuple(found), dynamic=False)
+        if _highest(of, *found) <= HANGS:
+            says += " Others of the same shape and size can move."
+            probe, most = Probe("objects that stand still beside others", "", _still, tuple(found), dynamic=False), 0.0
         names = tuple(of.name("body", body) for body in found)
-        yield Suspect(names, "freejoint", "left out", "<freejoint/>", edits, probe, HANGS, says, "a joint")
+        yield Suspect(names, "freejoint", "left out", "<freejoint/>", edits, probe, most, says, "a joint")
+
+
+def _still(of: Simulation, *bodies: int) -> float:
+    return float(sum(not of.joints_of(body) for body in bodies))
+
+
+def _like_free(of: Simulation) -> list[int]:
+    """The bodies of the world with one geom that collides and no joint, beside a free one of the same geom and mass."""
+    parents, carries = of.model("body_parentid"), {int(parent) for parent in of.model("body_parentid")}
+
+    def looks(body: int) -> tuple[float, ...]:
+        (geom,) = of.geoms_of(body)
+        return (of.model("geom_type")[geom], *of.row("geom_size", geom, 3), of.model("body_mass")[body])
+
+    single = [body for body in range(1, of.count("body")) if len(of.geoms_of(body)) == 1 and body not in carries]
+    free = {looks(body) for body in single if body in of.free_bodies}
+    still = [
+        body for body in single if not parents[body] and not of.joints_of(body) and of.model("body_mocapid")[body] < 0
+    ]
+    solids = [body for body in still if of.model("geom_contype")[of.geoms_of(body)[0]]]
+    return [body for body in solids if looks(body) in free]
 
 
 def _highest(of: Simulation, *bodies: int) -> float:

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from clinic.diagnosis.edit import Edit, apply
+from clinic.diagnosis.edit import Edit, apply, edit
 from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.judge import Judged, suspects_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import Rule
 from clinic.diagnosis.simulation import Start
-from clinic.diagnosis.source import read_source
+from clinic.diagnosis.source import Element, read_source
 from clinic.diagnosis.suspect import Suspect
 
-MOST = 12  # messages
+MOST, LIMIT = 60, 15.0  # messages, s
+LAST = "refused-element"  # what only takes an element out is tried where no other rule knows better
 
 Change = tuple[str, int, int, int]  # a file, where a change begins, and where it ended before and ends after it
 
@@ -23,32 +25,50 @@ def mended(
     model: ReaderModel, tried: Iterable[Rule], tell: Callable[[str], None]
 ) -> tuple[list[Judged], Mapping[str, str]]:
     """The faults in the order in which MuJoCo names them, and the texts as far as they could be mended."""
-    rules, found, changes = list(tried), list[Judged](), list[Change]()
+    rules, found, changes = sorted(tried, key=lambda rule: rule.id == LAST), list[Judged](), list[Change]()
+    written = dict(model.texts)
+    until = time.monotonic() + LIMIT
     for _ in range(MOST):
-        if not model.error:
+        if not model.error or time.monotonic() > until:
             break
-        best: tuple[Rule, Suspect] | None = None
-        for rule in rules:
-            tell(rule.id)
-            for suspect in suspects_of(model, rule, tell):
-                if not suspect.edits:
-                    found.append(Judged(rule, suspect, "hint", 1.0, None))
-                elif not isinstance(made := model.with_edits(suspect.edits), CompileError):
-                    best = (rule, suspect)
-                    break
-                elif best is None and _further(model.error, str(made), suspect):
-                    best = (rule, suspect)
-            if best and not isinstance(model.with_edits(best[1].edits), CompileError):
-                break
+        best, hints = _best(model, rules, tell)
         if best is None:
+            found += [Judged(rule, _placed(each, changes, written), "hint", 1.0, None) for rule, each in hints]
             break
         rule, suspect = best
-        written = tuple(_as_written(each, changes) for each in suspect.edits)
-        found.append(Judged(rule, replace(suspect, edits=written), "cause", 1.0, 0.0))
+        found.append(Judged(rule, _placed(suspect, changes, written), "cause", 1.0, 0.0))
         texts = apply(model.texts, suspect.edits)
         changes += _changes(model.texts, suspect.edits)
         model = ReaderModel(model.engine, texts, read_source(texts), Start())
     return found, model.texts
+
+
+def _best(
+    model: ReaderModel, rules: Iterable[Rule], tell: Callable[[str], None]
+) -> tuple[tuple[Rule, Suspect] | None, list[tuple[Rule, Suspect]]]:
+    """The suspect whose edits make the model compile, or else the first with which MuJoCo comes further; the hints."""
+    best, hints = None, list[tuple[Rule, Suspect]]()
+    for rule in rules:
+        if rule.id == LAST and (best or hints):
+            break
+        tell(rule.id)
+        for suspect in suspects_of(model, rule, tell):
+            if not suspect.edits:
+                hints.append((rule, suspect))
+            elif not isinstance(made := model.with_edits(suspect.edits), CompileError):
+                return (rule, suspect), hints
+            elif best is None and _further(model.error, str(made), suspect):
+                best = (rule, suspect)
+    return best, hints
+
+
+def _placed(suspect: Suspect, changes: Sequence[Change], texts: Mapping[str, str]) -> Suspect:
+    """A suspect in texts that were changed, at its place in the reader's own."""
+    edits = tuple(_as_written(each, changes, texts) for each in suspect.edits)
+    if suspect.at is None:
+        return replace(suspect, edits=edits)
+    at = _as_written(edit(suspect.at, "delete"), changes, texts)
+    return replace(suspect, edits=edits, at=Element(at.element, at.file, at.line, {}, start=at.start))
 
 
 def _changes(texts: Mapping[str, str], edits: Sequence[Edit]) -> list[Change]:
@@ -70,7 +90,7 @@ def _alike(one: bytes, other: bytes) -> int:
     return next((place for place, (a, b) in pairs if a != b), min(len(one), len(other)))
 
 
-def _as_written(each: Edit, changes: Sequence[Change]) -> Edit:
+def _as_written(each: Edit, changes: Sequence[Change], texts: Mapping[str, str]) -> Edit:
     """An edit of texts that were changed, at its place in the reader's own."""
 
     def back(place: int) -> int:
@@ -81,7 +101,9 @@ def _as_written(each: Edit, changes: Sequence[Change]) -> Edit:
                 place = start
         return place
 
-    return replace(each, start=back(each.start), head_end=back(each.head_end), end=back(each.end))
+    start = back(each.start)
+    line = texts[each.file].encode()[:start].count(b"\n") + 1 if changes else each.line
+    return replace(each, line=line, start=start, head_end=back(each.head_end), end=back(each.end))
 
 
 def _further(before: str, after: str, suspect: Suspect) -> bool:

@@ -154,7 +154,7 @@ class Diagnosis:
 def finding_of(judged: Judged, model: ReaderModel) -> Finding:
     """What is said of a judged suspect of a model."""
     rule, suspect = judged.rule, judged.suspect
-    first: Edit | Element | None = next(iter(suspect.edits), None)
+    first: Edit | Element | None = next(iter(suspect.edits), suspect.at)
     if first is None and not model.error:
         first = next((place for each in suspect.elements if (place := model.named(each))), None)
     site = os.environ.get(SITE, "").rstrip("/")

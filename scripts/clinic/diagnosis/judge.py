@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -101,8 +102,13 @@ def grouped(found: Sequence[Judged]) -> list[Judged]:
     for each in found:
         suspect = each.suspect
         told = (each.rule.id, each.level, suspect.attribute, suspect.probe.measure, each.keyframe, each.silenced)
-        groups.setdefault((*told, each.after is None, bool(suspect.edits)), []).append(each)
+        groups.setdefault((*told, each.after is None, bool(suspect.edits), _about(suspect)), []).append(each)
     return [each for alike in groups.values() for each in _together(alike)]
+
+
+def _about(suspect: Suspect) -> str:
+    """What is said where no attribute tells what it is about, without names and numbers."""
+    return "" if suspect.attribute else re.sub(r"'[^']*'|\"[^\"]*\"|\d+", "", suspect.says)
 
 
 def _together(alike: Sequence[Judged]) -> Sequence[Judged]:

@@ -8,6 +8,7 @@ from typing import Literal
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.source import Element
 
 Level = Literal["cause", "hint"]
 
@@ -62,6 +63,7 @@ class Suspect:
         share: An edit helps when the number falls below `limit` and below this share of what it was.
         excess: How many times the static limit is exceeded; decides between rivals that help equally.
         level: `hint` where intent decides.
+        at: Where it stands, for one without edits.
     """
 
     elements: tuple[str, ...]
@@ -76,3 +78,4 @@ class Suspect:
     share: float = 0.6
     excess: float = 1.0
     level: Level = "cause"
+    at: Element | None = None

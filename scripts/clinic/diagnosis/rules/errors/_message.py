@@ -12,6 +12,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect
 
+SECTIONS = {"sensor", "actuator", "tendon", "equality"}
 PLACE = re.compile(r"(?:Element|Object)(?: name =?)? ?'?([^',]*)'?(?:, id =? ?(-?\d+))?(?:, line =? ?(\d+))?")
 
 
@@ -21,18 +22,54 @@ def sentence(model: ReaderModel) -> str:
 
 
 def meant(model: ReaderModel, *tags: str) -> list[Element]:
-    """The elements that the message may mean, of these kinds where some are given: by line, else by name."""
-    if model.source is None:
+    """The elements that the message may mean, of these kinds where some are given: by line, else by name or number.
+
+    What stands in an included file is at line 0.
+    """
+    places = list(PLACE.finditer(model.error.partition("\n")[2]))
+    found = next((each for each in places[::-1] if each[1] or each[3]), next(iter(places), None))
+    if model.source is None or not found:
         return []
-    found = PLACE.search(model.error.partition("\n")[2])
+    called, number, line = found.group(1), int(found.group(2) or -1), int(found.group(3) or -1)
     every = [each for each in model.source.root.walk() if not tags or each.tag in tags]
-    if not found:
-        return []
-    called, line = found.group(1), int(found.group(3) or -1)
-    here = [each for each in every if each.line == line]
+    kind = _of_kind(model, sentence(model))
+    here = [each for each in every if each.line == line and each.file == model.source.main]
+    if line == 0:
+        here = [each for each in every if each.file != model.source.main and called in (each.tag, each.get("name"))]
     exact = [each for each in here if called and called in (each.tag, each.get("name"))]
     named = [each for each in every if called and each.get("name") == called]
-    return exact or here or named
+    numbered = [] if called or tags else kind[number : number + 1] if number >= 0 else []
+    if not exact and len(here) > 1 and called == "":
+        here = [each for each in here if each in numbered] or here
+    return exact or here or [each for each in named if each in kind] or named or numbered
+
+
+def _of_kind(model: ReaderModel, said: str) -> list[Element]:
+    """The elements of the kind that a sentence is about, in MuJoCo's order: `in sensor`, `in contact pair 0`."""
+    assert model.source is not None
+    words = re.findall(r"\bin (?:ball |contact )?(\w+)", said)[::-1] + re.findall(r"\b[a-z]+\b", said)
+    for word in words:
+        if word in SECTIONS:
+            return list(model.source.section(word))
+        if word in ("geom", "joint", "site", "camera", "light") and not model.source.urdf:
+            return model.source.of_bodies(word, *(("freejoint",) if word == "joint" else ()))
+        if word in (
+            "mesh",
+            "texture",
+            "material",
+            "hfield",
+            "pair",
+            "exclude",
+            "key",
+            "frame",
+            "numeric",
+            "text",
+            "tuple",
+        ):
+            return list(model.source.elements(word))
+        if word == "flex":
+            return list(model.source.elements("flexcomp", "flex"))
+    return []
 
 
 def told(element: Element) -> str:

@@ -45,7 +45,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import delete, insert, replace
+from clinic.diagnosis.edit import Edit, delete, insert, replace
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence
 from clinic.diagnosis.suspect import Suspect
@@ -65,6 +65,19 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for element in meant(model, "default"):
         xml = model.texts[element.file].encode()[element.start : element.end].decode()
         home = next((each for each in tops if each.get("class") in ("", "main") and each is not element), None)
-        edits = (delete(element), insert(home, xml)) if home else (replace(element, f"<default>{xml}</default>"),)
+        edits: tuple[Edit, ...] = (replace(element, f"<default>{xml}</default>"),)
+        edits = (delete(element), insert(home, xml)) if home else edits
+        named = [each for each in tops if each.get("class") not in ("", "main") and each.file == element.file]
+        if home is None and len(named) > 1:
+            text = model.texts[element.file].encode()
+            inner = "".join(text[each.start : each.end].decode() for each in named)
+            edits = (replace(named[0], f"<default>{inner}</default>"), *(delete(each) for each in named[1:]))
         name = element.get("class")
-        yield mends(element, edits, f"{said}.", attribute="class", now=name, value=f"{name}, inside of the main one")
+        yield mends(
+            element,
+            edits,
+            f"{said}. It belongs inside of a <default> without a name.",
+            attribute="class",
+            now=name,
+            value=f"{name}, inside of the main one",
+        )

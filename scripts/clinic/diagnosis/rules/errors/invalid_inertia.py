@@ -47,7 +47,10 @@ TITLE = "An impossible inertia"
 FAMILIES = ("will-not-compile",)
 SINCE = "0.1"
 
+NO_BODY = "Of any body each principal moment is positive, and at most the sum of the other two."
+ONCE = "fullinertia says how the body is turned, so that nothing else can."
 DIAGONAL = ("ixx", "iyy", "izz")
+PART = 1e-7  # of the largest moment: a rod of 1 m and 0.2 mm
 ZERO = 1e-15  # kg m2: below it is what was left of a subtraction
 
 
@@ -67,13 +70,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 if attribute in inertial.attributes:
                     taken = (remove_attribute(inertial, attribute),)
                     now = inertial.get(attribute)
-                    yield mends(inertial, taken, f"{said}.", attribute=attribute, now=now, value="none")
+                    yield mends(inertial, taken, f"{said}. {ONCE}", attribute=attribute, now=now, value="none")
             yield from _put(inertial, "fullinertia", said)
         elif "diaginertia" in inertial.attributes:
             yield from _put(inertial, "diaginertia", said)
         elif "A + B" in said:
             balanced = model.option("balanceinertia", "true", "compiler")
-            yield mends(inertial, balanced, f"{said}.", attribute="balanceinertia", now="false", value="true")
+            yield mends(inertial, balanced, f"{said}. {NO_BODY}", attribute="balanceinertia", now="false", value="true")
 
 
 def _put(inertial: Element, attribute: str, said: str) -> Iterator[Suspect]:
@@ -89,7 +92,8 @@ def _put(inertial: Element, attribute: str, said: str) -> Iterator[Suspect]:
             yield mends(inertial, edits, says, attribute=attribute, now=now, value=value)
     value = " ".join(f"{number:.4g}" for number in [*possible(numbers[:3]), *[0.0] * (len(numbers) - 3)])
     edits = (set_attribute(inertial, attribute, value),)
-    yield mends(inertial, edits, f"{said}.", attribute=attribute, now=now, value=value)
+    says = f"{said}. {NO_BODY}"
+    yield mends(inertial, edits, says, attribute=attribute, now=now, value=value)
 
 
 def _in_urdf(link: Element, said: str) -> Iterator[Suspect]:
@@ -114,7 +118,8 @@ def possible(moments: list[float]) -> list[float]:
     A negative one loses its sign, one of zero is the mean of the others, and one above the sum of the others loses
     decimal places until it fits, or becomes that sum, or the larger of them where that is too little.
     """
-    made = [abs(each) if abs(each) > ZERO else 0.0 for each in moments]
+    least = max(ZERO, PART * max(map(abs, moments)))
+    made = [abs(each) if abs(each) > least else 0.0 for each in moments]
     for index, each in enumerate(made):
         rest = [other for k, other in enumerate(made) if k != index]
         if each == 0:

@@ -35,7 +35,9 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, nearest, sentence
+from clinic.diagnosis.rules.errors._remedy import remedied
 from clinic.diagnosis.rules.errors._scale import scaled_back
+from clinic.diagnosis.rules.errors._values import VALUES
 from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect
 
@@ -50,10 +52,40 @@ WORDS |= {"degrees": "degree", "radians": "radian", "rad": "radian", "euler": "E
 KNOWN = (
     "free ball slide hinge plane hfield sphere capsule ellipsoid cylinder box mesh sdf true false auto degree radian"
 )
+KNOWN += " gradient checker flat cube skybox 2d spot directional point image affine muscle user none integrator filter"
+KNOWN += (
+    " filterexact targetbody targetbodycom trackcom narrow bvh sap ellipsoid body xbody site camera edge cross random"
+)
+KNOWN += " convex exact legacy shell mindist maxforce netforce linear sRGB grid circle square disc direct gmsh cell"
 KNOWN += " enable disable Euler RK4 implicit implicitfast discrete pyramidal elliptic PGS CG Newton local fixed track"
 URDF_TYPES = "revolute continuous prismatic fixed floating planar"
 URDF = {"hinge": ["revolute", "continuous"], "slide": ["prismatic"], "free": ["floating"], "ball": ["floating"]}
 ORIENTATIONS = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
+SIZES = {  # how many numbers a geom takes
+    "sphere": "A sphere has a radius, in m.",
+    "capsule": "A capsule has a radius and half a length, or its ends in fromto, in m.",
+    "cylinder": "A cylinder has a radius and half a length, or its ends in fromto, in m.",
+    "box": "A box has three half-lengths, in m.",
+    "ellipsoid": "An ellipsoid has three radii, in m.",
+}
+ADVICE = {
+    r"should be smaller|invalid .*range": "The smaller number comes first.",
+    "should be 0": "A ball's range is from 0 to the largest angle.",
+    "axis too small": "An axis needs a length; the vertical is put in.",
+    "plane size": "size is half the length, half the width (0 for no end) and the distance of the grid's lines, not 0.",
+    "fromto": "Both ends are the same point; the second is moved by 0.1 m.",
+    "zero quaternion": "1 0 0 0 does not turn.",
+    "orientation|at most one of": "One of them can be given; the last is taken off.",
+    "both": "One of them is enough.",
+    "inheritrange": "It takes the range of the joint or tendon that is driven, for position and intvelocity.",
+    "volume is|too small|coplanar": "A shell has the mass in its surface.",
+    "mocap": "A mocap body is a child of the world and has no joint.",
+    "global coordinates": "Without it positions are taken as local, which they are not in a model written so.",
+    "optional suffix": "Memory is a whole number of bytes with K, M, G: 10M.",
+    "data attributes": "The words stand in this order.",
+    "negative|positive|must be|should be": "The sign is taken off.",
+}
+CONTACT = ("found", "force", "torque", "dist", "pos", "normal", "tangent", "linvel", "angvel")
 MINUS = re.compile(r"(?<!\w)-")
 RANGE = re.compile(r"(?:\w*range)\[0\] should be smaller than \w+\[1\]|invalid (?:\w+ )?range")
 
@@ -77,36 +109,103 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             now = element.get("integrator")
             yield mends(element, edits, f"{said}.", attribute="integrator", now=now, value="discrete")
             return
-    if model.source.urdf and "must be positive" in said and (negative := _negative(model)):
-        element, attribute, now = negative[0]
-        edits = tuple(set_attribute(each, name, MINUS.sub("", value)) for each, name, value in negative)
-        yield mends(element, edits, f"{said}.", attribute=attribute, now=now, value=MINUS.sub("", now))
+    if model.source.urdf and "must be positive" in said and (small := _not_positive(model)):
+        element, attribute, now = small[0]
+        edits = tuple(set_attribute(each, name, _positive(value)) for each, name, value in small)
+        says = f"{said}: <{element.tag}> has {attribute} {now}. Lengths of a URDF are in m; 1 mm stands for zero."
+        yield mends(element, edits, says, attribute=attribute, now=now, value=_positive(now))
+    if model.source.urdf and "axis too small" in said:
+        for axis in [
+            each for each in model.source.elements("axis") if not any(map(float, each.get("xyz", "1").split()))
+        ]:
+            taken = (set_attribute(axis, "xyz", "1 0 0"),)
+            says = f"{said}: an axis needs a length, and 1 0 0 is URDF's default."
+            yield mends(axis, taken, says, attribute="xyz", now=axis.get("xyz"), value="1 0 0")
+    yield from remedied(model, VALUES)
     for element in meant(model):
         for edit, now in _edits(said, element):
-            says = f"{said}."
             value = edit.value if edit.action == "set" else "none"
+            says = f"{said.rstrip('.')}. {_advice(said, element, edit)}".strip()
             yield mends(element, (edit,), says, attribute=edit.attribute, now=now, value=value)
 
 
-def _negative(model: ReaderModel) -> list[tuple[Element, str, str]]:
-    """The shapes of a URDF with a negative length, of which MuJoCo's message does not say where they are."""
+def _advice(said: str, element: Element, edit: Edit) -> str:
+    """What MuJoCo wants in the place of the value, in a sentence."""
+    if "keyword" in said and edit.action == "set":
+        return f"{edit.attribute} of <{element.tag}> takes {edit.value!r} among others."
+    if "keyword" in said:
+        return f"{edit.attribute} of <{element.tag}> takes none that is like it; without it the default holds."
+    if re.search(r"size \d+ must be positive", said):
+        return SIZES.get(element.get("type", "sphere"), "")
+    if "range" in said and edit.action == "remove" and edit.attribute == "limited":
+        return "What is limited needs a range."
+    return next((says for part, says in ADVICE.items() if re.search(part, said)), "")
+
+
+def _not_positive(model: ReaderModel) -> list[tuple[Element, str, str]]:
+    """The shapes of a URDF with a length of zero or below, of which MuJoCo's message does not say where they are."""
     assert model.source is not None
-    shapes = model.source.elements("sphere", "cylinder", "box")
-    return [(each, name, value) for each in shapes for name, value in each.attributes.items() if MINUS.search(value)]
+    shapes = [
+        (each, name, value)
+        for each in model.source.elements("sphere", "cylinder", "capsule", "box")
+        for name, value in each.attributes.items()
+    ]
+    return [(each, name, value) for each, name, value in shapes if min(map(float, value.split()), default=1) <= 0]
+
+
+def _positive(value: str) -> str:
+    """Lengths without sign, and 1 mm for zero."""
+    return " ".join(each.lstrip("-") if float(each) else "0.001" for each in value.split())
 
 
 def _edits(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
+    if "keyword" in said or "data attributes must be in order" in said or "joint type in URDF" in said:
+        yield from _words(said, element)
+    else:
+        yield from _numbers(said, element)
+
+
+def _words(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
+    """The word that may have been meant, or none."""
+
     def put(attribute: str, value: str) -> tuple[Edit, str]:
         return set_attribute(element, attribute, value), element.get(attribute, "nothing")
 
     if found := re.match(r"invalid keyword: '([^']*)'", said):
         wrong = found.group(1)
         values = [WORDS[wrong]] if wrong in WORDS else nearest(wrong, KNOWN.split())
+        if element.tag == "flag":
+            off = wrong.lower() in ("false", "0", "off", "no", "none") or wrong.startswith("dis")
+            values = ["disable" if off else "enable"]
         for attribute in [name for name, value in element.attributes.items() if value == wrong]:
             yield from (put(attribute, value) for value in values)
+            yield remove_attribute(element, attribute), wrong
+        if wrong == "(null)":
+            words = [word for word in element.get("data").split() if word in CONTACT]
+            yield put("data", " ".join(words) or "found")
+    elif "data attributes must be in order" in said:
+        yield put("data", " ".join(word for word in CONTACT if word in element.get("data").split()))
     elif "joint type in URDF" in said:
         wrong = element.get("type")
-        yield from (put("type", value) for value in (*URDF.get(wrong, nearest(wrong, URDF_TYPES.split())), "fixed"))
+        yield from (put("type", value) for value in URDF.get(wrong) or nearest(wrong, URDF_TYPES.split()) or ["fixed"])
+
+
+def _numbers(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
+    """The number that may have been meant, or none."""
+
+    def put(attribute: str, value: str) -> tuple[Edit, str]:
+        return set_attribute(element, attribute, value), element.get(attribute, "nothing")
+
+    if "plane size" in said:
+        given = [*element.get("size").split(), "0", "0"][:2]
+        yield put("size", f"{given[0]} {given[1]} 0.1")
+    elif "fromto points too close" in said:
+        points = [float(number) for number in element.get("fromto").split()]
+        yield put("fromto", " ".join(f"{number:g}" for number in [*points[:5], points[2] + 0.1]))
+    elif "range[1] in joint" in said and "range" not in element.attributes:
+        yield remove_attribute(element, "limited"), element.get("limited")
+    elif "optional suffix" in said:
+        yield put("memory", "".join(re.findall(r"^\d+|(?<=\d)[KMGTPE]", element.get("memory").upper())[:2]) or "10M")
     elif RANGE.search(said):
         for attribute in [name for name in element.attributes if name.endswith("range")]:
             numbers = element.get(attribute).split()
@@ -117,15 +216,11 @@ def _edits(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
     elif "has `range` but not `limited`" in said or "but not `" in said:
         yield put(re.findall(r"but not `(\w+)`", said)[0], "true")
     elif "range[0] should be 0" in said:
-        yield put("range", f"0 {element.get('range').split()[-1]}")
+        yield put("range", f"0 {(element.get('range').split() or ['90'])[-1]}")
     elif "axis too small" in said:
-        holder = next((each for each in element.walk() if each.tag == "axis"), None)
-        if holder is not None:  # of URDF
-            yield set_attribute(holder, "xyz", "0 0 1"), holder.get("xyz", "nothing")
-        else:
-            yield put("axis", "0 0 1")
+        yield put("axis", "0 0 1")
     elif re.search(r"size \d+ must be positive", said):
-        sizes = [abs(float(number)) or 0.01 for number in element.get("size", "0.01").split()]
+        sizes = [abs(float(number)) or 0.01 for number in (element.get("size") or "0.01").split()]
         count = int(re.findall(r"size (\d+)", said)[0])
         for length in (max(len(sizes), count + 1), 3):
             yield put("size", " ".join(f"{number:g}" for number in (sizes + sizes[-1:] * 3)[:length]))

@@ -26,10 +26,12 @@ When it is wrong: where a number is missing, zero is tried in its place, which i
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
+from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence
 from clinic.diagnosis.suspect import Suspect
@@ -38,35 +40,95 @@ TITLE = "A malformed number"
 FAMILIES = ("will-not-compile",)
 SINCE = "0.1"
 
-MESSAGE = re.compile(r"(bad format in|problem reading|.*) ?attribute '(\w+)'(.*)")
+MESSAGE = re.compile(
+    r"(bad format in|problem reading|number is too large in|(?!required|at most).*) ?attribute '(\w+)'(.*)"
+)
+DECIMAL = re.compile(r"-?\d+(?:[.,]\d+)?")
+AXES = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
+UNITS = {"mm": 1e-3, "cm": 1e-2, "g": 1e-3, "ms": 1e-3}
+WORD = re.compile(
+    r"([-+]?)((?:\d+\.?\d*|\.\d+)?(?:[eE][-+]?\d+)?)\*?(pi)?(?:/(\d+\.?\d*))?(mm|cm|m|kg|g|ms|s|deg|rad)?"
+)
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """The attribute that MuJoCo cannot read, with what it may have meant."""
+    """The attribute that MuJoCo cannot read, with what it may have meant, or else without it."""
     found = MESSAGE.match(sentence(model))
-    if not found:
+    if not found or "optional suffix" in found.string:
         return
     attribute = found.group(2)
     for element in meant(model):
         now = element.get(attribute)
-        numbers = NUMBER.findall(now)
-        if not numbers:
+        if attribute not in element.attributes or "${" in now:
             continue
-        tries = [" ".join(numbers), re.sub(r"(?<=\d),(?=\d)", ".", now)]
-        tries += [" ".join(numbers[:count]) for count in range(len(numbers) - 1, 0, -1)]
-        tries += [" ".join([*numbers, *["0"] * more]) for more in (1, 2, 3)]
-        for value in dict.fromkeys(tries):
-            if value != now and not _refused(model, element, attribute, value):
-                edits = (set_attribute(element, attribute, value),)
-                says = f'MuJoCo reads numbers with spaces between them: "{sentence(model)}".'
+        says = f'MuJoCo reads numbers with spaces between them: "{sentence(model)}".'
+        for value in dict.fromkeys(_guesses(attribute, now, "enough" in found.string)):
+            edits = (set_attribute(element, attribute, value),)
+            if value != now and not _refused(model, edits, attribute):
                 yield mends(element, edits, says, attribute=attribute, now=now, value=value)
                 break
+        else:
+            without = (remove_attribute(element, attribute),)
+            if not _refused(model, without, attribute):
+                yield mends(element, without, says, attribute=attribute, now=now, value="none")
 
 
-def _refused(model: ReaderModel, element: object, attribute: str, value: str) -> bool:
-    """Whether MuJoCo still says something about this attribute."""
-    from clinic.diagnosis.engine import CompileError
+def _guesses(attribute: str, now: str, short: bool) -> Iterator[str]:
+    """What may have been meant: the likeliest first."""
+    plain = now.replace("\u2212", "-").replace("\u2013", "-")
+    words = plain.replace(";", " ").split()
+    if (read := [_read(word) for word in words]) and None not in read:
+        yield " ".join(f"{number:.6g}" for number in read)
+    if len(words) == 1 and (letter := words[0].lower().lstrip("+-")) in AXES:
+        yield AXES[letter].replace("1", "-1" if words[0][0] == "-" else "1")
+    if re.fullmatch(r"0x[0-9a-fA-F]+", plain):
+        yield str(int(plain, 16))
+    numbers = NUMBER.findall(plain)
+    if not numbers:
+        return
+    if short:
+        yield from _filled(attribute, numbers)
+    if all(DECIMAL.fullmatch(word) for word in words) and any(word.lstrip("-").startswith("0,") for word in words):
+        yield plain.replace(",", ".")
+    yield " ".join(numbers)
+    yield re.sub(r"(?<=\d),(?=\d)", ".", plain)
+    yield " ".join(str(round(float(number))) for number in numbers)
+    yield from (" ".join(numbers[:count]) for count in range(len(numbers) - 1, 0, -1))
+    yield from (" ".join([*numbers, *["0"] * more]) for more in (1, 2, 3))
 
-    made = model.with_edits((set_attribute(element, attribute, value),))  # type: ignore[arg-type]
-    return isinstance(made, CompileError) and f"'{attribute}'" in str(made)
+
+def _read(word: str) -> float | None:
+    """A number with a unit, or a part of pi: `10cm`, `-pi/2`."""
+    found = WORD.fullmatch(word)
+    if not found or not (found[2] or found[3]) or word == found[1] + found[2]:
+        return None
+    value = float(found[2] or 1) * (math.pi if found[3] else 1.0) / float(found[4] or 1)
+    return (-value if found[1] == "-" else value) * UNITS.get(found[5] or "", 1.0)
+
+
+def _filled(attribute: str, numbers: list[str]) -> Iterator[str]:
+    """Too few numbers, with those that are mostly meant besides."""
+    last, count = numbers[-1], len(numbers)
+    if attribute == "scale" and count == 1:
+        yield f"{last} {last} {last}"
+    elif attribute.endswith("range") and count == 1:
+        size = last.lstrip("+-")
+        yield f"-{size} {size}"
+    elif attribute in ("gravity", "wind") and count == 1:
+        yield f"0 0 {last}"
+    elif attribute in ("rgba", "rgb1", "rgb2") and count == 3:
+        yield " ".join([*numbers, "1"])
+    elif attribute == "fromto" and count == 3:
+        yield " ".join(["0 0 0", *numbers])
+    elif attribute == "relpose" and count == 3:
+        yield " ".join([*numbers, "1 0 0 0"])
+    elif attribute in ("size", "scale", "springdamper", "diaginertia"):
+        yield from (" ".join([*numbers, *[last] * more]) for more in (1, 2, 3))
+
+
+def _refused(model: ReaderModel, edits: tuple[Edit, ...], attribute: str) -> bool:
+    """Whether MuJoCo still says something about this attribute in the same place."""
+    made = model.with_edits(edits)
+    place = model.error.strip().rpartition("\n")[2]
+    return isinstance(made, CompileError) and f"'{attribute}'" in str(made) and place in str(made)

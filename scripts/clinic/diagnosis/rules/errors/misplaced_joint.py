@@ -40,7 +40,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import delete, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.errors._message import meant, mends, sentence
+from clinic.diagnosis.rules.errors._message import meant, mends, sentence, told
 from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect
 
@@ -50,19 +50,54 @@ SINCE = "0.1"
 
 SAID = ("free joint can only", "World body cannot have joints", "more than 6 dofs", "ball followed by")
 
+SAYS = {
+    "free": "Only a child of the world can be free; the joint is taken out, and the body is fixed to its parent.",
+    "World": "The world does not move: the joint belongs into a <body>.",
+    "more": "A body has six degrees of freedom at most, and a free joint has all of them.",
+    "ball": "A ball turns about every axis already.",
+}
+
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The joint that is too much, taken out; a plane in a moving body, made a box."""
     said = sentence(model)
+    if model.source is not None and model.source.urdf and said.startswith("free joint can only"):
+        yield from _floating(model, said)
+        return
     for element in meant(model):
         if any(said.startswith(each) for each in SAID):
             joints = [each for each in element.walk() if each.tag in ("joint", "freejoint") and _own(each, element)]
             for joint in [each for each in joints if _free(each)] + joints[::-1]:
-                yield mends(joint, (delete(joint),), f"{said}.", value="removed")
+                yield mends(joint, (delete(joint),), f"{said}. {SAYS[said.split()[0]]}", value="removed")
         elif said.startswith("plane only allowed"):
             planes = [each for each in element.walk() if each.get("type") == "plane"]
             for plane in planes[:1]:
-                yield mends(plane, (set_attribute(plane, "type", "box"),), f"{said}.", attribute="type", value="box")
+                edits = (set_attribute(plane, "type", "box"),)
+                says = f"{said}: it has no end, and so no inertia; a box has."
+                yield mends(plane, edits, says, attribute="type", now="plane", value="box")
+
+
+def _floating(model: ReaderModel, said: str) -> Iterator[Suspect]:
+    """A floating joint of a URDF: its parent, where that is an empty root, made the world, or else the joint fixed."""
+    assert model.source is not None
+    joints = list(model.source.elements("joint"))
+    children = {each.get("link") for each in model.source.elements("child")}
+    links = {each.get("name"): each for each in model.source.elements("link")}
+    for joint in [each for each in joints if each.get("type") == "floating"]:
+        parent = joint.first("parent")
+        name = parent.get("link") if parent is not None else ""
+        root = links.get(name)
+        bare = root is not None and not (root.first("inertial") or root.first("collision"))
+        if root is not None and bare and name not in children and "world" not in links:
+            ends = [each for each in model.source.elements("parent") if each.get("link") == name]
+            edits = [set_attribute(root, "name", "world"), *(set_attribute(each, "link", "world") for each in ends)]
+            says = (
+                f"{said}: a link called world is MuJoCo's world, and what floats in it is free; {name!r} has no mass."
+            )
+            yield mends(root, edits, says, attribute="name", now=name, value="world")
+        edits = [set_attribute(joint, "type", "fixed")]
+        says = f"{said}: {told(joint)} floats in {name!r}, which is not the world; it is fixed."
+        yield mends(joint, edits, says, attribute="type", now="floating", value="fixed")
 
 
 def _own(joint: Element, element: Element) -> bool:

@@ -28,13 +28,15 @@ When it is wrong: what refers to the name now means the first of both.
 
 from __future__ import annotations
 
+import posixpath
 import re
 from collections import Counter
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import mends, sentence
+from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A name that is used twice"
@@ -50,20 +52,30 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = MESSAGE.match(sentence(model))
     if not found or model.source is None:
         return
-    kind = found.group(2) or ""
-    tags = KINDS.get(kind, (kind,))
-    every = list(model.source.elements(*tags)) if kind else []
-    if not any(each.get("name") == found.group(1) for each in every):
+    classes = "class name" in found[0]
+    attribute, kind = ("class", "default") if classes else ("name", found.group(2) or "")
+    every = list(model.source.elements(*KINDS.get(kind, (kind,)))) if kind else []
+    names = {id(each): each.get(attribute) or _of_file(each, kind) for each in every}
+    if not classes and found.group(1) not in names.values():
         every = [each for each in model.source.root.walk() if each.get("name") == found.group(1)]
-    used, edits, first = Counter[str](), [], None
-    taken = {each.get("name") for each in every}
+        names = {id(each): each.get("name") for each in every}
+    used, edits, first = Counter[str](["world"] if kind == "body" else []), list[Edit](), None
     for element in every:
-        name = element.get("name")
+        name = names[id(element)]
         if name and used[name]:
-            number = next(n for n in range(used[name] + 1, 10_000) if f"{name}_{n}" not in taken)
-            edits.append(set_attribute(element, "name", f"{name}_{number}"))
+            number = next(n for n in range(used[name] + 1, 10_000) if f"{name}_{n}" not in names.values())
+            edits.append(set_attribute(element, attribute, f"{name}_{number}"))
             first = first or element
         used[name] += 1
     if first:
-        says = f"{used[first.get('name')]} elements are called {first.get('name')!r}."
-        yield mends(first, edits, says, attribute="name", now=first.get("name"), value=edits[0].value)
+        name = names[id(first)]
+        says = f"{used[name]} elements are called {name!r}."
+        says = "The world is a body, and called 'world'." if (kind, name) == ("body", "world") else says
+        yield mends(first, edits, says, attribute=attribute, now=name, value=edits[0].value)
+
+
+def _of_file(element: Element, kind: str) -> str:
+    """The name that an asset has from its file."""
+    return (
+        posixpath.splitext(posixpath.basename(element.get("file")))[0] if kind in ("mesh", "texture", "hfield") else ""
+    )

@@ -33,6 +33,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.errors._converted import converted
 from clinic.diagnosis.rules.errors._message import meant, mends, nearest, sentence
 from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect
@@ -83,10 +84,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if attribute not in element.attributes:
             continue
         now = element.get(attribute)
+        for edits, value, why in converted(model, element, attribute):
+            made = model.with_edits(edits)
+            if not isinstance(made, CompileError) or made.args != (model.error,):
+                says = f"This MuJoCo knows no {attribute!r} at <{element.tag}>. {why}"
+                yield mends(element, edits, says, attribute=attribute, now=now, value=value)
+                return
         names = [RENAMED[attribute]] if attribute in RENAMED else nearest(attribute, KNOWN.split())
         for name in names:
             edits = _renamed(element, attribute, name)
-            if name not in element.attributes and not _refused(model, edits, name):
+            if name not in element.attributes and _known(model, element, name) and not _refused(model, edits, name):
                 says = f"This MuJoCo knows no {attribute!r} there, but it knows {name!r}."
                 yield mends(element, edits, says, attribute=attribute, now=now, value=f"{name}={now!r}")
                 return
@@ -97,6 +104,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _renamed(element: Element, attribute: str, name: str) -> tuple[Edit, ...]:
     return (remove_attribute(element, attribute), set_attribute(element, name, element.get(attribute)))
+
+
+def _known(model: ReaderModel, element: Element, name: str) -> bool:
+    """Whether MuJoCo knows an attribute of this element, which is tried alone."""
+    edits = (*(remove_attribute(element, each) for each in element.attributes), set_attribute(element, name, "0"))
+    made = model.with_edits(edits)
+    return not isinstance(made, CompileError) or f"unrecognized attribute: '{name}'" not in str(made)
 
 
 def _refused(model: ReaderModel, edits: tuple[Edit, ...], name: str) -> bool:

@@ -56,6 +56,7 @@ RENAMED = {
     "visual": "geom",
     "link": "body",
 }
+GONE = {"composite": "MuJoCo 4.0 has no <composite>: a <flexcomp> takes its place, which a grid of dim 1 to 3 makes."}
 HOME = {  # where an element belongs
     "actuator": "motor position velocity intvelocity damper cylinder muscle general adhesion dcmotor",
     "sensor": """touch accelerometer velocimeter gyro force torque magnetometer rangefinder jointpos jointvel framepos
@@ -65,6 +66,8 @@ HOME = {  # where an element belongs
     "asset": "mesh texture material hfield",
     "keyframe": "key",
     "tendon": "fixed spatial",
+    "visual": "global map quality headlight scale",
+    "option": "flag",
     "worldbody": "body geom site camera light",
 }
 SECTIONS = (
@@ -73,40 +76,26 @@ SECTIONS = (
 KNOWN = "body joint freejoint geom site camera light inertial frame include flag global map quality headlight plugin"
 
 
-PLUGIN = re.compile(r"plugin (\S+) not found")
-
-
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The element under another name, in its own section, or gone."""
-    if (plugin := PLUGIN.match(sentence(model))) and model.source is not None:
-        uses = [each for each in model.source.elements("plugin") if each.get("plugin") == plugin.group(1)]
-        if uses:
-            gone = (
-                "; the cable went with 4.0, and <flexcomp> of dimension 1 is a rope"
-                if "cable" in plugin.group(1)
-                else ""
-            )
-            says = f"This MuJoCo has no plugin {plugin.group(1)!r}{gone}."
-            yield mends(uses[0], [delete(each) for each in uses], says, attribute="plugin", value="removed")
-        return
-    if not re.match(r"(?:Schema violation: )?(?:unrecognized|unknown) element(?! ')", sentence(model)):
+    if not re.match(r"(?:Schema violation: )?unrecognized element", sentence(model)):
         return
     for element in meant(model):
-        if element.tag == "composite":
-            says = "<composite> went with MuJoCo 4.0: <flexcomp> makes ropes (dim 1), cloth (2) and soft bodies (3)."
-            yield mends(element, (replace(element, _flexcomp(element)),), says, value="<flexcomp>")
-            return
         for edits, value in _tries(model, element):
             made = model.with_edits(edits)
             if not isinstance(made, CompileError) or "unrecognized element" not in str(made):
                 says = (
                     f"This MuJoCo knows no <{element.tag}> inside of <{element.parent.tag if element.parent else ''}>."
                 )
+                says = GONE.get(element.tag, says)
                 yield mends(element, edits, says, value=value)
                 return
 
 
 def _tries(model: ReaderModel, element: Element) -> Iterator[tuple[tuple[Edit, ...], str]]:
+    if element.tag == "composite":
+        yield from _flexcomp(element)
+        return
     text = _text(model, element)
     known = [*SECTIONS.split(), *KNOWN.split(), *(word for words in HOME.values() for word in words.split())]
     names = [RENAMED[element.tag]] if element.tag in RENAMED else nearest(element.tag, known)
@@ -125,21 +114,21 @@ def _tries(model: ReaderModel, element: Element) -> Iterator[tuple[tuple[Edit, .
     yield (delete(element),), "removed"
 
 
-def _flexcomp(old: Element) -> str:
-    """The flexcomp that is as long, as fine and as thick as a composite."""
-    counts = [int(word) for word in old.get("count", "2").split() if word.isdecimal()] or [2]
-    geom = old.first("geom")
-    length = float((old.get("size") or "1").split()[0])
-    spacing = float(old.get("spacing") or length / max(1, counts[0] - 1))
-    thick = geom.get("size", "0.005") if geom else "0.005"
-    radius = min(float(thick.split()[0]), spacing / 3)
-    dim = 1 + sum(count > 1 for count in counts[1:])
-    counted = " ".join(map(str, (*counts, 1, 1)[:3]))
-    return (
-        f'<flexcomp name="{old.get("prefix") or "rope"}" type="grid" dim="{dim}" count="{counted}" '
-        f'spacing="{spacing:g} {spacing:g} {spacing:g}" radius="{radius:g}" pos="{old.get("offset") or "0 0 0"}">'
-        '<edge equality="true"/><contact selfcollide="none"/></flexcomp>'
-    )
+def _flexcomp(composite: Element) -> Iterator[tuple[tuple[Edit, ...], str]]:
+    """The flexcomp that took the place of composites in MuJoCo 4.0: a rope, a cloth or a solid of as many points."""
+    counts = [max(1, int(float(each))) for each in [*composite.get("count", "10").split(), "1", "1"][:3]]
+    dim = max(1, sum(count > 1 for count in counts))
+    lengths = [float(each) for each in composite.get("size", "0").split()]
+    gap = float(composite.get("spacing") or 0) or max(lengths) / max(1, max(counts) - 1) or 0.1
+    name = composite.get("prefix").rstrip("_") or composite.get("name") or "rope"
+    place = "".join(f' {key}="{composite.get(key)}"' for key in ("pos", "quat") if composite.get(key))
+    place = place or (f' pos="{composite.get("offset")}"' if composite.get("offset") else "")
+    spaces, numbers = " ".join([f"{gap:g}"] * 3), " ".join(map(str, counts))
+    xml = f'<flexcomp name="{name}" type="grid" dim="{dim}" count="{numbers}" spacing="{spaces}"'
+    xml += f' radius="{gap / 5:g}"{place}>'
+    xml += '<edge equality="true"/></flexcomp>'
+    yield (replace(composite, xml),), f'<flexcomp dim="{dim}">'
+    yield (delete(composite),), "removed"
 
 
 def _text(model: ReaderModel, element: Element) -> str:

@@ -53,7 +53,12 @@ FAMILIES = ("will-not-compile",)
 SINCE = "0.1"
 
 NAME = re.compile(r"'([^']+)'")
-SAID = re.compile(r"unknown|unrecognized name|not found|could not find|does not exist|invalid name|missing")
+SAID = re.compile(
+    r"unknown|unrecognized name|unrecognized object|not found|could not find|does not exist|invalid name|missing"
+)
+OTHER = re.compile(
+    r"attribute|(?<!unknown )element|keyword|'' not found|plugin|decoder|geometry specification|base site|target for"
+)
 OPTIONAL = {"class", "childclass", "material", "texture"}  # without them the element still is what it was
 
 
@@ -63,16 +68,17 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if model.source is not None and model.source.urdf and "parent or child missing" in said:
         yield from _links(model, model.source)
         return
-    if not SAID.search(said) or model.source is None or "attribute" in said or "keyword" in said:
-        return
-    if "element" in said and "unknown element '" not in said:
+    if not SAID.search(said) or model.source is None or OTHER.search(said):
         return
     names = NAME.findall(said)
     every = list(model.source.root.walk())
     known = [each.get("name") or each.get("class" if each.tag == "default" else "name") for each in every]
+    known += [
+        re.sub(r".*/|\.\w+$", "", each.get("file")) for each in every if each.tag in ("mesh", "texture", "hfield")
+    ]
     for element in meant(model) or [each for each in every if set(each.attributes.values()) & set(names)]:
         for attribute, now in element.attributes.items():
-            wrong = now in names or (not names and attribute in OPTIONAL)
+            wrong = now in names or (not names and attribute in (*OPTIONAL, "target"))
             if attribute == "name" or not wrong or (now in known and attribute in ("name", "file")):
                 continue
             if (found := _nearest(model, element, attribute, now, known)) is not None:
@@ -95,7 +101,7 @@ def _links(model: ReaderModel, source: Source) -> Iterator[Suspect]:
             says = f"No link is called {now!r}."
             for name in nearest(now, links):
                 edits = (set_attribute(end, "link", name),)
-                if not isinstance(model.with_edits(edits), CompileError):
+                if str(model.with_edits(edits)) != model.error:
                     yield mends(joint, edits, says, attribute="link", now=now, value=name)
                     return
             yield mends(joint, (delete(joint),), says, attribute="link", now=now, value="removed")

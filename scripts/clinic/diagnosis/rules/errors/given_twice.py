@@ -1,0 +1,147 @@
+"""Something is given twice that can be there once.
+
+A body or link has one `<inertial>`, a visual or collision one `<geometry>`, a tendon's path a site once, and a link one
+joint that leads to it. A file is included once. Merging two files or exporting twice makes such models.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="arm" pos="0 0 1">
+          <joint name="elbow" axis="0 1 0"/>
+          <inertial pos="0 0 0" mass="1" diaginertia="0.01 0.01 0.01"/>
+          <inertial pos="0 0 0" mass="2" diaginertia="0.02 0.02 0.02"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="arm" pos="0 0 1">
+          <joint name="elbow" axis="0 1 0"/>
+          <inertial pos="0 0 0" mass="1" diaginertia="0.01 0.01 0.01"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: none; the text compiles with the edit, which keeps the first.
+
+When it is wrong: the second may be the right one.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import delete, remove_attribute
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.errors._message import meant, mends, sentence, told
+from clinic.diagnosis.source import Element
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "Something given twice"
+FAMILIES = ("will-not-compile",)
+SINCE = "0.1"
+UNPLANTED = "what is given twice in a text was written by hand or by an exporter, and healthy models have none"
+
+TWICE = re.compile(r"repeated element: '(\w+)'|unique element '(\w+)' found")
+REPEATED = re.compile(r"(site|joint|geom) (\d+) is repeated|element '([^']*)' is repeated in equality")
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The second one, taken out."""
+    said, source = sentence(model), model.source
+    if source is None:
+        return
+    if found := TWICE.search(said):
+        yield from _children(model, found[1] or found[2])
+    elif found := REPEATED.search(said):
+        for element in meant(model):
+            yield from _path(element, said) if found[1] else _ends(element, found[3], said)
+    elif "multiple parents" in said:
+        yield from _parents(list(source.elements("joint")))
+    elif found := re.search(r"File '([^']*)' already included", said):
+        again = _includes(model, found[1])
+        for element in again[1:]:
+            says = f"{said.rstrip('.')}: what it holds is there once already."
+            yield mends(element, (delete(element),), says, attribute="file", now=found[1], value="removed")
+    elif "repeated URDF name" in said:
+        yield from _named(model)
+
+
+def _children(model: ReaderModel, tag: str) -> Iterator[Suspect]:
+    """What has two children of a kind, where the message is about one of them or about their parent."""
+    for element in meant(model):
+        for owner in (element, element.parent):
+            alike = [each for each in owner.children if each.tag == tag] if owner else []
+            for again in alike[1:]:
+                assert owner is not None
+                name = f" {owner.get('name')!r}" if owner.get("name") else ""
+                says = f"{owner.tag}{name} has {len(alike)} <{tag}>; MuJoCo takes one, and the first is kept."
+                yield mends(again, [delete(each) for each in alike[1:]], says, value="removed")
+                return
+
+
+def _path(tendon: Element, said: str) -> Iterator[Suspect]:
+    """The elements of a tendon's path that stand there before."""
+    seen = set[tuple[str, str]]()
+    for each in tendon.children:
+        key = (each.tag, each.get(each.tag))
+        if key in seen:
+            yield mends(
+                each, (delete(each),), f"{said}. {told(tendon)} goes through {key[1]!r} already.", value="removed"
+            )
+        seen.add(key)
+
+
+def _ends(element: Element, name: str, said: str) -> Iterator[Suspect]:
+    """The second of two equal ends of an equality."""
+    same = [key for key, value in element.attributes.items() if value == name and key != "name"]
+    for attribute in same[1:]:
+        says = (
+            f"{said}. Something cannot be held to itself; without {attribute} it is held to the world or to a constant."
+        )
+        yield mends(element, (remove_attribute(element, attribute),), says, attribute=attribute, now=name, value="none")
+
+
+def _parents(joints: list[Element]) -> Iterator[Suspect]:
+    """The second joint that leads to a link of a URDF."""
+    first = dict[str, Element]()
+    for joint in joints:
+        child = joint.first("child")
+        if child is None:
+            continue
+        name = child.get("link")
+        if name in first:
+            says = (
+                f"Link {name!r} is a child of joint {first[name].get('name')!r} already, and a tree has one way to it."
+            )
+            yield mends(joint, (delete(joint),), says, attribute="child", now=name, value="removed")
+            return
+        first[name] = joint
+
+
+def _includes(model: ReaderModel, file: str) -> list[Element]:
+    """The places where a file is included."""
+    assert model.source is not None
+    here = [each for each in model.source.root.walk() if each.tag == "include" and each.get("file") == file]
+    first = model.source.included.get(file)
+    return ([first] if first else []) + [each for each in here if each is not first]
+
+
+def _named(model: ReaderModel) -> Iterator[Suspect]:
+    """A link or joint of a URDF whose name is used before: an equal one goes, another gets a number."""
+    assert model.source is not None
+    for kind in ("link", "joint"):
+        seen = dict[str, Element]()
+        for each in model.source.root.children:
+            name = each.get("name")
+            if each.tag == kind and name in seen:
+                says = f"A {kind} before it is called {name!r}."
+                yield mends(each, (delete(each),), says, attribute="name", now=name, value="removed")
+                return
+            if each.tag == kind:
+                seen[name] = each

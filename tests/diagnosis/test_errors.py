@@ -9,9 +9,7 @@ from clinic.pages.messages import load_messages
 
 MENDED = {  # messages that no rule mends, with the reason
     "missing-target": "what the actuator should drive is not in the text",
-    "lengthrange": "a muscle's geometry",
-    "mesh-coplanar": "a mesh that is flat",
-    "mesh-vertices": "a mesh of three points",
+    "cable-plugin": "a plugin that is gone",
     "unrecognized-root": "no model",
     "file-not-found": "a file that is nowhere",
     "include-not-found": "a file that is nowhere",
@@ -31,6 +29,7 @@ def diagnosed(text: str, tmp_path, monkeypatch) -> Diagnosis:
 def test_what_mujoco_refuses_is_mended(message, tmp_path, monkeypatch):
     found = diagnosed(message.xml, tmp_path, monkeypatch)
     assert bool(found.causes) == (message.id not in MENDED), found.text()
+    assert found.causes or found.hints
     if found.causes:
         assert not examine(NativeEngine(), dict(found.fixed)).error
 
@@ -76,3 +75,156 @@ def test_a_file_that_is_nowhere_is_a_hint(tmp_path, monkeypatch):
     found = diagnosed('<mujoco><asset><mesh file="nowhere.obj"/></asset></mujoco>', tmp_path, monkeypatch)
     assert not found.causes
     assert [each.rule for each in found.hints] == ["missing-file"]
+
+
+ARM = """<mujoco>{0}
+  <worldbody>
+    <body name="arm" pos="0 0 1">
+      <joint name="elbow" axis="0 1 0"/>
+      <geom name="link" size="0.1"/>
+      <site name="tip"/>{1}
+    </body>
+    <body name="hand"><joint name="wrist" type="ball"/><geom name="palm" type="box" size="0.1 0.1 0.1"/></body>
+  </worldbody>{2}
+</mujoco>
+"""
+WRITTEN = [  # what is written at the top, in the body and at the end; the rule, its attribute and value
+    ("", "<inertial pos='0 0 0' mass='1'/><inertial pos='0 0 0' mass='2'/>", "", "given-twice", "", "removed"),
+    ("", "<geom size='10cm'/>", "", "malformed-number", "size", "0.1"),
+    ("", "<geom size='0,1'/>", "", "malformed-number", "size", "0.1"),
+    ("", "<geom size='0.1' pos='0 0 \u22120.1'/>", "", "malformed-number", "pos", "0 0 -0.1"),
+    ("", "<site name='s' type='plane'/>", "", "invalid-value", "type", "box"),
+    ("", "<geom size='0.1' condim='2'/>", "", "invalid-value", "condim", "3"),
+    ("<option gravity='-9.81'/>", "", "", "malformed-number", "gravity", "0 0 -9.81"),
+    ("<option><flag contact='false'/></option>", "", "", "invalid-value", "contact", "disable"),
+    ("<asset><texture name='t' type='2d' builtin='flat'/></asset>", "", "", "invalid-value", "width", "100"),
+    ("<default><default/></default>", "", "", "left-out", "class", "part"),
+    ("", "<inertial mass='1' diaginertia='1 1 1'/>", "", "left-out", "pos", "0 0 0"),
+    ("", "", "<sensor><touch body='arm'/></sensor>", "unknown-attribute", "body", "site='tip'"),
+    ("", "", "<sensor><jointpos joint='wrist'/></sensor>", "unfit-element", "", "<ballquat>"),
+    ("", "", "<sensor><framepos objname='arm'/></sensor>", "left-out", "objtype", "body"),
+    ("", "", "<equality><joint joint='elbow'/></equality>", "unknown-attribute", "joint", "joint1='elbow'"),
+    ("", "", "<equality><weld body1='arms'/></equality>", "unknown-reference", "body1", "arm"),
+    ("", "", "<contact><pair body1='arm' body2='hand'/></contact>", "unknown-attribute", "body1", "geom1='link'"),
+    ("", "", "<tendon><fixed><joint joint='elbow'/></fixed></tendon>", "left-out", "coef", "1"),
+    ("", "", "<tendon><spatial><site site='tip'/></spatial></tendon>", "unfit-element", "", "removed"),
+    ("", "", "<actuator><muscle joint='elbow'/></actuator>", "unfit-element", "range", "-90 90"),
+    ("", "", "<actuator><motor name='elbow_motor'/></actuator>", "left-out", "joint", "elbow"),
+    ("", "", "<actuator><damper joint='elbow' ctrlrange='-1 1'/></actuator>", "invalid-value", "ctrlrange", "0 1"),
+    ("", "<composite type='cable' count='9 1 1' size='1'/>", "", "unknown-element", "", '<flexcomp dim="1">'),
+    ("", "<camera pos='0 0 2' lookat='0 0 0'/>", "", "unknown-attribute", "lookat", "zaxis='0 0 2'"),
+]
+
+
+@pytest.mark.parametrize(("top", "body", "end", "rule", "attribute", "value"), WRITTEN)
+def test_what_people_write_is_mended(top, body, end, rule, attribute, value, tmp_path, monkeypatch):
+    found = diagnosed(ARM.format(top, body, end), tmp_path, monkeypatch)
+    first = found.causes[0]
+    assert (first.rule, first.attribute, first.value) == (rule, attribute, value), found.text()
+    assert first.says.rstrip(".") != found.error.splitlines()[0].rstrip(".")
+    assert not examine(NativeEngine(), dict(found.fixed)).error
+
+
+URDF = """<robot name="r">{top}
+  <link name="base"/>
+  <link name="wheel">
+    <inertial>{mass}<inertia ixx="0.001" iyy="0.001" izz="0.001" ixy="0" ixz="0" iyz="0"/></inertial>{more}
+    <collision><geometry>{shape}</geometry></collision>
+  </link>
+  <joint name="axle" type="{kind}"><parent link="base"/><child link="wheel"/>{axis}</joint>
+</robot>
+"""
+WHEEL = {
+    "top": "",
+    "mass": '<mass value="1"/>',
+    "more": "",
+    "shape": '<sphere radius="1"/>',
+    "kind": "continuous",
+    "axis": "",
+}
+APART = '<mujoco><compiler fusestatic="false"/></mujoco>'
+AGAIN = '<inertial><mass value="1"/></inertial>'
+
+
+@pytest.mark.parametrize(
+    ("changes", "rule", "value"),
+    [
+        ({"mass": ""}, "left-out", "1"),
+        ({"more": AGAIN}, "given-twice", "removed"),
+        ({"kind": "floating", "top": APART}, "misplaced-joint", "world"),
+        ({"shape": '<sphere radius="0"/>'}, "invalid-value", "0.001"),
+        ({"shape": '<cylinder radius="1" height="2"/>'}, "left-out", "length='2'"),
+        ({"axis": '<axis xyz="0 0 0"/>'}, "invalid-value", "1 0 0"),
+        ({"shape": '<mesh filename="flat.obj"/>'}, "unusable-file", "box"),
+    ],
+)
+def test_what_is_wrong_in_a_urdf_is_mended(changes, rule, value, tmp_path, monkeypatch):
+    folder = tmp_path / "around" / "model"
+    folder.mkdir(parents=True)
+    (folder / "flat.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 3 2\nf 2 3 4\n")
+    found = diagnosed(URDF.format(**WHEEL | changes), tmp_path, monkeypatch)
+    assert [(each.rule, each.value) for each in found.causes] == [(rule, value)], found.text()
+    assert not examine(NativeEngine(), dict(found.fixed)).error
+
+
+@pytest.mark.parametrize(
+    ("content", "says"),
+    [
+        (b"solid x\nfacet normal 0 0 1\nouter loop\n" * 9, "ASCII"),
+        (b"version https://git-lfs.github.com/spec/v1\noid sha256:6dd0\nsize 132314\n" * 2, "git lfs pull"),
+        (b"<!DOCTYPE html><html>" + b" " * 99, "page of the web"),
+        (bytes(80) + (200_001).to_bytes(4, "little") + bytes(50 * 200_001), "200,001 faces"),
+        (bytes(80) + (9).to_bytes(4, "little") + bytes(60), "cut off"),
+    ],
+)
+def test_what_an_stl_file_is_instead_is_told(content, says, tmp_path, monkeypatch):
+    folder = tmp_path / "around" / "model"
+    folder.mkdir(parents=True)
+    (folder / "part.stl").write_bytes(content)
+    text = '<mujoco>\n<asset><mesh name="part" file="part.stl"/></asset>\n</mujoco>'
+    (hint,) = diagnosed(text, tmp_path, monkeypatch).hints
+    assert (hint.rule, hint.line) == ("unusable-file", 2)
+    assert says in hint.says
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("", "empty"),
+        ("<package><name>arm</name></package>", "package.xml"),
+        ('<sdf version="1.6"/>', "Gazebo"),
+        ("version https://git-lfs.github.com/spec/v1", "git lfs pull"),
+        (URDF.format(**WHEEL | {"shape": '<sphere radius="${r}"/>'}), "xacro"),
+    ],
+)
+def test_what_is_no_model_is_told(text, says, tmp_path, monkeypatch):
+    found = diagnosed(text, tmp_path, monkeypatch)
+    assert not found.causes
+    assert [each.rule for each in found.hints] == ["not-a-model"]
+    assert says in found.hints[0].says
+
+
+@pytest.mark.parametrize(("mark", "end"), [("", "\n"), ("\ufeff", "\r\n")])
+def test_the_right_one_of_twenty_is_named(mark, end, tmp_path, monkeypatch):
+    sizes = ["-0.1" if number == 13 else "0.1" for number in range(20)]
+    lines = "".join(f"\n<geom size='{size}'/>" for size in sizes)
+    text = mark + f"<mujoco>\n<worldbody>{lines}\n</worldbody>\n</mujoco>".replace("\n", end)
+    (cause,) = diagnosed(text, tmp_path, monkeypatch).causes
+    assert (cause.line, cause.now, cause.value) == (16, "-0.1", "0.1")
+
+
+def test_the_same_mistake_twenty_times_is_mended_everywhere(tmp_path, monkeypatch):
+    lines = "".join(f"\n<geom size='0.{number + 1};0.1' type='capsule'/>" for number in range(20))
+    found = diagnosed(f"<mujoco>\n<worldbody>{lines}\n</worldbody>\n</mujoco>", tmp_path, monkeypatch)
+    assert [each.line for each in found.causes] == list(range(3, 23))
+    assert not examine(NativeEngine(), dict(found.fixed)).error
+
+
+def test_what_an_included_file_has_wrong_is_told_there(tmp_path, monkeypatch):
+    text = "<mujoco>\n<include file='part.xml'/>\n<worldbody>\n<geom size='0.1'/>\n</worldbody>\n</mujoco>"
+    part = (
+        "<mujoco>\n<worldbody>\n<geom size='0.1'/>\n<geom size='0.1 mm'/>\n<geom type='cube'/>\n</worldbody>\n</mujoco>"
+    )
+    monkeypatch.chdir(tmp_path)
+    found = examine(NativeEngine(), {"model.xml": text, "part.xml": part})
+    assert [(each.file, each.line) for each in found.causes] == [("part.xml", 4), ("part.xml", 5), ("part.xml", 5)]

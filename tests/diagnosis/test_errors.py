@@ -216,7 +216,7 @@ def test_the_right_one_of_twenty_is_named(mark, end, tmp_path, monkeypatch):
 def test_the_same_mistake_twenty_times_is_mended_everywhere(tmp_path, monkeypatch):
     lines = "".join(f"\n<geom size='0.{number + 1};0.1' type='capsule'/>" for number in range(20))
     found = diagnosed(f"<mujoco>\n<worldbody>{lines}\n</worldbody>\n</mujoco>", tmp_path, monkeypatch)
-    assert [each.line for each in found.causes] == list(range(3, 23))
+    assert [edit.line for each in found.causes for edit in each.edit] == list(range(3, 23))
     assert not examine(NativeEngine(), dict(found.fixed)).error
 
 

@@ -52,7 +52,7 @@ def relatives(simulation: Simulation) -> list[tuple[int, int, Contact]]:
         common = next(body for body in lines[0] if body in lines[1])
         links = lines[0].index(common) + lines[1].index(common)
         same = owner[one] == owner[other]
-        rail = links == 1 and common == 0  # a cart and its rail
+        rail = links == 1 and common == 0 and not _turns(simulation, max(one, other))  # a cart and its rail
         bolted = not same and not rail and common in (one, other) and not {owner[one], owner[other]} & set(falls)
         siblings = (
             not same and links == 2 and owner[one] and owner[other] and not {owner[one], owner[other]} & set(falls)
@@ -65,6 +65,12 @@ def relatives(simulation: Simulation) -> list[tuple[int, int, Contact]]:
         if contact.distance < 0 and near and (same or bolted or siblings):
             made.append((one, other, contact))
     return made
+
+
+def _turns(simulation: Simulation, body: int) -> bool:
+    """Whether a body has hinges alone."""
+    kinds = [simulation.joint_type(joint) for joint in simulation.joints_of(body)]
+    return bool(kinds) and all(kind == HINGE for kind in kinds)
 
 
 def _share(simulation: Simulation) -> float:

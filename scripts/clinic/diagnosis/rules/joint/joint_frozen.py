@@ -151,14 +151,14 @@ def _most_beyond(of: Simulation, attribute: str, *joints: int) -> float:
 
 
 def _held(simulation: Simulation) -> dict[int, float]:
-    """What holds each joint that nothing drives over what its weight gives, where it hangs on one side."""
+    """What holds each joint that neither an actuator nor a spring moves over what its weight gives, on one side."""
     if not simulation.count("actuator") or simulation.count("tendon") or simulation.count("equality"):
         return {}
     driven = {simulation.driven_joint(actuator) for actuator in range(simulation.count("actuator"))}
-    gravity = math.hypot(*simulation.model("opt.gravity"))
+    gravity, springs = math.hypot(*simulation.model("opt.gravity")), simulation.model("jnt_stiffness")
     made = {}
     for joint in range(simulation.count("joint")):
-        if joint in driven or simulation.joint_type(joint) not in (HINGE, SLIDE):
+        if joint in driven or springs[joint] or simulation.joint_type(joint) not in (HINGE, SLIDE):
             continue
         dof, body = simulation.dof(joint), int(simulation.model("jnt_bodyid")[joint])
         lever = size(simulation, body) if simulation.joint_type(joint) == HINGE else 1.0

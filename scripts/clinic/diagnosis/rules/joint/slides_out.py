@@ -53,6 +53,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "few healthy models have drawers"
 
+FINGER = re.compile(r"(?i)finger|grip|jaw|claw|hand(?!le)")
 GUIDED = re.compile(r"drawer|tray|(?<![a-z])door|shelf|lid(?![a-z])", re.IGNORECASE)
 
 
@@ -67,7 +68,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         if of.count("tendon") or _gap(of, joint, at_start=True) > 0:
             continue
-        named = bool(GUIDED.search(f"{names[body]} {of.names('joint')[joint]}"))
+        called = f"{names[body]} {of.names('joint')[joint]}"
+        if FINGER.search(called):
+            continue
+        named = bool(GUIDED.search(called))
         if not of.model("jnt_limited")[joint]:
             if named:
                 says = "It has no range: nothing stops it at either end."

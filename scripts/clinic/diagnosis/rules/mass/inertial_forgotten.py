@@ -57,10 +57,10 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: told are at most two bodies, where three and more in four of their mechanism have an `<inertial>`, and no
-geom of theirs has a mass or a density written on itself. So are parts without a joint, all together, whose geoms add
-more than 15 % to the mass of the link they are fixed to, where that link has an `<inertial>` of its own: a foot's
-collision geoms weigh as water does.
+The number: told is one body where two others of its mechanism have an `<inertial>`, or two where three in four have
+one, and no geom of theirs has a mass or a density written on itself. So are parts without a joint, all together, whose
+geoms add more than 15 % to the mass of the link they are fixed to, where that link has an `<inertial>` of its own: a
+foot's collision geoms weigh as water does.
 
 When it is wrong: a body that was added by hand and is as heavy as its geoms.
 """
@@ -92,7 +92,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for root in roots(of):
         jointed = [body for body, top in enumerate(owner) if top == root and of.joints_of(body)]
         bare = [body for body in jointed if model.element("body", body) and inertial(model, body) is None]
-        if not bare or len(bare) > FEW or len(jointed) - len(bare) < max(3, SHARE * len(jointed)):
+        others = len(jointed) - len(bare)
+        if not bare or len(bare) > FEW or others < (2 if len(bare) == 1 else max(3, SHARE * len(jointed))):
             continue
         for body in bare:
             placed = [each for geom in of.geoms_of(body) if (each := model.element("geom", geom)) is not None]
@@ -101,7 +102,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             ):
                 continue
             mass = of.model("body_mass")[body]
-            others = len(jointed) - len(bare)
             says = f"{others} others have an <inertial>; its {mass:.3g} kg are those of its geoms."
             yield Suspect(
                 (of.name("body", body),), "inertial", "left out", "", (), mass_of((body,)), 0.0, says,

@@ -52,10 +52,11 @@ Good:
       </keyframe>
     </mujoco>
 
-The number: the weight over what the rotors lift at most, above 1; at equal controls that carry the weight, the torque
-of roll and pitch as a share of the weight times the mean arm, above 0.06 (0.2 where something else hangs on joints),
-and the sum of the drags as a share of the sum of their magnitudes, above 0.22, of four rotors and more; how far the
-force of a keyframe that is named for hovering is from the weight, above 5 %. Three rotors at least, along one axis.
+The number: the weight over what the rotors lift at most, above 1 or below 1/30. At equal controls that carry the
+weight: the torque of roll and pitch as a share of the weight times the mean arm, above 0.06 (0.2 where more hangs on
+joints), and the sum of the drags as a share of the sum of their magnitudes, above 0.22, of four rotors and more. How
+far the force of a keyframe that is named for hovering is from the weight, above 5 %. Three rotors at least, along one
+axis.
 
 When it is wrong: a frame whose rotors are meant to carry unlike shares, and a balloon or a boat whose buoyancy the code
 adds. Where `<option>` has the density of water, or a body has `gravcomp`, nothing is told.
@@ -87,6 +88,7 @@ HOVER = re.compile(r"(?i)hover")
 LEAST, PAIRED = 3, 4
 ALONG = 0.7  # of a rotor's push along the common axis
 TILT, LOADED, YAW, OFF = 0.06, 0.2, 0.22, 0.05
+STRONG = 30.0  # of the weight
 WATER = 100.0  # kg/m3
 
 
@@ -190,6 +192,10 @@ def _short(of: Simulation, body: int) -> float:
     return drone.weight / max(_most(of, drone), 1e-9) if drone else 0.0
 
 
+def _strength(of: Simulation, body: int) -> float:
+    return 1 / max(_short(of, body), 1e-9)
+
+
 def _torques(of: Simulation, drone: Drone) -> tuple[float, Sequence[float]]:
     """At equal controls that carry the weight: the yaw as a share, and the torque of roll and pitch in N m."""
     of.begin()
@@ -217,13 +223,17 @@ def _yaw(of: Simulation, body: int) -> float:
 
 
 def _lifts(model: ReaderModel, drone: Drone, names: tuple[str, ...]) -> Iterator[Suspect]:
-    """A drone whose weight is above what its rotors give at the ends of their control ranges."""
+    """A drone whose weight is above what its rotors give at the ends of their control ranges, or next to nothing."""
     of = model.simulation
     most = _most(of, drone)
-    if drone.weight <= most:
-        return
     numbers = [each.actuator for each in drone.rotors]
     low, high = of.row("actuator_ctrlrange", numbers[0], 2)
+    if STRONG * drone.weight < most < math.inf:
+        probe = Probe("what the rotors lift at most over the weight", "", _strength, (drone.body,), dynamic=False)
+        says = f"They lift {most:.3g} N at most, {most / drone.weight:.0f} times what the drone weighs."
+        yield Suspect(names, "ctrlrange", f"{low:g} {high:g}", "twice the weight", (), probe, STRONG, says, "2 to 10")
+    if drone.weight <= most:
+        return
     value = f"{low:g} {rounded(high * 2 * drone.weight / most)}" if most > 0 < high else ""
     edits: tuple[Edit, ...] = model.set("actuator", numbers, "ctrlrange", value) if value else ()
     yield Suspect(

@@ -1,0 +1,108 @@
+"""A spring hangs at its stop: what rests on it is too heavy for it.
+
+A suspension works in the middle of its travel. With `stiffness` ten times too small, or a body ten times too heavy, the
+slide comes down on its limit, and every bump goes through to the chassis.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="chassis" pos="0 0 0.3">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.03" mass="4"/>
+          <body name="wheel" pos="0 0 -0.1">
+            <joint name="spring" type="slide" axis="0 0 1" stiffness="500" damping="60" range="-0.03 0.03"/>
+            <geom type="box" size="0.2 0.1 0.05" mass="0.5"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="1 1 0.1"/>
+        <body name="chassis" pos="0 0 0.3">
+          <freejoint/>
+          <geom type="box" size="0.2 0.1 0.03" mass="4"/>
+          <body name="wheel" pos="0 0 -0.1">
+            <joint name="spring" type="slide" axis="0 0 1" stiffness="5000" damping="60" range="-0.03 0.03"/>
+            <geom type="box" size="0.2 0.1 0.05" mass="0.5"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: two seconds after the model was let go, how far a slide that has a spring and no actuator is from where the
+spring is at rest, as a share of the way to its limit; above 0.75, and where it stands still.
+
+When it is wrong: a button, a pedal or a landing gear that is meant to be pressed down.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import SLIDE
+from clinic.diagnosis.probes.run import let_go
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect, rounded
+
+TITLE = "A spring that hangs at its stop"
+FAMILIES = ("sags", "sinks", "stuck")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "healthy models have few slides with springs"
+
+MOST, USUAL, STILL = 0.75, 0.3, 0.05  # of the way to the limit; m/s
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The slides whose springs what rests on them presses to their limits, all together."""
+    of = model.simulation
+    pressed = {joint: share for joint in _springs(of) if (share := _pressed(of, joint)) > MOST}
+    if not pressed:
+        return
+    worst = max(pressed, key=lambda joint: pressed[joint])
+    stiffness = of.model("jnt_stiffness")[worst]
+    value, percent = rounded(stiffness * pressed[worst] / USUAL), 100 * pressed[worst]
+    yield Suspect(
+        tuple(of.name("joint", joint) for joint in sorted(pressed, key=lambda joint: -pressed[joint])),
+        "stiffness",
+        f"{stiffness:g}",
+        value,
+        model.set("joint", tuple(pressed), "stiffness", value),
+        Probe("share of the way to its limit at which a spring rests", "", _most, tuple(pressed)),
+        MOST,
+        f"{of.name('joint', worst)} stands at {percent:.0f} % of the way from its spring's rest to its limit.",
+        "near the middle of the travel",
+    )
+
+
+def _springs(of: Simulation) -> list[int]:
+    """The slides that have a spring and a range and no actuator."""
+    driven = {of.driven_joint(each) for each in range(of.count("actuator"))}
+    stiffness, limited = of.model("jnt_stiffness"), of.model("jnt_limited")
+    return [
+        joint
+        for joint in range(of.count("joint"))
+        if of.joint_type(joint) == SLIDE and stiffness[joint] > 0 and limited[joint] and joint not in driven
+    ]
+
+
+def _pressed(of: Simulation, joint: int) -> float:
+    """The share of the way from the spring's rest to the limit; 0 where it moves, or the rest is outside."""
+    end, place = let_go(of).end, int(of.model("jnt_qposadr")[joint])
+    low, high = of.row("jnt_range", joint, 2)
+    rest = of.model("qpos_spring")[place]
+    if end is None or not low < rest < high or abs(end.qvel[of.dof(joint)]) > STILL:
+        return 0.0
+    off = end.qpos[place] - rest
+    return off / (high - rest) if off > 0 else off / (low - rest)
+
+
+def _most(of: Simulation, *joints: int) -> float:
+    return max(_pressed(of, joint) for joint in joints)

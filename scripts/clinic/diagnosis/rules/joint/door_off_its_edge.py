@@ -52,7 +52,9 @@ LEVEL = "hint"
 UNPLANTED = "few healthy models have doors"
 
 DOOR = re.compile(r"door|(?<![a-z])(gate|hatch|flap|lid)(?![a-z])", re.IGNORECASE)
-PART = re.compile(r"handle|knob|lock|latch|bolt|frame|hinge|button|revolv|rotat|indoor|outdoor", re.IGNORECASE)
+PART = re.compile(
+    r"handle|knob|lock|latch|bolt|frame|hinge|button|revolv|rotary|rotating|indoor|outdoor", re.IGNORECASE
+)
 SCREWED = re.compile(r"(?<![a-z])(hatch|lid)(?![a-z])", re.IGNORECASE)
 FLAT, EDGE, ACROSS = 0.35, 0.3, 0.9
 

@@ -143,7 +143,7 @@ def check_rules(select: Collection[str], ignore: Collection[str]) -> None:
 
 
 def rules_table() -> str:
-    """All rules with their titles, by the folder that they lie in."""
+    """All rules with their titles and symptoms, a line each."""
     width = max(map(len, rules()))
     return "\n".join(f"{rule.id:<{width}}  {rule.title} ({', '.join(rule.families)})" for rule in rules().values())
 

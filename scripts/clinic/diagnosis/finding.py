@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
@@ -11,10 +12,12 @@ from typing import Any
 from clinic.diagnosis.edit import Edit, diff
 from clinic.diagnosis.judge import Judged
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules import rules
 from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Level
 
 CAUSES_SHOWN = 3
+FEW = 12  # rules whose names are told where nothing was found
 DIES = "engine-dies"
 FAILS = "rule-fails"
 LATE = "rule-too-slow"
@@ -134,14 +137,14 @@ class Diagnosis:
             lines.append(f"   and {len(self.causes) - len(shown)} more: --all")
         for each in self.hints:
             place = (f"{each.file}:{each.line}" if each.line else "", _elements(each.elements))
-            lines.append(f"hint     {each.rule}  {'  '.join(filter(None, place))}: {each.says}{_tried(each)}")
+            lines.append(f"hint     {each.rule}  {'  '.join(filter(None, place))}: {each.says}{_edited(each)}")
         if not self.causes and not self.hints:
-            tried = f"by {len(self.ruled_out)} rule{'s' * (len(self.ruled_out) > 1)}: {', '.join(self.ruled_out)}"
+            tried = f"by {_tried(self.ruled_out, every)}"
             lines.append(
                 f"Nothing found, {tried if self.ruled_out else 'for no chosen rule is about a model that compiles'}."
             )
         elif self.ruled_out:
-            lines.append(f"ruled out ({len(self.ruled_out)}): {', '.join(self.ruled_out)}")
+            lines.append(f"ruled out: {_tried(self.ruled_out, every)}")
         if self.silenced:
             told = (f"{each.rule} {each.file}" + (f":{each.line}" if each.line else "") for each in self.silenced)
             lines.append(f"silenced ({len(self.silenced)}): {', '.join(told)}")
@@ -230,7 +233,16 @@ def _cause(number: int, found: Finding) -> list[str]:
     return lines
 
 
-def _tried(hint: Finding) -> str:
+def _tried(ids: Sequence[str], every: bool) -> str:
+    """How many rules found nothing, with their names, or, where they are many, with what they are about."""
+    count = f"{len(ids)} rule{'s' * (len(ids) > 1)}"
+    if every or len(ids) <= FEW:
+        return f"{count}: {', '.join(ids)}"
+    areas = Counter(rules()[each].area for each in ids)
+    return f"{count} ({', '.join(f'{area} {number}' for area, number in areas.most_common())}; --all names them)"
+
+
+def _edited(hint: Finding) -> str:
     """What a hint's edit does to its symptom, where it mends it."""
     if hint.after is None:
         return ""

@@ -37,6 +37,7 @@ class Rule:
     """A rule's module, read."""
 
     id: str
+    area: str  # the folder of its module: `contact`
     title: str
     families: tuple[str, ...]
     since: str
@@ -71,9 +72,10 @@ def rules() -> dict[str, Rule]:
         if found.ispkg or found.name.rpartition(".")[2].startswith("_"):
             continue
         module = importlib.import_module(found.name)
-        name = found.name.rpartition(".")[2].replace("_", "-")
+        *_, area, name = found.name.replace("_", "-").split(".")
         made[name] = Rule(
             id=name,
+            area=area,
             title=module.TITLE,
             families=module.FAMILIES,
             since=module.SINCE,

@@ -141,7 +141,6 @@ FOREIGN = [
     "best gpu for reinforcement learning",
     "price of a commercial seat",
     "pip install fails on windows arm",
-    "soft body cloth simulation parameters",
     "fluid drag coefficient for a fish",
     "muscle activation dynamics time constant",
     "export a trajectory to csv",

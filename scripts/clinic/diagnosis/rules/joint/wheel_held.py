@@ -1,7 +1,7 @@
-"""A wheel cannot go on turning: a position servo drives it, or it has no joint.
+"""A wheel cannot go on turning: a position servo drives it, it has no joint, or dry friction holds it.
 
 `<position>` stands where `<velocity>` or `<motor>` was meant, and turns the wheel to an angle, where it stops; or two
-of four wheels have no joint, and drag.
+of four wheels have no joint, and drag; or `frictionloss` is above all that the ground can turn a wheel with.
 
 Bad:
 
@@ -54,13 +54,15 @@ Good:
     </mujoco>
 
 The number: how many wheels of a free base cannot go on turning. A wheel is a body that is called so, or whose hinge is,
-with a cylinder, sphere, ellipsoid or mesh that collides; a hinge across the vertical turns it.
+with a cylinder, sphere, ellipsoid or mesh that collides; a hinge across the vertical turns it. The ground turns a
+wheel with the weight of the whole robot times its radius at the most, at a friction of 1.
 
 When it is wrong: wheels that are blocked on purpose, or turned to an angle that the controller moves on.
 """
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 
@@ -74,6 +76,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "A wheel that cannot go on turning"
 FAMILIES = ("stuck", "slow")
 SINCE = "0.1"
+AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "only names say what is a wheel"
 
@@ -82,6 +85,8 @@ OTHER = re.compile(r"steer|caster|castor|susp|fork|hub|spare|swivel|mount|knuckl
 ROUND, ACROSS = (SPHERE, ELLIPSOID, CYLINDER, MESH), 0.7
 
 BARE, SERVO = "it has no joint, and others have", "a position servo turns it to an angle, where it stops"
+FRICTION = "its frictionloss is more than the ground can turn it with: the robot's weight times its radius"
+WANTED = {BARE: ("joint", "a hinge"), SERVO: ("actuator", "velocity or motor"), FRICTION: ("frictionloss", "0")}
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -91,11 +96,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for reason in dict.fromkeys(found.values()):
         bodies = [body for body, each in found.items() if each == reason]
         joints = [joint for body in bodies for joint in _hinges(of, body)]
-        attribute, value = ("joint", "a hinge") if reason == BARE else ("actuator", "velocity or motor")
+        attribute, value = WANTED[reason]
         probe = Probe("wheels that cannot go on turning", "", _count, (), dynamic=False)
         names = tuple(of.name("joint", joint) for joint in joints) or tuple(of.name("body", body) for body in bodies)
         says = f"{of.name('body', bodies[0])} is a wheel, and {reason}."
-        yield Suspect(names, attribute, "", value, (), probe, 0, says, "wheels that turn without an end", level="hint")
+        now = f"{_friction(of, bodies[0]):.3g}" if reason == FRICTION else ""
+        edits = model.set("joint", joints, "frictionloss", "0") if reason == FRICTION else ()
+        healthy = "wheels that turn without an end"
+        yield Suspect(names, attribute, now, value, edits, probe, 0, says, healthy, level="hint")
 
 
 def _count(of: Simulation) -> float:
@@ -114,7 +122,19 @@ def _held(of: Simulation) -> dict[int, str]:
             made[body] = BARE
         elif set(hinges) & by_joint:
             made[body] = SERVO
+        elif _friction(of, body) > _traction(of, body):
+            made[body] = FRICTION
     return made
+
+
+def _friction(of: Simulation, body: int) -> float:
+    return sum(of.model("dof_frictionloss")[of.dof(joint)] for joint in _hinges(of, body))
+
+
+def _traction(of: Simulation, body: int) -> float:
+    """The torque in N m with which the ground turns a wheel that bears its whole robot, at a friction of 1."""
+    radius = max(of.model("geom_rbound")[geom] for geom in of.geoms_of(body))
+    return radius * of.model("body_subtreemass")[root_of(of)[body]] * math.hypot(*of.model("opt.gravity"))
 
 
 def _wheels(of: Simulation) -> list[int]:

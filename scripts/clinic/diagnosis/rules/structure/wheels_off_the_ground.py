@@ -48,7 +48,7 @@ Good:
 
 The number: how far below the wheels the lowest other geom reaches at the start, or how far a root that is called a
 footprint is from the ground under the wheels: more than 1 mm, and less than a wheel's radius. Or how far above the
-ground of two wheels the caster ends: more than 4 mm, and than a tenth of a wheel's radius. A wheel is the last body
+ground of two wheels the caster ends: more than 2 mm, and than a 20th of a wheel's radius. A wheel is the last body
 of a mechanism, on a level hinge without limits, and gravity is along z.
 
 When it is wrong: wheels that are let down later, on a suspension.
@@ -74,7 +74,7 @@ LEVEL = "hint"
 UNPLANTED = "nearly no healthy model stands on wheels"
 
 CASTER = re.compile(r"caster|castor|ball_?wheel|roller", re.IGNORECASE)
-ALOFT = 0.004  # m
+ALOFT = 0.002  # m
 LEAST, LEVEL_ENOUGH = 0.001, 0.1  # m; of the axle's direction along the vertical
 
 
@@ -99,7 +99,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             yield Suspect(
                 (of.name("geom", low), body), "pos", where, f"{below:.3g} mm higher", (), probe, LEAST, says, "0"
             )
-        aloft = [geom for geom in _casters(of, root, wheels) if _bottom(of, geom) - ground > max(ALOFT, radius / 10)]
+        aloft = [geom for geom in _casters(of, root, wheels) if _bottom(of, geom) - ground > max(ALOFT, radius / 20)]
         if aloft:
             high = max(aloft, key=lambda geom: _bottom(of, geom))
             above = 1000 * (_bottom(of, high) - ground)

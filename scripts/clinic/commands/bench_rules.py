@@ -37,7 +37,7 @@ def bench_rules(
     ] = False,
 ) -> None:
     """Measure the rules on healthy models and on faults planted in them; CLINIC_HEALTHY names more folders."""
-    from clinic.commands import terminal
+    from clinic.commands.console import console
     from clinic.diagnosis.bench.faults import kinds
     from clinic.diagnosis.bench.lock import LOCK, kept, lock_text, read_lock, unlawful, with_kinds
     from clinic.diagnosis.bench.table import data, measure, plants_text, tasks
@@ -50,7 +50,7 @@ def bench_rules(
         raise typer.BadParameter("--write measures all models: leave --robot out")
     root: Path = project_root()
     held_out = held_out or write
-    with terminal.console(stderr=True).status("measuring") as status:
+    with console(stderr=True).status("measuring") as status:
         made = measure(
             root,
             Cache(cache_folder(root)),
@@ -74,9 +74,9 @@ def bench_rules(
 
 def _print(table: dict[str, Any], plants: Iterable[Plant], held_out: bool) -> None:
     """Two tables, the sums of each side, and in a line each what was named in healthy models and what was missed."""
-    from clinic.commands import terminal
+    from clinic.commands.console import console
 
-    out = terminal.console()
+    out = console()
     for each in (_rules(table, held_out), _kinds(table, held_out)):
         out.print(each)
     for side in ("seen", "held_out") if held_out else ("seen",):

@@ -67,6 +67,7 @@ def check(
 
     from clinic.commands import terminal
     from clinic.commands.check import check_cases, report_data
+    from clinic.commands.console import console
     from clinic.work.cache import Cache
 
     if engine:
@@ -75,7 +76,7 @@ def check(
         told = list(compare(project_root(), slugs or [], engine))
         print("\n".join(map(str, told)) or "the same, but for what the records say under `older`")
         raise typer.Exit(bool(told))
-    root, out, err = project_root(), terminal.console(), terminal.console(stderr=True)
+    root, out, err = project_root(), console(), console(stderr=True)
     wanted = [folder.name for folder in folders(root, slugs or [])]
     checking = check_cases(root, wanted, Cache(cache_folder(root)))
     reports = list(track(checking, "checking", len(wanted), console=err, transient=True, disable=not err.is_terminal))
@@ -116,13 +117,14 @@ def claims(slug: Slug) -> None:
 def list_cases(as_json: AsJson = False) -> None:
     """List the cases by number."""
     from clinic.commands import terminal
+    from clinic.commands.console import console
     from clinic.record.case import read_cases
 
     cases, problems = read_cases(cases_root() / "cases")
     if as_json:
         _print_json([terminal.row_data(case) for case in cases])
     else:
-        terminal.console().print(terminal.cases_table(cases))
+        console().print(terminal.cases_table(cases))
     if problems:
         raise CaseError(problems)
 
@@ -137,6 +139,7 @@ def show(
     import mujoco
 
     from clinic.commands import terminal
+    from clinic.commands.console import console
     from clinic.engine.releases import NEEDED_BY_CASES, installed
     from clinic.pages.text.prose import prose_problems
     from clinic.proof.evidence import missing_requirement
@@ -148,7 +151,7 @@ def show(
     (folder,) = folders(root, [slug])
     case = load_case(folder)
     try:
-        with terminal.console(stderr=True).status(f"running {case.slug}"):
+        with console(stderr=True).status(f"running {case.slug}"):
             evidence = measure_case(case, Cache(cache_folder(root)), ("sweeps",))
     except CaseError:
         if installed() >= NEEDED_BY_CASES or missing_requirement(case):
@@ -159,7 +162,7 @@ def show(
     if as_json:
         _print_json(terminal.case_data(case, evidence, answer))
     else:
-        terminal.console().print(terminal.case_text(case, evidence, answer))
+        console().print(terminal.case_text(case, evidence, answer))
 
 
 @app.command()

@@ -43,7 +43,7 @@ def diagnose(
     ignore: Annotated[list[str], typer.Option(help="Not this rule; may be repeated.")] = [],  # noqa: B006
 ) -> None:
     """Say what is wrong with your own model; exit code 0 if no cause is found, 1 for a cause, 2 if it cannot be run."""
-    from clinic.commands import terminal
+    from clinic.commands.console import console
     from clinic.commands.diagnosis_options import STDIN, OptionError, check_rules, family_of, read_source, start_of
     from clinic.commands.diagnosis_output import check_output, printed, write_fix
     from clinic.diagnosis.finding import Diagnosis
@@ -60,7 +60,7 @@ def diagnose(
             print(f"clinic: --symptom is read as {family}{or_else}", file=sys.stderr)
         check_output(models, form, fix, force)
         start = start_of(keyframe, ctrl, duration, seed)
-        with terminal.console(stderr=True).status("compiling") as status:
+        with console(stderr=True).status("compiling") as status:
             for model in models:
                 source = read_source(model)
                 tell = status.update

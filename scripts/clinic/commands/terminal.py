@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from rich.console import Console
 from rich.markdown import Markdown
 from rich.table import Column, Table
 from rich.text import Text
@@ -22,16 +20,9 @@ from clinic.record.prose import quantity
 if TYPE_CHECKING:
     from clinic.commands.check import Report
 
-WIDTH = 120
 MEANS = {"broken": "it is broken", "fixed": "it is well"}
 WANTED = {"broken": "broken", "fix": "fixed", "refuted": ""}  # which checks must all hold, by kind of variant
 FOLDS = ("diagnosis", "cause", "fix", "lesson")
-
-
-def console(stderr: bool = False) -> Console:
-    """The terminal, or WIDTH columns where there is none."""
-    stream = sys.stderr if stderr else sys.stdout
-    return Console(file=stream, width=None if stream.isatty() else WIDTH, highlight=False)
 
 
 def cases_table(cases: Iterable[Case]) -> Table:

@@ -53,6 +53,7 @@ from clinic.diagnosis.probes.servo import Servo, remaining, servos
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.stand import BENT, LOST, goes_down, stance
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.servo.servo_held_back import holds_back
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, rounded
 
@@ -163,12 +164,13 @@ def _allowed(servo: Servo) -> float:
 
 
 def _late(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
-    """Servos that take far longer than a second for a small step, but for those that sag."""
+    """Servos that take far longer than a second for a small step, but for those that sag or are held back."""
     simulation, late = model.simulation, []
     for each in servos(simulation):
         slow = each.hinge and each.stiffness < SLOW**2 * each.inertia
         slow |= each.damping > (LATE if each.hinge else CRAWLS) * each.stiffness
-        if slow and each.actuator not in sagging and model.measured(remaining([each.actuator])) > LEFT:
+        slow = slow and each.actuator not in sagging and not holds_back(simulation, each)
+        if slow and model.measured(remaining([each.actuator])) > LEFT:
             late.append(each)
     if not late:
         return

@@ -1,0 +1,94 @@
+"""The joint holds its servo back: by damping or armature of its own.
+
+`damping` of a joint acts against its servo at every speed, and `armature` is inertia that has to be moved as well. With
+ten times too much of one of them the joint follows in seconds, and more `kp` is no cure.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="arm" pos="0 0 1">
+          <joint name="shoulder" axis="0 0 1" damping="100" range="-90 90"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="shoulder" kp="50" ctrlrange="-1.5 1.5" forcerange="-40 40"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="arm" pos="0 0 1">
+          <joint name="shoulder" axis="0 0 1" damping="5" range="-90 90"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="shoulder" kp="50" ctrlrange="-1.5 1.5" forcerange="-40 40"/>
+      </actuator>
+    </mujoco>
+
+The number: how much of a step of 0.1 rad (0.01 m) is left after 1 s; more than 0.2. The joint's `damping` is more than
+0.6 s times the stiffness and most of all damping there is, or its `armature` more than 20 times what hangs on it, at a
+natural frequency below 4 rad/s. Of 96 healthy models with servos one has such an armature. Dry friction is not asked
+for: `frictionloss` is soft, and a servo creeps through it to its target.
+
+When it is wrong: a joint that should creep, such as a door closer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.servo import Servo, remaining, servos
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Suspect, rounded
+
+TITLE = "A joint that holds its servo back"
+FAMILIES = ("stuck", "sags", "drifts")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "a damping or an armature that is planted is told where it does harm, in few models"
+
+LATE, MOST, MANY, SLOW, LEFT = 0.6, 0.75, 20.0, 4.0, 0.2
+PROMPT = 20.0  # rad/s: the natural frequency that the edit leaves
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Joints whose own damping or armature makes a servo late, together by which of them it is."""
+    of = model.simulation
+    found = {each: attribute for each in servos(of) if (attribute := holds_back(of, each))}
+    late = {each: attribute for each, attribute in found.items() if model.measured(remaining([each.actuator])) > LEFT}
+    for attribute in dict.fromkeys(late.values()):
+        held = [each for each in late if late[each] == attribute]
+        worst, own = held[0], of.model(f"dof_{attribute}")[held[0].dof]
+        value = {"damping": worst.stiffness / PROMPT, "armature": worst.stiffness / PROMPT**2}
+        edits = model.set("joint", [each.joint for each in held], attribute, rounded(value[attribute]))
+        unit = {"damping": "N m s", "armature": "kg m2"}[attribute] if worst.hinge else "in SI"
+        yield Suspect(
+            tuple(of.name("joint", each.joint) for each in held),
+            attribute,
+            f"{own:.3g}",
+            rounded(value[attribute]),
+            edits,
+            remaining([each.actuator for each in held]),
+            LEFT,
+            f"The {attribute} of {of.name('joint', worst.joint)}, {own:.3g} {unit}, stands against a servo that gives "
+            f"{worst.stiffness:.3g} for each {worst.unit}.",
+            "below 0.2 after 1 s in 95 of 96 healthy models with servos",
+            level="hint",
+        )
+
+
+def holds_back(of: Simulation, servo: Servo) -> str:
+    """What of the joint's own makes a servo late: its `damping` or `armature`; empty where neither."""
+    damping, armature = (of.model(f"dof_{name}")[servo.dof] for name in ("damping", "armature"))
+    if damping > max(LATE * servo.stiffness, MOST * servo.damping):
+        return "damping"
+    if armature > MANY * (servo.inertia - armature) and servo.stiffness < SLOW**2 * servo.inertia:
+        return "armature"
+    return ""

@@ -56,6 +56,12 @@ UNPLANTED = "a damping or an armature that is planted is told where it does harm
 
 LATE, MOST, MANY, SLOW, LEFT = 0.6, 0.75, 20.0, 4.0, 0.2
 PROMPT = 20.0  # rad/s: the natural frequency that the edit leaves
+UNITS = {
+    ("damping", True): "N m s",
+    ("damping", False): "N s/m",
+    ("armature", True): "kg m2",
+    ("armature", False): "kg",
+}
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -68,7 +74,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         worst, own = held[0], of.model(f"dof_{attribute}")[held[0].dof]
         value = {"damping": worst.stiffness / PROMPT, "armature": worst.stiffness / PROMPT**2}
         edits = model.set("joint", [each.joint for each in held], attribute, rounded(value[attribute]))
-        unit = {"damping": "N m s", "armature": "kg m2"}[attribute] if worst.hinge else "in SI"
+        unit = UNITS[attribute, worst.hinge]
         yield Suspect(
             tuple(of.name("joint", each.joint) for each in held),
             attribute,

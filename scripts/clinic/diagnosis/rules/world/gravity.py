@@ -30,7 +30,7 @@ Good:
 
 The number: the angle between gravity and the way down to the floor (-z where there is no horizontal plane), at most
 45 degrees; and the time in which something falls as far as the model is wide: 0.45 s for 1 m, told where it is under
-0.025 s or over 5 s.
+0.025 s or over 5 s. A hint tells of more than 15 m/s2 or less than 1, but for 981 and 9810: a model in cm or mm.
 
 When it is wrong: a slope or a wall that is made by tilting gravity. Gravity 0 where free bodies are above a floor is a
 hint, for it is often meant.
@@ -56,6 +56,7 @@ SINCE = "0.1"
 ANGLE, SHORT, LONG = 45.0, 0.025, 5.0  # degrees, s, s
 OFF = 128  # mjtDisableBit
 USUAL = "0 0 -9.81"
+EARTH = 1.0, 15.0  # m/s2
 
 
 def _up(simulation: Simulation) -> tuple[float, float, float]:
@@ -78,6 +79,15 @@ def _ratio(simulation: Simulation) -> float:
     size = math.hypot(*simulation.model("opt.gravity"))
     time = math.sqrt(2 * simulation.model("stat.extent")[0] / size) if size else 0.0
     return max(time / LONG, SHORT / time) if time else 0.0
+
+
+def _pull(simulation: Simulation) -> float:
+    """By how much gravity is more or less than the earth's, as a share of it."""
+    return abs(math.hypot(*simulation.model("opt.gravity")) / 9.81 - 1)
+
+
+def _metres(size: float) -> bool:
+    return not any(abs(size / each - 1) < 0.02 for each in (981, 9810))
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -105,6 +115,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     ratio = Probe("time of a fall over the model's extent, beyond 0.025 to 5 s by", "times", _ratio, dynamic=False)
     scaled = " ".join(f"{9.81 * each / size + 0.0:.4g}" for each in g)
     yield Suspect(name, "gravity", now, scaled, model.option("gravity", scaled), ratio, 1.0, says, USUAL)
+    if _ratio(simulation) <= 1 and not EARTH[0] < size < EARTH[1] and _metres(size):
+        pull = Probe("share by which gravity differs from that of the earth", "", _pull, dynamic=False)
+        says = f"Gravity is {size:.3g} m/s2, {size / 9.81:.2g} times that of the earth."
+        edits = model.option("gravity", scaled)
+        yield Suspect(name, "gravity", now, scaled, edits, pull, 0.5, says, USUAL, level="hint")
 
 
 def _none(model: ReaderModel, now: str, off: bool) -> Iterator[Suspect]:

@@ -1,0 +1,115 @@
+"""A servo works to one side only, or turns the joint to the other one.
+
+`forcerange="0 40"` lets a servo push and never pull; `ctrlrange="0 1.5"` on a joint that goes from -1.5 to 1.5 leaves
+half of its way out; and with `gear="-1"` a joint that is told 0.5 rad goes to -0.5 rad.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="arm" pos="0 0 1">
+          <joint name="shoulder" axis="0 1 0" damping="2" range="-90 90"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03" mass="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="shoulder" kp="50" ctrlrange="-1.5 1.5" forcerange="0 40"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="arm" pos="0 0 1">
+          <joint name="shoulder" axis="0 1 0" damping="2" range="-90 90"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03" mass="1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position joint="shoulder" kp="50" ctrlrange="-1.5 1.5" forcerange="-40 40"/>
+      </actuator>
+    </mujoco>
+
+The number: how many position servos have a force range of which one end is less than a 20th of the other, a control
+range that ends at 0 where a fifth of the joint's range and more lies beyond, or a negative gear. Of 96 healthy models
+with servos none has such a force range or gear, and one such a control range.
+
+When it is wrong: a rope, a finger that a spring opens, or a joint that is counted the other way round on purpose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.servo import Servo, servos
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A servo that works to one side only, or to the wrong one"
+FAMILIES = ("stuck", "drifts", "sags")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "whether a joint needs both sides, only its maker knows"
+
+LITTLE, END, BEYOND = 0.05, 0.001, 0.2
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Servos of one side, together by what makes them so."""
+    of = model.simulation
+    for attribute in ("forcerange", "ctrlrange", "gear"):
+        found = [each for each in servos(of) if _one_sided(of, each, attribute)]
+        if not found:
+            continue
+        numbers = tuple(each.actuator for each in found)
+        now, value, says = _told(of, found[0], attribute)
+        edits: tuple[Edit, ...] = ()
+        for each in found:
+            edits += model.set("actuator", [each.actuator], attribute, _told(of, each, attribute)[1])
+        names = tuple(of.name("actuator", each) for each in numbers)
+        probe = Probe(f"servos of one side by their {attribute}", "", _count, (attribute, *numbers), dynamic=False)
+        yield Suspect(names, attribute, now, value, edits, probe, 0, says, "both sides", level="hint")
+
+
+def _one_sided(of: Simulation, servo: Servo, attribute: str) -> bool:
+    if attribute == "gear":
+        return of.model("actuator_gear")[6 * servo.actuator] < 0
+    if attribute == "forcerange":
+        low, high = of.row("actuator_forcerange", servo.actuator, 2)
+        one = max(low, -high) > -LITTLE * max(-low, high)
+        return bool(of.model("actuator_forcelimited")[servo.actuator]) and low < high and one
+    if servo.targets is None or servo.range is None:
+        return False
+    (least, most), (low, high) = servo.targets, servo.range
+    end, beyond = END * (high - low), BEYOND * (high - low)
+    return (abs(least) < end and low < -beyond) or (abs(most) < end and high > beyond)
+
+
+def _count(of: Simulation, attribute: str, *actuators: int) -> float:
+    return float(sum(_one_sided(of, each, attribute) for each in servos(of) if each.actuator in actuators))
+
+
+def _told(of: Simulation, servo: Servo, attribute: str) -> tuple[str, str, str]:
+    """What is written, what would work to both sides, and the sentence."""
+    name = of.name("joint", servo.joint)
+    if attribute == "gear":
+        gear = of.model("actuator_gear")[6 * servo.actuator]
+        says = f"Its gear is negative: {name} goes to the other side than its control says."
+        return f"{gear:g}", f"{-gear:g}", says
+    if attribute == "forcerange":
+        low, high = of.row("actuator_forcerange", servo.actuator, 2)
+        most = max(-low, high)
+        says = f"It pushes {name} with {low:g} to {high:g}: to one side only."
+        return f"{low:g} {high:g}", f"{-most:g} {most:g}", says
+    assert servo.ctrl is not None
+    assert servo.targets is not None
+    assert servo.range is not None
+    ends = sorted((each - servo.offset) / servo.scale for each in servo.range)
+    says = (
+        f"It sends {name} from {servo.targets[0]:.3g} to {servo.targets[1]:.3g} {servo.unit}; its range is "
+        f"{servo.range[0]:.3g} to {servo.range[1]:.3g}."
+    )
+    return " ".join(f"{each:g}" for each in servo.ctrl), " ".join(f"{each:.4g}" for each in ends), says

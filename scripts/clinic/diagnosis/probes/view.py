@@ -53,7 +53,7 @@ def _sight(simulation: Simulation, camera: int) -> Callable[[Vector], float]:
     """Tells of a point how far along a camera's view it is in m at the start; 0 where it is out of the image."""
     simulation.begin()
     right, up, forward = axes(simulation, camera)
-    place, tall, aspect = simulation.data_row("cam_xpos", camera, 3), *_opening(simulation, camera)
+    place, tall, aspect = simulation.data_row("cam_xpos", camera, 3), *opening(simulation, camera)
 
     def ahead(point: Vector) -> float:
         way = sub(point, place)
@@ -86,7 +86,7 @@ def sees(simulation: Simulation, camera: int, geom: int) -> bool:
     return near <= far or any(sight(add(middle, times(frame, point))) for point in ((x, y, z), *corners))
 
 
-def _opening(simulation: Simulation, camera: int) -> tuple[float, float]:
+def opening(simulation: Simulation, camera: int) -> tuple[float, float]:
     """Half of the image's height at a distance of 1, and its width as a share of its height."""
     wide, high = (int(each) for each in simulation.row("cam_resolution", camera, 2))
     tall = math.tan(math.radians(min(simulation.model("cam_fovy")[camera], 179.0)) / 2)

@@ -104,6 +104,32 @@ def servo_damped_too_much(model: ReaderModel, random: Random) -> Fault | None:
     return Fault(edits, (*_names(model, i), TIMESTEP), "kv", kv)
 
 
+def _own(model: ReaderModel, random: Random, attribute: str, of_stiffness: float) -> Fault | None:
+    """A joint that a servo drives, with a damping or an armature of its own, as a multiple of the servo's stiffness."""
+    found = [(i, model.simulation.driven_joint(i)) for i in _servos(model)]
+    joints = [(i, joint, model.element("joint", joint)) for i, joint in found if joint is not None]
+    joints = [each for each in joints if each[2] is not None]
+    if not joints:
+        return None
+    i, _, element = random.choice(joints)
+    assert element is not None
+    gear = model.simulation.row("actuator_gear", i, 6)[0] or 1.0
+    value = of_stiffness * _gain(model, i) * gear**2
+    return Fault((set_attribute(element, attribute, text_of(value)),), _names(model, i), attribute, of_stiffness)
+
+
+@kind("servo-held-back", "weak-servo", "joint-frozen", harms=SWAYS, servos=True)
+def joint_damped(model: ReaderModel, random: Random) -> Fault | None:
+    """A joint whose own damping lets its servo follow in 0.2 to 100 s."""
+    return _own(model, random, "damping", between(random, 0.2, 100))
+
+
+@kind("servo-held-back", "weak-servo", harms=SWAYS, servos=True)
+def joint_armed(model: ReaderModel, random: Random) -> Fault | None:
+    """A joint whose own armature lets its servo move at 0.2 to 10 rad/s."""
+    return _own(model, random, "armature", between(random, 0.2, 10) ** -2)
+
+
 @kind("target-not-held", harms=SWAYS, servos=True)
 def bias_forgotten(model: ReaderModel, random: Random) -> Fault | None:
     """A position servo as a general actuator with its gain and without its bias, so that it only pushes."""

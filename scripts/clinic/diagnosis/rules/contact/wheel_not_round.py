@@ -45,7 +45,7 @@ Good:
 
 The number: how much the wheel's radius varies over a turn about its hinge, as a share of its mean; above 10 % is told.
 A wheel is the last body of a mechanism on a hinge without limits, whose one colliding cylinder, box or mesh is centred
-on the hinge. A cylinder is turned; for a box or a mesh there is only a hint.
+on the hinge; a box only where it is called so. A cylinder is turned; for a box or a mesh there is only a hint.
 
 When it is wrong: a cam, a propeller, a stirrer.
 """
@@ -53,6 +53,7 @@ When it is wrong: a cam, a propeller, a stirrer.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from itertools import product
 
@@ -70,6 +71,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "no healthy model stands on a wheel that is a single cylinder or box"
 
+WHEEL = re.compile(r"wheel|tyre|tire(?!d)|roller", re.IGNORECASE)
 VARIES, CENTRED = 0.1, 0.2
 ANGLES = 24
 TURNED = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
@@ -116,6 +118,9 @@ def _wheels(simulation: Simulation) -> Iterator[tuple[int, int]]:
             axis = simulation.row("jnt_axis", joint, 3)
             aside = norm(sub(off, tuple(dot(off, axis) * x for x in axis)))
             level = _level(simulation, joint) or (kinds[0] == CYLINDER and _lies(simulation, geoms[0]))
+            called = f"{simulation.name('body', body)} {simulation.name('joint', joint)}"
+            if kinds[0] == BOX and not WHEEL.search(called):
+                continue
             if aside < CENTRED * simulation.model("geom_rbound")[geoms[0]] and level:
                 yield joint, geoms[0]
 

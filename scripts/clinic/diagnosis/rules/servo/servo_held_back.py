@@ -51,8 +51,6 @@ from clinic.diagnosis.suspect import Suspect, rounded
 TITLE = "A joint that holds its servo back"
 FAMILIES = ("stuck", "sags", "drifts")
 SINCE = "0.1"
-LEVEL = "hint"
-UNPLANTED = "a damping or an armature that is planted is told where it does harm, in few models"
 
 LATE, MOST, MANY, SLOW, LEFT = 0.6, 0.75, 20.0, 4.0, 0.2
 PROMPT = 20.0  # rad/s: the natural frequency that the edit leaves
@@ -86,7 +84,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"The {attribute} of {of.name('joint', worst.joint)}, {own:.3g} {unit}, stands against a servo that gives "
             f"{worst.stiffness:.3g} for each {worst.unit}.",
             "below 0.2 after 1 s in 95 of 96 healthy models with servos",
-            level="hint",
         )
 
 

@@ -11,7 +11,7 @@ Bad:
         <body name="hand" pos="0 0 0.5">
           <joint axis="0 1 0"/>
           <geom type="box" size="0.05 0.05 0.03" rgba="0.8 0.3 0.2 1"/>
-          <camera name="wrist" pos="0 0 -0.04" euler="180 0 0"/>
+          <camera name="wrist" pos="0 0 -0.13" euler="180 0 0"/>
         </body>
       </worldbody>
     </mujoco>
@@ -24,14 +24,15 @@ Good:
         <body name="hand" pos="0 0 0.5">
           <joint axis="0 1 0"/>
           <geom type="box" size="0.05 0.05 0.03" rgba="0.8 0.3 0.2 1"/>
-          <camera name="wrist" pos="0 0 -0.04"/>
+          <camera name="wrist" pos="0 0 -0.13"/>
         </body>
       </worldbody>
     </mujoco>
 
 The number: how many of nine rays through the image, the middle and those halfway to its edges and corners, meet the box
-around a visible geom of the body that carries the camera, and of what is fixed to it. All nine are told, unless the
-camera is in such a box: of a shell only the outside is drawn.
+around a visible geom of the body that carries the camera, and of what is fixed to it; meshes are left out. All nine are
+told, unless the camera is in such a box: of a shell only the outside is drawn. Nor is what is nearer than `znear` times
+the extent, 1 % of the model's size: it is cut off.
 
 When it is wrong: a camera that watches a part of its own mount.
 """
@@ -43,6 +44,7 @@ from collections.abc import Iterator
 from itertools import product
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import MESH
 from clinic.diagnosis.probes.vector import Vector, add, at, sub, times, transpose
 from clinic.diagnosis.probes.view import axes, opening, things, turned
 from clinic.diagnosis.reader_model import ReaderModel
@@ -76,8 +78,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _blocked(of: Simulation, camera: int) -> float:
     of.begin()
-    welds, bodies, own = of.model("body_weldid"), of.model("geom_bodyid"), int(of.model("cam_bodyid")[camera])
-    geoms = [geom for geom in things(of) if welds[int(bodies[geom])] == welds[own]]
+    kinds, welds, bodies, own = (
+        of.model("geom_type"),
+        of.model("body_weldid"),
+        of.model("geom_bodyid"),
+        int(of.model("cam_bodyid")[camera]),
+    )
+    geoms = [geom for geom in things(of) if welds[int(bodies[geom])] == welds[own] and kinds[geom] != MESH]
     places, turns = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat"))
     boxes = [
         (at(places, geom), turns[9 * geom : 9 * geom + 9], box[:3], box[3:])
@@ -90,7 +97,8 @@ def _blocked(of: Simulation, camera: int) -> float:
     right, up, forward = axes(of, camera)
     tall, aspect = opening(of, camera)
     rays = [add(add(forward, up, y * tall / 2), right, x * tall * aspect / 2) for x, y in product((-1, 0, 1), repeat=2)]
-    return float(sum(any(_meets(box, here, ray) for box in boxes) for ray in rays))
+    nearest = of.model("vis.map.znear")[0] * of.model("stat.extent")[0]
+    return float(sum(any(_meets(box, here, ray, nearest) for box in boxes) for ray in rays))
 
 
 def _from_middle(box: Box, point: Vector) -> Vector:
@@ -103,9 +111,9 @@ def _within(box: Box, point: Vector) -> bool:
     return all(abs(each) <= most for each, most in zip(_from_middle(box, point), box[3], strict=True))
 
 
-def _meets(box: Box, start: Vector, way: Vector) -> bool:
-    near, far = 0.0, math.inf
+def _meets(box: Box, start: Vector, way: Vector, nearest: float) -> bool:
+    near, far = nearest, math.inf
     for each, along, most in zip(_from_middle(box, start), times(transpose(box[1]), way), box[3], strict=True):
         ends = sorted((side * most - each) / (along or 1e-12) for side in (-1, 1))
         near, far = max(near, ends[0]), min(far, ends[1])
-    return near <= far
+    return nearest < near <= far

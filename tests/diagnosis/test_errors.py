@@ -228,3 +228,70 @@ def test_what_an_included_file_has_wrong_is_told_there(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     found = examine(NativeEngine(), {"model.xml": text, "part.xml": part})
     assert [(each.file, each.line) for each in found.causes] == [("part.xml", 4), ("part.xml", 5), ("part.xml", 5)]
+
+
+WHOLE = """<mujoco>
+  <default>
+    <geom friction="0.9"
+          condim="4"/>
+  </default>
+  <worldbody>
+    <body name="arm" pos="0 0 1">
+      <joint name="elbow" axis="0 1 0"/>
+      <geom name="link" size="0.1"/>
+      <body name="hand" pos="0 0 1">
+        <geom name="palm" size="0.1"/>
+      </body>
+      <body name="tool" pos="0 1 0">
+        <geom name="tip" size="0.1"/>
+      </body>
+    </body>
+  </worldbody>
+  <actuator>
+    <motor name="motor" joint="elbow"/>
+  </actuator>
+</mujoco>
+"""
+HARMED = {  # what a slip of the hand makes of a part of the text
+    "a quote is left out before": ('"0 0 1">\n      <joint', '0 0 1">\n      <joint'),
+    "a quote is left out after": ('name="arm" pos', 'name="arm pos'),
+    "an attribute stands twice, in two lines": ('condim="4"', 'condim="4"\n          condim="4"'),
+    "a tag is opened twice": ("  <worldbody>\n", "  <worldbody>\n  <worldbody>\n"),
+    "a tag is closed twice": ("  </worldbody>\n", "  </worldbody>\n  </worldbody>\n"),
+    "a section is not closed": ("  </worldbody>\n", ""),
+    "a body is not closed": ("      </body>\n      <body", "      <body"),
+    "a geom is not closed": ('"palm" size="0.1"/>', '"palm" size="0.1">'),
+    "a tag has no end": ('"tool" pos="0 1 0">', '"tool" pos="0 1 0"'),
+    "a closing tag has no end": ("</body>\n    </body>", "</body\n    </body>"),
+    "a tag has no beginning": ("  <worldbody>", "  worldbody>"),
+    "a name is misspelt where it is closed": ("</actuator>", "</actuater>"),
+    "a character that is none": ("<motor", "<mo\0tor"),
+}
+
+
+@pytest.mark.parametrize("harm", HARMED)
+def test_a_slip_in_the_tags_is_undone_and_nothing_else_is_touched(harm, tmp_path, monkeypatch):
+    before, after = HARMED[harm]
+    assert WHOLE.count(before) == 1
+    found = diagnosed(WHOLE.replace(before, after), tmp_path, monkeypatch)
+    assert [each.rule for each in found.causes] == ["malformed-xml"], found.text()
+    assert found.fixed["model.xml"] == WHOLE
+
+
+def test_of_a_body_that_is_not_opened_only_the_end_is_taken(tmp_path, monkeypatch):
+    found = diagnosed(WHOLE.replace('      <body name="hand" pos="0 0 1">\n', ""), tmp_path, monkeypatch)
+    assert found.diff().count("\n-") == 1
+    assert "</body> of line 11 closes nothing" in found.causes[0].says
+    assert '<motor name="motor" joint="elbow"/>' in found.fixed["model.xml"]
+
+
+def test_a_comment_that_has_no_end_ends_with_its_line(tmp_path, monkeypatch):
+    found = diagnosed(WHOLE.replace("  <actuator>", "  <!-- the motors\n  <actuator>"), tmp_path, monkeypatch)
+    assert found.fixed["model.xml"] == WHOLE.replace("  <actuator>", "  <!-- the motors -->\n  <actuator>")
+
+
+@pytest.mark.parametrize("end", ['"tip" si', "<body na", '"palm" size="0.1"/>'])
+def test_a_text_that_was_cut_off_is_told_as_such(end, tmp_path, monkeypatch):
+    found = diagnosed(WHOLE[: WHOLE.index(end) + len(end)], tmp_path, monkeypatch)
+    assert "as if the rest of the file were missing" in found.causes[0].says
+    assert not examine(NativeEngine(), dict(found.fixed)).error

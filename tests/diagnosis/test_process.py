@@ -143,6 +143,6 @@ def test_a_start_that_the_model_lacks_is_a_sentence(start, said):
 
 
 def test_a_file_that_is_no_text_is_a_sentence(tmp_path):
-    (tmp_path / "model.xml").write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(DiagnosisError, match="not a text in UTF-8"):
+    (tmp_path / "model.xml").write_bytes(b"<mujoco>\n<!-- per\xe7euse -->\n</mujoco>")
+    with pytest.raises(DiagnosisError, match="not a text in UTF-8: byte 0xe7 in line 2"):
         diagnose(tmp_path / "model.xml")

@@ -104,8 +104,12 @@ def _read(source: Any) -> tuple[str, str, str]:
     path = Path(source).absolute()
     try:
         return path.read_text(encoding="utf-8-sig"), path.name, str(path.parent)
-    except (OSError, UnicodeDecodeError) as error:
-        raise DiagnosisError(f"{source}: {getattr(error, 'strerror', None) or 'not a text in UTF-8'}") from None
+    except OSError as error:
+        raise DiagnosisError(f"{source}: {error.strerror or error}") from None
+    except UnicodeDecodeError as error:
+        line = error.object[: error.start].count(b"\n") + 1
+        where = f"byte 0x{error.object[error.start]:02x} in line {line}"
+        raise DiagnosisError(f"{source}: not a text in UTF-8: {where}") from None
 
 
 def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | None, str, str]:

@@ -22,6 +22,7 @@ FEW = 12  # rules whose names are told where nothing was found
 DIES = "engine-dies"
 FAILS = "rule-fails"
 LATE = "rule-too-slow"
+KILLED = "rule-killed"
 NOISE = 1e-12  # what rounding leaves
 SITE = "CLINIC_SITE"  # the environment variable with the address of the site
 
@@ -208,6 +209,9 @@ def _end(rule: str, said: str, file: str) -> Finding:
     if said == LATE:
         says = f"{rule} gave no answer in time: whether it finds something is not known."
         return remark(LATE, "A rule takes too long", says, file)
+    if said == KILLED:
+        says = f"The system ended the process while {rule} was tried, as it does where memory runs out."
+        return remark(KILLED, "A rule was ended by the system", says, file)
     if said:
         says = f"{rule} failed ({said}): a mistake of the clinic, not of the model."
         return remark(FAILS, "A rule failed", says, file)

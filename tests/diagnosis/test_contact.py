@@ -121,3 +121,9 @@ def test_all_joints_that_jam_are_told_together():
     (found,) = examine(NativeEngine(), {"model.xml": text}, select=["jams-over-the-range"]).hints
     assert {'joint "swingl"', 'joint "swingr"'} <= set(found.elements)
     assert found.says.endswith("So it is with 1 more joint.")
+
+
+def test_a_wheel_that_has_no_direction_is_not_told_to_vary_by_nan():
+    text = rules()["wheel-not-round"].example("Bad").replace('mass="0.3"/>', 'mass="0.3" zaxis="0 1 nan"/>', 1)
+    found = examine(NativeEngine(), {"model.xml": text}, select=["wheel-not-round"])
+    assert not [*found.causes, *found.hints]

@@ -228,3 +228,149 @@ def test_what_an_included_file_has_wrong_is_told_there(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     found = examine(NativeEngine(), {"model.xml": text, "part.xml": part})
     assert [(each.file, each.line) for each in found.causes] == [("part.xml", 4), ("part.xml", 5), ("part.xml", 5)]
+
+
+WHOLE = """<mujoco>
+  <default>
+    <geom friction="0.9"
+          condim="4"/>
+  </default>
+  <worldbody>
+    <body name="arm" pos="0 0 1">
+      <joint name="elbow" axis="0 1 0"/>
+      <geom name="link" size="0.1"/>
+      <body name="hand" pos="0 0 1">
+        <geom name="palm" size="0.1"/>
+      </body>
+      <body name="tool" pos="0 1 0">
+        <geom name="tip" size="0.1"/>
+      </body>
+    </body>
+  </worldbody>
+  <actuator>
+    <motor name="motor" joint="elbow"/>
+  </actuator>
+</mujoco>
+"""
+HARMED = {  # what a slip of the hand makes of a part of the text
+    "a quote is left out before": ('"0 0 1">\n      <joint', '0 0 1">\n      <joint'),
+    "a quote is left out after": ('name="arm" pos', 'name="arm pos'),
+    "an attribute stands twice, in two lines": ('condim="4"', 'condim="4"\n          condim="4"'),
+    "a tag is opened twice": ("  <worldbody>\n", "  <worldbody>\n  <worldbody>\n"),
+    "a tag is closed twice": ("  </worldbody>\n", "  </worldbody>\n  </worldbody>\n"),
+    "a section is not closed": ("  </worldbody>\n", ""),
+    "a body is not closed": ("      </body>\n      <body", "      <body"),
+    "a geom is not closed": ('"palm" size="0.1"/>', '"palm" size="0.1">'),
+    "a tag has no end": ('"tool" pos="0 1 0">', '"tool" pos="0 1 0"'),
+    "a closing tag has no end": ("</body>\n    </body>", "</body\n    </body>"),
+    "a tag has no beginning": ("  <worldbody>", "  worldbody>"),
+    "a name is misspelt where it is closed": ("</actuator>", "</actuater>"),
+    "a character that is none": ("<motor", "<mo\0tor"),
+}
+
+
+@pytest.mark.parametrize("harm", HARMED)
+def test_a_slip_in_the_tags_is_undone_and_nothing_else_is_touched(harm, tmp_path, monkeypatch):
+    before, after = HARMED[harm]
+    assert WHOLE.count(before) == 1
+    found = diagnosed(WHOLE.replace(before, after), tmp_path, monkeypatch)
+    assert [each.rule for each in found.causes] == ["malformed-xml"], found.text()
+    assert found.fixed["model.xml"] == WHOLE
+
+
+def test_of_a_body_that_is_not_opened_only_the_end_is_taken(tmp_path, monkeypatch):
+    found = diagnosed(WHOLE.replace('      <body name="hand" pos="0 0 1">\n', ""), tmp_path, monkeypatch)
+    assert found.diff().count("\n-") == 1
+    assert "</body> of line 11 closes nothing" in found.causes[0].says
+    assert '<motor name="motor" joint="elbow"/>' in found.fixed["model.xml"]
+
+
+def test_a_comment_that_has_no_end_ends_with_its_line(tmp_path, monkeypatch):
+    found = diagnosed(WHOLE.replace("  <actuator>", "  <!-- the motors\n  <actuator>"), tmp_path, monkeypatch)
+    assert found.fixed["model.xml"] == WHOLE.replace("  <actuator>", "  <!-- the motors -->\n  <actuator>")
+
+
+@pytest.mark.parametrize("end", ['"tip" si', "<body na", '"palm" size="0.1"/>'])
+def test_a_text_that_was_cut_off_is_told_as_such(end, tmp_path, monkeypatch):
+    found = diagnosed(WHOLE[: WHOLE.index(end) + len(end)], tmp_path, monkeypatch)
+    assert "as if the rest of the file were missing" in found.causes[0].says
+    assert not examine(NativeEngine(), dict(found.fixed)).error
+
+
+def test_a_number_beyond_all_bounds_is_told_and_nothing_else_is_written(tmp_path, monkeypatch):
+    found = diagnosed(ARM.format("", '<light dir="0 1e400 -1"/>', ""), tmp_path, monkeypatch)
+    (cause,) = found.causes
+    assert (cause.rule, cause.attribute, cause.value) == ("malformed-number", "dir", "none")
+    assert "largest number" in cause.says
+
+
+@pytest.mark.parametrize(
+    ("attribute", "now", "value"), [("pos", "abc 0 0.5", "0 0 0.5"), ("zaxis", "0 abc 0", "0 1 0")]
+)
+def test_a_word_among_numbers_gives_its_own_place(attribute, now, value, tmp_path, monkeypatch):
+    (cause,) = diagnosed(ARM.format("", f'<site {attribute}="{now}"/>', ""), tmp_path, monkeypatch).causes
+    assert (cause.attribute, cause.value) == (attribute, value)
+
+
+def test_an_element_that_was_pasted_twice_is_taken_out(tmp_path, monkeypatch):
+    found = diagnosed(
+        WHOLE.replace('        <geom name="tip"', 2 * '        <geom name="tip" size="0.1"/>\n' + "        <geom"),
+        tmp_path,
+        monkeypatch,
+    )
+    assert [each.value for each in found.causes] == ["removed"]
+    assert found.fixed["model.xml"].count('name="tip"') == 1
+    assert found.fixed["model.xml"].count("<geom") == 5
+
+
+def test_the_part_of_the_other_side_is_not_taken_for_one_that_is_missing(tmp_path, monkeypatch):
+    text = ARM.format("", "<body><joint name='right_knee'/><geom size='0.1'/></body>", "<actuator>{0}</actuator>")
+    found = diagnosed(text.format("<motor joint='left_knee'/>"), tmp_path, monkeypatch)
+    (hint,) = found.hints
+    assert not found.causes
+    assert "'right_knee' is another of its kind" in hint.says
+    assert diagnosed(text.format("<motor joint='rihgt_knee'/>"), tmp_path, monkeypatch).causes[0].value == "right_knee"
+
+
+def test_a_joint_of_a_urdf_without_parent_goes_to_the_link_that_is_called_most_like_it(tmp_path, monkeypatch):
+    links = "".join(f"<link name='{name}'/>" for name in ("pelvis", "l_uarm", "l_larm", "head"))
+    text = f"<robot name='r'>{links}"
+    for parent, child in (("pelvis", "l_uarm"), ("", "l_larm"), ("pelvis", "head")):
+        end = f"<parent link='{parent}'/>" if parent else ""
+        text += f"<joint name='to_{child}' type='fixed'>{end}<child link='{child}'/></joint>"
+    (cause,) = diagnosed(f"{text}</robot>", tmp_path, monkeypatch).causes
+    assert (cause.attribute, cause.value) == ("parent", "l_uarm")
+
+
+def test_a_joint_right_before_a_body_without_one_is_put_into_it(tmp_path, monkeypatch):
+    joint, body = '      <joint name="elbow" axis="0 1 0"/>\n', '    <body name="arm" pos="0 0 1">\n'
+    found = diagnosed(WHOLE.replace(body + joint, joint + body), tmp_path, monkeypatch)
+    assert found.fixed["model.xml"] == WHOLE
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        WHOLE.replace("  </worldbody>\n", "").replace("</mujoco>", "<sensor><clock/></sensor></worldbody></mujoco>"),
+        WHOLE.replace("  <actuator>", '  <jointpos joint="elbow"/>\n  <jointpos joint="elbow"/>\n  <actuator>'),
+        WHOLE.replace("  <actuator>\n", "").replace("  </actuator>\n", '    <motor joint="elbow"/>\n'),
+    ],
+)
+def test_elements_that_stand_outside_of_their_section_are_moved_and_none_is_lost(wrong, tmp_path, monkeypatch):
+    found = diagnosed(wrong, tmp_path, monkeypatch)
+    assert {each.rule for each in found.causes} == {"unknown-element"}, found.text()
+    for kept in ("<motor", "<clock", "<jointpos", "<geom"):
+        assert found.fixed["model.xml"].count(kept) == wrong.count(kept)
+    assert not examine(NativeEngine(), dict(found.fixed)).error
+
+
+def test_a_value_is_written_as_xml_has_it(tmp_path, monkeypatch):
+    found = diagnosed(ARM.format("", "<site nme='a \"b\" &lt; &amp;'/>", ""), tmp_path, monkeypatch)
+    assert 'name="a &quot;b&quot; &lt; &amp;"' in found.fixed["model.xml"]
+    assert not examine(NativeEngine(), dict(found.fixed)).error
+
+
+def test_a_long_value_is_shortened_for_a_terminal_alone(tmp_path, monkeypatch):
+    found = diagnosed(ARM.format("", f"<site pos='{'x' * 10_000}'/>", ""), tmp_path, monkeypatch)
+    assert len(found.text()) < 2000
+    assert found.causes[0].now == "x" * 10_000

@@ -12,7 +12,7 @@ import clinic
 import mujoco
 import pytest
 from clinic.diagnosis import process
-from clinic.diagnosis.finding import DIES, FAILS, LATE
+from clinic.diagnosis.finding import DIES, FAILS, KILLED, LATE
 from clinic.diagnosis.process import DiagnosisError, Request, diagnose
 from clinic.diagnosis.simulation import Start
 
@@ -121,6 +121,29 @@ def test_a_process_that_dies_before_any_rule_is_a_sentence(monkeypatch):
         diagnose(TALL)
 
 
+def test_a_process_that_is_killed_is_not_laid_to_mujoco(monkeypatch):
+    monkeypatch.setattr(process, "CHILD", (sys.executable, "-c", "import os; os.kill(os.getpid(), 9)"))
+    with pytest.raises(DiagnosisError, match="the system ended the process"):
+        diagnose(TALL)
+
+
+def test_a_rule_during_which_the_process_is_killed_says_nothing_of_the_model(monkeypatch):
+    killed = DIES_ON_A_RULE.format(rule="masks").replace("os.abort()", "os.kill(os.getpid(), 9)")
+    monkeypatch.setattr(process, "CHILD", (sys.executable, "-c", killed))
+    found = diagnose(TALL, select=["masks", "spring-too-stiff"])
+    assert [each.rule for each in found.causes] == ["spring-too-stiff"]
+    assert [each.rule for each in found.hints] == [KILLED]
+
+
+def test_a_model_that_takes_a_quarter_of_the_memory_is_diagnosed_as_any_other():
+    large = TALL.replace("<worldbody>", '<size memory="1G"/><worldbody>')
+    one, other = diagnose(TALL), diagnose(large)
+    assert one.causes
+    assert [each.rule for each in other.causes] == [each.rule for each in one.causes]
+    assert [each.rule for each in other.hints] == [each.rule for each in one.hints]
+    assert other.ruled_out == one.ruled_out
+
+
 def test_a_spec_that_does_not_compile_is_a_sentence():
     spec = mujoco.MjSpec()
     spec.worldbody.add_body(name="hand").add_freejoint()
@@ -143,6 +166,6 @@ def test_a_start_that_the_model_lacks_is_a_sentence(start, said):
 
 
 def test_a_file_that_is_no_text_is_a_sentence(tmp_path):
-    (tmp_path / "model.xml").write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(DiagnosisError, match="not a text in UTF-8"):
+    (tmp_path / "model.xml").write_bytes(b"<mujoco>\n<!-- per\xe7euse -->\n</mujoco>")
+    with pytest.raises(DiagnosisError, match="not a text in UTF-8: byte 0xe7 in line 2"):
         diagnose(tmp_path / "model.xml")

@@ -71,11 +71,27 @@ class CompiledModel {
     this.live = null;
   }
 
+  /** @returns {{model: MjModel, data: MjData}} compiled from the text */
+  made() {
+    const model = this.engine.load(...this.source);
+    try {
+      return { model, data: new this.engine.mujoco.MjData(model) };
+    } catch (error) {
+      model.delete();
+      throw error;
+    }
+  }
+
   /** The model and its data; compiled now if it was dropped. */
   use() {
     if (!this.live) {
-      const model = this.engine.load(...this.source);
-      this.live = { model, data: new this.engine.mujoco.MjData(model) };
+      try {
+        this.live = this.made();
+      } catch (error) {
+        if (!/could not allocate|out of memory/i.test(String(error))) throw error;
+        this.engine.end(); // the others are compiled anew when they are asked for again
+        this.live = this.made();
+      }
     }
     this.engine.touch(this);
     return this.live;

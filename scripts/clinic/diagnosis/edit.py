@@ -107,7 +107,8 @@ def _changed(text: bytes, each: Edit) -> bytes:
     head = _head(text, start)
     pattern = re.compile(rb"\s+" + re.escape(each.attribute.encode()) + rb"\s*=\s*(?:\"[^\"]*\"|'[^']*')")
     found = pattern.search(head)
-    new = f' {each.attribute}="{each.value}"'.encode() if each.action == "set" else b""
+    value = each.value.replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
+    new = f' {each.attribute}="{value}"'.encode() if each.action == "set" else b""
     if found:
         changed = head[: found.start()] + new + head[found.end() :]
     else:

@@ -17,10 +17,12 @@ from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Level
 
 CAUSES_SHOWN = 3
+LONG = 200  # characters of a value that a terminal shows
 FEW = 12  # rules whose names are told where nothing was found
 DIES = "engine-dies"
 FAILS = "rule-fails"
 LATE = "rule-too-slow"
+KILLED = "rule-killed"
 NOISE = 1e-12  # what rounding leaves
 SITE = "CLINIC_SITE"  # the environment variable with the address of the site
 
@@ -207,6 +209,9 @@ def _end(rule: str, said: str, file: str) -> Finding:
     if said == LATE:
         says = f"{rule} gave no answer in time: whether it finds something is not known."
         return remark(LATE, "A rule takes too long", says, file)
+    if said == KILLED:
+        says = f"The system ended the process while {rule} was tried, as it does where memory runs out."
+        return remark(KILLED, "A rule was ended by the system", says, file)
     if said:
         says = f"{rule} failed ({said}): a mistake of the clinic, not of the model."
         return remark(FAILS, "A rule failed", says, file)
@@ -221,7 +226,8 @@ def remark(rule: str, title: str, says: str, file: str, line: int | None = None,
 
 def _cause(number: int, found: Finding) -> list[str]:
     where = f"{found.file}:{found.line}  " if found.line else ""
-    change = f"{found.attribute} {found.now} -> {found.value}" if found.attribute else found.value
+    now, value = shortened(found.now), shortened(found.value)
+    change = f"{found.attribute} {now} -> {value}" if found.attribute else value
     after = "" if found.after is None else f" With the edit: {shown(found.after, found.unit)}."
     indent = "   "
     lines = [f"{number}  cause   {found.rule}  {where}{_elements(found.elements)}  {change}", f"{indent}{found.says}"]
@@ -247,12 +253,17 @@ def _edited(hint: Finding) -> str:
     if hint.after is None:
         return ""
     numbers = " -> ".join(shown(value, hint.unit) for value in (hint.before, hint.after))
-    return f" With {hint.attribute} {hint.now} -> {hint.value}, {hint.probe}: {numbers}."
+    return f" With {hint.attribute} {shortened(hint.now)} -> {shortened(hint.value)}, {hint.probe}: {numbers}."
 
 
 def _elements(elements: Sequence[str]) -> str:
     more = f" and {len(elements) - 3} more" if len(elements) > 3 else ""
     return ", ".join(elements[:3]) + more
+
+
+def shortened(value: str) -> str:
+    """What a terminal can show of a value: its beginning, where it is long."""
+    return value if len(value) <= LONG else f"{value[:LONG]}... ({len(value)} characters)"
 
 
 def shown(value: float, unit: str) -> str:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
+from weakref import WeakSet
 
 import mujoco
 import numpy as np
@@ -15,10 +16,41 @@ OBJECTS = {"joint": "njnt", "camera": "ncam", "equality": "neq", "actuator": "nu
 
 
 class NativeModel:
-    """A compiled model with one `mjData`."""
+    """A compiled model with one `mjData`: `load` compiles it, and again where it was dropped for want of memory."""
 
-    def __init__(self, model: mujoco.MjModel) -> None:
-        self.mj, self.mjdata, self.out_of_memory = model, mujoco.MjData(model), False
+    def __init__(self, load: Callable[[], mujoco.MjModel], others: WeakSet[NativeModel] | None = None) -> None:
+        self.load, self.others, self.out_of_memory = load, others if others is not None else WeakSet(), False
+        self._live: tuple[mujoco.MjModel, mujoco.MjData] | None = None
+        self._used()
+        self.others.add(self)
+
+    @property
+    def mj(self) -> mujoco.MjModel:
+        return self._used()[0]
+
+    @property
+    def mjdata(self) -> mujoco.MjData:
+        return self._used()[1]
+
+    def _used(self) -> tuple[mujoco.MjModel, mujoco.MjData]:
+        if self._live is None:
+            try:
+                self._live = self._made()
+            except (MemoryError, mujoco.FatalError, ValueError) as error:
+                if not isinstance(error, MemoryError) and "allocate" not in str(error):
+                    raise
+                for each in [*self.others]:
+                    each.drop()
+                self._live = self._made()
+        return self._live
+
+    def _made(self) -> tuple[mujoco.MjModel, mujoco.MjData]:
+        model = self.load()
+        return model, mujoco.MjData(model)
+
+    def drop(self) -> None:
+        """Gives its memory back, and its state with it."""
+        self._live = None
 
     def count(self, kind: str) -> int:
         return int(getattr(self.mj, OBJECTS.get(kind, f"n{kind}")))
@@ -96,12 +128,13 @@ class NativeEngine:
 
     def __init__(self, assets: Mapping[str, bytes] | None = None) -> None:
         self.assets = dict(assets or {})
+        self.made = WeakSet[NativeModel]()
         mujoco.set_mju_user_warning(lambda _: None)
 
     def compile(self, main: str, files: Mapping[str, str]) -> Compiled:
         try:
             assets = self.assets | {name: text.encode() for name, text in files.items()}
-            return NativeModel(mujoco.MjModel.from_xml_string(main, assets))
+            return NativeModel(lambda: mujoco.MjModel.from_xml_string(main, assets), self.made)
         except (ValueError, mujoco.FatalError) as error:
             raise CompileError(str(error)) from None
 

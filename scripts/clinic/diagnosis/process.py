@@ -14,13 +14,14 @@ from pathlib import Path
 from typing import Any
 
 from clinic.diagnosis.diagnose import examine, read_file
-from clinic.diagnosis.finding import LATE, Diagnosis, ending
+from clinic.diagnosis.finding import KILLED, LATE, Diagnosis, ending
 from clinic.diagnosis.simulation import Start, StartError
 from clinic.diagnosis.source import read_texts
 from clinic.diagnosis.symptom import code_of, measure
 
 LIMIT = 60.0  # s, for one process
 MEMORY = 4 * 2**30  # bytes
+KILL = 9  # the signal with which the system ends what it has no memory for
 DEATHS = 5  # of the engine, after which the diagnosis ends
 MEASURING = "what the symptom's page measures"
 CHILD = (sys.executable, "-m", "clinic.diagnosis.process")
@@ -82,7 +83,11 @@ def diagnose(
         died[trying] = said
         if not trying or len(died) > DEATHS:
             doing = f"while trying {trying}" if trying else "while compiling the model"
-            ended = f"no answer in {LIMIT:g} s" if said == LATE else said or "MuJoCo ended the process"
+            ended = {
+                LATE: f"no answer in {LIMIT:g} s",
+                KILLED: "the system ended the process, as it does where memory runs out,",
+                "": "MuJoCo ended the process",
+            }.get(said, said)
             raise DiagnosisError(f"{name}: {ended} {doing}")
 
 
@@ -104,8 +109,12 @@ def _read(source: Any) -> tuple[str, str, str]:
     path = Path(source).absolute()
     try:
         return path.read_text(encoding="utf-8-sig"), path.name, str(path.parent)
-    except (OSError, UnicodeDecodeError) as error:
-        raise DiagnosisError(f"{source}: {getattr(error, 'strerror', None) or 'not a text in UTF-8'}") from None
+    except OSError as error:
+        raise DiagnosisError(f"{source}: {error.strerror or error}") from None
+    except UnicodeDecodeError as error:
+        line = error.object[: error.start].count(b"\n") + 1
+        where = f"byte 0x{error.object[error.start]:02x} in line {line}"
+        raise DiagnosisError(f"{source}: not a text in UTF-8: {where}") from None
 
 
 def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | None, str, str]:
@@ -121,7 +130,7 @@ def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | N
 
     timer = threading.Timer(LIMIT, end)
     timer.start()
-    trying = ""
+    trying, killed = "", False
     try:
         assert child.stdin is not None
         assert child.stdout is not None
@@ -138,13 +147,14 @@ def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | N
                 return None, trying, rest.decode()
             if kind == b"wrong":
                 raise DiagnosisError(rest.decode())
+        killed = child.wait() == -KILL
     except BrokenPipeError:
         pass
     finally:
         timer.cancel()
         child.kill()
         child.communicate()
-    return None, trying, LATE * late.is_set()
+    return None, trying, LATE if late.is_set() else KILLED * killed
 
 
 def _end_with_who_asked() -> None:

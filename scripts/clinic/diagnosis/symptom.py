@@ -37,7 +37,7 @@ def measure(family: str, code: str, engine: NativeEngine, texts: Mapping[str, st
         with _bounded(), warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()) as out:
             warnings.simplefilter("ignore")
             spec = _spec(engine, texts)
-            native = NativeModel(spec.compile())
+            native = NativeModel(spec.compile)
             simulation = Simulation(native, start or Start())
             simulation.begin_from(start or Start(key=0 if simulation.count("key") else -1))
             simulation.begin()

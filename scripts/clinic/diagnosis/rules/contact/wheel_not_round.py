@@ -82,7 +82,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     for joint, geom in _wheels(of):
         varies = _varies(of, joint, geom)
-        if varies <= VARIES:
+        if not varies > VARIES or not math.isfinite(varies):
             continue
         kind = int(of.model("geom_type")[geom])
         edits = _edits(model, joint, geom) if kind == CYLINDER else ()

@@ -188,7 +188,11 @@ VALUES = (
     ),
     Remedy(r"nan (\w+) in", "nan is no number that a model can be made of.", ("-{0}", "{0}=0.01 0.01 0.01")),
     Remedy("builtin textures must have 3", "A pattern has three channels; one with alpha is a file.", ("-nchannel",)),
-    Remedy("number is too large", "The numbers of collision groups have 31 bits.", ("contype=1", "conaffinity=1")),
+    Remedy(
+        "number is too large in attribute '(contype|conaffinity)'",
+        "The numbers of collision groups have 31 bits.",
+        ("{0}=1",),
+    ),
     Remedy("'num' must be positive", "num is how many contacts are told; 1 is the default.", ("-num",)),
     Remedy(
         "^(?!attribute).*(?:solref|solimp)",

@@ -301,8 +301,13 @@ def _free_links(model: ReaderModel, joint: Element, tag: str) -> list[str]:
     assert model.source is not None
     links = [each.get("name") for each in model.source.root.children if each.tag == "link"]
     children = {each.get("link") for each in model.source.elements("child")}
+    parents = {each.get("link") for each in model.source.elements("parent")}
     other = joint.first("child" if tag == "parent" else "parent")
-    return [name for name in links if name not in children and (other is None or name != other.get("link"))][:2]
+    own = other.get("link") if other is not None else ""
+    if tag == "parent" and own:  # the root is one of many, and a chain ends where nothing hangs on it
+        ends = [name for name in links if name not in parents and name != own]
+        return nearest(own, ends)[:1] if len(links) > 2 else [name for name in links if name != own]
+    return [name for name in links if name not in children and name != own][:2]
 
 
 def _one_of(model: ReaderModel, element: Element, names: list[str]) -> Iterator[Suspect]:

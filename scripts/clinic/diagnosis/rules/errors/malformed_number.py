@@ -43,6 +43,8 @@ SINCE = "0.1"
 MESSAGE = re.compile(
     r"(bad format in|problem reading|number is too large in|(?!required|at most).*) ?attribute '(\w+)'(.*)"
 )
+SPACED = "MuJoCo reads numbers with spaces between them"
+LARGE = "The largest number is 1.8e308, and that of a whole number 2147483647"
 DECIMAL = re.compile(r"-?\d+(?:[.,]\d+)?")
 AXES = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 UNITS = {"mm": 1e-3, "cm": 1e-2, "g": 1e-3, "ms": 1e-3}
@@ -62,7 +64,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         now = element.get(attribute)
         if attribute not in element.attributes or "${" in now:
             continue
-        says = f'MuJoCo reads numbers with spaces between them: "{sentence(model)}".'
+        says = f'{LARGE if "too large" in found.string else SPACED}: "{sentence(model)}".'
         for value in dict.fromkeys(_guesses(attribute, now, "enough" in found.string)):
             edits = (set_attribute(element, attribute, value),)
             if value != now and not _refused(model, edits, attribute):
@@ -87,15 +89,29 @@ def _guesses(attribute: str, now: str, short: bool) -> Iterator[str]:
     numbers = NUMBER.findall(plain)
     if not numbers:
         return
+    yield from _in_place(attribute, words)
     if short:
         yield from _filled(attribute, numbers)
     if all(DECIMAL.fullmatch(word) for word in words) and any(word.lstrip("-").startswith("0,") for word in words):
         yield plain.replace(",", ".")
     yield " ".join(numbers)
     yield re.sub(r"(?<=\d),(?=\d)", ".", plain)
-    yield " ".join(str(round(float(number))) for number in numbers)
+    if all(math.isfinite(float(number)) for number in numbers):
+        yield " ".join(str(round(float(number))) for number in numbers)
     yield from (" ".join(numbers[:count]) for count in range(len(numbers) - 1, 0, -1))
     yield from (" ".join([*numbers, *["0"] * more]) for more in (1, 2, 3))
+
+
+def _in_place(attribute: str, words: list[str]) -> Iterator[str]:
+    """Words without a digit among numbers: zero in their place, or one where an axis has no other length."""
+    plain = [word for word in words if re.search(r"\d", word)]
+    if len(plain) < len(words):
+        zero = "1" if attribute in ("axis", "xyz", "zaxis") and not any(map(_size, plain)) else "0"
+        yield " ".join(word if word in plain else zero for word in words)
+
+
+def _size(word: str) -> float:
+    return float(word) if NUMBER.fullmatch(word) else 0.0
 
 
 def _read(word: str) -> float | None:

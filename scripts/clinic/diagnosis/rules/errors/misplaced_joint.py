@@ -29,7 +29,8 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: none; the text compiles with the edit, which takes the joint out.
+The number: none; the text compiles with the edit, which puts the joint into the body that it stands before, where that
+has none, and takes it out elsewhere.
 
 When it is wrong: where the body is meant to move: move it below the world instead.
 """
@@ -38,7 +39,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import delete, set_attribute
+from clinic.diagnosis.edit import delete, replace, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence, told
 from clinic.diagnosis.source import Element
@@ -67,6 +68,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for element in meant(model):
         if any(said.startswith(each) for each in SAID):
             joints = [each for each in element.walk() if each.tag in ("joint", "freejoint") and _own(each, element)]
+            if said.startswith("World"):
+                yield from _moved(model, joints, said)
             for joint in [each for each in joints if _free(each)] + joints[::-1]:
                 yield mends(joint, (delete(joint),), f"{said}. {SAYS[said.split()[0]]}", value="removed")
         elif said.startswith("plane only allowed"):
@@ -75,6 +78,24 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 edits = (set_attribute(plane, "type", "box"),)
                 says = f"{said}: it has no end, and so no inertia; a box has."
                 yield mends(plane, edits, says, attribute="type", now="plane", value="box")
+
+
+def _moved(model: ReaderModel, joints: list[Element], said: str) -> Iterator[Suspect]:
+    """A joint that stands right before a body without one, put into that body, where a line slipped."""
+    for joint in joints:
+        around = joint.parent.children if joint.parent is not None else []
+        body = next(iter(around[[*map(id, around)].index(id(joint)) + 1 :]), None) if around else None
+        if body is None or body.tag != "body" or body.empty or body.first("joint") or body.first("freejoint"):
+            continue
+        first = next(iter(body.children), None)
+        if first is None or joint.end > body.start:
+            continue
+        text = model.texts[joint.file].encode()
+        own, its = (text[each.start : each.end].decode() for each in (joint, first))
+        margin = text[text.rfind(b"\n", 0, first.start) + 1 : first.start].decode()
+        edits = (delete(joint), replace(first, f"{own}\n{margin if not margin.strip() else ''}{its}"))
+        says = f"{said}. It stands right before {told(body)}, which has none: it is put in there."
+        yield mends(joint, edits, says, value=f"moved into {told(body)}")
 
 
 def _floating(model: ReaderModel, said: str) -> Iterator[Suspect]:

@@ -34,9 +34,11 @@ import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import delete, remove_attribute
+from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence, told
 from clinic.diagnosis.rules.errors._remedy import advised
+from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "An element that MuJoCo refuses"
@@ -58,10 +60,15 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             without = (remove_attribute(element, name),)
             says = f"{said}. Without {name} MuJoCo comes further."
             yield mends(element, without, says, attribute=name, now=element.get(name), value="none")
-        if element.tag not in NEEDED:
+        if element.tag not in NEEDED and (not element.children or _compiles(model, element)):
             says = f"{said}. Without this <{element.tag}> MuJoCo comes further."
             yield mends(element, (delete(element),), says, value="removed")
     if elements:
         yield advised(elements[0], f"{said}: this is about {told(elements[0])}.")
     elif model.source is not None:
         yield advised(None, f"{said}: MuJoCo does not say where.")
+
+
+def _compiles(model: ReaderModel, element: Element) -> bool:
+    """Whether the model does without an element: what has others inside is not given up for less."""
+    return not isinstance(model.with_edits((delete(element),)), CompileError)

@@ -33,7 +33,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.edit import Edit, delete, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import mends, sentence
 from clinic.diagnosis.source import Element
@@ -59,6 +59,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not classes and found.group(1) not in names.values():
         every = [each for each in model.source.root.walk() if each.get("name") == found.group(1)]
         names = {id(each): each.get("name") for each in every}
+    if (again := _again(every, names)) is not None:
+        name = names[id(again)]
+        says = f"The same stands there before, with all that is in it: {name!r} is taken out where it comes again."
+        yield mends(again, (delete(again),), says, attribute=attribute, now=name, value="removed")
+        return
     used, edits, first = Counter[str](["world"] if kind == "body" else []), list[Edit](), None
     for element in every:
         name = names[id(element)]
@@ -72,6 +77,21 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         says = f"{used[name]} elements are called {name!r}."
         says = "The world is a body, and called 'world'." if (kind, name) == ("body", "world") else says
         yield mends(first, edits, says, attribute=attribute, now=name, value=edits[0].value)
+
+
+def _again(elements: list[Element], names: dict[int, str]) -> Element | None:
+    """The first element that is the next one to the same, attribute by attribute, as a line that was pasted twice."""
+    for each in elements:
+        around = each.parent.children if each.parent is not None else []
+        at = next((place for place, one in enumerate(around) if one is each), 0)
+        if at and names[id(each)] and _alike(around[at - 1], each):
+            return each
+    return None
+
+
+def _alike(one: Element, other: Element) -> bool:
+    same = (one.tag, one.attributes, len(one.children)) == (other.tag, other.attributes, len(other.children))
+    return same and all(map(_alike, one.children, other.children))
 
 
 def _of_file(element: Element, kind: str) -> str:

@@ -38,7 +38,6 @@ import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, delete, insert, replace
-from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, nearest, sentence
 from clinic.diagnosis.source import Element
@@ -81,15 +80,38 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not re.match(r"(?:Schema violation: )?unrecognized element", sentence(model)):
         return
     for element in meant(model):
-        for edits, value in _tries(model, element):
-            made = model.with_edits(edits)
-            if not isinstance(made, CompileError) or "unrecognized element" not in str(made):
+        *tries, gone = _tries(model, element)
+        for edits, value in [*tries, *_together(model, element), gone]:
+            if not _refused(model, edits, element, value):
                 says = (
                     f"This MuJoCo knows no <{element.tag}> inside of <{element.parent.tag if element.parent else ''}>."
                 )
                 says = GONE.get(element.tag, says)
                 yield mends(element, edits, says, value=value)
                 return
+
+
+def _refused(model: ReaderModel, edits: tuple[Edit, ...], element: Element, value: str) -> bool:
+    """Whether MuJoCo still does not know the element, or what has taken its place."""
+    found = re.search(r"unrecognized element\s+Element '(\w+)'", str(model.with_edits(edits)))
+    return found is not None and found[1] in (element.tag, value.strip("<>"))
+
+
+def _together(model: ReaderModel, element: Element) -> Iterator[tuple[tuple[Edit, ...], str]]:
+    """The elements of a kind that stand beside each other, moved into their section."""
+    alike = [each for each in element.parent.children if each.tag == element.tag] if element.parent else []
+    if len(alike) > 1:
+        yield from _moved(model, alike)
+
+
+def _moved(model: ReaderModel, elements: list[Element]) -> Iterator[tuple[tuple[Edit, ...], str]]:
+    root, gone = model.source.root if model.source else None, [delete(each) for each in elements]
+    text = "\n    ".join(_text(model, each) for each in elements)
+    for section, words in HOME.items():
+        if root is not None and elements[0].tag in words.split():
+            there = root.first(section)
+            added = insert(there, text) if there else insert(root, f"<{section}>{text}</{section}>")
+            yield (*gone, added), f"moved into <{section}>"
 
 
 def _tries(model: ReaderModel, element: Element) -> Iterator[tuple[tuple[Edit, ...], str]]:
@@ -104,11 +126,7 @@ def _tries(model: ReaderModel, element: Element) -> Iterator[tuple[tuple[Edit, .
         renamed = re.sub(rf"</{element.tag}(\s*)>$", rf"</{name}\1>", renamed)
         yield (replace(element, renamed),), f"<{name}>"
     root = model.source.root if model.source else None
-    for section, words in HOME.items():
-        if root is not None and element.tag in words.split():
-            there = root.first(section)
-            added = insert(there, text) if there else insert(root, f"<{section}>{text}</{section}>")
-            yield (delete(element), added), f"moved into <{section}>"
+    yield from _moved(model, [element])
     if element.tag in SECTIONS.split() and root is not None and element.parent is not root:
         yield (delete(element), insert(root, text)), "moved below <mujoco>"
     yield (delete(element),), "removed"

@@ -33,7 +33,8 @@ Good:
 
 The number: none; the text compiles with the edit. The nearest name that stands in the model is tried.
 
-When it is wrong: where several names are equally near.
+When it is wrong: where several names are equally near. A name of the other side, or with another number, is not taken
+for it: what is called `left_knee` was left out where only `right_knee` is there.
 """
 
 from __future__ import annotations
@@ -45,6 +46,7 @@ from clinic.diagnosis.edit import delete, remove_attribute, set_attribute
 from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, nearest, sentence
+from clinic.diagnosis.rules.errors._remedy import advised
 from clinic.diagnosis.source import Element, Source
 from clinic.diagnosis.suspect import Suspect
 
@@ -59,6 +61,8 @@ SAID = re.compile(
 OTHER = re.compile(
     r"attribute|(?<!unknown )element|keyword|'' not found|plugin|decoder|geometry specification|base site|target for"
 )
+SIDES = [{"left", "right"}, {"l", "r"}, {"front", "rear"}, {"front", "back"}, {"fl", "fr"}, {"rl", "rr"}]
+SIDES += [{"fl", "rl"}, {"fr", "rr"}, {"lf", "rf"}, {"lh", "rh"}, {"upper", "lower"}]
 OPTIONAL = {"class", "childclass", "material", "texture"}  # without them the element still is what it was
 
 
@@ -85,6 +89,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 yield found
                 return
         if names and set(element.attributes.values()) & set(names):
+            if other := next((name for name in nearest(names[0], known) if _another(names[0], name)), ""):
+                attribute = next(key for key, value in element.attributes.items() if value in names)
+                says = f"Nothing of that kind is called {names[0]!r}. {other!r} is another of its kind, and there."
+                yield advised(element, says, attribute)
+                return
             says = f"Nothing is called {names[0]!r}, nor nearly so."
             yield mends(element, (delete(element),), says, value="removed")
             return
@@ -110,6 +119,8 @@ def _links(model: ReaderModel, source: Source) -> Iterator[Suspect]:
 def _nearest(model: ReaderModel, element: Element, attribute: str, now: str, known: list[str]) -> Suspect | None:
     ends = [name for name in known if name.endswith(now) or now.endswith(name)]
     for name in [*nearest(now, known), *nearest(now, ends)]:
+        if attribute not in OPTIONAL and _another(now, name):
+            break
         edits = (set_attribute(element, attribute, name),)
         if not _says(model, edits, name):
             says = f"Nothing of that kind is called {now!r}; {name!r} is there."
@@ -119,6 +130,15 @@ def _nearest(model: ReaderModel, element: Element, attribute: str, now: str, kno
         says = f"Nothing of that kind is called {now!r}."
         return mends(element, edits, says, attribute=attribute, now=now, value="none")
     return None
+
+
+def _another(name: str, other: str) -> bool:
+    """Whether a name is of the other side or has another number: such parts stand beside each other."""
+    words, others = (re.findall(r"[A-Za-z]+|\d+", each) for each in (name, other))
+    differ = [(a.lower(), b.lower()) for a, b in zip(words, others, strict=False) if a.lower() != b.lower()]
+    if len(words) != len(others) or not differ:
+        return False
+    return all((a.isdigit() and b.isdigit()) or {a, b} in SIDES for a, b in differ)
 
 
 def _says(model: ReaderModel, edits: tuple[object, ...], name: str) -> bool:

@@ -110,6 +110,8 @@ def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
     bare = [joint for joint in bare if of.model("jnt_bodyid")[joint] not in thin]
     light = sorted(joint for joint in bare if inertia[of.dof(joint)] < ROTOR and not of.model("jnt_stiffness")[joint])
     probe = _symptom(model)
+    if probe == commanded():  # without a range a wheel and a propeller get as fast as that
+        light = [joint for joint in light if of.model("jnt_limited")[joint]]
     if not light or probe is None or of.timestep > 5 * USUAL:
         return
     least = min(inertia[of.dof(joint)] for joint in light)

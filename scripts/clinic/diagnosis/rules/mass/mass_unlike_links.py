@@ -51,8 +51,8 @@ Good:
 
 The number: the mass of a link over the box around its largest geom, beside that of the link in the middle; more than 4
 times that, and more than 6 % of the robot's mass. 5 of 135 healthy robots of four links and more have such a link; with
-ten times its mass two thirds of their links are told. Left alone are a free base, which has the battery, and a link
-that is too light, for a shell is drawn as if it were full.
+ten times its mass two thirds of their links are told. Left alone are a free base, which has the battery, a link whose
+inertia tells its mass, and one that is too light, for a shell is drawn as if it were full.
 
 When it is wrong: a link with a battery, or one whose motor is not drawn.
 """
@@ -63,6 +63,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.mass import mass_unlike_inertia
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
@@ -80,9 +81,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The links whose density is away from that of their robot, robot by robot, where they are two at the most."""
     of = model.simulation
     owner, links = root_of(of), _links(of)
+    told = {name for each in mass_unlike_inertia.suspects(model) for name in each.elements} if links else set()
     for root in sorted({owner[body] for body in links}):
         robot = {body: each for body, each in links.items() if owner[body] == root}
         found = [body for body in _unlike(robot) if body not in of.free_bodies]
+        found = [body for body in found if of.name("body", body) not in told]
         if not 0 < len(found) <= 2:
             continue
         worst = max(found, key=lambda body: robot[body][0] / robot[body][1])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from clinic.diagnosis.engine import FREE, PLANE, SLIDE
-from clinic.diagnosis.probes.vector import Vector, at
+from clinic.diagnosis.probes.vector import Vector, add, at, norm, times
 from clinic.diagnosis.simulation import Simulation, kept
 
 
@@ -64,6 +64,19 @@ def thickness(simulation: Simulation, geom: int) -> float:
     if int(simulation.model("geom_type")[geom]) == PLANE:
         return float("inf")
     return 2 * min(simulation.row("geom_aabb", geom, 6)[3:])
+
+
+def round_about(simulation: Simulation, joint: int, share: float = 0.1) -> bool:
+    """Whether a geom of a hinge's body has its middle on the hinge, to a share of the geom's radius."""
+    of = simulation
+    anchor, axis = of.data_row("xanchor", joint, 3), of.data_row("xaxis", joint, 3)
+    for geom in of.geoms_of(int(of.model("jnt_bodyid")[joint])):
+        middle = times(of.data_row("geom_xmat", geom, 9), of.row("geom_aabb", geom, 6)[:3])
+        off = add(add(of.data_row("geom_xpos", geom, 3), middle), anchor, -1)
+        along = sum(a * b for a, b in zip(off, axis, strict=True))
+        if norm(add(off, axis, -along)) < share * of.model("geom_rbound")[geom]:
+            return True
+    return False
 
 
 def size(simulation: Simulation, body: int) -> float:

@@ -1,8 +1,8 @@
 """A part that does not roll rubs over the floor with the friction of a tyre.
 
 A caster that is drawn as a fixed ball has no joint to roll with. With the friction of everything else it brakes the
-robot, and holds its end when the wheels turn it. The greater friction of two geoms counts, so that the floor's is
-enough: the ball needs `priority="1"`, or `condim="1"`.
+robot, and holds its end when the wheels turn it. Of two geoms the greater `friction` and the greater `condim` count, so
+that the floor's are enough: `condim="1"` on the ball, or a small `friction`, acts only beside `priority="1"`.
 
 Bad:
 
@@ -55,7 +55,8 @@ Good:
     </mujoco>
 
 The number: what friction of the parts that have no joint but the free one takes, as a share of the weight, once the
-robot stands on driven wheels and on them; above 0.05 is told.
+robot stands on driven wheels and on them; above 0.05 is told. A wheel is a body that a driven level hinge without a
+range turns about the middle of one of its geoms.
 
 When it is wrong: a foot that a robot is meant to drag.
 """
@@ -66,7 +67,7 @@ import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import FREE, HINGE
-from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.shape import root_of, round_about
 from clinic.diagnosis.probes.touch import Deciding, resting
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -78,7 +79,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "no healthy model stands on wheels and a fixed caster"
 
-MOST, STICKS = 0.05, 0.3  # of the weight; a friction below that glides
+MOST, STICKS, LEVEL_ENOUGH = 0.05, 0.3, 0.3  # of the weight; a friction below that glides; upward part of an axis
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -125,12 +126,15 @@ def _rollers(of: Simulation) -> set[int]:
 
 
 def _wheels(of: Simulation) -> set[int]:
-    """The bodies that a driven hinge without limits turns, on a free base."""
+    """The bodies that a driven level hinge without limits turns about their middle, on a free base."""
+    of.begin()
     free = {int(of.model("jnt_bodyid")[each]) for each in range(of.count("joint")) if of.joint_type(each) == FREE}
     driven = {joint for each in range(of.count("actuator")) if (joint := of.driven_joint(each)) is not None}
     owner, made = root_of(of), set()
     for joint in driven:
         body = int(of.model("jnt_bodyid")[joint])
-        if of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint] and owner[body] in free:
+        endless = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
+        level = abs(of.data_row("xaxis", joint, 3)[2]) < LEVEL_ENOUGH
+        if endless and level and owner[body] in free and round_about(of, joint):
             made.add(body)
     return made

@@ -61,8 +61,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if int(kind) == SPHERE and element is not None and source.value(element, "mesh"):
             found += [geom] if source.value(element, "type") is None else []
     if found:
-        first = model.value("geom", found[0], "mesh")
-        says = f"Without a type it is a sphere of {of.model('geom_rbound')[found[0]]:.3g} m, fitted to mesh {first!r}."
+        first, radius = model.value("geom", found[0], "mesh"), of.model("geom_rbound")[found[0]]
+        says = f"Without a type it is a sphere with a radius of {radius:.3g} m, fitted to mesh {first!r}."
         names = tuple(of.name("geom", geom) for geom in found)
         edits = model.set("geom", found, "type", "mesh")
         probe = counted("meshes that are spheres", len(found))

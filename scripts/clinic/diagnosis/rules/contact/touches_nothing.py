@@ -46,8 +46,8 @@ Good:
 The number: bodies that are called a wheel, caster, tyre, foot, finger, pad, jaw or claw, that have geoms and none which
 collides, nor has what hangs on them, while other parts of the same robot collide.
 
-So is a geom of the world that is called a floor, ground, terrain, table, step, stair, ramp or wall, has masks of zero,
-and has nothing around it that stands still and collides, where others of the world collide or nothing does.
+So is a geom that stands still and is called a floor, ground, terrain, table, step, stair, ramp or wall, has masks of
+zero, and has nothing that stands still and collides around it or in its body.
 
 When it is wrong: parts that another geom stands in for, such as a sphere of the calf for the foot.
 """
@@ -132,7 +132,8 @@ def _untouched(of: Simulation) -> list[int]:
         called = f"{geoms[geom]} {names[int(bodies[geom])] if bodies[geom] else ''}"
         if geom in solids or int(kinds[geom]) == PLANE or not GROUND.search(called) or SEEN.search(called):
             continue
-        if of.row("geom_rgba", geom, 4)[3] >= 1 and not any(_around(of, each, geom) for each in solids):
+        mates = [each for each in solids if bodies[geom] and bodies[each] == bodies[geom]]
+        if of.row("geom_rgba", geom, 4)[3] >= 1 and not mates and not any(_around(of, each, geom) for each in solids):
             found.append(geom)
     return found
 

@@ -1,4 +1,4 @@
-"""A driven joint takes nothing of the default class that the other joints take.
+"""A driven joint takes nothing of the default class that is made for it.
 
 A class applies where it is named: as `class` of the joint, or as `childclass` of a body around it. Where neither is
 written, the joint has no damping and no armature, and nothing says so.
@@ -42,13 +42,14 @@ Good:
     </mujoco>
 
 The number: how many driven joints have no class and none of damping, armature and frictionloss, where a class gives
-joints some of it.
+joints some of it, which no joint uses, or more than there are such driven joints.
 
 When it is wrong: a class that is meant for other joints, which are the only ones with damping.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 
 from clinic.diagnosis.reader_model import ReaderModel
@@ -71,12 +72,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     driven = sorted({joint for each in range(of.count("actuator")) if (joint := of.driven_joint(each)) is not None})
     bare = [joint for joint in driven if (e := model.element("joint", joint)) is not None and _unreached(source, e)]
-    if not bare:
+    users = Counter(name for each in source.elements("joint") if (name := _class(each)) in classes)
+    if not bare or (users and users.total() <= len(bare)):
         return
-    says = f"No class and no childclass gives it anything; class {classes[0]} has {_given(source, classes[0])}."
+    name = users.most_common(1)[0][0] if users else classes[0]
+    says = f"No class and no childclass gives it anything; class {name} has {_given(source, name)}."
     probe = counted("driven joints that no class reaches", len(bare))
     names = tuple(of.name("joint", joint) for joint in bare)
-    yield Suspect(names, "class", "none", classes[0], (), probe, 0, says, "damping and armature of a class")
+    yield Suspect(names, "class", "none", name, (), probe, 0, says, "damping and armature of a class")
 
 
 def _classes(source: Source) -> list[str]:
@@ -101,7 +104,11 @@ def _given(source: Source, name: str) -> str:
     return ", ".join(f"{attribute} {value}" for attribute, value in _fields(found))
 
 
+def _class(joint: Element) -> str:
+    """The class that is named for a joint, or around it; empty where none is."""
+    return joint.get("class") or next((name for outer in joint.around() if (name := outer.get("childclass"))), "")
+
+
 def _unreached(source: Source, joint: Element) -> bool:
     """Whether nothing gives a joint any of the fields, and no class is named for it."""
-    named = joint.get("class") or any(outer.get("childclass") for outer in joint.around())
-    return joint.tag == "joint" and not named and all(source.written(joint, name) is None for name in FIELDS)
+    return joint.tag == "joint" and not _class(joint) and all(source.written(joint, name) is None for name in FIELDS)

@@ -1,7 +1,7 @@
-"""One coupling of several joints it to another place than the others do.
+"""One of several couplings is with the joint of another finger.
 
-The last joint of each finger follows the one before it, and one finger's follows that of its neighbour, or the first
-joint: a line was copied and half adapted.
+The last joint of each finger follows the one before it, and one finger's follows that of its neighbour: a line was
+copied and half adapted.
 
 Bad:
 
@@ -75,8 +75,8 @@ Good:
       </equality>
     </mujoco>
 
-The number: three and more couplings of two joints each, of which all but one couple joints that stand alike in the
-tree: one above the other by as many joints, or beside each other.
+The number: three and more couplings of two joints each. In all but one the leader is as many joints above its follower;
+in that one it is on another branch, though a joint is as far above its follower as well.
 
 When it is wrong: a mechanism in which one coupling is of another kind than all others.
 """
@@ -105,11 +105,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     follower, leader = (int(of.model(f"eq_obj{side}id")[each]) for side in (1, 2))
     others = [one for one in _relations(of) if one != each]
-    says = f"It couples {of.name('joint', follower)} to {of.name('joint', leader)}: {_words(_relations(of)[each])}; "
-    says += f"in all {len(others)} others, {_words(_relations(of)[others[0]])}."
+    wanted = _line(of, follower)[_relations(of)[others[0]] or 0]
+    says = f"It couples {of.name('joint', follower)} to {of.name('joint', leader)}, which is on another branch; "
+    says += f"each of the {len(others)} others couples two joints of one branch."
     probe = Probe("couplings that stand apart from all others", "", _count, dynamic=False)
     names = (of.name("joint", follower), of.name("joint", leader))
-    yield Suspect(names, "joint2", of.names("joint")[leader], "as in the others", (), probe, 0, says, "couplings alike")
+    now, value = of.names("joint")[leader], of.names("joint")[wanted]
+    edits = model.set("equality", [each], "joint2", value) if value else ()
+    yield Suspect(names, "joint2", now, value, edits, probe, 0, says, "couplings alike")
 
 
 def _count(of: Simulation) -> float:
@@ -117,13 +120,14 @@ def _count(of: Simulation) -> float:
 
 
 def _odd(of: Simulation) -> int | None:
-    """The coupling whose relation no other has, where all others have one and the same."""
+    """The coupling with another branch, where all others are of joints of one branch, by as many joints."""
     found = _relations(of)
-    for each, relation in found.items():
-        others = {other for one, other in found.items() if one != each}
-        if len(found) >= ENOUGH and len(others) == 1 and not others & {relation, None}:
-            return each
-    return None
+    apart = [each for each, relation in found.items() if relation is None]
+    usual = {relation for relation in found.values() if relation is not None}
+    if len(found) < ENOUGH or len(apart) != 1 or len(usual) != 1:
+        return None
+    follower = int(of.model("eq_obj1id")[apart[0]])
+    return apart[0] if 0 < usual.pop() < len(_line(of, follower)) else None
 
 
 def _relations(of: Simulation) -> dict[int, int | None]:
@@ -147,17 +151,5 @@ def _relations(of: Simulation) -> dict[int, int | None]:
 
 def _line(of: Simulation, joint: int) -> list[int]:
     """A joint and those above it, the nearest first."""
-    body = int(of.model("jnt_bodyid")[joint])
-    made = [each for each in reversed(of.joints_of(body)) if each <= joint]
-    while body := int(of.model("body_parentid")[body]):
-        made += reversed(of.joints_of(body))
-    return made
-
-
-def _words(relation: int | None) -> str:
-    """How the second joint stands to the first."""
-    if relation is None:
-        return "the second is on another branch than the first"
-    if relation == 0:
-        return "the second is beside the first"
-    return f"the second is {abs(relation)} above the first" if relation > 0 else "the second hangs on the first"
+    bodies = of.ancestors(int(of.model("jnt_bodyid")[joint]))
+    return [each for body in bodies for each in reversed(of.joints_of(body)) if each <= joint]

@@ -27,9 +27,9 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: how far the hinge is from the middle of the panel, in half widths of the panel; less than 0.3 is told, and 0
-stands for an axis across it. Looked at are bodies with one hinge that are called a door, gate, hatch, flap or lid, and
-their largest geom, where it is flat.
+The number: how far the hinge is from the middle of the door's geoms, in half widths of them; less than 0.3 is told, and
+0 stands for an axis across the panel, which is the largest geom. Looked at are bodies with one hinge that are called a
+door, gate, hatch, flap or lid, where the panel is flat.
 
 When it is wrong: a revolving door, or a flap that turns about its middle, as in a valve.
 """
@@ -106,13 +106,16 @@ def _off(of: Simulation, joint: int) -> float:
     panel = _panel(of, joint)
     if panel is None or _across(of, joint):
         return 0.0 if panel is not None else 1.0
-    geom, order = panel
-    box, matrix = of.row("geom_aabb", geom, 6), of.data_row("geom_xmat", geom, 9)
-    middle = add(of.data_row("geom_xpos", geom, 3), times(matrix, box[:3]))
-    aside = add(middle, of.data_row("xanchor", joint, 3), -1)
-    side = cross(_column(of, geom, order[0]), of.data_row("xaxis", joint, 3))
-    width = sum(box[3 + axis] * abs(dot(_column(of, geom, axis), side)) for axis in order[1:])
-    return abs(dot(aside, side)) / width if width > 0 else 1.0
+    side = cross(_column(of, panel[0], panel[1][0]), of.data_row("xaxis", joint, 3))
+    ends = []
+    for geom in of.geoms_of(int(of.model("jnt_bodyid")[joint])):
+        box = of.row("geom_aabb", geom, 6)
+        middle = add(of.data_row("geom_xpos", geom, 3), times(of.data_row("geom_xmat", geom, 9), box[:3]))
+        aside = dot(add(middle, of.data_row("xanchor", joint, 3), -1), side)
+        width = sum(box[3 + axis] * abs(dot(_column(of, geom, axis), side)) for axis in range(3))
+        ends += [aside - width, aside + width]
+    far, near = max(ends), min(ends)
+    return abs(far + near) / (far - near) if far > near else 1.0
 
 
 def _column(of: Simulation, geom: int, axis: int) -> Vector:

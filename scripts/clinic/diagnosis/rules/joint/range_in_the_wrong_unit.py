@@ -90,6 +90,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         most = len(meant) == len(few) and (2 * len(few) > len(spans) or len(spans) == 1)
         in_degrees = model.angle_unit != 1.0
+        if most and unit == ("degree" if in_degrees else "radian"):
+            continue  # it is in that unit already
         if not most and unit == "radian" and (not in_degrees or any(_round(model, each) for each in meant)):
             continue  # a narrow range in whole degrees is one
         edits: tuple[Edit, ...] = model.option("angle", unit, "compiler") if most else ()

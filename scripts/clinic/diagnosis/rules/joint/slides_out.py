@@ -31,7 +31,8 @@ Good:
     </mujoco>
 
 The number: the gap, along the slide, between what moves and the body that carries it where the range ends, in lengths
-of what moves, told from 0 on; for a slide without a range, whether its body is called a drawer, a tray or a door.
+of what moves, told from 0 on; for a slide without a range, and for every one of a URDF, whether its body is called a
+drawer, a tray or a door. A slide with a spring is left alone.
 
 When it is wrong: a carriage on a rail that is not drawn.
 """
@@ -61,10 +62,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The slides that leave the body which carries them, each."""
     of = model.simulation
     parents, bodies, names = of.model("body_parentid"), of.model("jnt_bodyid"), of.names("body")
+    urdf = model.source is not None and model.source.urdf  # which does not say what drives a joint
     driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
     for joint in range(of.count("joint")):
         body = int(bodies[joint])
         if of.joint_type(joint) != SLIDE or not parents[body] or joint in driven or len(of.joints_of(body)) > 1:
+            continue
+        if of.model("jnt_stiffness")[joint] > 0:
             continue
         if of.count("tendon") or _gap(of, joint, at_start=True) > 0:
             continue
@@ -72,6 +76,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if FINGER.search(called):
             continue
         named = bool(GUIDED.search(called))
+        if urdf and not named:
+            continue
         if not of.model("jnt_limited")[joint]:
             if named:
                 says = "It has no range: nothing stops it at either end."

@@ -81,7 +81,10 @@ LEVEL = "hint"
 UNPLANTED = "only names say what is a wheel"
 
 WHEEL = re.compile(r"(?<![a-z])[lr]?(wheel|tyre|tire)s?(?![a-z])", re.IGNORECASE)
-OTHER = re.compile(r"steer|caster|castor|susp|fork|hub|spare|swivel|mount|knuckle|motor|axle|arm|leg", re.IGNORECASE)
+OTHER = re.compile(
+    r"steer|caster|castor|susp|fork|hub|spare|swivel|mount|knuckle|motor|axle|arm|leg|guard|cover|fender|well",
+    re.IGNORECASE,
+)
 ROUND, ACROSS = (SPHERE, ELLIPSOID, CYLINDER, MESH), 0.7
 
 BARE, SERVO = "it has no joint, and others have", "a position servo turns it to an angle, where it stops"
@@ -145,9 +148,15 @@ def _wheels(of: Simulation) -> list[int]:
         called = [names[body], *(of.names("joint")[joint] for joint in _hinges(of, body))]
         is_round = any(int(kinds[geom]) in ROUND and solid(of, geom) for geom in of.geoms_of(body))
         is_wheel = any(WHEEL.search(name) for name in called) and not any(OTHER.search(name) for name in called)
-        if owner[body] in free and body not in free and is_round and is_wheel:
+        if owner[body] in free and body not in free and is_round and is_wheel and not _carried(of, body):
             made.append(body)
     return made
+
+
+def _carried(of: Simulation, body: int) -> bool:
+    """Whether a body without a joint is fixed to one that a hinge without limits turns, as a tyre to its rim."""
+    joints = of.joints_of(int(of.model("body_weldid")[body])) if not of.joints_of(body) else []
+    return any(of.joint_type(each) == HINGE and not of.model("jnt_limited")[each] for each in joints)
 
 
 def _hinges(of: Simulation, body: int) -> list[int]:

@@ -48,7 +48,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import HINGE
-from clinic.diagnosis.probes.vector import add, norm, times
+from clinic.diagnosis.probes.shape import round_about
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, counted
@@ -61,7 +61,7 @@ UNPLANTED = "nearly no healthy model stands on wheels"
 
 WHEEL = re.compile(r"wheel|tyre|tire(?![a-z])", re.IGNORECASE)
 OTHER = re.compile(r"steer|swivel|fork|yaw|susp|camber|arm|pivot|hand|prism|valve", re.IGNORECASE)
-TURNS, LEVEL_ENOUGH, MIDDLE = 4.0, 0.3, 0.1
+TURNS, LEVEL_ENOUGH = 4.0, 0.3
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -79,7 +79,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         placed = [each for joint in found if (each := model.element("joint", joint)) is not None]
         edits = tuple(set_attribute(each, "type", "continuous") for each in placed)
     probe = counted("wheels that a range stops", len(found))
-    yield Suspect(names, "range", f"{low:.3g} {high:.3g}", "none", edits, probe, 0.5, says, "a wheel without a range")
+    now = f"{low / model.angle_unit:.3g} {high / model.angle_unit:.3g}"
+    yield Suspect(names, "range", now, "none", edits, probe, 0.5, says, "a wheel without a range")
 
 
 def _wheel(of: Simulation, joint: int) -> bool:
@@ -89,16 +90,4 @@ def _wheel(of: Simulation, joint: int) -> bool:
         return False
     low, high = of.row("jnt_range", joint, 2)
     level = abs(of.data_row("xaxis", joint, 3)[2]) < LEVEL_ENOUGH
-    return not OTHER.search(name) and high - low < TURNS * 2 * math.pi and level and _round_about(of, joint, body)
-
-
-def _round_about(of: Simulation, joint: int, body: int) -> bool:
-    """Whether a geom of the body has its middle on the hinge."""
-    anchor, axis = of.data_row("xanchor", joint, 3), of.data_row("xaxis", joint, 3)
-    for geom in of.geoms_of(body):
-        middle = times(of.data_row("geom_xmat", geom, 9), of.row("geom_aabb", geom, 6)[:3])
-        off = add(add(of.data_row("geom_xpos", geom, 3), middle), anchor, -1)
-        along = sum(a * b for a, b in zip(off, axis, strict=True))
-        if norm(add(off, axis, -along)) < MIDDLE * of.model("geom_rbound")[geom]:
-            return True
-    return False
+    return not OTHER.search(name) and high - low < TURNS * 2 * math.pi and level and round_about(of, joint)

@@ -9,7 +9,7 @@ Bad:
         <geom type="plane" size="2 2 0.1"/>
         <body name="robot" pos="0 0 0.1">
           <freejoint/>
-          <geom type="box" size="0.2 0.1 0.1"/>
+          <geom type="box" size="0.2 0.1 0.1" mass="5"/>
         </body>
       </worldbody>
       <keyframe>
@@ -24,7 +24,7 @@ Good:
         <geom type="plane" size="2 2 0.1"/>
         <body name="robot" pos="0 0 0.1">
           <freejoint/>
-          <geom type="box" size="0.2 0.1 0.1"/>
+          <geom type="box" size="0.2 0.1 0.1" mass="5"/>
         </body>
       </worldbody>
       <keyframe>
@@ -32,8 +32,8 @@ Good:
       </keyframe>
     </mujoco>
 
-The number: how far the lowest geom of the one free robot is above the planes at the keyframe, in sizes of the robot;
-told from 1 on, where it starts at less than a quarter without the keyframe.
+The number: how far the lowest geom of the one free robot is above the plane, or what stands there, at the keyframe, in
+sizes of the robot; told from 1 on, where it starts at less than a quarter without the keyframe.
 
 When it is wrong: a drop or a flight, if its name does not say so.
 """
@@ -46,7 +46,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import HFIELD, PLANE
 from clinic.diagnosis.probes.key import reordered, start_at
-from clinic.diagnosis.probes.shape import box
+from clinic.diagnosis.probes.shape import box, solid
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -58,8 +58,10 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "from where a robot should fall, only intent knows"
 
-HIGH, LOW = 1.0, 0.25  # sizes of the robot
-MEANT = re.compile(r"jump|air|fly|flight|drop|fall|hover|high|above|take", re.IGNORECASE)
+HIGH, LOW, NEAR = 1.0, 0.25, 0.02  # sizes of the robot; m that a foot may be in the floor
+MEANT = re.compile(
+    r"jump|air|fly|flight|drop|fall|hover|high|above|take|throw|toss|launch|land|hang|flip", re.IGNORECASE
+)
 SITE = 4  # mjtTrn
 
 
@@ -86,15 +88,26 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _gap(of: Simulation, key: int) -> float:
-    """How high the lowest moving geom is above the highest plane below it, in sizes of the robot; 0 without a plane."""
+    """How high the lowest moving geom is above what is below it and does not move, in sizes; 0 without a plane."""
     start_at(of, key)
     kinds, bodies, moving = of.model("geom_type"), of.model("geom_bodyid"), set(of.moving_bodies)
     planes = [of.data_row("geom_xpos", geom, 3)[2] for geom, kind in enumerate(kinds) if int(kind) == PLANE]
     low = min((_ends(of, geom)[0] for geom, body in enumerate(bodies) if int(body) in moving), default=0.0)
-    below = [height for height in planes if height <= low]
+    below = [height for height in (*planes, *_tops(of)) if height <= low + NEAR]
     if not below or any(int(kind) == HFIELD for kind in kinds):
         return 0.0
     return (low - max(below)) / max(_size(of), 1e-9)
+
+
+def _tops(of: Simulation) -> list[float]:
+    """How high the tops of the geoms are that do not move and are below or above the middle of the free body."""
+    positions, axes, kinds = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat")), of.model("geom_type")
+    made, moving, middle = [], set(of.moving_bodies), of.data_row("xpos", of.free_bodies[0], 3)
+    for geom, body in enumerate(of.model("geom_bodyid")):
+        if int(body) not in moving and solid(of, geom) and int(kinds[geom]) not in (PLANE, HFIELD):
+            place, half = box(of, positions, axes, geom)
+            made += [place[2] + half[2]] if all(abs(middle[i] - place[i]) <= half[i] for i in (0, 1)) else []
+    return made
 
 
 def _size(of: Simulation) -> float:

@@ -28,8 +28,8 @@ Good:
 
 The number: the mass of the air that its geoms displace (1.2 kg/m3) over its own, for everything that moves together,
 and for single links with a joint. More than 300 tells a cause: Gymnasium's second pusher pushes a puck of 120, its
-first one of 120,000. A model in centimetres has 10. More than 1, under the gravity of metres, tells a hint: a density
-of 1.2 in g/cm3 is taken for kg/m3, and a cube has a mass of milligrams.
+first one of 120,000. A model in centimetres has 10. More than 1, under the gravity of metres and without a fluid, tells
+a hint: a density of 1.2 in g/cm3 is taken for kg/m3, and a cube has a mass of milligrams.
 
 When it is wrong: a balloon. Where all of the model is so, it may be written in mm: another rule tells that.
 """
@@ -68,7 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             root = int(parents[root])
         trees.setdefault(root, []).append(body)
     in_metres = METRES[0] < math.hypot(*of.model("opt.gravity")) < METRES[1]
-    most = LIGHT if in_metres else LIMIT
+    most = LIGHT if in_metres and not of.model("opt.density")[0] else LIMIT  # in a fluid it may float
     light = [body for body in moving if of.joints_of(body) and _air(of, body) > LIMIT]
     groups = list(trees.items())
     if len(light) <= 2:  # a link of a tree that is heavy enough

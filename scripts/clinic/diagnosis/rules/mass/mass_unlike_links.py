@@ -1,6 +1,6 @@
-"""One link of a robot is many times denser than the others, or lighter.
+"""One link of a robot is many times denser than the others.
 
-A mass that is ten times too large, or too small, in a file where the inertia was reckoned from it: nothing in the link
+A mass that is ten times too large, in a file where the inertia was reckoned from it: nothing in the link
 itself looks wrong, beside the others it does.
 
 Bad:
@@ -49,21 +49,21 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: the mass of a link over the box around its largest geom, beside that of the link in the middle. More than 4
-times that and more than 6 % of the robot's mass, or less than a tenth of it in a link that is not a small one. 11 of
-147 healthy robots of four links and more have such a link; with ten times its mass 92 % of their links are told, with
-a tenth 35 %.
+The number: the mass of a link over the box around its largest geom, beside that of the link in the middle; more than 4
+times that, and more than 6 % of the robot's mass. 5 of 135 healthy robots of four links and more have such a link; with
+ten times its mass two thirds of their links are told. Left alone are a free base, which has the battery, a link whose
+inertia tells its mass, and one that is too light, for a shell is drawn as if it were full.
 
 When it is wrong: a link with a battery, or one whose motor is not drawn.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.mass import mass_unlike_inertia
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
@@ -74,22 +74,22 @@ AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "what a link should weigh, only its maker knows"
 
-DENSE, SHARE, LIGHT, MANY, GRAM, METAL = 4.0, 0.06, 0.1, 4, 0.001, 24000.0
+DENSE, SHARE, MANY, GRAM, METAL = 4.0, 0.06, 4, 0.001, 24000.0
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The links whose density is away from that of their robot, robot by robot, where they are two at the most."""
     of = model.simulation
     owner, links = root_of(of), _links(of)
+    told = {name for each in mass_unlike_inertia.suspects(model) for name in each.elements} if links else set()
     for root in sorted({owner[body] for body in links}):
         robot = {body: each for body, each in links.items() if owner[body] == root}
-        found = _unlike(robot)
+        found = [body for body in _unlike(robot) if body not in of.free_bodies]
+        found = [body for body in found if of.name("body", body) not in told]
         if not 0 < len(found) <= 2:
             continue
-        ratios = {body: mass / volume / _middle(robot) for body, (mass, volume) in robot.items()}
-        worst = max(found, key=lambda body: abs(math.log(ratios[body])))
-        mass, ratio = robot[worst][0], ratios[worst]
-        side = f"{rounded(ratio)} times as dense" if ratio > 1 else f"of {rounded(ratio)} times the density"
+        worst = max(found, key=lambda body: robot[body][0] / robot[body][1])
+        mass, ratio = robot[worst][0], robot[worst][0] / robot[worst][1] / _middle(robot)
         yield Suspect(
             tuple(of.name("body", body) for body in found),
             "mass",
@@ -97,14 +97,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"near {mass / ratio:.2g} kg",
             (),
             Probe("density beside that of the robot's other links", "times", _ratio, (worst,), dynamic=False),
-            DENSE if ratio > 1 else LIGHT,
-            f"{of.name('body', worst)} is {side} as the link in the middle of the {len(robot)} of its robot.",
-            "0.1 to 4 times in 136 of 147 robots",
+            DENSE,
+            f"{of.name('body', worst)} is {rounded(ratio)} times as dense as the link in the middle of the "
+            f"{len(robot)} of its robot.",
+            "below 4 times in 130 of 135 robots",
             level="hint",
         )
 
 
 def _ratio(of: Simulation, body: int) -> float:
+    """The density of a link over that of the link in the middle."""
     owner, links = root_of(of), _links(of)
     robot = {other: each for other, each in links.items() if owner[other] == owner[body]}
     return links[body][0] / links[body][1] / _middle(robot) if body in robot else 1.0
@@ -131,10 +133,8 @@ def _unlike(robot: dict[int, tuple[float, float]]) -> list[int]:
     if len(robot) < MANY:
         return []
     middle, total = _middle(robot), sum(mass for mass, _ in robot.values())
-    large = sorted(volume for _, volume in robot.values())[len(robot) // 2]
     return [
         body
         for body, (mass, volume) in robot.items()
-        if (DENSE * middle < mass / volume < METAL and mass > SHARE * total)
-        or (mass / volume < LIGHT * middle and volume > large)
+        if DENSE * middle < mass / volume < METAL and mass > SHARE * total
     ]

@@ -46,14 +46,15 @@ Good:
     </mujoco>
 
 The number: joints that no actuator, tendon, coupling or spring moves, where the twin of left and right is moved, or all
-others of three and more that are called alike but for a number or a finger. More than two are meant so.
+others of three and more that are called alike but for a number or a finger, unless those hang as deep as each other and
+it does not. More than two are meant so.
 
 When it is wrong: a mechanism that is driven on one side, and whose other side the load closes.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.siblings import groups
@@ -101,9 +102,21 @@ def _loose(of: Simulation) -> dict[int, int]:
             made[pair[0] + pair[1] - some[0]] = some[0]
     for group in groups(of, "joint"):
         still = [joint for joint in group if joint not in moved]
-        if len(still) == 1 and _turns(of, *group):
+        if len(still) == 1 and _turns(of, *group) and not _elsewhere(of, still[0], group):
             made[still[0]] = next(joint for joint in group if joint in moved)
     return made
+
+
+def _elsewhere(of: Simulation, joint: int, group: Collection[int]) -> bool:
+    """Whether as many joints are above all others of a group, and not above this one: the steered wheel of three."""
+    depths = {each: _depth(of, each) for each in group}
+    others = {depth for each, depth in depths.items() if each != joint}
+    return len(others) == 1 and depths[joint] not in others
+
+
+def _depth(of: Simulation, joint: int) -> int:
+    """How many joints are above the body of a joint."""
+    return sum(len(of.joints_of(body)) for body in of.ancestors(int(of.model("jnt_bodyid")[joint]))[1:])
 
 
 def _turns(of: Simulation, *joints: int) -> bool:

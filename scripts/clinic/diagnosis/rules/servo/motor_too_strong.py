@@ -34,17 +34,18 @@ Good:
 The number: the speed in rad/s that the greatest force of a motor gives its hinge within 0.2 s at the inertia of the
 start, or that damping lets it reach, if that is less; more than 1000, where no range ends it.
 
-When it is wrong: a spindle or a gyroscope.
+When it is wrong: a spindle or a gyroscope. What is called so, or a propeller, is left alone.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A motor far too strong for its joint"
 FAMILIES = ("explodes", "oscillates", "slips")
@@ -52,7 +53,8 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "a gear that is too large by a hundred is planted as that of a pair"
 
-FAST, SECONDS = 1000.0, 0.2  # rad/s, s
+FAST, USUAL, SECONDS = 1000.0, 300.0, 0.2  # rad/s, rad/s, s
+SPINS = re.compile(r"prop|rotor|blade|fan(?![a-z])|spindle|spinner|gyro|flywheel|turbine|drill", re.IGNORECASE)
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -65,12 +67,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     gear = of.model("actuator_gear")[6 * worst]
     low, high = of.row("actuator_ctrlrange", worst, 2)
     attribute = "gear" if abs(gear) > max(abs(low), abs(high)) else "ctrlrange"
-    now = f"{gear:.3g}" if attribute == "gear" else f"{low:.3g} {high:.3g}"
-    says = f"Full control turns {of.name('joint', of.driven_joint(worst) or 0)} at {fast[worst]:.3g} rad/s after "
+    numbers, less = ([gear] if attribute == "gear" else [low, high]), USUAL / fast[worst]
+    now, value = " ".join(f"{x:g}" for x in numbers), " ".join(rounded(less * x) for x in numbers)
+    says = f"Full control turns {of.name('joint', of.driven_joint(worst) or 0)} at {fast[worst]:.0f} rad/s after "
     says += f"{SECONDS:g} s at most."
     probe = Probe("speed that full control gives a hinge within 0.2 s", "rad/s", _fastest, dynamic=False)
     names = tuple(of.name("actuator", each) for each in fast)
-    yield Suspect(names, attribute, now, "a hundredth of it", (), probe, FAST, says, "below 300 rad/s")
+    yield Suspect(names, attribute, now, value, (), probe, FAST, says, f"below {USUAL:g} rad/s")
 
 
 def _fastest(of: Simulation) -> float:
@@ -86,8 +89,9 @@ def _speeds(of: Simulation) -> dict[int, float]:
         free = joint is not None and of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
         if joint is None or not free or not plain or not of.model("actuator_ctrllimited")[each]:
             continue
-        gain = of.model("actuator_gainprm")[len(of.model("actuator_gainprm")) // of.count("actuator") * each]
-        force = abs(gain) * max(map(abs, of.row("actuator_ctrlrange", each, 2)))
+        if SPINS.search(f"{of.name('joint', joint)} {of.name('actuator', each)}"):
+            continue
+        force = abs(of.gain(each)[0]) * max(map(abs, of.row("actuator_ctrlrange", each, 2)))
         if of.model("actuator_forcelimited")[each]:
             force = min(force, max(map(abs, of.row("actuator_forcerange", each, 2))))
         torque = force * abs(of.model("actuator_gear")[6 * each])

@@ -90,7 +90,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             attribute, now = "ctrlrange", " ".join(f"{x:g}" for x in of.row("actuator_ctrlrange", each, 2))
             says = f"It is excited by {most:g} at most, of 1."
         elif low < length < high:
-            attribute, now = "range", " ".join(f"{x:g}" for x in of.row("actuator_gainprm", each, _width(of))[:2])
+            attribute, now = "range", " ".join(f"{x:g}" for x in of.gain(each)[:2])
             says = f"Its own lengths go over {now}, and it gives force from 0.5 to 1.6, most at 1."
         value = {"force": "left out", "ctrlrange": "0 1", "range": "0.75 1.05"}.get(attribute, "left out")
         written = model.value("actuator", each, attribute) is not None
@@ -109,13 +109,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         )
 
 
-def _width(of: Simulation) -> int:
-    return len(of.model("actuator_gainprm")) // of.count("actuator")
-
-
 def _peak(of: Simulation, actuator: int) -> float:
     """In N; where `force` is negative, from `scale`."""
-    force, scale = of.row("actuator_gainprm", actuator, _width(of))[2:4]
+    force, scale = of.gain(actuator)[2:4]
     return force if force >= 0 else scale / max(of.model("actuator_acc0")[actuator], 1e-15)
 
 

@@ -42,6 +42,7 @@ When it is wrong: a gain that is a hundred times too high shakes as well; then t
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.edit import Edit
@@ -110,6 +111,8 @@ def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
     bare = [joint for joint in bare if of.model("jnt_bodyid")[joint] not in thin]
     light = sorted(joint for joint in bare if inertia[of.dof(joint)] < ROTOR and not of.model("jnt_stiffness")[joint])
     probe = _symptom(model)
+    if probe == commanded() and math.isfinite(model.measured(probe)):  # so fast may a wheel be, and a propeller
+        light = [joint for joint in light if of.model("jnt_limited")[joint]]
     if not light or probe is None or of.timestep > 5 * USUAL:
         return
     least = min(inertia[of.dof(joint)] for joint in light)

@@ -113,7 +113,6 @@ def _forces(of: Simulation, actuator: int) -> tuple[float, float]:
         return 0.0, 0.0
     if int(of.model("wrap_type")[int(of.model("tendon_adr")[tendon])]) == JOINT_WRAP:
         return 0.0, 0.0
-    gain = of.model("actuator_gainprm")[len(of.model("actuator_gainprm")) // of.count("actuator") * actuator]
-    gear = of.row("actuator_gear", actuator, 6)[0]
-    forces = [gain * gear * ctrl for ctrl in of.row("actuator_ctrlrange", actuator, 2)]
+    factor = of.gain(actuator)[0] * of.row("actuator_gear", actuator, 6)[0]
+    forces = [factor * ctrl for ctrl in of.row("actuator_ctrlrange", actuator, 2)]
     return max(0.0, *forces), max(0.0, *(-force for force in forces))

@@ -1,7 +1,8 @@
 """An actuator's filter takes seconds to let a control through.
 
 `dyntype="filter"` and `filterexact` smooth the control with the time constant `dynprm`, which is 1 s where nobody wrote
-it; `timeconst` of `<position>` and `<velocity>` is the same. The robot follows what it was told a second ago.
+it; `timeconst` of `<position>` and `<velocity>` is the same, and that of `<cylinder>` is 1 s, too. The robot follows
+what it was told a second ago.
 
 Bad:
 
@@ -40,6 +41,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -60,13 +62,21 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not slow:
         return
     worst = max(slow, key=lambda each: slow[each])
-    attribute = "timeconst" if model.value("actuator", worst, "timeconst") else "dynprm"
-    edits = model.set("actuator", list(slow), attribute, USUAL)
+    where = {each: _attribute(model, each) for each in slow}
+    attribute, edits = where[worst], tuple[Edit, ...]()
+    for name in sorted(set(where.values())):
+        edits += model.set("actuator", [each for each in slow if where[each] == name], name, USUAL)
     now = model.value("actuator", worst, attribute) or "left out"
     says = f"After a control changes, {of.name('actuator', worst)} gives 63 % of it {slow[worst]:.3g} s later."
     probe = Probe("greatest time constant of an actuator's filter", "s", _slowest, dynamic=False)
     names = tuple(of.name("actuator", each) for each in slow)
     yield Suspect(names, attribute, now, USUAL, edits, probe, SLOW - 1e-6, says, "0.01 to 0.1 s", level="hint")
+
+
+def _attribute(model: ReaderModel, actuator: int) -> str:
+    """Where the time constant of an actuator is written; only `<general>` has `dynprm`."""
+    element = model.element("actuator", actuator)
+    return "dynprm" if element is None or element.tag == "general" else "timeconst"
 
 
 def _times(of: Simulation) -> dict[int, float]:

@@ -69,6 +69,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for actuator in range(simulation.count("actuator")):
         if int(simulation.model("actuator_biastype")[actuator]) != AFFINE or simulation.driven_joint(actuator) is None:
             continue
+        if (placed := model.element("actuator", actuator)) is not None and placed.tag == "cylinder":
+            continue  # whose force is that of a pressure
         gain, bias = simulation.gain(actuator)[0], simulation.bias(actuator)
         if gain and (not any(bias[:3]) or bias[1] / gain > 0):
             found.append((actuator, gain, bias))

@@ -132,9 +132,7 @@ def _scale(of: Simulation, actuator: int) -> float:
 
 def _numbers(of: Simulation, actuator: int) -> tuple[float, tuple[float, ...], float]:
     """Gain, bias and gear."""
-    gains, biases = (len(of.model(f"actuator_{name}prm")) // of.count("actuator") for name in ("gain", "bias"))
-    gain, bias = of.row("actuator_gainprm", actuator, gains)[0], of.row("actuator_biasprm", actuator, biases)
-    return gain, bias, of.row("actuator_gear", actuator, 6)[0]
+    return of.gain(actuator)[0], of.bias(actuator), of.row("actuator_gear", actuator, 6)[0]
 
 
 def _targets(of: Simulation, actuator: int) -> tuple[float, float] | None:

@@ -33,9 +33,9 @@ Good:
     </mujoco>
 
 The number: how far a body with a joint is from the body that it hangs on, in sizes (radii of the largest geom) of its
-mechanism; told from 20 on.
+mechanism; told from 20 on, and from 2 m on.
 
-When it is wrong: a carriage on a long cable that is not drawn.
+When it is wrong: a carriage on a long cable that is not drawn, or a planet.
 """
 
 from __future__ import annotations
@@ -56,13 +56,13 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "where a link belongs, only a drawing tells"
 
-FAR = 20.0
+FAR, METRES = 20.0, 2.0
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """All bodies with a joint that are far from their parent."""
     of = model.simulation
-    found = [body for body in _hung(model) if _apart(of, body) > FAR]
+    found = [body for body in _hung(model) if _apart(of, body) > FAR and norm(of.row("body_pos", body, 3)) > METRES]
     if not found:
         return
     place = of.row("body_pos", found[0], 3)
@@ -70,7 +70,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     edits = tuple(edit for body in found for edit in _scaled(model, body, scaled))
     names = tuple(of.name("body", body) for body in found)
     says = (
-        f"It is {norm(place):.3g} m from what it hangs on, {_apart(of, found[0]):.3g} times the largest part's radius."
+        f"It is {norm(place):.3g} m from what it hangs on, {_apart(of, found[0]):.0f} times the largest part's radius."
     )
     probe = Probe("distance from what it hangs on", "of the largest radius", _farthest, tuple(found), dynamic=False)
     value = written([scaled * x for x in place])

@@ -58,7 +58,8 @@ The number: of how fast a driven joint would tear the connections open if it mov
 all the other joints takes away; 0 in a mechanism, 1 where nothing else gives way. More than 0.1. At the start, by small
 motions of one joint after the other.
 
-When it is wrong: a joint that an equality locks for a while, until code sets it free.
+When it is wrong: a joint that an equality locks for a while, until code sets it free. What a mocap body pulls is left
+alone.
 """
 
 from __future__ import annotations
@@ -190,13 +191,20 @@ def _gaps(of: Simulation) -> Column:
     made: list[float] = []
     for each, kind in enumerate(of.model("eq_type")):
         ids = [int(of.model(f"eq_obj{i}id")[each]) for i in (1, 2)]
-        if not of.model("eq_active0")[each]:
+        sited = int(of.model("eq_objtype")[each]) == SITE
+        if not of.model("eq_active0")[each] or (int(kind) != COUPLED and _by_mocap(of, ids, sited)):
             continue
         if int(kind) == COUPLED:
             made.append(_apart(of, ids, of.equality_data(each)))
         elif int(kind) in (CONNECT, WELD):
-            made += _between(of, int(kind), ids, int(of.model("eq_objtype")[each]) == SITE, of.equality_data(each))
+            made += _between(of, int(kind), ids, sited, of.equality_data(each))
     return tuple(made)
+
+
+def _by_mocap(of: Simulation, ids: Sequence[int], sited: bool) -> bool:
+    """Whether what is connected hangs on a mocap body, which code moves."""
+    bodies = [int(of.model("site_bodyid")[each]) if sited else each for each in ids if each >= 0]
+    return any(of.model("body_mocapid")[int(of.model("body_weldid")[body])] >= 0 for body in bodies)
 
 
 def _apart(of: Simulation, joints: Sequence[int], factors: Sequence[float]) -> float:

@@ -73,7 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         model.set("equality", soft, "solref", OWN),
         Probe("time constant of an equality", "s", _softest, tuple(soft), dynamic=False),
         MOST,
-        f"With solref {now} it is {(_softness(of, worst) / 0.02) ** 2:.3g} times as soft as MuJoCo's own.",
+        f"With solref {now} it is {(_softness(of, worst) / 0.02) ** 2:.0f} times as soft as MuJoCo's own.",
         f"MuJoCo's own, {OWN}, or shorter",
     )
 

@@ -66,7 +66,8 @@ Good:
     </mujoco>
 
 The number: the difference of the two ends' magnitudes over the width of the range, above 0.3, of a hinge whose anchor
-is its own image and whose turn is the opposite of its image's, where two pairs of bodies and more are mirrored.
+is its own image and whose turn is the opposite of its image's, where two pairs of bodies and more are mirrored. The
+image is that of the largest pair that the joint does not carry: a wrist lies in the middle of its own fingers.
 
 When it is wrong: a joint whose zero is not the middle of the robot.
 """
@@ -99,12 +100,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if (off := _one_sided(of, joint)) <= MOST:
             continue
         low, high = of.row("jnt_range", joint, 2)
-        far = max(abs(low), abs(high))
+        unit = model.angle_unit
+        low_now, high_now, far = low / unit, high / unit, max(abs(low), abs(high)) / unit
         name, paired = of.name("joint", joint), len(twins(of).pairs["body"])
         says = f"{name} turns from {low:.3g} to {high:.3g} rad; {paired} pairs of bodies of the robot are mirrored."
         probe = Probe("difference of the ends over the range", "", _one_sided, (joint,), dynamic=False)
         yield Suspect(
-            (name,), "range", f"{low:.3g} {high:.3g} rad", f"{-far:.3g} {far:.3g} rad", (), probe, MOST, says,
+            (name,), "range", f"{low_now:.3g} {high_now:.3g}", f"{-far:.3g} {far:.3g}", (), probe, MOST, says,
             "to both sides alike", excess=off / MOST,
         )  # fmt: skip
 
@@ -118,15 +120,17 @@ def _one_sided(of: Simulation, joint: int) -> float:
 def _middle(of: Simulation) -> tuple[int, ...]:
     """The hinges that the reflection of the robot's largest pair maps on themselves, turned the other way."""
     found = twins(of)
-    lefts = [left for left, image in found.images.items() if image.sign < 0 and found.share[left] >= SYMMETRIC]
-    if len(lefts) < PAIRS:
+    mirrored = [left for left, image in found.images.items() if image.sign < 0 and found.share[left] >= SYMMETRIC]
+    if len(mirrored) < PAIRS:
         return ()
-    largest = max(lefts, key=lambda left: found.size[left])
-    image, near = found.images[largest], FITS * found.size[largest]
     made = []
     for joint in range(of.count("joint")):
-        if of.joint_type(joint) != HINGE or not of.model("jnt_limited")[joint]:
+        mover = int(of.model("jnt_bodyid")[joint])
+        lefts = [left for left in mirrored if mover not in of.ancestors(found.common[left])]
+        if of.joint_type(joint) != HINGE or not of.model("jnt_limited")[joint] or not lefts:
             continue
+        largest = max(lefts, key=lambda left: found.size[left])
+        image, near = found.images[largest], FITS * found.size[largest]
         anchor, axis = found.at("xanchor", joint), found.at("xaxis", joint)
         apart = norm(sub(image.of(anchor), anchor))
         turned = dot(times(image.matrix, axis), axis)

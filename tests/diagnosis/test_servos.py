@@ -142,7 +142,7 @@ def test_a_slide_that_its_damping_all_but_holds_is_told(damping, named):
     body = f'<joint name="way" type="slide" axis="1 0 0" damping="{damping}" range="-1 1"/><geom size="0.1" mass="5"/>'
     servo = '<actuator><position joint="way" kp="50" ctrlrange="-1 1"/></actuator>'
     found = diagnosed(f'<mujoco><worldbody><body pos="0 0 1">{body}</body></worldbody>{servo}</mujoco>')
-    assert [each for each in causes(found) if each == "servo-held-back"] == named
+    assert [each.rule for each in found.hints if each.rule == "servo-held-back"] == named
 
 
 def test_a_light_foot_without_armature_is_not_the_timesteps_fault():

@@ -253,7 +253,8 @@ def _edited(hint: Finding) -> str:
     if hint.after is None:
         return ""
     numbers = " -> ".join(shown(value, hint.unit) for value in (hint.before, hint.after))
-    return f" With {hint.attribute} {shortened(hint.now)} -> {shortened(hint.value)}, {hint.probe}: {numbers}."
+    change = " -> ".join(shortened(each) for each in (hint.now, hint.value) if each)
+    return f" With {hint.attribute} {change}, {hint.probe}: {numbers}."
 
 
 def _elements(elements: Sequence[str]) -> str:

@@ -42,6 +42,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.servo import AFFINE, INTEGRATOR, USER
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -49,8 +50,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "A servo that does not hold its target"
 FAMILIES = ("stuck", "explodes", "sags", "passes-limit")
 SINCE = "0.1"
-
-AFFINE = 1  # mjtBias
 
 
 def _away(simulation: Simulation, actuators: tuple[int, ...]) -> float:
@@ -68,6 +67,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = []
     for actuator in range(simulation.count("actuator")):
         if int(simulation.model("actuator_biastype")[actuator]) != AFFINE or simulation.driven_joint(actuator) is None:
+            continue
+        if int(simulation.model("actuator_dyntype")[actuator]) in (INTEGRATOR, USER):
             continue
         if (placed := model.element("actuator", actuator)) is not None and placed.tag == "cylinder":
             continue  # whose force is that of a pressure

@@ -137,12 +137,20 @@ def test_the_range_of_a_urdf_is_mended_in_its_limit():
     ]
 
 
-@pytest.mark.parametrize(("damping", "named"), [(10000, ["servo-held-back"]), (200, [])])
-def test_a_slide_that_its_damping_all_but_holds_is_told(damping, named):
+@pytest.mark.parametrize(("damping", "named"), [(10000, ["weak-servo"]), (200, [])])
+def test_a_slide_that_its_damping_all_but_holds_has_too_weak_a_servo(damping, named):
     body = f'<joint name="way" type="slide" axis="1 0 0" damping="{damping}" range="-1 1"/><geom size="0.1" mass="5"/>'
     servo = '<actuator><position joint="way" kp="50" ctrlrange="-1 1"/></actuator>'
     found = diagnosed(f'<mujoco><worldbody><body pos="0 0 1">{body}</body></worldbody>{servo}</mujoco>')
-    assert [each.rule for each in found.hints if each.rule == "servo-held-back"] == named
+    assert [each for each in causes(found) if each == "weak-servo"] == named
+
+
+@pytest.mark.parametrize(("damping", "named"), [(60, ["servo-held-back"]), (6, [])])
+def test_what_a_joint_has_of_damping_is_not_said_of_a_stiff_servo(damping, named):
+    body = f'<joint name="way" axis="0 0 1" damping="{damping}" range="-60 60"/><geom size="0.1" mass="5"/>'
+    servo = '<actuator><position joint="way" kp="50" ctrlrange="-1 1"/></actuator>'
+    found = diagnosed(f'<mujoco><worldbody><body pos="0 0 1">{body}</body></worldbody>{servo}</mujoco>')
+    assert [each.rule for each in (*found.causes, *found.hints)] == named
 
 
 def test_a_light_foot_without_armature_is_not_the_timesteps_fault():

@@ -69,6 +69,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "no kind of fault in the bench takes an actuator away"
 
+CONNECT, WELD, BODY = 0, 1, 1  # mjEQ_CONNECT, mjEQ_WELD, mjOBJ_BODY
 JOINT_EQUALITY, TENDON, BY_JOINT, WRAPPED = 2, 3, (0, 1), 1  # mjEQ_JOINT, mjTRN_TENDON, mjTRN_JOINT, mjWRAP_JOINT
 MOST = 2
 
@@ -137,7 +138,11 @@ def _moved(of: Simulation) -> set[int]:
             return set()
         made.add(int(on))
     for each, kind in enumerate(of.model("eq_type")):
-        if int(kind) != JOINT_EQUALITY:
+        ends = [int(of.model(f"eq_obj{side}id")[each]) for side in (1, 2)]
+        if int(kind) == JOINT_EQUALITY:
+            made |= set(ends)
+        elif int(kind) in (CONNECT, WELD) and int(of.model("eq_objtype")[each]) == BODY:
+            made |= {joint for end in ends for body in of.ancestors(end) for joint in of.joints_of(body)}
+        else:
             return set()
-        made |= {int(of.model(f"eq_obj{side}id")[each]) for side in (1, 2)}
     return made | {joint for joint, stiffness in enumerate(of.model("jnt_stiffness")) if stiffness}

@@ -145,7 +145,7 @@ def test_a_slide_that_its_damping_all_but_holds_has_too_weak_a_servo(damping, na
     assert [each for each in causes(found) if each == "weak-servo"] == named
 
 
-@pytest.mark.parametrize(("damping", "named"), [(60, ["servo-held-back"]), (6, [])])
+@pytest.mark.parametrize(("damping", "named"), [(100, ["servo-held-back"]), (6, [])])
 def test_what_a_joint_has_of_damping_is_not_said_of_a_stiff_servo(damping, named):
     body = f'<joint name="way" axis="0 0 1" damping="{damping}" range="-60 60"/><geom size="0.1" mass="5"/>'
     servo = '<actuator><position joint="way" kp="50" ctrlrange="-1 1"/></actuator>'

@@ -32,10 +32,10 @@ Good:
     </mujoco>
 
 The number: how much of a step of 0.1 rad (0.01 m) is left after 1 s; more than 0.45 by damping, 0.2 by armature. The
-joint's `damping` is more than 0.6 s times the stiffness (10 s of a slide) and most of all damping there is, at a natural
-frequency above 10 rad/s: below, the servo is weak. Or its `armature` is more than 20 times what hangs on it, at one
-below 4 rad/s (1.5 rad/s of a slide). None of 96 healthy models with servos has such a joint. Dry friction is not asked
-for: `frictionloss` is soft, and a servo creeps through it to its target.
+joint's `damping` is more than 0.6 s times the stiffness (10 s of a slide), most of all damping there is, and 3 times
+that of the other driven joints, at a natural frequency above 10 rad/s: else the servo is weak. Or its `armature` is
+more than 20 times what hangs on it, at one below 4 rad/s (1.5 rad/s of a slide). None of 96 healthy models with servos
+has such a joint. Dry friction is not asked for: `frictionloss` is soft, and a servo creeps through it to its target.
 
 When it is wrong: a joint that should creep, such as a door closer.
 """
@@ -57,7 +57,7 @@ LEVEL = "hint"
 
 LATE = {True: 0.6, False: 10.0}  # s: by hinge, slide
 SLOW = {True: 4.0, False: 1.5}  # rad/s
-MOST, MANY, STIFF = 0.75, 20.0, 10.0
+MOST, MANY, STIFF, OTHERS = 0.75, 20.0, 10.0, 3.0
 LEFT = {"damping": 0.45, "armature": 0.2}
 PROMPT, RATIO = 20.0, 0.7  # rad/s; the natural frequency and the damping ratio that an edit leaves
 UNITS = {
@@ -97,8 +97,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def holds_back(of: Simulation, servo: Servo) -> str:
     """What of the joint's own makes a servo late: its `damping` or `armature`; empty where neither."""
     damping, armature = (of.model(f"dof_{name}")[servo.dof] for name in ("damping", "armature"))
+    others = sorted(of.model("dof_damping")[each.dof] for each in servos(of) if each.dof != servo.dof)
+    usual = bool(others) and damping <= OTHERS * others[len(others) // 2]
     stiff = servo.stiffness > STIFF**2 * servo.inertia
-    if stiff and damping > max(LATE[servo.hinge] * servo.stiffness, MOST * servo.damping):
+    if stiff and not usual and damping > max(LATE[servo.hinge] * servo.stiffness, MOST * servo.damping):
         return "damping"
     if armature > MANY * (servo.inertia - armature) and servo.stiffness < SLOW[servo.hinge] ** 2 * servo.inertia:
         return "armature"

@@ -169,7 +169,7 @@ def _late(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
     for each in servos(simulation):
         slow = each.hinge and each.stiffness < SLOW**2 * each.inertia
         slow |= each.damping > (LATE if each.hinge else CRAWLS) * each.stiffness
-        slow = slow and each.actuator not in sagging and not holds_back(simulation, each)
+        slow = slow and each.actuator not in sagging and holds_back(simulation, each) != "damping"
         if slow and model.measured(remaining([each.actuator])) > LEFT:
             late.append(each)
     if not late:

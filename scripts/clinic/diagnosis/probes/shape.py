@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from clinic.diagnosis.engine import FREE, PLANE, SLIDE
-from clinic.diagnosis.probes.vector import Vector, add, at, norm, times
+from clinic.diagnosis.probes.vector import Vector, add, at, dot, norm, sub, times
 from clinic.diagnosis.simulation import Simulation, kept
 
 
@@ -72,9 +72,8 @@ def round_about(simulation: Simulation, joint: int, share: float = 0.1) -> bool:
     anchor, axis = of.data_row("xanchor", joint, 3), of.data_row("xaxis", joint, 3)
     for geom in of.geoms_of(int(of.model("jnt_bodyid")[joint])):
         middle = times(of.data_row("geom_xmat", geom, 9), of.row("geom_aabb", geom, 6)[:3])
-        off = add(add(of.data_row("geom_xpos", geom, 3), middle), anchor, -1)
-        along = sum(a * b for a, b in zip(off, axis, strict=True))
-        if norm(add(off, axis, -along)) < share * of.model("geom_rbound")[geom]:
+        off = sub(add(of.data_row("geom_xpos", geom, 3), middle), anchor)
+        if norm(add(off, axis, -dot(off, axis))) < share * of.model("geom_rbound")[geom]:
             return True
     return False
 

@@ -76,14 +76,25 @@ def sees(simulation: Simulation, camera: int, geom: int) -> bool:
     place, (_, _, forward) = simulation.data_row("cam_xpos", camera, 3), axes(simulation, camera)
     frame, middle = simulation.data_row("geom_xmat", geom, 9), simulation.data_row("geom_xpos", geom, 3)
     x, y, z, *half = simulation.row("geom_aabb", geom, 6)
-    near, far = 0.0, math.inf
-    way = times(transpose(frame), sub(place, middle))
-    ahead_of = zip(way, times(transpose(frame), forward), (x, y, z), half, strict=True)
-    for at_axis, along, centre, reach in ahead_of:  # the slabs that the view's axis goes through
-        ends = [(centre + side * reach - at_axis) / (along or 1e-12) for side in (-1, 1)]
-        near, far = max(near, min(ends)), min(far, max(ends))
+    near, far = through(simulation, geom, place, forward)
     corners = [(x + i * half[0], y + j * half[1], z + k * half[2]) for i, j, k in product((-1, 1), repeat=3)]
-    return near <= far or any(sight(add(middle, times(frame, point))) for point in ((x, y, z), *corners))
+    ahead = max(0.0, near) <= far
+    return ahead or any(sight(add(middle, times(frame, point))) for point in ((x, y, z), *corners))
+
+
+def through(simulation: Simulation, geom: int, start: Vector, way: Vector) -> tuple[float, float]:
+    """Where a line enters the box around a geom and leaves it, in lengths of `way` from its start.
+
+    It misses the box where the first is greater than the second, and starts within it where 0 lies between them.
+    """
+    inverse = transpose(simulation.data_row("geom_xmat", geom, 9))
+    box = simulation.row("geom_aabb", geom, 6)
+    from_middle = sub(times(inverse, sub(start, simulation.data_row("geom_xpos", geom, 3))), box[:3])
+    near, far = -math.inf, math.inf
+    for each, along, reach in zip(from_middle, times(inverse, way), box[3:], strict=True):
+        ends = [(side * reach - each) / (along or 1e-12) for side in (-1, 1)]
+        near, far = max(near, min(ends)), min(far, max(ends))
+    return near, far
 
 
 def opening(simulation: Simulation, camera: int) -> tuple[float, float]:

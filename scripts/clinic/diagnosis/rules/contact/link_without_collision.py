@@ -118,7 +118,5 @@ def _bare(of: Simulation) -> list[int]:
         middle = sorted(size[link] for link in robot)[len(robot) // 2]
         if len(robot) < MANY or not 0 < len(bare) <= FEW:
             continue
-        made += [
-            link for link in bare if size[link] > SMALL * middle and int(welds[int(parents[link])]) in hard
-        ]  # fmt: skip
+        made += [each for each in bare if size[each] > SMALL * middle and int(welds[int(parents[each])]) in hard]
     return made

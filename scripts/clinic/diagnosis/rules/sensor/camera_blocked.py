@@ -39,14 +39,13 @@ When it is wrong: a camera that watches a part of its own mount.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from itertools import product
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import MESH
-from clinic.diagnosis.probes.vector import Vector, add, at, sub, times, transpose
-from clinic.diagnosis.probes.view import axes, opening, things, turned
+from clinic.diagnosis.probes.vector import add, sub
+from clinic.diagnosis.probes.view import axes, opening, things, through, turned
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -57,8 +56,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "few healthy models have a camera on a body"
 
-MOST = 8.5
-Box = tuple[Vector, Vector, Vector, Vector]  # place, turn, middle and half sizes of a geom's box
+MOST = 8.5  # of nine rays
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -78,42 +76,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _blocked(of: Simulation, camera: int) -> float:
     of.begin()
-    kinds, welds, bodies, own = (
-        of.model("geom_type"),
-        of.model("body_weldid"),
-        of.model("geom_bodyid"),
-        int(of.model("cam_bodyid")[camera]),
-    )
-    geoms = [geom for geom in things(of) if welds[int(bodies[geom])] == welds[own] and kinds[geom] != MESH]
-    places, turns = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat"))
-    boxes = [
-        (at(places, geom), turns[9 * geom : 9 * geom + 9], box[:3], box[3:])
-        for geom in geoms
-        for box in [of.row("geom_aabb", geom, 6)]
-    ]
-    here = of.data_row("cam_xpos", camera, 3)
-    if any(_within(box, here) for box in boxes):
-        return 0.0
-    right, up, forward = axes(of, camera)
+    kinds, welds, bodies = of.model("geom_type"), of.model("body_weldid"), of.model("geom_bodyid")
+    own = welds[int(of.model("cam_bodyid")[camera])]
+    geoms = [geom for geom in things(of) if welds[int(bodies[geom])] == own and kinds[geom] != MESH]
+    here, (right, up, forward) = of.data_row("cam_xpos", camera, 3), axes(of, camera)
     tall, aspect = opening(of, camera)
     rays = [add(add(forward, up, y * tall / 2), right, x * tall * aspect / 2) for x, y in product((-1, 0, 1), repeat=2)]
+    met = [[through(of, geom, here, ray) for geom in geoms] for ray in rays]
+    if any(near <= 0 <= far for near, far in met[0]):
+        return 0.0
     nearest = of.model("vis.map.znear")[0] * of.model("stat.extent")[0]
-    return float(sum(any(_meets(box, here, ray, nearest) for box in boxes) for ray in rays))
-
-
-def _from_middle(box: Box, point: Vector) -> Vector:
-    """A point in the axes of a box, from its middle."""
-    place, turn, middle, _ = box
-    return sub(times(transpose(turn), sub(point, place)), middle)
-
-
-def _within(box: Box, point: Vector) -> bool:
-    return all(abs(each) <= most for each, most in zip(_from_middle(box, point), box[3], strict=True))
-
-
-def _meets(box: Box, start: Vector, way: Vector, nearest: float) -> bool:
-    near, far = nearest, math.inf
-    for each, along, most in zip(_from_middle(box, start), times(transpose(box[1]), way), box[3], strict=True):
-        ends = sorted((side * most - each) / (along or 1e-12) for side in (-1, 1))
-        near, far = max(near, ends[0]), min(far, ends[1])
-    return nearest < near <= far
+    return float(sum(any(nearest < near <= far for near, far in each) for each in met))

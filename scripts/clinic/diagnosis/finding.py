@@ -254,7 +254,8 @@ def _edited(hint: Finding) -> str:
         return ""
     numbers = " -> ".join(shown(value, hint.unit) for value in (hint.before, hint.after))
     change = " -> ".join(shortened(each) for each in (hint.now, hint.value) if each)
-    return f" With {hint.attribute} {change}, {hint.probe}: {numbers}."
+    edited = f"With {hint.attribute} {change}" if change else f"Without {hint.attribute}"
+    return f" {edited}, {hint.probe}: {numbers}."
 
 
 def _elements(elements: Sequence[str]) -> str:

@@ -33,7 +33,8 @@ Good:
 
 The number: driven for 2 s with all that its actuators give, without gravity and contacts, more than 80 % of the way to
 1 rad (0.1 m), or to the far limit, is left. In a URDF, whose efforts no actuator gives yet, friction above the effort,
-or damping above it at half a rad/s (m/s), is told.
+or damping above it at half a rad/s (m/s), is told. So is a door or a drawer that nothing drives, its weight does not
+load, and a push of 50 N and twice its weight at its far end moves at less than 0.1 rad/s (0.1 m/s).
 
 When it is wrong: a brake, or a worm gear that is meant to hold.
 """
@@ -63,6 +64,7 @@ SLOW = 0.5  # rad/s or m/s that full force reaches
 LEFT = 0.7
 STILL = 0.03  # rad/s or m/s that its own weight gives what nothing drives
 HEAVY = 0.05  # of weight times size: a joint that is balanced has less
+PUSH, WEIGHTS, OPENING = 50.0, 2.0, 0.1  # N, times its weight, and the rad/s or m/s that it is to reach by them
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -96,6 +98,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "full force that reaches 1 rad/s and more",
         )
     yield from _hung(model)
+    yield from _shut(model)
     yield from _beyond_effort(model)
 
 
@@ -119,6 +122,53 @@ def _hung(model: ReaderModel) -> Iterator[Suspect]:
             f"{loads(simulation)[simulation.dof(joint)]:.3g} N m (N) at most, does not move it.",
             "a joint that swings where nothing drives it",
         )
+
+
+def _shut(model: ReaderModel) -> Iterator[Suspect]:
+    """Doors and drawers that a strong push does not open."""
+    of = model.simulation
+    for joint in range(of.count("joint")):
+        if _push_held(of, joint) <= 1:
+            continue
+        damping, friction = (of.model(f"dof_{name}")[of.dof(joint)] for name in FIELDS)
+        attribute = "damping" if OPENING * damping >= friction else "frictionloss"
+        now = damping if attribute == "damping" else friction
+        edits = model.set("joint", [joint], attribute, f"{now / 1000:.2g}")
+        slow = f"with {_push(of, joint) * _reach(of, joint) / max(damping, 1e-9):.2g} rad/s (m/s)"
+        moves = f"moves it {slow}" if attribute == "damping" else "does not move it"
+        says = f"Nothing drives it, and a push of {_push(of, joint):.3g} N at its far end {moves}."
+        probe = Probe("what holds it, times a strong push", "", _push_held, (joint,), dynamic=False)
+        name = of.name("joint", joint)
+        yield Suspect((name,), attribute, f"{now:.3g}", f"{now / 1000:.2g}", edits, probe, 1.0, says, "below 1")
+
+
+def _push_held(of: Simulation, joint: int) -> float:
+    """What holds a joint that nothing moves over what a strong push at its far end gives."""
+    if of.joint_type(joint) not in (HINGE, SLIDE) or joint in _moved(of) or joint in _held(of):
+        return 0.0
+    damping, friction = (of.model(f"dof_{name}")[of.dof(joint)] for name in FIELDS)
+    most = _push(of, joint) * _reach(of, joint)
+    return max(OPENING * damping, friction) / most if most > 0 else 0.0
+
+
+def _moved(of: Simulation) -> set[int | None]:
+    """The joints that an actuator, a spring, a tendon or an equality may move."""
+    every = set(range(of.count("joint")))
+    if of.count("tendon"):
+        return set(every)
+    driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
+    tied = every if of.count("equality") else set()
+    return driven | {joint for joint in every if of.model("jnt_stiffness")[joint]} | tied
+
+
+def _push(of: Simulation, joint: int) -> float:
+    body = int(of.model("jnt_bodyid")[joint])
+    return PUSH + WEIGHTS * of.model("body_subtreemass")[body] * math.hypot(*of.model("opt.gravity"))
+
+
+def _reach(of: Simulation, joint: int) -> float:
+    """The lever of a push in m; 1 for a slide, which has none."""
+    return size(of, int(of.model("jnt_bodyid")[joint])) if of.joint_type(joint) == HINGE else 1.0
 
 
 def _beyond_effort(model: ReaderModel) -> Iterator[Suspect]:

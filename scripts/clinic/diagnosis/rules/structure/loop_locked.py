@@ -69,7 +69,8 @@ from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.engine import BALL, FREE
 from clinic.diagnosis.probes.couplings import JOINT as COUPLED
-from clinic.diagnosis.probes.vector import add, sub, times, transpose
+from clinic.diagnosis.probes.equalities import CONNECT, WELD, by_mocap, ends, frames, kind_of, off_course
+from clinic.diagnosis.probes.vector import dot, sub, transpose
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import WIDTH, Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -80,7 +81,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "the healthy models have few loops"
 
-CONNECT, WELD, SITE = 0, 1, 6  # mjtEq; mjtObj
 TENDON, JOINT_WRAP = 3, 1  # mjtTrn; mjtWrap
 MOST, SMALL = 0.1, 1e-3  # shares of how fast a joint tears at the connections
 STEP = 1e-5  # rad, m
@@ -189,39 +189,18 @@ def _moved(position: Sequence[float], kind: int, each: int) -> list[float]:
 def _gaps(of: Simulation) -> Column:
     """How far apart, and turned, is what the active equalities hold together."""
     made: list[float] = []
-    for each, kind in enumerate(of.model("eq_type")):
-        ids = [int(of.model(f"eq_obj{i}id")[each]) for i in (1, 2)]
-        sited = int(of.model("eq_objtype")[each]) == SITE
-        if not of.model("eq_active0")[each] or (int(kind) != COUPLED and _by_mocap(of, ids, sited)):
+    for each, active in enumerate(of.model("eq_active0")):
+        if not active or by_mocap(of, each):
             continue
-        if int(kind) == COUPLED:
-            made.append(_apart(of, ids, of.equality_data(each)))
-        elif int(kind) in (CONNECT, WELD):
-            made += _between(of, int(kind), ids, sited, of.equality_data(each))
+        kind = kind_of(of, each)
+        made += [off_course(of, each)] if kind == COUPLED else sub(*ends(of, each)) if kind in (CONNECT, WELD) else []
+        made += _turned(of, each) if kind == WELD else []
     return tuple(made)
 
 
-def _by_mocap(of: Simulation, ids: Sequence[int], sited: bool) -> bool:
-    """Whether what is connected hangs on a mocap body, which code moves."""
-    bodies = [int(of.model("site_bodyid")[each]) if sited else each for each in ids if each >= 0]
-    return any(of.model("body_mocapid")[int(of.model("body_weldid")[body])] >= 0 for body in bodies)
-
-
-def _apart(of: Simulation, joints: Sequence[int], factors: Sequence[float]) -> float:
-    ways = [of.position(each) - of.model("qpos0")[int(of.model("jnt_qposadr")[each])] for each in joints if each >= 0]
-    led = sum(factor * ways[1] ** power for power, factor in enumerate(factors[:5])) if len(ways) > 1 else factors[0]
-    return ways[0] - led
-
-
-def _between(of: Simulation, kind: int, ids: Sequence[int], sited: bool, data: Sequence[float]) -> list[float]:
-    place, turn = ("site_xpos", "site_xmat") if sited else ("xpos", "xmat")
-    frames = [(of.data_row(place, each, 3), of.data_row(turn, each, 9)) for each in ids]
-    anchors = ((0.0,) * 3,) * 2 if sited else (data[:3], data[3:6]) if kind == CONNECT else (data[3:6], data[:3])
-    ends = [add(where, times(axes, anchor)) for (where, axes), anchor in zip(frames, anchors, strict=True)]
-    made = list(sub(*ends))
-    if kind == WELD:
-        one, other = (transpose(axes) for _, axes in frames)
-        size = max(of.model("stat.extent")[0], 1e-6)  # a turn weighs as much as the way that it moves the far end
-        columns = [(one[3 * i : 3 * i + 3], other[3 * j : 3 * j + 3]) for i in range(3) for j in range(3)]
-        made += [size * 0.5 * sum(x * y for x, y in zip(a, b, strict=True)) for a, b in columns]
-    return made
+def _turned(of: Simulation, each: int) -> list[float]:
+    """The cosines between the axes of both; a turn weighs as much as the way that it moves the far end."""
+    one, other = (transpose(axes) for _, axes in frames(of, each))
+    size = max(of.model("stat.extent")[0], 1e-6)
+    columns = [(one[3 * i : 3 * i + 3], other[3 * j : 3 * j + 3]) for i in range(3) for j in range(3)]
+    return [size * 0.5 * dot(a, b) for a, b in columns]

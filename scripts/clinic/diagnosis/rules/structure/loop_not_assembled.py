@@ -57,7 +57,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.probes.vector import Vector, add, norm, sub, times, transpose, written
+from clinic.diagnosis.probes.equalities import CONNECT, WELD, by_mocap, ends, gap, held, kind_of, sited
+from clinic.diagnosis.probes.vector import sub, times, transpose, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -69,8 +70,6 @@ CASE = "linkage-jumps-at-start"
 LEVEL = "hint"
 UNPLANTED = "the healthy models connect and weld nothing but what is moved by mocap"
 
-CONNECT, WELD = 0, 1  # mjtEq
-SITE = 6  # mjtObj
 APART, PUSHED = 0.01, 0.1  # of the model's extent; where mocap moves one of the two
 
 
@@ -78,60 +77,33 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Connections and welds that hold together what is apart."""
     of = model.simulation
     for each in range(of.count("equality")):
-        gap, pulled = _gap(of, each), _mocap(of, each)
-        if gap <= (PUSHED if pulled else APART) or (pulled and not model.value("equality", each, "relpose")):
+        apart, pulled = _gap(of, each), by_mocap(of, each)
+        if apart <= (PUSHED if pulled else APART) or (pulled and not model.value("equality", each, "relpose")):
             continue
         edits = _edits(model, each) if of.begin_with.key < 0 else ()
-        sited = int(of.model("eq_objtype")[each]) == SITE
-        kind = "site" if sited else "body"
-        names = tuple(of.name(kind, int(of.model(f"eq_obj{side}id")[each])) for side in (1, 2))
-        says = (
-            f"They are {1000 * gap * of.model('stat.extent')[0]:.3g} mm apart at the start, and are to be in one place."
-        )
+        kind = "site" if sited(of, each) else "body"
+        names = tuple(of.name(kind, it) for it in held(of, each))
+        far = 1000 * apart * of.model("stat.extent")[0]
+        says = f"They are {far:.3g} mm apart at the start, and are to be in one place."
         yield Suspect(
-            names, "pos" if sited else "relpose", "", edits[0].value if edits else "", edits,
+            names, "pos" if sited(of, each) else "relpose", "", edits[0].value if edits else "", edits,
             Probe("gap that an equality has to close at the start", "of the extent", _gap, (each,), dynamic=False),
             APART, says, "closed at the start",
         )  # fmt: skip
 
 
-def _ends(simulation: Simulation, each: int) -> tuple[Vector, Vector] | None:
-    """The two places in m that an active connection or weld holds together; None for another one."""
-    kind, ids = int(simulation.model("eq_type")[each]), [int(simulation.model(f"eq_obj{i}id")[each]) for i in (1, 2)]
-    if kind not in (CONNECT, WELD) or not simulation.model("eq_active0")[each]:
-        return None
-    if int(simulation.model("eq_objtype")[each]) == SITE:
-        ends = [simulation.data_row("site_xpos", site, 3) for site in ids]
-    else:
-        data = simulation.equality_data(each)
-        anchors = (data[:3], data[3:6]) if kind == CONNECT else (data[3:6], data[:3])
-        frames = [(simulation.data_row("xpos", body, 3), simulation.data_row("xmat", body, 9)) for body in ids]
-        ends = [add(place, times(turn, anchor)) for (place, turn), anchor in zip(frames, anchors, strict=True)]
-    return ends[0], ends[1]
-
-
-def _mocap(simulation: Simulation, each: int) -> bool:
-    """Whether mocap moves one of the two bodies of an equality."""
-    ids = [int(simulation.model(f"eq_obj{i}id")[each]) for i in (1, 2)]
-    if int(simulation.model("eq_objtype")[each]) == SITE:
-        ids = [int(simulation.model("site_bodyid")[site]) for site in ids]
-    return int(simulation.model("eq_type")[each]) in (CONNECT, WELD) and any(
-        simulation.model("body_mocapid")[body] >= 0 for body in ids
-    )
-
-
 def _gap(simulation: Simulation, each: int) -> float:
     simulation.begin()
-    ends = _ends(simulation, each)
-    return norm(sub(*ends)) / simulation.model("stat.extent")[0] if ends else 0.0
+    if kind_of(simulation, each) not in (CONNECT, WELD) or not simulation.model("eq_active0")[each]:
+        return 0.0
+    return (gap(simulation, each) or 0.0) / simulation.model("stat.extent")[0]
 
 
 def _edits(model: ReaderModel, each: int) -> tuple[Edit, ...]:
     of = model.simulation
-    if int(of.model("eq_objtype")[each]) != SITE:
+    if not sited(of, each):
         return model.remove("equality", [each], "relpose")
-    ends, site = _ends(of, each), int(of.model("eq_obj2id")[each])
-    assert ends is not None
+    site = held(of, each)[1]
     body = int(of.model("site_bodyid")[site])
-    seen = sub(ends[0], of.data_row("xpos", body, 3))
+    seen = sub(ends(of, each)[0], of.data_row("xpos", body, 3))
     return model.set("site", [site], "pos", written(times(transpose(of.data_row("xmat", body, 9)), seen)))

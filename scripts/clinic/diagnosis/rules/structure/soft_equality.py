@@ -42,6 +42,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.couplings import JOINT as COUPLED
+from clinic.diagnosis.probes.equalities import CONNECT, WELD, by_mocap, kind_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -52,7 +54,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "a soft equality may be meant"
 
-CONNECT, WELD, COUPLED, SITE = 0, 1, 2, 6  # mjtEq; mjtObj
 MOST = 0.1  # s
 OWN = "0.02 1"
 
@@ -84,12 +85,8 @@ def _softest(of: Simulation, *equalities: int) -> float:
 
 def _softness(of: Simulation, each: int) -> float:
     """The time constant in s of an active equality that mocap does not move; 0 for others."""
-    kind, ids = int(of.model("eq_type")[each]), [int(of.model(f"eq_obj{i}id")[each]) for i in (1, 2)]
-    if kind not in (CONNECT, WELD, COUPLED) or not of.model("eq_active0")[each]:
-        return 0.0
-    sited = int(of.model("eq_objtype")[each]) == SITE
-    bodies = [] if kind == COUPLED else [int(of.model("site_bodyid")[i]) if sited else i for i in ids]
-    if any(of.model("body_mocapid")[body] >= 0 for body in bodies):
+    known = kind_of(of, each) in (CONNECT, WELD, COUPLED)
+    if not known or not of.model("eq_active0")[each] or by_mocap(of, each):
         return 0.0
     time, ratio = of.row("eq_solref", each, 2)
     return time * ratio if time > 0 else 1 / math.sqrt(max(-time, 1e-12))

@@ -2,7 +2,8 @@
 
 Flags are set for a test and forgotten: without `actuation` no motor does anything, without `limit` no joint stops,
 without `equality` loops are open. `override` takes `o_friction` and `o_solref` of `<option>` for every contact,
-whatever the geoms have, and without `filterparent` each link collides with the one that it hangs on.
+whatever the geoms have, and without `filterparent` each link collides with the one that it hangs on. A loop or a
+coupling with `active="false"` holds nothing.
 
 Bad:
 
@@ -35,7 +36,8 @@ Good:
       </actuator>
     </mujoco>
 
-The number: how many actuators, limits, loops or pairs the model has of what is switched off.
+The number: how many actuators, limits, loops or pairs the model has of what is switched off. Of equality constraints
+those that hold at the start, to 1 mm or mrad: their parts stand as if they were on.
 
 When it is wrong: a model in which the code switches things on, or an actuator group that is chosen at run time.
 """
@@ -45,6 +47,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import remove_attribute
+from clinic.diagnosis.probes.couplings import JOINT as COUPLED
+from clinic.diagnosis.probes.equalities import by_mocap, gap, held, kind_of, sited
 from clinic.diagnosis.probes.shape import collides
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -57,6 +61,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 
 GROUPS = 31
+FITS = 1e-3  # m, rad
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -74,6 +79,23 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if idle:
             says = f"Group {min(off)} is switched off, and with it {idle} of {of.count('actuator')} actuators."
             yield _suspect(element, "actuatorgroupdisable", " ".join(map(str, sorted(off))), idle, says, "left out")
+    yield from _inactive(model)
+
+
+def _inactive(model: ReaderModel) -> Iterator[Suspect]:
+    """Equality constraints that are off and fit."""
+    of = model.simulation
+    of.begin()
+    for each, active in enumerate(of.model("eq_active0")):
+        apart, edits = gap(of, each), model.set("equality", [each], "active", "true")
+        if active or by_mocap(of, each) or apart is None or apart > FITS:
+            continue
+        what = of.name("equality", each)
+        kind = "joint" if kind_of(of, each) == COUPLED else "site" if sited(of, each) else "body"
+        ties = tuple(of.name(kind, it) for it in held(of, each) if it >= 0)
+        says = f"{what} is off from the start, and its parts stand as if it held them."
+        probe = counted("equality constraints that are off and fit", 1)
+        yield Suspect((what, *ties), "active", "false", "true", edits, probe, 0, says, "true", level="hint")
 
 
 def _suspect(element: Element, attribute: str, now: str, number: int, says: str, value: str) -> Suspect:

@@ -1,0 +1,193 @@
+"""Well-known arms: how far apart the axes of their joints are, and which way these turn, as the makers describe them.
+
+Two lines have a distance and an angle, and three lines in a row have an offset along the middle one, wherever the
+frames of the bodies are: the parameters a, alpha and d of Denavit and Hartenberg, *A Kinematic Notation for Lower-Pair
+Mechanisms Based on Matrices*, 1955. So a model is compared with a data sheet whatever its frames are.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache
+from itertools import pairwise
+from typing import NamedTuple
+
+from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.probes.vector import Vector, add, cross, dot, norm, sub
+from clinic.diagnosis.simulation import Simulation, kept
+
+PARALLEL = 0.02  # the sine of an angle
+NEAR, SHARE = 0.002, 0.01  # m, and of a length: nearer to the data sheet than both of these is alike
+ALONG = 0.99
+
+# Name and other spellings; in mm the distances of the axes in a row, then the offsets along all but the first and the
+# last of them; the axes, as the arm stands at 0. A maker's arms have their axes in common, and no lengths.
+TABLE = """
+irb1200,irb_1200  0 448 42 0 0  0 0 451 0  z y y x y x
+irb1200_7_70  0 350 42 0 0  0 0 351 0  z y y x y x
+irb2400,irb_2400  100 705 135 0 0  0 0 755 0  z y y x y x
+irb4600  175 900 175 0 0  0 0 960 0  z y y x y x
+irb6640,irb_6640  320 1075 200 0 0  0 0 1392 0  z y y x y x
+crb15000,gofa_5  0 444 110 0 80  0 0 470 0  z y y x y x
+irb1600,irb_1600_12  150 475 0 0 0  0 0 600 0  z y y x y x
+irb1600_10_145,irb1600_8_145,irb1600_145  150 700 0 0 0  0 0 600 0  z y y x y x
+irb6700  320 1125 200 0 0  0 0 1142.5 0  z y y x y x
+irb2600  150 700 115 0 0  0 0 795 0  z y y x y x
+irb120,irb_120  0 270 70 0 0  0 0 302 0  z y y x y x
+lrmate200id,lrmate200id7,lr_mate_200id  50 330 35 0 0  0 0 335 0  z y -y -x -y -x
+lrmate200id7l,lr_mate_200id_7l  50 440 35 0 0  0 0 420 0  z y -y -x -y -x
+lrmate200ic,lr_mate_200ic  75 300 75 0 0  0 0 320 0  z y -y -x -y -x
+lrmate200ic5l,lr_mate_200ic_5l  75 400 75 0 0  0 0 410 0  z y -y -x -y -x
+m20ia,m_20ia  150 790 250 0 0  0 0 835 0  z y -y -x -y -x
+r2000ic165f,r2000ic,r_2000ic_165f,r2000ib210f,r2000ib,r_2000ib_210f  312 1075 225 0 0  0 0 1280 0  z y -y -x -y -x
+m710ic50,m710ic,m_710ic_50  150 870 170 0 0  0 0 1016 0  z y -y -x -y -x
+cr35ia,cr_35ia  150 790 150 0 0  0 0 860 0  z y -y -x -y -x
+m20ib25,m_20ib_25  75 905 120 0 0  0 0 865 0  z y -y -x -y -x
+m10ia,m_10ia  150 600 200 0 0  0 0 640 0  z y -y -x -y -x
+m10id12,m10id,m_10id_12  75 640 195 0 0  0 0 700 0  z y -y -x -y -x
+crx10ial,crx10ia_l,crx_10ia_l  0 710 0 0 0  0 0 540 150  z y -y -x -y -x
+panda,franka,fer,fr3,fr3v2  0 0 82.5 82.5 0 88  0 316 0 384 0  z y z -y z -y -z
+iiwa14,iiwa_14  0 0 0 0 0 0  0 420 0 400 0  z y z -y z y z
+iiwa7,lbr_iiwa_7_r800,kuka_iiwa_7  0 0 0 0 0 0  0 400 0 400 0  z y z -y z y z
+kr6r900sixx,kr6_r900_sixx,kr_6_r900  25 455 35 0 0  0 0 420 0  -z y y -x y -x
+kr6r700sixx,kr6_r700_sixx,kr_6_r700  25 315 35 0 0  0 0 365 0  -z y y -x y -x
+kr10r1100sixx,kr10_r1100_sixx,kr_10_r1100  25 560 35 0 0  0 0 515 0  -z y y -x y -x
+kr16  260 680 35 0 0  0 0 670 0  -z y y -x y -x
+kr120r2500pro,kr120_r2500_pro  350 1150 41 0 0  0 0 1000 0  -z y y -x y -x
+kr210l150,kr210  352.8 1249.9 55.1 0 0  0 1 1500 0  z y y x y x
+kr5_arc,kr5arc  180 600 120 0 0  0 0 620 0  -z y y -x y -x
+gp7  40 445 40 0 0  0 0 440 0  z y -y -x -y -x
+gp12  155 614 200 0 0  0 0 640 0  z y -y -x -y -x
+gp25  150 760 200 0 0  0 0 795 0  z y -y -x -y -x
+hc10,hc10dt  0 700 0 0 0  0 0 500 162  z y -y z -y z
+ur3  0 243.6 213.2 0 0  0 0 112.3 85.3  z y y y -z y
+ur5  0 425 392.3 0 0  0 0 109.1 94.6  z y y y -z y
+ur10  0 612 572.3 0 0  0 0 163.9 115.7  z y y y -z y
+ur3e  0 243.6 213.2 0 0  0 0 131 85.3  z y y y -z y
+ur5e  0 425 392.2 0 0  0 0 133.3 99.7  z y y y -z y
+ur10e  0 612.7 571.6 0 0  0 0 174.1 119.9  z y y y -z y
+ur16e  0 478.4 360 0 0  0 0 174.1 119.9  z y y y -z y
+ur20  0 862 728.7 0 0  0 0 201 159.3  z y y y -z y
+ur30  0 637 503.7 0 0  0 0 201 159.3  z y y y -z y
+ur15  0 647.5 516.4 0 0  0 0 182.4 136.1  z y y y -z y
+fanuc  -  -  z y -y -x -y -x
+motoman,yaskawa  -  -  z y -y -x -y -x
+abb  -  -  z y y x y x
+kuka_kr  -  -  -z y y -x y -x
+staubli  -  -  z y y z y z
+"""
+
+
+@dataclass(frozen=True)
+class Arm:
+    """An arm of a data sheet.
+
+    Attributes:
+        names: How it is called, in lower case; the first is its name.
+        lengths: The distance of each axis from the next, in m.
+        offsets: From one axis to the next but one, along the axis between them, in m; positive.
+        axes: The directions of the axes as the arm stands at 0: `z`, `-y`.
+    """
+
+    names: tuple[str, ...]
+    lengths: tuple[float, ...]
+    offsets: tuple[float, ...]
+    axes: tuple[str, ...]
+
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        """Its lengths and offsets."""
+        return (*self.lengths, *self.offsets)
+
+
+class Measured(NamedTuple):
+    """As many hinges in a row as an arm has: their joints, and the same numbers of them."""
+
+    joints: tuple[int, ...]
+    lengths: tuple[float, ...]
+    offsets: tuple[float, ...]
+    axes: tuple[Vector, ...]
+
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        """Their lengths and offsets."""
+        return (*self.lengths, *self.offsets)
+
+
+@cache
+def known_arms() -> tuple[Arm, ...]:
+    """The arms of the table."""
+    return tuple(_arm(*re.split(r"\s{2,}", line)) for line in TABLE.strip().splitlines())
+
+
+def _arm(names: str, lengths: str, offsets: str, axes: str) -> Arm:
+    metres = [tuple(float(each) / 1000 for each in some.split() if each != "-") for some in (lengths, offsets)]
+    return Arm(tuple(names.split(",")), metres[0], metres[1], tuple(axes.split()))
+
+
+def called(text: str) -> list[Arm]:
+    """The arms of which a text has a name, as a word of its own; the maker's in common where it names none of them."""
+    said = re.sub(r"[^a-z0-9]+", "_", text.lower())
+    named = [
+        arm for arm in known_arms() if any(re.search(rf"(?<![a-z0-9]){name}(?![a-z0-9])", said) for name in arm.names)
+    ]
+    return [arm for arm in named if arm.lengths] or named
+
+
+def differs(measured: float, right: float) -> bool:
+    """Whether a length is another one than that of the data sheet."""
+    return abs(measured - right) > max(NEAR, SHARE * right)
+
+
+def rows_of_hinges(of: Simulation, count: int) -> Iterator[Measured]:
+    """All rows of so many hinges, each carried by the one before, as the model stands where its joints are 0."""
+    for joints in _chains(of):
+        for first in range(len(joints) - count + 1):
+            yield measured(of, joints[first : first + count])
+
+
+@kept
+def _chains(of: Simulation) -> tuple[tuple[int, ...], ...]:
+    """The hinges from each last body back to the world, in order from the world on; each chain once."""
+    parents = [int(parent) for parent in of.model("body_parentid")]
+    found: dict[tuple[int, ...], None] = {}
+    for last in range(1, of.count("body")):
+        if last in parents:
+            continue
+        bodies = reversed([last, *of.ancestors(last)])
+        found[tuple(joint for body in bodies for joint in of.joints_of(body) if of.joint_type(joint) == HINGE)] = None
+    return tuple(found)
+
+
+@kept
+def measured(of: Simulation, joints: tuple[int, ...]) -> Measured:
+    """The numbers of hinges in a row."""
+    of.begin()
+    places = [of.data_row("xanchor", joint, 3) for joint in joints]
+    axes = [of.data_row("xaxis", joint, 3) for joint in joints]
+    lengths, offsets, foot = [], [], places[0]
+    for one, (axis, after) in enumerate(pairwise(axes)):
+        normal, between = cross(axis, after), sub(places[one + 1], places[one])
+        sine = norm(normal)
+        if sine < PARALLEL:
+            start, end = foot, add(places[one + 1], after, dot(sub(foot, places[one + 1]), after))
+        else:
+            start = add(places[one], axis, dot(cross(between, after), normal) / sine**2)
+            end = add(places[one + 1], after, dot(cross(between, axis), normal) / sine**2)
+        offsets.append(norm(sub(start, foot)))
+        lengths.append(norm(sub(end, start)))
+        foot = end
+    return Measured(joints, tuple(lengths), tuple(offsets[1:]), tuple(axes))
+
+
+def direction(axis: Sequence[float]) -> str:
+    """Along which axis of the world a direction lies: `-y`; empty where it lies along none."""
+    size, which = max((abs(part), which) for part, which in zip(axis, "xyz", strict=True))
+    return (("-" if axis["xyz".index(which)] < 0 else "") + which) if size > ALONG else ""
+
+
+def against(one: str, other: str) -> bool:
+    """Whether two directions are opposite."""
+    return one != other and one.strip("-") == other.strip("-")

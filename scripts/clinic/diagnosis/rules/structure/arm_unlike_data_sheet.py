@@ -1,0 +1,200 @@
+"""An arm that is called as one that is sold, and has another length, or an axis that turns the other way.
+
+Programs that reckon with the real arm's numbers, such as its inverse kinematics, miss by as much. One length is off by
+a millimetre, taken from a sister model, or a sign is lost in one axis. Nothing falls and nothing shakes: it is seen
+when the arm is told to go somewhere.
+
+Bad:
+
+    <mujoco model="ur5e">
+      <worldbody>
+        <body name="shoulder" pos="0 0 0.1625">
+          <joint name="pan" axis="0 0 1"/>
+          <geom type="sphere" size="0.05"/>
+          <body name="upper_arm" pos="0 0.138 0">
+            <joint name="lift" axis="0 1 0"/>
+            <geom type="capsule" size="0.04" fromto="0 0 0 0.425 0 0"/>
+            <body name="forearm" pos="0.425 -0.131 0">
+              <joint name="elbow" axis="0 1 0"/>
+              <geom type="capsule" size="0.03" fromto="0 0 0 0.3922 0 0"/>
+              <body name="wrist_1" pos="0.3922 0 0">
+                <joint name="wrist_1" axis="0 1 0"/>
+                <geom type="sphere" size="0.04"/>
+                <body name="wrist_2" pos="0 0.109 0">
+                  <joint name="wrist_2" axis="0 0 -1"/>
+                  <geom type="sphere" size="0.04"/>
+                  <body name="wrist_3" pos="0 0 -0.0997">
+                    <joint name="wrist_3" axis="0 1 0"/>
+                    <geom type="sphere" size="0.04"/>
+                  </body>
+                </body>
+              </body>
+            </body>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco model="ur5e">
+      <worldbody>
+        <body name="shoulder" pos="0 0 0.1625">
+          <joint name="pan" axis="0 0 1"/>
+          <geom type="sphere" size="0.05"/>
+          <body name="upper_arm" pos="0 0.138 0">
+            <joint name="lift" axis="0 1 0"/>
+            <geom type="capsule" size="0.04" fromto="0 0 0 0.425 0 0"/>
+            <body name="forearm" pos="0.425 -0.131 0">
+              <joint name="elbow" axis="0 1 0"/>
+              <geom type="capsule" size="0.03" fromto="0 0 0 0.3922 0 0"/>
+              <body name="wrist_1" pos="0.3922 0 0">
+                <joint name="wrist_1" axis="0 1 0"/>
+                <geom type="sphere" size="0.04"/>
+                <body name="wrist_2" pos="0 0.1263 0">
+                  <joint name="wrist_2" axis="0 0 -1"/>
+                  <geom type="sphere" size="0.04"/>
+                  <body name="wrist_3" pos="0 0 -0.0997">
+                    <joint name="wrist_3" axis="0 1 0"/>
+                    <geom type="sphere" size="0.04"/>
+                  </body>
+                </body>
+              </body>
+            </body>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: how far a distance between two axes in a row, or the offset between their two neighbours along an axis, is
+from the data sheet's; more than 2 mm and 1 %, where at most two of an arm's are. Or the axes that point against the
+ones in the maker's description while all the others point along them, at most two. Lengths and axes are those of
+Denavit and Hartenberg, so that they do not depend on where the frames of the bodies are. They are from the makers' own
+descriptions, for the arms in `probes/arms.py`.
+
+When it is wrong: an arm that was measured itself, or one of another series of the same name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.probes.arms import (
+    NEAR,
+    Arm,
+    Measured,
+    against,
+    called,
+    differs,
+    direction,
+    measured,
+    rows_of_hinges,
+)
+from clinic.diagnosis.probes.vector import written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "An arm unlike the data sheet of its name"
+FAMILIES = ("wrong-numbers", "drifts")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "one of the 81 models of the bench is an arm that is sold"
+
+FEW = 2  # lengths, or axes, that may be wrong in an arm that is still the one of the data sheet
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Rows of hinges that have nearly all numbers of an arm whose name stands in the model."""
+    arms = called(_names(model))
+    for count in dict.fromkeys(len(arm.axes) for arm in arms):
+        alike = [arm for arm in arms if len(arm.axes) == count]
+        for row in rows_of_hinges(model.simulation, count):
+            arm = min(alike, key=lambda arm: len(_wrong(arm, row)))
+            wrong = _wrong(arm, row)
+            if len(wrong) <= FEW:
+                yield from (_length(model, arm, row, which) for which in wrong)
+                yield from _axes(model, arm, row)
+
+
+def _names(model: ReaderModel) -> str:
+    """What a model and its parts are called."""
+    source, of = model.source, model.simulation
+    own = [source.main, source.root.get("model"), source.root.get("name")] if source is not None else []
+    return " ".join([*own, *of.names("body"), *of.names("joint"), *of.names("mesh")])
+
+
+def _wrong(arm: Arm, row: Measured) -> list[int]:
+    pairs = zip(row.numbers, arm.numbers, strict=True) if arm.lengths else ()
+    return [which for which, pair in enumerate(pairs) if differs(*pair)]
+
+
+def _length(model: ReaderModel, arm: Arm, row: Measured, which: int) -> Suspect:
+    of, count = model.simulation, len(arm.lengths)
+    now, right = row.numbers[which], arm.numbers[which]
+    first, last = (which, which + 2) if which < count else (which - count, which - count + 3)
+    joints = row.joints[first:last]
+    names = tuple(of.name("joint", joint) for joint in joints)
+    probe = Probe("length off the data sheet", "m", _off, (row.joints, which, right), dynamic=False)
+    edits = next(_moves(model, joints[1:], right - now, probe), ())
+    of_what = "between the axes of" if which < count else "along the middle one of the axes of"
+    says = f"The distance {of_what} these is {1000 * now:.4g} mm; of {arm.names[0]} it is {1000 * right:.4g} mm."
+    value = edits[0].value if edits else ""
+    return Suspect(names, "pos", f"{now:.4g} m", value, edits, probe, NEAR, says, f"{right:.4g} m", level="hint")
+
+
+def _off(of: Simulation, joints: tuple[int, ...], which: int, right: float) -> float:
+    return abs(measured(of, joints).numbers[which] - right)
+
+
+def _moves(model: ReaderModel, joints: tuple[int, ...], longer: float, probe: Probe) -> Iterator[tuple[Edit, ...]]:
+    """Edits of one coordinate of a body that give the length of the data sheet; those of the longest first."""
+    of = model.simulation
+    bodies = [int(of.model("jnt_bodyid")[joint]) for joint in joints]
+    places = [(body, of.row("body_pos", body, 3)) for body in bodies]
+    parts = [(abs(place[axis]), body, place, axis) for body, place in places for axis in range(3) if place[axis]]
+    for part, body, place, axis in sorted(parts, reverse=True):
+        moved = [x * (1 + longer / part) if each == axis else x for each, x in enumerate(place)]
+        edits = _placed(model, body, written(moved))
+        if edits and model.measured(probe, edits) < NEAR:
+            yield edits
+
+
+def _placed(model: ReaderModel, body: int, place: str) -> tuple[Edit, ...]:
+    if model.source is None or not model.source.urdf:
+        return model.set("body", [body], "pos", place)
+    joint = model.element("joint", model.simulation.joints_of(body)[0])
+    origin = joint.first("origin") if joint is not None else None
+    return (set_attribute(origin, "xyz", place),) if origin is not None else ()
+
+
+def _axes(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
+    """Axes against those of the data sheet, where all others are along them."""
+    turned = [which for which, axis in enumerate(row.axes) if against(direction(axis), arm.axes[which])]
+    same = sum(direction(axis) == right for axis, right in zip(row.axes, arm.axes, strict=True))
+    if len(turned) > (FEW if arm.lengths else 1) or same + len(turned) < len(row.axes):
+        return
+    for which in turned:
+        joint = row.joints[which]
+        edits = _reversed(model, joint)
+        now, value = direction(row.axes[which]), edits[0].value if edits else ""
+        probe = Probe(
+            "axis against the data sheet's", "", _against, (row.joints, which, arm.axes[which]), dynamic=False
+        )
+        says = f"It turns about {now} as the arm stands at 0; that of {arm.names[0]} turns about {arm.axes[which]}."
+        name = model.simulation.name("joint", joint)
+        yield Suspect((name,), "axis", now, value, edits, probe, 0.5, says, arm.axes[which], level="hint")
+
+
+def _against(of: Simulation, joints: tuple[int, ...], which: int, right: str) -> float:
+    return float(against(direction(measured(of, joints).axes[which]), right))
+
+
+def _reversed(model: ReaderModel, joint: int) -> tuple[Edit, ...]:
+    axis = written([-x for x in model.simulation.row("jnt_axis", joint, 3)])
+    if model.source is None or not model.source.urdf:
+        return model.set("joint", [joint], "axis", axis)
+    element = model.element("joint", joint)
+    there = element.first("axis") if element is not None else None
+    return (set_attribute(there, "xyz", axis),) if there is not None else ()

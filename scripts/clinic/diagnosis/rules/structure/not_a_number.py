@@ -1,0 +1,70 @@
+"""A number in the text is `nan`, and MuJoCo takes it.
+
+Exporters write `nan` where they divided by zero. In some attributes the compiler refuses it; in `quat`, `euler`,
+`rgba` and others it does not, and what is computed from it is wrong without a word.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1" quat="1 nan 0 0">
+          <freejoint/>
+          <geom type="box" size="0.1 0.1 0.1"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1" quat="1 0 0 0">
+          <freejoint/>
+          <geom type="box" size="0.1 0.1 0.1"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: how many attributes have `nan` among their numbers. `<custom>` and names are not looked at.
+
+When it is wrong: a number that your own code looks for.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect, counted
+
+TITLE = "A number that is none"
+FAMILIES = ("wrong-numbers", "explodes", "image")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "the compiler refuses most of what one would plant"
+
+NONE = re.compile(r"[-+]?nan", re.IGNORECASE)
+NUMBER = re.compile(r"[-+]?(nan|inf|\d*\.?\d+\.?([eE][-+]?\d+)?)", re.IGNORECASE)
+NAMES = {"name", "class", "joint", "body", "link"}
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The attributes that have `nan` among their numbers."""
+    if model.source is None:
+        return
+    for element in model.source.root.walk():
+        for attribute, value in element.attributes.items():
+            words = value.split()
+            wrong = [word for word in words if NONE.fullmatch(word)]
+            of_model = attribute not in NAMES and element.parent is not None and element.parent.tag != "custom"
+            if not wrong or not of_model or not all(NUMBER.fullmatch(word) for word in words):
+                continue
+            mended = " ".join("0" if NONE.fullmatch(word) else word for word in words)
+            name = element.get("name")
+            told = f'{element.tag} "{name}"' if name else f"a <{element.tag}>"
+            says = f"{wrong[0]} is no number, and MuJoCo takes it for one here."
+            edits = (set_attribute(element, attribute, mended),)
+            probe = counted("attributes with nan among their numbers", 1)
+            yield Suspect((told,), attribute, value, mended, edits, probe, 0, says, "numbers alone", level="hint")

@@ -1,0 +1,94 @@
+"""Arms of a data sheet, equality constraints that are off, doors that do not open."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import Diagnosis, examine
+from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.rules import rules
+
+UR5E = rules()["arm-unlike-data-sheet"].example("Good")
+TIED = """
+<mujoco>
+  <worldbody>
+    <body name="arm" pos="0 0 1">
+      <joint name="lift" type="slide" axis="0 0 1" damping="5"/>
+      <geom type="box" size="0.05 0.05 0.02" contype="0" conaffinity="0"/>
+    </body>
+    <body name="tool" pos="0 0 {height}">
+      <freejoint/>
+      <geom type="sphere" size="0.02"/>
+    </body>
+  </worldbody>
+  <equality>
+    <weld body1="arm" body2="tool" active="false" relpose="0 0 -0.08 1 0 0 0"/>
+  </equality>
+</mujoco>
+"""
+DOOR = """
+<mujoco>
+  <worldbody>
+    <body pos="0 0 1">
+      <joint name="door" axis="0 0 1" range="0 90" {resists}/>
+      <geom type="box" size="0.01 0.3 0.4" pos="0 -0.3 0" mass="5"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+
+
+def found(text: str, rule: str) -> list[str]:
+    """What a rule says of a model, and that its edits unsay it."""
+    told: Diagnosis = examine(NativeEngine(), {"model.xml": text}, select=[rule])
+    return [each.says for each in (*told.causes, *told.hints)]
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (("0.425 -0.131 0", "0.435 -0.131 0"), "mm; of ur5e it is 425 mm"),
+        (("0 0 -0.0997", "0 0 -0.0946"), "is 94.6 mm; of ur5e it is 99.7 mm"),
+        (('name="wrist_2" axis="0 0 -1"', 'name="wrist_2" axis="0 0 1"'), "turns about z as the arm stands at 0"),
+    ],
+)
+def test_a_length_or_an_axis_of_an_arm_that_is_sold_is_told(change, says):
+    assert change[0] in UR5E
+    (told,) = found(UR5E.replace(*change), "arm-unlike-data-sheet")
+    assert says in told
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        ("0 0 -0.0997", "0 0 -0.099"),  # rounded
+        ('model="ur5e"', 'model="my arm"'),
+        ('model="ur5e"', 'model="ur5ex"'),
+        ('axis="0 1 0"', 'axis="0 -1 0"'),  # the frames of all are turned
+        ("0.425 -0.131 0", "0.435 -0.133 0.02"),  # with what follows, another arm
+    ],
+)
+def test_an_arm_within_its_data_sheet_and_one_of_another_name_are_let_be(change):
+    text = UR5E.replace(*change)
+    if "0.02" in change[1]:
+        text = text.replace("0 0 -0.0997", "0 0 -0.2").replace("0.3922 0 0", "0.5 0 0.1")
+    assert found(text, "arm-unlike-data-sheet") == []
+
+
+def test_the_arm_may_stand_on_another_place_and_be_turned():
+    turned = UR5E.replace(
+        '<body name="shoulder" pos="0 0 0.1625">', '<body name="shoulder" pos="1 2 0.5" euler="0 90 30">'
+    )
+    assert found(turned.replace("0 0 -0.0997", "0 0 -0.0946"), "arm-unlike-data-sheet") != []
+
+
+def test_a_weld_that_is_off_is_told_where_its_parts_stand_as_if_it_held():
+    assert found(TIED.format(height="0.92"), "switched-off") != []
+    assert found(TIED.format(height="0.5"), "switched-off") == []
+
+
+@pytest.mark.parametrize(
+    ("resists", "told"),
+    [('damping="1000"', 1), ('frictionloss="200"', 1), ('damping="20"', 0), ('frictionloss="20"', 0), ("", 0)],
+)
+def test_a_door_that_a_push_does_not_open_is_told(resists, told):
+    assert len(found(DOOR.format(resists=resists), "joint-frozen")) == told

@@ -1,4 +1,4 @@
-"""An arm that is called as one that is sold, and has another length, or an axis that turns the other way.
+"""An arm that is called as one that is sold, and has another length or mass, or an axis that turns the other way.
 
 Programs that reckon with the real arm's numbers, such as its inverse kinematics, miss by as much. One length is off by
 a millimetre, taken from a sister model, or a sign is lost in one axis. Nothing falls and nothing shakes: it is seen
@@ -10,22 +10,22 @@ Bad:
       <worldbody>
         <body name="shoulder" pos="0 0 0.1625">
           <joint name="pan" axis="0 0 1"/>
-          <geom type="sphere" size="0.05"/>
+          <geom type="sphere" size="0.05" mass="3.761"/>
           <body name="upper_arm" pos="0 0.138 0">
             <joint name="lift" axis="0 1 0"/>
-            <geom type="capsule" size="0.04" fromto="0 0 0 0.425 0 0"/>
+            <geom type="capsule" size="0.04" fromto="0 0 0 0.425 0 0" mass="8.058"/>
             <body name="forearm" pos="0.425 -0.131 0">
               <joint name="elbow" axis="0 1 0"/>
-              <geom type="capsule" size="0.03" fromto="0 0 0 0.3922 0 0"/>
+              <geom type="capsule" size="0.03" fromto="0 0 0 0.3922 0 0" mass="2.846"/>
               <body name="wrist_1" pos="0.3922 0 0">
                 <joint name="wrist_1" axis="0 1 0"/>
-                <geom type="sphere" size="0.04"/>
+                <geom type="sphere" size="0.04" mass="1.37"/>
                 <body name="wrist_2" pos="0 0.109 0">
                   <joint name="wrist_2" axis="0 0 -1"/>
-                  <geom type="sphere" size="0.04"/>
+                  <geom type="sphere" size="0.04" mass="1.3"/>
                   <body name="wrist_3" pos="0 0 -0.0997">
                     <joint name="wrist_3" axis="0 1 0"/>
-                    <geom type="sphere" size="0.04"/>
+                    <geom type="sphere" size="0.04" mass="0.365"/>
                   </body>
                 </body>
               </body>
@@ -41,22 +41,22 @@ Good:
       <worldbody>
         <body name="shoulder" pos="0 0 0.1625">
           <joint name="pan" axis="0 0 1"/>
-          <geom type="sphere" size="0.05"/>
+          <geom type="sphere" size="0.05" mass="3.761"/>
           <body name="upper_arm" pos="0 0.138 0">
             <joint name="lift" axis="0 1 0"/>
-            <geom type="capsule" size="0.04" fromto="0 0 0 0.425 0 0"/>
+            <geom type="capsule" size="0.04" fromto="0 0 0 0.425 0 0" mass="8.058"/>
             <body name="forearm" pos="0.425 -0.131 0">
               <joint name="elbow" axis="0 1 0"/>
-              <geom type="capsule" size="0.03" fromto="0 0 0 0.3922 0 0"/>
+              <geom type="capsule" size="0.03" fromto="0 0 0 0.3922 0 0" mass="2.846"/>
               <body name="wrist_1" pos="0.3922 0 0">
                 <joint name="wrist_1" axis="0 1 0"/>
-                <geom type="sphere" size="0.04"/>
+                <geom type="sphere" size="0.04" mass="1.37"/>
                 <body name="wrist_2" pos="0 0.1263 0">
                   <joint name="wrist_2" axis="0 0 -1"/>
-                  <geom type="sphere" size="0.04"/>
+                  <geom type="sphere" size="0.04" mass="1.3"/>
                   <body name="wrist_3" pos="0 0 -0.0997">
                     <joint name="wrist_3" axis="0 1 0"/>
-                    <geom type="sphere" size="0.04"/>
+                    <geom type="sphere" size="0.04" mass="0.365"/>
                   </body>
                 </body>
               </body>
@@ -68,7 +68,8 @@ Good:
 
 The number: how far a distance between two axes in a row, or the offset between their two neighbours along an axis, is
 from the data sheet's; more than 2 mm and 1 %, where at most two of an arm's are. Or the axes that point against the
-ones in the maker's description while all the others point along them, at most two. Lengths and axes are those of
+ones in the maker's description while all the others point along them, at most two. Or how far the shoulder is from where it is above the
+base; or how many times the links together weigh what they do there, from 2 on. Lengths and axes are those of
 Denavit and Hartenberg, so that they do not depend on where the frames of the bodies are. They are from the makers' own
 descriptions, for the arms in `probes/arms.py`.
 
@@ -77,6 +78,7 @@ When it is wrong: an arm that was measured itself, or one of another series of t
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
@@ -91,7 +93,7 @@ from clinic.diagnosis.probes.arms import (
     measured,
     rows_of_hinges,
 )
-from clinic.diagnosis.probes.vector import written
+from clinic.diagnosis.probes.vector import add, norm, sub, times, transpose, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -99,9 +101,12 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "An arm unlike the data sheet of its name"
 FAMILIES = ("wrong-numbers", "drifts")
 SINCE = "0.1"
+AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "one of the 81 models of the bench is an arm that is sold"
 
+BASE = re.compile(r"(?<![a-z])base(?![a-z])|link_?0(?![0-9])", re.IGNORECASE)
+HEAVY = 2.0  # times the mass of the data sheet
 FEW = 2  # lengths, or axes, that may be wrong in an arm that is still the one of the data sheet
 
 
@@ -116,6 +121,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             if len(wrong) <= FEW:
                 yield from (_length(model, arm, row, which) for which in wrong)
                 yield from _axes(model, arm, row)
+                yield from _base(model, arm, row)
+                yield from _mass(model, arm, row)
 
 
 def _names(model: ReaderModel) -> str:
@@ -198,3 +205,59 @@ def _reversed(model: ReaderModel, joint: int) -> tuple[Edit, ...]:
     element = model.element("joint", joint)
     there = element.first("axis") if element is not None else None
     return (set_attribute(there, "xyz", axis),) if there is not None else ()
+
+
+def _base(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
+    """An arm whose shoulder is not where its base carries it."""
+    of, height = model.simulation, arm.height
+    if height is None or not BASE.search(_foot(of, row.joints)) or _sunk(of, row.joints, height) <= NEAR:
+        return
+    body = int(of.model("jnt_bodyid")[row.joints[0]])
+    parent = int(of.model("body_parentid")[body])
+    of.begin()
+    away = sub(tuple(height * x for x in row.axes[0]), sub(row.shoulder, of.data_row("xpos", parent, 3)))
+    place = written(add(of.row("body_pos", body, 3), times(transpose(of.data_row("xmat", parent, 9)), away)))
+    edits = _placed(model, body, place)
+    probe = Probe("shoulder off where the base has it", "m", _sunk, (row.joints, height), dynamic=False)
+    says = f"Its shoulder is {1000 * norm(away):.4g} mm off where the base of {arm.names[0]} has it: "
+    says += f"{1000 * height:.4g} mm above the frame of the base."
+    now = written(of.row("body_pos", body, 3))
+    yield Suspect((of.name("body", body),), "pos", now, place, edits, probe, NEAR, says, place, level="hint")
+
+
+def _foot(of: Simulation, joints: tuple[int, ...]) -> str:
+    """The name of what carries the first joint."""
+    return of.names("body")[int(of.model("body_parentid")[int(of.model("jnt_bodyid")[joints[0]])])]
+
+
+def _sunk(of: Simulation, joints: tuple[int, ...], height: float) -> float:
+    row = measured(of, joints)
+    of.begin()
+    parent = int(of.model("body_parentid")[int(of.model("jnt_bodyid")[joints[0]])])
+    return norm(sub(sub(row.shoulder, of.data_row("xpos", parent, 3)), tuple(height * x for x in row.axes[0])))
+
+
+def _mass(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
+    """An arm many times as heavy, or as light, as its links are."""
+    of = model.simulation
+    if arm.mass is None or 1 / HEAVY <= (times_it := _weight(of, row.joints) / arm.mass) <= HEAVY:
+        return
+    names = tuple(of.name("body", body) for body in _links(of, row.joints))
+    says = f"The links weigh {_weight(of, row.joints):.3g} kg together; those of {arm.names[0]} {arm.mass:.3g} kg."
+    off = max(times_it, 1 / max(times_it, 1e-9))
+    probe = Probe("mass over the data sheet's", "", _heavy, (row.joints, arm.mass), dynamic=False)
+    now, value = f"{_weight(of, row.joints):.3g} kg", f"{arm.mass:.3g} kg"
+    yield Suspect(names, "mass", now, value, (), probe, HEAVY, says, value, excess=off, level="hint")
+
+
+def _links(of: Simulation, joints: tuple[int, ...]) -> list[int]:
+    return list(dict.fromkeys(int(of.model("jnt_bodyid")[joint]) for joint in joints))
+
+
+def _weight(of: Simulation, joints: tuple[int, ...]) -> float:
+    return sum(of.model("body_mass")[body] for body in _links(of, joints))
+
+
+def _heavy(of: Simulation, joints: tuple[int, ...], right: float) -> float:
+    over = _weight(of, joints) / right
+    return max(over, 1 / max(over, 1e-9))

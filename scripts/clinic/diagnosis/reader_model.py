@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from clinic.diagnosis.edit import Edit, apply, insert, remove_attribute, set_attribute
 from clinic.diagnosis.engine import CompileError, Engine
+from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.simulation import Simulation, Start
 from clinic.diagnosis.source import REPEATING, Element, Source
 from clinic.diagnosis.suspect import Probe
@@ -22,6 +23,8 @@ URDF = {
     "range": ("limit", "lower", "upper"),
     "damping": ("dynamics", "damping"),
     "frictionloss": ("dynamics", "friction"),
+    "axis": ("axis", "xyz"),
+    "origin": ("origin", "xyz"),
 }
 AFLOAT = """<mujoco><compiler fusestatic="false" boundmass="1e-9" boundinertia="1e-15" inertiagrouprange="0 0"
  discardvisual="false"/></mujoco><link name="world"/><joint name="afloat" type="floating">
@@ -170,13 +173,23 @@ class ReaderModel:
         return tuple(made)
 
     def _set_urdf(self, elements: Sequence[Element], attribute: str, value: str) -> tuple[Edit, ...]:
-        """The same where the text is URDF, which has ranges, damping and friction of a joint in elements inside it."""
+        """The same where the text is URDF, which has what is said of a joint in elements inside it."""
         tag, *names = URDF.get(attribute, ("",))
         inner = [each.first(tag) for each in elements]
         if not tag or any(each is None for each in inner):
             return ()
-        values = value.split()
+        values = value.split() if len(names) > 1 else [value]
         return tuple(set_attribute(each, *pair) for each in inner if each for pair in zip(names, values, strict=True))
+
+    def turned_axis(self, joint: int) -> tuple[Edit, ...]:
+        """Edits that let a joint turn, or slide, the other way."""
+        return self.set("joint", [joint], "axis", written([-x for x in self.simulation.row("jnt_axis", joint, 3)]))
+
+    def placed(self, body: int, place: Sequence[float]) -> tuple[Edit, ...]:
+        """Edits that put a body elsewhere in its parent; in URDF its joint's `<origin>` does."""
+        if self.source is None or not self.source.urdf:
+            return self.set("body", [body], "pos", written(place))
+        return self.set("joint", self.simulation.joints_of(body)[:1], "origin", written(place))
 
     def remove(self, kind: str, indices: Sequence[int], attribute: str) -> tuple[Edit, ...]:
         """Edits that take an attribute off elements that have it themselves."""

@@ -21,6 +21,7 @@ from clinic.diagnosis.simulation import Simulation, kept
 PARALLEL = 0.02  # the sine of an angle
 NEAR, SHARE = 0.002, 0.01  # m, and of a length: nearer to the data sheet than both of these is alike
 ALONG = 0.99
+QUARTER = {"x": "y", "y": "-x", "-x": "-y", "-y": "x"}
 
 # Name and other spellings; in mm the distances of the axes in a row, then the offsets along all but the first and the
 # last of them; the axes, as the arm stands at 0; how far above the base the first and the second axis are nearest to
@@ -39,7 +40,9 @@ irb2600  150 700 115 0 0  0 0 795 0  z y y x y x  -  -
 irb120,irb_120  0 270 70 0 0  0 0 302 0  z y y x y x  -  11.9
 irb140t_6_81,irb140,irb_140  70 360 0 0 0  0 0 380 0  z y y x y x  -  -
 irb4600_20_250,irb4600_250  175 1095 175 0 0  0 0 1235 0  z y y x y x  -  -
-lrmate200id,lrmate200id7,lr_mate_200id  50 330 35 0 0  0 0 335 0  z y -y -x -y -x  -  -
+irb7600  410 1075 165 0 0  0 0 2012 0  z y y x y x  -  -
+crb15000_12_127,gofa12,gofa_12  0 707 110 0 80  0 0 534 0  z y y x y x  -  -
+lrmate200id,lrmate200id7,lr_mate_200id,cr7ia,cr_7ia  50 330 35 0 0  0 0 335 0  z y -y -x -y -x  -  -
 lrmate200id7l,lr_mate_200id_7l  50 440 35 0 0  0 0 420 0  z y -y -x -y -x  -  -
 lrmate200ic,lr_mate_200ic  75 300 75 0 0  0 0 320 0  z y -y -x -y -x  -  -
 lrmate200ic5l,lr_mate_200ic_5l  75 400 75 0 0  0 0 410 0  z y -y -x -y -x  -  -
@@ -52,6 +55,9 @@ lrmate200id4s,lr_mate_200id_4s,lrmate200id4sh  0 260 20 0 0  0 0 290 0  z y -y -
 m20ib25,m_20ib_25  75 905 120 0 0  0 0 865 0  z y -y -x -y -x  -  -
 m10id12,m10id,m_10id_12  75 640 195 0 0  0 0 700 0  z y -y -x -y -x  -  -
 crx10ial,crx10ia_l,crx_10ia_l  0 710 0 0 0  0 0 540 150  z y -y -x -y -x  -  -
+m900ia260l,m900ia,m_900ia_260l  370 1050 200 0 0  0 0 1705 0  z y -y -x -y -x  -  -
+r1000ia80f,r1000ia,r_1000ia_80f  320 870 225 0 0  0 0 1015 0  z y -y -x -y -x  -  -
+lrmate200ib,lr_mate_200ib  150 250 75 0 0  0 0 290 0  z y -y -x -y -x  -  -
 panda,franka,fer,fr3,fr3v2  0 0 82.5 82.5 0 88  0 316 0 384 0  z y z -y z -y -z  333  16.1
 iiwa14,iiwa_14,med14,med_14  0 0 0 0 0 0  0 420 0 400 0  z y z -y z y z  360  25.6
 iiwa7,lbr_iiwa_7_r800,kuka_iiwa_7,med7,med_7  0 0 0 0 0 0  0 400 0 400 0  z y z -y z y z  340  19
@@ -62,7 +68,8 @@ kr6r700sixx,kr6_r700_sixx,kr_6_r700  25 315 35 0 0  0 0 365 0  -z y y -x y -x  -
 kr10r1100sixx,kr10_r1100_sixx,kr_10_r1100  25 560 35 0 0  0 0 515 0  -z y y -x y -x  -  -
 kr16  260 680 35 0 0  0 0 670 0  -z y y -x y -x  -  -
 kr120r2500pro,kr120_r2500_pro  350 1150 41 0 0  0 0 1000 0  -z y y -x y -x  -  -
-xarm7,xarm_7  0 0 52.5 77.5 0 76  0 293 0 342.5 0  z y z -y -z y -z  267  -
+kr3r540,kr3_r540,kr_3_r540  20 260 20 0 0  0 0 260 0  -z y y -x y -x  -  -
+xarm7,xarm_7  0 0 52.5 77.5 0 76  0 293 0 342.5 0  z y z -y -z y -z  267  10.4
 lite6,lite_6  0 200.2 87 0 0  0 0 227.6 0  z y -y -z y -z  -  5.92
 gen3,kortex  0 0 0 0 0 0  11.7 420.8 12.7 314.4 0  -z y -z y -z y -z  -  6.49
 sawyer  81 0 0 0 0 0  192.5 400 168.5 400 136.3  z y x y x y x  -  17.1
@@ -101,6 +108,19 @@ m1509  0 411 0 0 0  0 34.5 368 0  z y y z y z  -  -
 iisy11  0 590 0 0 0  0 0 532 0  -z y y -x y -x  -  -
 arx  20 264 252.2 73.9 0  0 0 0 0  z y -y -y -z x  -  -
 elfin3,elfin_3  0 266 0 0 0  0 0 324 0  z -y y z y z  -  -
+cobotta,cvr038a1  0 165 12 0 0  0 20 177.5 64.5  z y y z y z  -  -
+baxter  69 0 69 0 10 0  0 364.4 0 374.3 0  z y x y x y x  -  19.5
+uf850,ufactory_850,uf_850  0 390 150 0 0  0 0 426 0  z -y y -z -y -z  -  -
+rs007n  0 355 0 0 0  0 0 375 0  -z -x x z x z  -  26
+rs080n  150 870 0 0 0  0 0 1080 0  -z -x x z x z  -  -
+rv2fr,rv_2fr  0 230 50 0 0  0 0 270 0  z y y z y z  -  -
+rv7frl,rv_7frl  0 435 50 0 0  0 0 470 0  z y y z y z  -  -
+fairino5,fr5  0 425 395 0 0  0 0 102.1 102  z -y -y -y -z -y  -  -
+lwa4p,powerball  0 350 0 0 0  0 0 305 5.3  z -y y z y z  -  -
+lwr4,kuka_lwr,lwr4plus,lwr_4+  0 0 0 0 0 0  0 400 0 390 0  z -y z y z -y z  -  -
+rb5  0 425 392 0 0  0 0 110.7 110.7  z y y y z y  -  -
+rb10  0 612.7 570.2 0 0  0 0 156.2 117.2  z y y y z y  -  -
+ec66  0 418 398 0 0  0 0 122 98  z y y y -z -y  -  10.1
 gp7  40 445 40 0 0  0 0 440 0  z y -y -x -y -x  -  -
 gp12,mh12  155 614 200 0 0  0 0 640 0  z y -y -x -y -x  -  -
 gp25  150 760 200 0 0  0 0 795 0  z y -y -x -y -x  -  -
@@ -111,7 +131,9 @@ mh5  88 310 39.9 0 0  0 0 305 0  z y -y -x -y -x  -  -
 gp8  40 345 40 0 0  0 0 340 0  z y -y -x -y -x  -  -
 hc20,hc20dtp  0 820 0 0 0  0 0 880 0  z y -y -x -y -x  -  -
 gp4  0 260 15 0 0  0 0 290 0  z y -y -x -y -x  -  -
-mh50  145 870 210 0 0  0 0 1025 0  z y -y -x -y -x  -  -
+mh50,gp50  145 870 210 0 0  0 0 1025 0  z y -y -x -y -x  -  -
+hc10dtp  0 700 0 0 0  0 0 500 162  z y -y -x -y -x  -  -
+gp180  325 1150 300 0 0  0 0 1225 0  z y -y -x -y -x  -  -
 tx60,tx2_60,tx260  0 290 0 0 0  0 20 310 0  z y y z y z  -  -
 tx90,tx2_90,tx290  50 425 0 0 0  0 50 425 0  z y y z y z  -  -
 rx160  150 825 0 0 0  0 0 625 0  z y y z y z  -  -
@@ -122,11 +144,10 @@ ur5  0 425 392.3 0 0  0 0 109.1 94.6  z y y y -z y  89.2  17
 ur10  0 612 572.3 0 0  0 0 163.9 115.7  z y y y -z y  127.3  28.7
 ur3e  0 243.6 213.2 0 0  0 0 131 85.3  z y y y -z y  151.85  8.8
 ur5e  0 425 392.2 0 0  0 0 133.3 99.7  z y y y -z y  162.5  17.7
-ur10e  0 612.7 571.6 0 0  0 0 174.1 119.9  z y y y -z y  180.7  29.1
 ur16e  0 478.4 360 0 0  0 0 174.1 119.9  z y y y -z y  180.7  27.3
 ur20  0 862 728.7 0 0  0 0 201 159.3  z y y y -z y  236.3  61
 ur30  0 637 503.7 0 0  0 0 201 159.3  z y y y -z y  236.3  -
-ur15  0 647.5 516.4 0 0  0 0 182.4 136.1  z y y y -z y  -  -
+ur15  0 647.5 516.4 0 0  0 0 182.4 136.1  z y y y -z y  -  36.3
 fanuc  -  -  z y -y -x -y -x  -  -
 motoman,yaskawa  -  -  z y -y -x -y -x  -  -
 abb  -  -  z y y x y x  -  -
@@ -251,6 +272,13 @@ def direction(axis: Sequence[float]) -> str:
     """Along which axis of the world a direction lies: `-y`; empty where it lies along none."""
     size, which = max((abs(part), which) for part, which in zip(axis, "xyz", strict=True))
     return (("-" if axis["xyz".index(which)] < 0 else "") + which) if size > ALONG else ""
+
+
+def about_the_vertical(axes: Sequence[str]) -> Iterator[tuple[str, ...]]:
+    """Directions, and how they are after a turn of all by 90, 180 and 270 degrees about z."""
+    yield (turned := tuple(axes))
+    for _ in range(3):
+        yield (turned := tuple(QUARTER.get(axis, axis) for axis in turned))
 
 
 def against(one: str, other: str) -> bool:

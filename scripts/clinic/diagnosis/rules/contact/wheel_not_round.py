@@ -53,7 +53,6 @@ When it is wrong: a cam, a propeller, a stirrer.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
 from itertools import product
 
@@ -61,6 +60,7 @@ from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.engine import BOX, CYLINDER, HINGE, MESH
 from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.probes.vector import Vector, add, at, cross, dot, norm, of_quaternion, sub, times, unit, written
+from clinic.diagnosis.probes.wheels import is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -71,7 +71,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "no healthy model stands on a wheel that is a single cylinder or box"
 
-WHEEL = re.compile(r"wheel|tyre|tire(?!d)|roller", re.IGNORECASE)
 VARIES, CENTRED = 0.1, 0.2
 ANGLES = 24
 TURNED = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
@@ -119,7 +118,7 @@ def _wheels(simulation: Simulation) -> Iterator[tuple[int, int]]:
             aside = norm(sub(off, tuple(dot(off, axis) * x for x in axis)))
             level = _level(simulation, joint) or (kinds[0] == CYLINDER and _lies(simulation, geoms[0]))
             called = f"{simulation.name('body', body)} {simulation.name('joint', joint)}"
-            if kinds[0] == BOX and not WHEEL.search(called):
+            if kinds[0] == BOX and not is_wheel(called):
                 continue
             if aside < CENTRED * simulation.model("geom_rbound")[geoms[0]] and level:
                 yield joint, geoms[0]

@@ -63,12 +63,12 @@ When it is wrong: wheels that are blocked on purpose, or turned to an angle that
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, HINGE, MESH, SPHERE
 from clinic.diagnosis.probes.servo import servos
 from clinic.diagnosis.probes.shape import root_of, solid
+from clinic.diagnosis.probes.wheels import is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -80,11 +80,6 @@ AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "only names say what is a wheel"
 
-WHEEL = re.compile(r"(?<![a-z])[lr]?(wheel|tyre|tire)s?(?![a-z])", re.IGNORECASE)
-OTHER = re.compile(
-    r"steer|caster|castor|susp|fork|hub|spare|swivel|mount|knuckle|motor|axle|arm|leg|guard|cover|fender|well",
-    re.IGNORECASE,
-)
 ROUND, ACROSS = (SPHERE, ELLIPSOID, CYLINDER, MESH), 0.7
 
 BARE, SERVO = "it has no joint, and others have", "a position servo turns it to an angle, where it stops"
@@ -147,8 +142,7 @@ def _wheels(of: Simulation) -> list[int]:
     for body in of.moving_bodies:
         called = [names[body], *(of.names("joint")[joint] for joint in _hinges(of, body))]
         is_round = any(int(kinds[geom]) in ROUND and solid(of, geom) for geom in of.geoms_of(body))
-        is_wheel = any(WHEEL.search(name) for name in called) and not any(OTHER.search(name) for name in called)
-        if owner[body] in free and body not in free and is_round and is_wheel and not _carried(of, body):
+        if owner[body] in free and body not in free and is_round and is_wheel(*called) and not _carried(of, body):
             made.append(body)
     return made
 

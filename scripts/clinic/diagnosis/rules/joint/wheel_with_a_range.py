@@ -43,12 +43,12 @@ When it is wrong: a steering wheel, or a wheel that is to turn but a little.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.shape import round_about
+from clinic.diagnosis.probes.wheels import is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, counted
@@ -59,8 +59,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "nearly no healthy model stands on wheels"
 
-WHEEL = re.compile(r"wheel|tyre|tire(?![a-z])", re.IGNORECASE)
-OTHER = re.compile(r"steer|swivel|fork|yaw|susp|camber|arm|pivot|hand|prism|valve", re.IGNORECASE)
 TURNS, LEVEL_ENOUGH = 4.0, 0.3
 
 
@@ -86,8 +84,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _wheel(of: Simulation, joint: int) -> bool:
     body = int(of.model("jnt_bodyid")[joint])
     name = f"{of.names('joint')[joint]} {of.names('body')[body]}"
-    if of.joint_type(joint) != HINGE or not of.model("jnt_limited")[joint] or not WHEEL.search(name):
+    if of.joint_type(joint) != HINGE or not of.model("jnt_limited")[joint] or not is_wheel(name):
         return False
     low, high = of.row("jnt_range", joint, 2)
     level = abs(of.data_row("xaxis", joint, 3)[2]) < LEVEL_ENOUGH
-    return not OTHER.search(name) and high - low < TURNS * 2 * math.pi and level and round_about(of, joint)
+    return high - low < TURNS * 2 * math.pi and level and round_about(of, joint)

@@ -68,10 +68,10 @@ Good:
 
 The number: how far a distance between two axes in a row, or the offset between their two neighbours along an axis, is
 from the data sheet's; more than 2 mm and 1 %, where at most two of an arm's are. Or the axes that point against the
-ones in the maker's description while all the others point along them, at most two. Or how far the shoulder is from where it is above the
-base; or how many times the links together weigh what they do there, from 2 on. Lengths and axes are those of
-Denavit and Hartenberg, so that they do not depend on where the frames of the bodies are. They are from the makers' own
-descriptions, for the arms in `probes/arms.py`.
+ones in the maker's description while all the others point along them, at most two. Or how far the shoulder is from
+where it is above the base; or how many times the links together weigh what they do there, from 2 on. Lengths and axes
+are those of Denavit and Hartenberg, so that they do not depend on where the frames of the bodies are. They are from the
+makers' own descriptions, for the arms in `probes/arms.py`.
 
 When it is wrong: an arm that was measured itself, or one of another series of the same name.
 """
@@ -79,13 +79,14 @@ When it is wrong: an arm that was measured itself, or one of another series of t
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.arms import (
     NEAR,
     Arm,
     Measured,
+    about_the_vertical,
     against,
     called,
     differs,
@@ -163,48 +164,33 @@ def _moves(model: ReaderModel, joints: tuple[int, ...], longer: float, probe: Pr
     parts = [(abs(place[axis]), body, place, axis) for body, place in places for axis in range(3) if place[axis]]
     for part, body, place, axis in sorted(parts, reverse=True):
         moved = [x * (1 + longer / part) if each == axis else x for each, x in enumerate(place)]
-        edits = _placed(model, body, written(moved))
+        edits = model.placed(body, moved)
         if edits and model.measured(probe, edits) < NEAR:
             yield edits
 
 
-def _placed(model: ReaderModel, body: int, place: str) -> tuple[Edit, ...]:
-    if model.source is None or not model.source.urdf:
-        return model.set("body", [body], "pos", place)
-    joint = model.element("joint", model.simulation.joints_of(body)[0])
-    origin = joint.first("origin") if joint is not None else None
-    return (set_attribute(origin, "xyz", place),) if origin is not None else ()
-
-
 def _axes(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     """Axes against those of the data sheet, where all others are along them."""
-    turned = [which for which, axis in enumerate(row.axes) if against(direction(axis), arm.axes[which])]
-    same = sum(direction(axis) == right for axis, right in zip(row.axes, arm.axes, strict=True))
-    if len(turned) > (FEW if arm.lengths else 1) or same + len(turned) < len(row.axes):
+    standing = min(about_the_vertical(arm.axes), key=lambda axes: _unlike(row, axes))
+    turned = [which for which, axis in enumerate(row.axes) if against(direction(axis), standing[which])]
+    if len(turned) > (FEW if arm.lengths else 1) or _unlike(row, standing) > len(turned):
         return
     for which in turned:
-        joint = row.joints[which]
-        edits = _reversed(model, joint)
+        joint, right = row.joints[which], standing[which]
+        edits = model.turned_axis(joint)
         now, value = direction(row.axes[which]), edits[0].value if edits else ""
-        probe = Probe(
-            "axis against the data sheet's", "", _against, (row.joints, which, arm.axes[which]), dynamic=False
-        )
-        says = f"It turns about {now} as the arm stands at 0; that of {arm.names[0]} turns about {arm.axes[which]}."
+        probe = Probe("axis against the data sheet's", "", _against, (row.joints, which, right), dynamic=False)
+        says = f"It turns about {now} as the arm stands at 0; that of {arm.names[0]} turns about {right}."
         name = model.simulation.name("joint", joint)
-        yield Suspect((name,), "axis", now, value, edits, probe, 0.5, says, arm.axes[which], level="hint")
+        yield Suspect((name,), "axis", now, value, edits, probe, 0.5, says, right, level="hint")
+
+
+def _unlike(row: Measured, axes: Sequence[str]) -> int:
+    return sum(direction(axis) != right for axis, right in zip(row.axes, axes, strict=True))
 
 
 def _against(of: Simulation, joints: tuple[int, ...], which: int, right: str) -> float:
     return float(against(direction(measured(of, joints).axes[which]), right))
-
-
-def _reversed(model: ReaderModel, joint: int) -> tuple[Edit, ...]:
-    axis = written([-x for x in model.simulation.row("jnt_axis", joint, 3)])
-    if model.source is None or not model.source.urdf:
-        return model.set("joint", [joint], "axis", axis)
-    element = model.element("joint", joint)
-    there = element.first("axis") if element is not None else None
-    return (set_attribute(there, "xyz", axis),) if there is not None else ()
 
 
 def _base(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
@@ -216,13 +202,13 @@ def _base(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     parent = int(of.model("body_parentid")[body])
     of.begin()
     away = sub(tuple(height * x for x in row.axes[0]), sub(row.shoulder, of.data_row("xpos", parent, 3)))
-    place = written(add(of.row("body_pos", body, 3), times(transpose(of.data_row("xmat", parent, 9)), away)))
-    edits = _placed(model, body, place)
+    place = add(of.row("body_pos", body, 3), times(transpose(of.data_row("xmat", parent, 9)), away))
+    edits = model.placed(body, place)
     probe = Probe("shoulder off where the base has it", "m", _sunk, (row.joints, height), dynamic=False)
     says = f"Its shoulder is {1000 * norm(away):.4g} mm off where the base of {arm.names[0]} has it: "
     says += f"{1000 * height:.4g} mm above the frame of the base."
-    now = written(of.row("body_pos", body, 3))
-    yield Suspect((of.name("body", body),), "pos", now, place, edits, probe, NEAR, says, place, level="hint")
+    now, value = written(of.row("body_pos", body, 3)), written(place)
+    yield Suspect((of.name("body", body),), "pos", now, value, edits, probe, NEAR, says, value, level="hint")
 
 
 def _foot(of: Simulation, joints: tuple[int, ...]) -> str:

@@ -42,7 +42,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import HFIELD, PLANE
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.vector import norm, written
@@ -67,7 +66,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     place = of.row("body_pos", found[0], 3)
     scaled = 1e-3 if max(map(abs, place)) > 20 else 1e-2
-    edits = tuple(edit for body in found for edit in _scaled(model, body, scaled))
+    edits = tuple(
+        edit for body in found for edit in model.placed(body, [scaled * x for x in of.row("body_pos", body, 3)])
+    )
     names = tuple(of.name("body", body) for body in found)
     says = (
         f"It is {norm(place):.3g} m from what it hangs on, {_apart(of, found[0]):.0f} times the largest part's radius."
@@ -81,18 +82,6 @@ def _hung(model: ReaderModel) -> list[int]:
     """The bodies with joints that hang on another body; in a URDF, whose root is the world, all."""
     of, urdf = model.simulation, model.source is not None and model.source.urdf
     return [body for body in of.moving_bodies if of.joints_of(body) and (urdf or of.model("body_parentid")[body])]
-
-
-def _scaled(model: ReaderModel, body: int, times: float) -> Iterator[Edit]:
-    of = model.simulation
-    place = written([times * x for x in of.row("body_pos", body, 3)])
-    if model.source is not None and model.source.urdf:
-        joint = model.element("joint", of.joints_of(body)[0])
-        origin = joint.first("origin") if joint is not None else None
-        if origin is not None:
-            yield set_attribute(origin, "xyz", place)
-    elif (element := model.element("body", body)) is not None:
-        yield set_attribute(element, "pos", place)
 
 
 def _apart(of: Simulation, body: int) -> float:

@@ -48,7 +48,7 @@ def edits_of(model: ReaderModel, each: Comparison, side: int) -> tuple[Edit, ...
     if each.quantity == "axis":
         return _axis(model, found, each, side, twin)
     if each.quantity == "axis sign":
-        return _turned_axis(model, side)
+        return model.turned_axis(side)
     return ()
 
 
@@ -127,18 +127,6 @@ def _place(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: 
     if here == there:
         seen = sub(image.of(found.at(PLACES[each.kind], twin)), found.at("xpos", here))
     return (set_attribute(element, "pos", written(times(transpose(found.at("xmat", here, 9)), seen))),)
-
-
-def _turned_axis(model: ReaderModel, side: int) -> tuple[Edit, ...]:
-    element = model.element("joint", side)
-    if element is None:
-        return ()
-    if model.source is not None and model.source.urdf:
-        axis = element.first("axis")
-        turned_axis = written(tuple(-float(x) for x in axis.get("xyz").split())) if axis is not None else ""
-        return (set_attribute(axis, "xyz", turned_axis),) if axis is not None else ()
-    text = model.value("joint", side, "axis") or "0 0 1"
-    return (set_attribute(element, "axis", written(tuple(-float(x) for x in text.split()))),)
 
 
 def _axis(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:

@@ -52,7 +52,7 @@ Good:
     </mujoco>
 
 The number: of the two driven wheels on one axle, how much equal controls roll them against each other, from -1, both
-the same way, to 1; and by how much the smaller radius is less than the other, from 2 % on.
+the same way, to 1; and by how much the smaller radius is less than the other, from 0.2 % on.
 
 When it is wrong: a robot whose code turns one side round, as for motors that are mounted as mirror images.
 """
@@ -65,6 +65,7 @@ from itertools import combinations
 from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, HINGE, SPHERE
 from clinic.diagnosis.probes.shape import root_of, solid
 from clinic.diagnosis.probes.vector import Vector, dot, norm, sub
+from clinic.diagnosis.probes.wheels import is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -72,10 +73,11 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "Two wheels of one axle that are not alike"
 FAMILIES = ("drifts", "stuck")
 SINCE = "0.1"
+AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "nearly no healthy model stands on wheels"
 
-AGAINST, ALONG, LEVEL_ENOUGH, UNLIKE = 0.9, 0.95, 0.2, 0.02
+AGAINST, ALONG, LEVEL_ENOUGH, UNLIKE = 0.9, 0.95, 0.2, 0.002
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -89,12 +91,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             )
             says = "Equal controls turn the one forwards and the other backwards."
             axes = [" ".join(f"{x:g}" for x in of.row("jnt_axis", joint, 3)) for joint in (one, other)]
-            attribute = "axis" if axes[0] != axes[1] else "gear"
+            motors = [_actuator(of, joint) for joint in (one, other)]
+            attribute = "axis" if axes[0] != axes[1] or None in motors else "gear"
             now = axes[1] if attribute == "axis" else f"{_gear(of, other):g}"
             value = axes[0] if attribute == "axis" else f"{-_gear(of, other):g}"
-            kind, element = ("joint", other) if attribute == "axis" else ("actuator", _actuator(of, other))
-            edits = model.set(kind, [element], attribute, value)
-            told = (*names, *(of.name("actuator", _actuator(of, joint)) for joint in (one, other)))
+            driving = [motor for motor in motors if motor is not None]
+            turned = model.turned_axis(other)
+            edits = turned if attribute == "axis" else model.set("actuator", driving[1:], "gear", value)
+            told = (*names, *(of.name("actuator", motor) for motor in driving))
             yield Suspect(told, attribute, now, value, edits, probe, AGAINST, says, "both the same way", share=against)
         if _unlike(of, one, other) > UNLIKE:
             probe = Probe("radius of one wheel below that of the other by", "", _unlike, (one, other), dynamic=False)
@@ -121,7 +125,9 @@ def _axles(of: Simulation) -> Iterator[tuple[int, int]]:
 def _is_wheel(of: Simulation, joint: int) -> bool:
     body = int(of.model("jnt_bodyid")[joint])
     free = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
-    driven = sum(of.driven_joint(actuator) == joint for actuator in range(of.count("actuator"))) == 1
+    drives = sum(of.driven_joint(actuator) == joint for actuator in range(of.count("actuator")))
+    called = is_wheel(of.names("joint")[joint], of.names("body")[body])
+    driven = drives == 1 or (called and not of.count("actuator"))
     return free and driven and abs(_axis(of, joint)[2]) < LEVEL_ENOUGH and _tyre(of, joint) >= 0 and body > 0
 
 
@@ -143,12 +149,13 @@ def _radius(of: Simulation, joint: int) -> float:
     return of.model("geom_size")[3 * _tyre(of, joint)]
 
 
-def _actuator(of: Simulation, joint: int) -> int:
-    return next(each for each in range(of.count("actuator")) if of.driven_joint(each) == joint)
+def _actuator(of: Simulation, joint: int) -> int | None:
+    return next((each for each in range(of.count("actuator")) if of.driven_joint(each) == joint), None)
 
 
 def _gear(of: Simulation, joint: int) -> float:
-    return of.model("actuator_gear")[6 * _actuator(of, joint)]
+    motor = _actuator(of, joint)
+    return 1.0 if motor is None else of.model("actuator_gear")[6 * motor]
 
 
 def _against(of: Simulation, one: int, other: int) -> float:

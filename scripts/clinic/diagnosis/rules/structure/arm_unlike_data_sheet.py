@@ -69,15 +69,17 @@ Good:
 The number: how far a distance between two axes in a row, or the offset between their two neighbours along an axis, is
 from the data sheet's; more than 2 mm and 1 %, where at most two of an arm's are. Or the axes that point against the
 ones in the maker's description while all the others point along them, at most two. Or how far the shoulder is from
-where it is above the base; or how many times the links together weigh what they do there, from 2 on. Lengths and axes
-are those of Denavit and Hartenberg, so that they do not depend on where the frames of the bodies are. They are from the
-makers' own descriptions, for the arms in `probes/arms.py`.
+where it is above the base; or how many times the links together weigh what they do there, from 2 on; or by how many
+degrees a range goes beyond theirs, from 3 to 45. Lengths and axes are those of Denavit and Hartenberg, so that they do
+not depend on where the frames of the bodies are. They are from the makers' own descriptions, for the arms in
+`probes/arms.toml`.
 
 When it is wrong: an arm that was measured itself, or one of another series of the same name.
 """
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator, Sequence
 
@@ -107,6 +109,7 @@ LEVEL = "hint"
 UNPLANTED = "one of the 81 models of the bench is an arm that is sold"
 
 BASE = re.compile(r"(?<![a-z])base(?![a-z])|link_?0(?![0-9])", re.IGNORECASE)
+FARTHER, ANOTHER, ROUND = math.radians(3), math.radians(45), 2 * math.pi - 0.1
 HEAVY = 2.0  # times the mass of the data sheet
 FEW = 2  # lengths, or axes, that may be wrong in an arm that is still the one of the data sheet
 
@@ -124,6 +127,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 yield from _axes(model, arm, row)
                 yield from _base(model, arm, row)
                 yield from _mass(model, arm, row)
+                yield from _ranges(model, arm, row)
 
 
 def _names(model: ReaderModel) -> str:
@@ -234,6 +238,40 @@ def _mass(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     probe = Probe("mass over the data sheet's", "", _heavy, (row.joints, arm.mass), dynamic=False)
     now, value = f"{_weight(of, row.joints):.3g} kg", f"{arm.mass:.3g} kg"
     yield Suspect(names, "mass", now, value, (), probe, HEAVY, says, value, excess=off, level="hint")
+
+
+def _ranges(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
+    """Joints that turn farther than those of the arm; where the axes are the same, so that their signs are."""
+    of = model.simulation
+    beyond = {
+        joint: right
+        for joint, right in zip(row.joints, arm.ranges, strict=False)
+        if _beyond(of, joint, right) > FARTHER and (not any(arm.axes) or not _unlike(row, arm.axes))
+    }
+    if not beyond:
+        return
+    unit = model.angle_unit
+    worst = max(beyond, key=lambda joint: _beyond(of, joint, beyond[joint]))
+    values = {joint: written([end / unit for end in right]) for joint, right in beyond.items()}
+    now = written([end / unit for end in of.row("jnt_range", worst, 2)])
+    edits = tuple(edit for joint, value in values.items() for edit in model.set("joint", [joint], "range", value))
+    low, high = (math.degrees(end) for end in beyond[worst])
+    says = (
+        f"{of.name('joint', worst)} turns {math.degrees(_beyond(of, worst, beyond[worst])):.0f} degrees farther than "
+    )
+    says += f"that of {arm.names[0]}, which has {low:.0f} to {high:.0f} degrees."
+    probe = Probe("range beyond the data sheet's", "rad", _beyond, (worst, beyond[worst]), dynamic=False)
+    names = tuple(of.name("joint", joint) for joint in beyond)
+    yield Suspect(names, "range", now, values[worst], edits, probe, FARTHER, says, values[worst], level="hint")
+
+
+def _beyond(of: Simulation, joint: int, right: tuple[float, float]) -> float:
+    """How much farther a joint turns, in rad; 0 for one that turns round, or has another zero."""
+    low, high = of.row("jnt_range", joint, 2)
+    if not of.model("jnt_limited")[joint] or high - low > ROUND:
+        return 0.0
+    over = right[0] - low, high - right[1]
+    return max(over) if max(map(abs, over)) < ANOTHER else 0.0
 
 
 def _links(of: Simulation, joints: tuple[int, ...]) -> list[int]:

@@ -102,7 +102,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An arm unlike the data sheet of its name"
-FAMILIES = ("wrong-numbers", "drifts")
+FAMILIES = ("wrong-numbers", "drifts", "wrong-mass", "passes-limit")
 SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"

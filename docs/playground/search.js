@@ -11,7 +11,7 @@ const unpacked = (packed) =>
   Object.entries(packed).flatMap(([kind, { around, fields, rows }]) =>
     rows.map(([rest, ...values]) => ({ kind, at: around[0] + rest + around[1], title: "", words: "", text: "", ...Object.fromEntries(fields.map((name, k) => [name, values[k]])) })),
   );
-const index = { documents: unpacked(globalThis.clinicIndex.documents), synonyms: globalThis.clinicIndex.synonyms, stems: globalThis.clinicIndex.stems };
+const index = { documents: unpacked(globalThis.clinicIndex.documents), synonyms: globalThis.clinicIndex.synonyms, families: globalThis.clinicIndex.families };
 const symptoms = index.documents.filter(({ kind }) => kind === "symptom");
 let ask = searcher(index);
 

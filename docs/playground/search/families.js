@@ -11,52 +11,35 @@ const IDLE = new Set(
   ).split(" "),
 );
 
-const SMOOTH = 0.3;
-const VAGUE = 0.7;
+const SHARP = 12;
+const UNIT = 100;
 
-/** @typedef {Record<string, Record<string, number>>} Counts how often each stem stands in what people say of each family */
+/** @typedef {{families: string[], prior: number[], stems: Record<string, number[]>}} Weights what stems say, by family, in hundredths */
 
 /**
- * @param {Counts} counts
+ * @param {Weights} weights
  * @returns {(query: string) => Map<string, number>} how likely the query speaks of each family; empty if it has no word of any
  */
-export function shares(counts) {
-  const table = new Map(Object.entries(counts));
-  /** @type {Map<string, number>} */
-  const own = new Map();
-  for (const users of table.values()) for (const [family, count] of Object.entries(users)) own.set(family, (own.get(family) ?? 0) + count);
-  const everything = sum(own.values());
-  const smooth = SMOOTH * table.size;
+export function shares({ families, prior, stems }) {
+  const table = new Map(Object.entries(stems));
   return (query) => {
-    const said = [...stemmed(query)].map((stem) => table.get(stem)).filter((users) => users !== undefined);
+    const said = [...stemmed(query)].map((stem) => table.get(stem)).filter((each) => each !== undefined);
     if (!said.length) return new Map();
-    const odds = [...own].map(([family, total]) => {
-      const each = said.map((users) => {
-        const all = sum(Object.values(users));
-        const inside = (SMOOTH + (users[family] ?? 0)) / (total + smooth);
-        const outside = (SMOOTH + all - (users[family] ?? 0)) / (everything - total + smooth);
-        return (1 - VAGUE * entropy(Object.values(users).map((count) => count / all), own.size)) * Math.log(inside / outside);
-      });
-      return /** @type {[string, number]} */ ([family, sum(each)]);
-    });
-    const best = Math.max(...odds.map(([, value]) => value));
-    const weights = odds.map(([, value]) => Math.exp(value - best));
-    const total = sum(weights);
-    return new Map(odds.map(([family], index) => [family, weights[index] / total]));
+    const scores = prior.map((each, family) => (SHARP / UNIT) * (each + sum(said.map((weights) => weights[family])) / Math.sqrt(said.length)));
+    const odds = scores.map((score) => Math.exp(score - Math.max(...scores)));
+    const total = sum(odds);
+    return new Map(families.map((family, index) => [family, odds[index] / total]));
   };
 }
 
-/** @param {Counts} counts @param {string[]} queries @returns {Record<string, number>[]} */
-export function told(counts, queries) {
-  const spoken = shares(counts);
+/** @param {Weights} weights @param {string[]} queries @returns {Record<string, number>[]} */
+export function told(weights, queries) {
+  const spoken = shares(weights);
   return queries.map((query) => Object.fromEntries(spoken(query)));
 }
 
 /** @param {Iterable<number>} numbers */
 const sum = (numbers) => [...numbers].reduce((total, number) => total + number, 0);
-
-/** @param {number[]} shares @param {number} base of the logarithm */
-const entropy = (shares, base) => -sum(shares.map((share) => (share * Math.log(share)) / Math.log(base)));
 
 /** @param {string} text @returns {Set<string>} */
 function stemmed(text) {

@@ -21,11 +21,11 @@ const WORTH = 0.1; // of the best one's score, for what is shown at all
 const COVERED = 0.42; // of what the words of a query weigh
 
 /**
- * @param {{documents: Document[], synonyms: string[][], stems: import("./families.js").Counts}} index
+ * @param {{documents: Document[], synonyms: string[][], families: import("./families.js").Weights}} index
  * @param {Record<string, string>} [answers] by address
  * @returns {(query: string) => Answer}
  */
-export function searcher({ documents, synonyms, stems: counts }, answers = {}) {
+export function searcher({ documents, synonyms, families: weights }, answers = {}) {
   const texts = documents.map((document, id) => ({ ...document, id, answer: answers[document.at] ?? "" }));
   const mini = new MiniSearch({ fields: FIELDS, tokenize: words, processTerm: stem });
   mini.addAll(texts);
@@ -38,7 +38,7 @@ export function searcher({ documents, synonyms, stems: counts }, answers = {}) {
   const titles = texts.map(({ kind, title }) => (kind === "message" ? stems(title) : []));
   const weight = (/** @type {string} */ term) => Math.log(1 + texts.length / (known.get(term) ?? 1));
   const alike = thesaurus(synonyms);
-  const spoken = shares(counts);
+  const spoken = shares(weights);
 
   return (query) => {
     const asked = stems(query);

@@ -12,7 +12,7 @@ import yaml
 
 from clinic.pages.cases import FOLDER, CasePage
 from clinic.pages.messages import Message
-from clinic.record.families import Family, stem_counts
+from clinic.record.families import Family, family_weights
 from clinic.record.prose import FIELD
 from clinic.work.cache import Files
 
@@ -44,7 +44,11 @@ def search_files(
         *_pages(pages),
     ]
     answers = {_answer_at(one.case.slug): _answer(one) for one in shown}
-    index = {"documents": packed(documents), "synonyms": synonyms(), "stems": stem_counts()}
+    index = {
+        "documents": packed(documents),
+        "synonyms": synonyms(),
+        "families": {"families": [*families], **family_weights()._asdict()},
+    }
     return {FILE: _script("clinicIndex", index), ANSWERS: _script("clinicAnswers", answers)}
 
 

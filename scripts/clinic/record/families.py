@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 import re
 import tomllib
+from collections import Counter
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
 import yaml
 
 FOLDER = Path(__file__).parent
@@ -19,14 +21,23 @@ STOP = re.compile(r"[.;!?](?:\s|$)")
 NOT = {"no", "never", "cannot", "without", "unable", "fail", "nothing", "nobody", "barely"}
 LEAST = 0.2  # the likelihood from which on a family is named
 OFTEN = 4  # how often a stem stands somewhere, to be known
-BESIDE = 0.4  # what a word counts that stands beside the symptom
-SMOOTH = 0.3  # what is added to every count of a stem
-VAGUE = 0.7  # how much less a stem counts that all families share alike
+RIDGE = 1.0  # what keeps weights small
+SHARP = 12.0  # how much a score tells: with it, sayings that are left out find their family likeliest
+UNIT = 100.0  # weights are whole numbers, of hundredths
 IDLE = """a an and are as at be been but by can did do does doing done for from had has have i if in is it its me my of
 on or so that the their them there they this to was we were when while with you your mujoco simulation"""
 
-StemCounts = dict[str, dict[str, float]]
-"""How often each stem stands in what is said of each family."""
+
+class Weights(NamedTuple):
+    """What a text's stems say of its family: all by family, in the order of `families()`, in hundredths.
+
+    Attributes:
+        prior: What is said without a word.
+        stems: What each stem adds.
+    """
+
+    prior: list[int]
+    stems: dict[str, list[int]]
 
 
 class Family(NamedTuple):
@@ -72,59 +83,47 @@ def likely_families(text: str) -> list[str]:
     return [name for name, share in family_shares(text).items() if share >= LEAST]
 
 
-def family_shares(text: str, counts: StemCounts | None = None) -> dict[str, float]:
-    """How likely the text speaks of each family, likeliest first; they sum to 1. Empty if it has no word of any.
-
-    Each stem that people use for a symptom counts by the odds that it is of this family and of no other one: the
-    complement naive Bayes of Rennie et al., *Tackling the Poor Assumptions of Naive Bayes Text Classifiers*, 2003. It
-    counts the less, the more evenly families share it: by its entropy, as in the log-entropy weights of Dumais,
-    *Improving the Retrieval of Information from External Sources*, 1991.
-    """
-    own = totals(counts) if counts else _own_totals()
-    counts = counts or stem_counts()
-    said = sorted({stem for stem in _stems(text) if stem in counts})
+def family_shares(text: str, weights: Weights | None = None) -> dict[str, float]:
+    """How likely the text speaks of each family, likeliest first; they sum to 1. Empty if it has no word of any."""
+    weights = weights or family_weights()
+    said = [weights.stems[stem] for stem in sorted({*_stems(text)}) if stem in weights.stems]
     if not said:
         return {}
-    everything, smooth = sum(own.values()), SMOOTH * len(counts)
-    odds = dict.fromkeys(own, 0.0)
-    for users in (counts[stem] for stem in said):
-        users_of_all = sum(users.values())
-        shares = [count / users_of_all for count in users.values() if count]
-        entropy = -sum(share * math.log(share, len(own)) for share in shares)
-        for name, total in own.items():
-            inside = (SMOOTH + users.get(name, 0)) / (total + smooth)
-            outside = (SMOOTH + users_of_all - users.get(name, 0)) / (everything - total + smooth)
-            odds[name] += (1 - VAGUE * entropy) * math.log(inside / outside)
-    weights = {name: math.exp(value - max(odds.values())) for name, value in odds.items()}
-    sum_of_all = sum(weights.values())
-    return {name: weights[name] / sum_of_all for name in sorted(weights, key=lambda name: -round(odds[name], 9))}
-
-
-def totals(counts: StemCounts) -> dict[str, float]:
-    """How many stems are counted for each family."""
-    return {name: sum(users.get(name, 0) for users in counts.values()) for name in families()}
+    sums = [sum(each) / math.sqrt(len(said)) for each in zip(*said, strict=True)]
+    scores = [SHARP / UNIT * (prior + each) for prior, each in zip(weights.prior, sums, strict=True)]
+    odds = [math.exp(score - max(scores)) for score in scores]
+    shares = {name: each / sum(odds) for name, each in zip(families(), odds, strict=True)}
+    return {name: shares[name] for name in sorted(shares, key=lambda name: -round(shares[name], 9))}
 
 
 @cache
-def _own_totals() -> dict[str, float]:
-    return totals(stem_counts())
+def family_weights() -> Weights:
+    """The weights that all titles, words and sayings of the families give."""
+    return weights_of(
+        (name, phrase)
+        for name, family in families().items()
+        for phrase in (family.title, name, *family.words, *family.further, *sayings()[name])
+    )
 
 
-@cache
-def stem_counts() -> StemCounts:
-    """How often each stem stands in what people say of each family; what stands beside a symptom counts BESIDE."""
-    counts: StemCounts = {}
-    for name, family in families().items():
-        count_stems(counts, name, (family.title, name, *family.words, *family.further, *sayings()[name]))
-        count_stems(counts, name, family.context, BESIDE)
-    return {stem: users for stem, users in counts.items() if sum(users.values()) >= OFTEN}
+def weights_of(phrases: Iterable[tuple[str, str]]) -> Weights:
+    """The weights that tell phrases of the families apart, given with the name of theirs.
 
-
-def count_stems(counts: StemCounts, family: str, phrases: Iterable[str], weight: float = 1.0) -> None:
-    """Adds to the counts the stems of a family's phrases, each stem once a phrase."""
-    for stem in (stem for phrase in phrases for stem in sorted(set(_stems(phrase)))):
-        users = counts.setdefault(stem, {})
-        users[family] = round(users.get(family, 0.0) + weight, 1)
+    A phrase is a vector of length 1 with as much of each of its stems. The weights are those of least squares towards
+    1 for its family and 0 for the others: Rifkin, Yeo and Poggio, *Regularized Least-Squares Classification*, 2003.
+    """
+    known = [(name, {*_stems(phrase)}) for name, phrase in phrases]
+    often = Counter(stem for _, stems in known for stem in stems)
+    column = {stem: place for place, stem in enumerate(sorted(stem for stem in often if often[stem] >= OFTEN))}
+    said, wanted = np.zeros((len(known), len(column))), np.zeros((len(known), len(families())))
+    for row, (name, stems) in enumerate(known):
+        said[row, [column[stem] for stem in stems if stem in column]] = 1
+        wanted[row, [*families()].index(name)] = 1
+    said /= np.maximum(1, np.linalg.norm(said, axis=1, keepdims=True))
+    prior = wanted.mean(axis=0)
+    solved = np.linalg.solve(said.T @ said + RIDGE * np.eye(len(column)), said.T @ (wanted - prior))
+    hundredths = np.rint(UNIT * solved).astype(int).tolist()
+    return Weights(np.rint(UNIT * prior).astype(int).tolist(), dict(zip(column, hundredths, strict=True)))
 
 
 @cache

@@ -13,14 +13,17 @@ from clinic.diagnosis.suspect import Probe
 SDF = 8  # mjtGeom
 SAMPLES = 25
 MOST_FACES = 20_000  # of a finer mesh nothing is told
-NEAR = 0.1  # of the radius: as near is touched at the surface, however near
+NEAR = 0.1  # of the size: as near is touched at the surface, however near
+REACH = 2.5  # radii of what touches: a hole counts by its own size as well as by the mesh's
 Triangle = tuple[Vector, Vector, Vector]
 Ball = tuple[Vector, float]
 
 
 @kept
 def touched_off_surface(simulation: Simulation) -> dict[int, float]:
-    """How far from each mesh geom's surface other things touched it after letting go, as a share of its radius.
+    """How far from each mesh geom's surface other things touched it after letting go, as a share of its size.
+
+    The size is the mesh's radius, or that of what touches it times REACH where that is less.
 
     Two mechanisms that collide are left out: what falls into a hole or passes through it is a single thing.
     """
@@ -41,9 +44,10 @@ def touched_off_surface(simulation: Simulation) -> dict[int, float]:
             for geom in contact.geoms if strangers and contact.force > 0 else ():
                 if int(kinds[geom]) in (MESH, SDF):
                     seen = times(transpose(frames[9 * geom : 9 * geom + 9]), sub(contact.position, at(places, geom)))
-                    mesh = int(simulation.model("geom_dataid")[geom])
-                    away = _distance(simulation, mesh, seen, NEAR * radii[geom])
-                    made[geom] = max(made.get(geom, 0.0), (away - abs(contact.distance)) / radii[geom])
+                    mesh, other = int(simulation.model("geom_dataid")[geom]), radii[sum(contact.geoms) - geom]
+                    size = min(radii[geom], REACH * other) if other > 0 else radii[geom]
+                    away = _distance(simulation, mesh, seen, NEAR * size)
+                    made[geom] = max(made.get(geom, 0.0), (away - abs(contact.distance)) / size)
     return made
 
 
@@ -122,4 +126,4 @@ def _away(simulation: Simulation, geom: int) -> float:
 
 def away(geom: int) -> Probe:
     """How far from its surface a mesh is touched."""
-    return Probe("touched away from the mesh's surface, at most", "of its radius", _away, (geom,))
+    return Probe("touched away from the mesh's surface, at most", "of its size", _away, (geom,))

@@ -39,9 +39,9 @@ Good:
     </mujoco>
 
 The number: how far from the mesh's own surface another mechanism touches it within 2 s, as a share of the mesh's
-radius; below 0.15 is well. MuJoCo's manual, Computation, Collision detection: meshes are replaced by their hulls. The
-edit, `type="sdf"`, collides with the surface itself: it is slow and may shake, and proves the cause. What to build
-instead are primitives, or the mesh cut into convex pieces.
+radius, or of 2.5 radii of what touches it where that is less; below 0.15 is well. MuJoCo's manual, Computation,
+Collision detection: meshes are replaced by their hulls. The edit, `type="sdf"`, collides with the surface itself: it is
+slow and may shake, and proves the cause. What to build instead are primitives, or the mesh cut into convex pieces.
 
 When it is wrong: a coarse collision mesh whose hull is meant to be filled. Parts of one mechanism, and two mechanisms
 that collide, are not looked at.
@@ -62,7 +62,7 @@ SINCE = "0.1"
 CASE = "ball-stops-above-cup"
 UNPLANTED = "the healthy models have no hollow mesh that something falls into"
 
-AWAY = 0.15  # of the mesh's radius
+AWAY = 0.15  # of the size of the mesh, or of what touches it
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -72,9 +72,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if share <= AWAY or int(of.model("geom_type")[geom]) != MESH:
             continue
         edits = model.set("geom", [geom], "type", "sdf")
-        says = (
-            f"It is touched {1000 * share * of.model('geom_rbound')[geom]:.3g} mm away from its surface: on the hull."
-        )
+        says = "It is touched away from its own surface: on the hull."
         yield Suspect(
             (of.name("geom", geom),), "type", "mesh", "sdf", edits, away(geom), AWAY, says, "touched at its surface"
         )

@@ -1,0 +1,115 @@
+"""A rope whose limit is longer than it ever gets.
+
+A spatial tendon without a spring, an actuator or damping holds by its `range` alone. Where that allows more than the
+length at which something else stops the load, such as the floor, the rope does nothing.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <site name="hook" pos="0 0 2"/>
+        <body name="load" pos="0 0 1">
+          <freejoint/>
+          <geom type="box" size="0.1 0.1 0.1" mass="1"/>
+          <site name="eye" pos="0 0 0.1"/>
+        </body>
+      </worldbody>
+      <tendon>
+        <spatial name="rope" limited="true" range="0 5">
+          <site site="hook"/>
+          <site site="eye"/>
+        </spatial>
+      </tendon>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom type="plane" size="2 2 0.1"/>
+        <site name="hook" pos="0 0 2"/>
+        <body name="load" pos="0 0 1">
+          <freejoint/>
+          <geom type="box" size="0.1 0.1 0.1" mass="1"/>
+          <site name="eye" pos="0 0 0.1"/>
+        </body>
+      </worldbody>
+      <tendon>
+        <spatial name="rope" limited="true" range="0 0.95">
+          <site site="hook"/>
+          <site site="eye"/>
+        </spatial>
+      </tendon>
+    </mujoco>
+
+The number: the greatest length in 2 s after letting go, as a share of the upper limit: below 0.95 it never holds. Told
+where something falls by more than 10 % of the length in that time, and all of the model's ropes hang slack.
+
+When it is wrong: a leash that is to hold later, and hangs slack until then.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation, kept
+from clinic.diagnosis.suspect import Probe, Suspect, rounded
+
+TITLE = "A rope that never gets taut"
+FAMILIES = ("falls-through", "drifts", "sensor-reads-zero", "stuck")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "no healthy model hangs anything on a rope"
+
+TENDON = 3  # mjtTrn
+JOINT = 1  # mjtWrap
+SLACK, GROWN = 1 / 0.95, 1.1
+SAMPLES = 50
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The ropes of a model, where none of them holds what falls."""
+    of = model.simulation
+    ropes = [tendon for tendon in range(of.count("tendon")) if _rope(of, tendon)]
+    if not ropes or any(_slack(of, tendon) <= SLACK for tendon in ropes):
+        return
+    grown = [tendon for tendon in ropes if _longest(of)[tendon] > GROWN * of.model("tendon_length0")[tendon]]
+    if not grown:
+        return
+    worst = grown[0]
+    limit, length, most = of.row("tendon_range", worst, 2)[1], of.model("tendon_length0")[worst], _longest(of)[worst]
+    says = f"It is {length:.3g} m long at the start and {most:.3g} m at most, and holds from {limit:g} m on."
+    value = f"0 {rounded(0.99 * length)}"
+    edits = model.set("tendon", grown, "range", value)
+    probe = Probe("upper limit over the greatest length", "", _slack, (worst,))
+    names = tuple(of.name("tendon", tendon) for tendon in grown)
+    now = f"{of.row('tendon_range', worst, 2)[0]:g} {limit:g}"
+    yield Suspect(names, "range", now, value, edits, probe, SLACK, says, "no longer than the rope", level="hint")
+
+
+def _rope(of: Simulation, tendon: int) -> bool:
+    """Whether a tendon runs through space, and nothing acts on it but its limit."""
+    wrap = int(of.model("tendon_adr")[tendon])
+    acts = any(of.model(f"tendon_{what}")[tendon] for what in ("stiffness", "damping", "frictionloss"))
+    driven = any(
+        int(kind) == TENDON and int(of.model("actuator_trnid")[2 * each]) == tendon
+        for each, kind in enumerate(of.model("actuator_trntype"))
+    )
+    limited = bool(of.model("tendon_limited")[tendon]) and of.row("tendon_range", tendon, 2)[1] > 0
+    return limited and not acts and not driven and int(of.model("wrap_type")[wrap]) != JOINT
+
+
+@kept
+def _longest(of: Simulation) -> tuple[float, ...]:
+    """The greatest length of each tendon in m after letting go."""
+    of.begin()
+    found = list(of.data("ten_length"))
+    for _ in of.run(of.begin_with.duration, SAMPLES):
+        found = [max(pair) for pair in zip(found, of.data("ten_length"), strict=True)]
+    return tuple(found)
+
+
+def _slack(of: Simulation, tendon: int) -> float:
+    return of.row("tendon_range", tendon, 2)[1] / max(_longest(of)[tendon], 1e-9)

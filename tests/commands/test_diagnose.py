@@ -122,7 +122,7 @@ def test_several_models_are_diagnosed_and_one_that_cannot_be_holds_up_no_other(m
 
 def test_standard_input_is_read():
     assert run("diagnose", "-", given=BROKEN).exit_code == 1
-    bent = run("diagnose", "-", "--keyframe", "bent", "--select", "spring-too-stiff", given=DRIVEN)
+    bent = run("diagnose", "-", "--keyframe", "bent", "--select", "spring-too-stiff,masks", given=DRIVEN)
     assert (bent.exit_code, bent.stderr) == (0, "")
     assert run("diagnose", "-", given="robot.xml").exit_code == 2
 

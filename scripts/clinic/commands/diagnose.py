@@ -10,7 +10,7 @@ import typer
 from typer.core import TyperCommand
 
 app = typer.Typer()
-Rules = Annotated[list[str], typer.Option(help="Only this rule; may be repeated.")]
+Rules = Annotated[list[str], typer.Option(help="Only this rule, or these with commas between; may be repeated.")]
 
 
 class _Diagnose(TyperCommand):
@@ -40,11 +40,11 @@ def diagnose(
         Literal["text", "json", "sarif", "github"], typer.Option("--format", help="How to print it.")
     ] = "text",
     select: Rules = [],  # noqa: B006
-    ignore: Annotated[list[str], typer.Option(help="Not this rule; may be repeated.")] = [],  # noqa: B006
+    ignore: Annotated[list[str], typer.Option(help="Not this rule, or these; may be repeated.")] = [],  # noqa: B006
 ) -> None:
     """Say what is wrong with your own model; exit code 0 if no cause is found, 1 for a cause, 2 if it cannot be run."""
     from clinic.commands.console import console
-    from clinic.commands.diagnosis_options import STDIN, OptionError, check_rules, family_of, read_source, start_of
+    from clinic.commands.diagnosis_options import STDIN, OptionError, chosen_rules, family_of, read_source, start_of
     from clinic.commands.diagnosis_output import check_output, printed, write_fix
     from clinic.diagnosis.finding import Diagnosis
     from clinic.diagnosis.process import DiagnosisError
@@ -53,7 +53,7 @@ def diagnose(
     made: list[tuple[str, Diagnosis]] = []
     failed: list[tuple[str, str]] = []
     try:
-        check_rules(select, ignore)
+        select, ignore = chosen_rules(select, ignore)
         family, others = family_of(symptom)
         if family != symptom:
             or_else = f"; if you mean another one: --symptom {' or --symptom '.join(others)}" if others else ""

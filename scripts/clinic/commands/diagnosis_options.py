@@ -129,17 +129,19 @@ def family_of(symptom: str) -> tuple[str, list[str]]:
     return found[0], found[1:3]
 
 
-def check_rules(select: Collection[str], ignore: Collection[str]) -> None:
-    """Whether rules are known, and one is left.
+def chosen_rules(select: Collection[str], ignore: Collection[str]) -> tuple[list[str], list[str]]:
+    """The rules that are selected, and those that are not to be looked at; several may stand with commas in between.
 
     Raises:
-        OptionError: If not; it names the nearest.
+        OptionError: If one is not known, with the nearest, or none is left.
     """
+    select, ignore = ([rule for words in some for rule in words.split(",") if rule] for some in (select, ignore))
     for rule in (*select, *ignore):
         if rule not in rules():
             raise OptionError(unknown(rule))
     if not set(select or rules()) - set(ignore):
-        raise OptionError(f"--ignore {' --ignore '.join(ignore)}: no rule is left")
+        raise OptionError(f"--ignore {','.join(ignore)}: no rule is left")
+    return select, ignore
 
 
 def rules_table() -> str:

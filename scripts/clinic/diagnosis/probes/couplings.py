@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from clinic.diagnosis.simulation import Simulation
 
 JOINT = 2  # mjtEq
+POINTS = 41
+SLACK = 0.02  # of the follower's range
 
 Coupling = tuple[int, int, tuple[float, ...]]  # follower, leader, factors of the powers of the leader's way
 
@@ -17,3 +19,24 @@ def couplings(simulation: Simulation) -> Iterator[tuple[int, Coupling]]:
         follower, leader = (int(simulation.model(f"eq_obj{side}id")[each]) for side in (1, 2))
         if int(simulation.model("eq_type")[each]) == JOINT and leader >= 0 and simulation.model("eq_active0")[each]:
             yield each, (follower, leader, simulation.equality_data(each)[:5])
+
+
+def led_over(simulation: Simulation, coupling: Coupling) -> list[float]:
+    """Where the follower is led over the leader's range."""
+    follower, leader, factors = coupling
+    begins = [simulation.model("qpos0")[int(simulation.model("jnt_qposadr")[joint])] for joint in (follower, leader)]
+    low, high = simulation.row("jnt_range", leader, 2)
+    ways = [low + (high - low) * point / (POINTS - 1) - begins[1] for point in range(POINTS)]
+    return [begins[0] + sum(factor * way**power for power, factor in enumerate(factors)) for way in ways]
+
+
+def lost(simulation: Simulation, found: tuple[Coupling, ...]) -> float:
+    """The largest share of a leader's range that leads its follower out of its own."""
+    most = 0.0
+    for coupling in found:
+        if all(simulation.model("jnt_limited")[joint] for joint in coupling[:2]):
+            low, high = simulation.row("jnt_range", coupling[0], 2)
+            slack = SLACK * (high - low)
+            outside = [not low - slack <= place <= high + slack for place in led_over(simulation, coupling)]
+            most = max(most, sum(outside) / POINTS)
+    return most

@@ -56,10 +56,9 @@ from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import SLIDE
-from clinic.diagnosis.probes.couplings import couplings
+from clinic.diagnosis.probes.couplings import couplings, lost
 from clinic.diagnosis.probes.vector import add, dot, norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.joint.follower_out_of_range import lost
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 

@@ -51,7 +51,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
-from clinic.diagnosis.probes.couplings import Coupling, couplings
+from clinic.diagnosis.probes.couplings import couplings, led_over, lost
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -61,9 +61,7 @@ FAMILIES = ("stuck", "jumps-at-start")
 SINCE = "0.1"
 UNPLANTED = "one healthy model has a joint that follows another"
 
-POINTS = 41
 LOST = 0.5
-SLACK = 0.02  # of the follower's range
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -76,11 +74,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     edits: tuple[Edit, ...] = ()
     for each in found:
         scale = 1 / model.angle_unit if simulation.joint_type(each[0]) == HINGE else 1.0
-        led = _led(simulation, each)
+        led = led_over(simulation, each)
         edits += model.set("joint", [each[0]], "range", f"{min(led) * scale:.4g} {max(led) * scale:.4g}")
     follower, leader, _ = found[0]
     low, high = simulation.row("jnt_range", follower, 2)
-    led = _led(simulation, found[0])
+    led = led_over(simulation, found[0])
     yield Suspect(
         tuple(simulation.name("joint", each[0]) for each in found),
         "range",
@@ -120,24 +118,3 @@ def _unled(of: Simulation, equality: int) -> float:
     """1 where a coupling holds its follower at a constant other than its start."""
     found = (factors for each, (_, _, factors) in couplings(of) if each == equality)
     return float(any(factors[0] and not any(factors[1:]) for factors in found))
-
-
-def _led(simulation: Simulation, coupling: Coupling) -> list[float]:
-    """Where the follower is led over the leader's range."""
-    follower, leader, factors = coupling
-    begins = [simulation.model("qpos0")[int(simulation.model("jnt_qposadr")[joint])] for joint in (follower, leader)]
-    low, high = simulation.row("jnt_range", leader, 2)
-    ways = [low + (high - low) * point / (POINTS - 1) - begins[1] for point in range(POINTS)]
-    return [begins[0] + sum(factor * way**power for power, factor in enumerate(factors)) for way in ways]
-
-
-def lost(simulation: Simulation, found: tuple[Coupling, ...]) -> float:
-    """The largest share of a leader's range that leads its follower out of its own."""
-    most = 0.0
-    for coupling in found:
-        if all(simulation.model("jnt_limited")[joint] for joint in coupling[:2]):
-            low, high = simulation.row("jnt_range", coupling[0], 2)
-            slack = SLACK * (high - low)
-            outside = [not low - slack <= place <= high + slack for place in _led(simulation, coupling)]
-            most = max(most, sum(outside) / POINTS)
-    return most

@@ -1,0 +1,97 @@
+"""A slippery geom does not slide: what it touches has more friction, and MuJoCo takes the larger of the two.
+
+The friction of a contact is that of the geom with the higher `priority`; with equal ones it is the larger number. So
+`friction="0"` on a block alone changes nothing on a floor that has MuJoCo's default of 1.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <geom name="floor" type="plane" size="2 2 0.1"/>
+        <body name="puck" pos="0 0 0.02">
+          <freejoint/>
+          <geom type="cylinder" size="0.05 0.02" mass="0.1" friction="0.01"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <geom name="floor" type="plane" size="2 2 0.1"/>
+        <body name="puck" pos="0 0 0.02">
+          <freejoint/>
+          <geom type="cylinder" size="0.05 0.02" mass="0.1" friction="0.01" priority="1"/>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: the least sliding friction of the contacts that the geom has within 2 s, over its own, from 4 on; told of
+frictions up to 0.2 of geoms that move. MuJoCo's manual, Computation, Contact: the element-wise maximum.
+
+When it is wrong: a geom that is slippery against others, which it does not touch here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation, kept
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A friction that the other geom overrules"
+FAMILIES = ("stuck", "slips", "wrong-numbers")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "how slippery it is to be, only intent knows"
+
+SLIPPERY, TIMES, LEAST = 0.2, 4.0, 1e-3
+SAMPLES = 50
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The slippery geoms that touch only what is not, all together."""
+    of = model.simulation
+    found = [geom for geom in _felt(of) if _over(of, geom) > TIMES]
+    if not found:
+        return
+    felt = _felt(of)[found[0]]
+    now = f"{of.model('geom_friction')[3 * found[0]]:g}"
+    says = f"Its contacts have a friction of {felt:g}: the larger of the two counts, where none has a higher priority."
+    probe = Probe("friction of its contacts over its own", "", _over, (found[0],))
+    names = tuple(of.name("geom", geom) for geom in found)
+    edits = model.set("geom", found, "priority", "1")
+    yield Suspect(names, "priority", "0", "1", edits, probe, TIMES, f"friction {now}: {says}", "1", level="hint")
+
+
+def _over(of: Simulation, geom: int) -> float:
+    """The friction that a geom feels over its own."""
+    return _felt(of).get(geom, 0.0) / max(of.model("geom_friction")[3 * geom], LEAST)
+
+
+@kept
+def _felt(of: Simulation) -> dict[int, float]:
+    """The least friction of the contacts of each slippery geom that moves, as priority and the larger one have it."""
+    friction, priority = of.model("geom_friction")[::3], of.model("geom_priority")
+    welds, bodies = of.model("body_weldid"), of.model("geom_bodyid")
+    made: dict[int, float] = {}
+    slippery = {geom for geom, each in enumerate(friction) if each <= SLIPPERY and welds[int(bodies[geom])]}
+    if not slippery:
+        return made
+    of.begin()
+    for _ in of.run(of.begin_with.duration, SAMPLES):
+        for contact in of.engine.contacts():
+            for geom in slippery & set(contact.geoms) if contact.force > 0 and min(contact.geoms) >= 0 else ():
+                other = sum(contact.geoms) - geom
+                ranks = priority[geom] - priority[other]
+                own = (
+                    friction[geom]
+                    if ranks > 0
+                    else friction[other]
+                    if ranks < 0
+                    else max(friction[geom], friction[other])
+                )
+                made[geom] = min(made.get(geom, own), own)
+    return made

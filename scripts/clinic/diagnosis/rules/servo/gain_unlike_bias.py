@@ -1,0 +1,84 @@
+"""A servo's `gainprm` is not its `biasprm`: it goes to another place than its control says.
+
+A position servo gives `gainprm[0] ctrl + biasprm[1] length`. It rests where the two are equal: at `ctrl` where
+`biasprm="0 -kp"` has the kp of `gainprm`, and at twice or half of it where one of the two was changed alone.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" range="-120 120"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <general joint="elbow" gainprm="200" biastype="affine" biasprm="0 -100 -10" ctrlrange="-1 1"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="elbow" axis="0 1 0" range="-120 120"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <general joint="elbow" gainprm="200" biastype="affine" biasprm="0 -200 -10" ctrlrange="-1 1"/>
+      </actuator>
+    </mujoco>
+
+The number: where the servo rests over its control: `gainprm[0] / -biasprm[1]`, from 0.2 to 5 and off 1 by more than
+2 %. Farther off the control has another unit, such as 0 to 255; and where half of the servos have it, it is meant.
+
+When it is wrong: a control that is scaled on purpose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A gain that is not the servo's bias"
+FAMILIES = ("stuck", "passes-limit", "wrong-numbers")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "a control that is scaled differs from a slip by intent alone"
+
+FIXED, AFFINE = 0, 1  # mjtGain, mjtBias
+OFF, SCALED = 0.02, 5.0
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The servos whose gain and bias differ by a little, all together."""
+    of = model.simulation
+    ratios = {each: ratio for each in range(of.count("actuator")) if (ratio := _ratio(of, each))}
+    found = [each for each, ratio in ratios.items() if abs(ratio - 1) > OFF and 1 / SCALED < ratio < SCALED]
+    if not found or (len(ratios) > 2 and 2 * len(found) >= len(ratios)):
+        return
+    gain, bias = of.gain(found[0])[0], of.bias(found[0])
+    says = f"It rests at {ratios[found[0]]:.3g} times its control: gainprm {gain:g}, biasprm {bias[1]:g}."
+    value = f"{bias[0]:g} {-gain:g} {bias[2]:g}"
+    edits = model.set("actuator", found[:1], "biasprm", value)
+    probe = Probe("where a servo rests over its control, off 1 by", "", _off, (found[0],), dynamic=False)
+    names, now = tuple(of.name("actuator", each) for each in found), f"{bias[0]:g} {bias[1]:g} {bias[2]:g}"
+    yield Suspect(names, "biasprm", now, value, edits, probe, OFF, says, "1", level="hint")
+
+
+def _ratio(of: Simulation, actuator: int) -> float:
+    """Where a servo rests over its control; 0 for what is none."""
+    affine = (
+        int(of.model("actuator_gaintype")[actuator]) == FIXED and int(of.model("actuator_biastype")[actuator]) == AFFINE
+    )
+    gain, bias = of.gain(actuator)[0], of.bias(actuator)[1]
+    return gain / -bias if affine and bias < 0 < gain else 0.0
+
+
+def _off(of: Simulation, actuator: int) -> float:
+    return abs(_ratio(of, actuator) - 1)

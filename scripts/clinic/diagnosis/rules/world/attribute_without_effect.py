@@ -1,0 +1,143 @@
+"""An attribute is written, and what would read it is off or missing: it has no effect.
+
+`biasprm` needs `biastype="affine"`: without it a `<general>` is a motor, its control a force. `lengthrange` tells a
+muscle how its tendon's length is scaled, and nobody else; `<position>` with a `ctrlrange` holds a length. `springref`
+needs a `stiffness`, `dynprm` a `dyntype`, `fluidshape` a `density` or a `viscosity` of the `<option>`.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <site name="wall"/>
+        <body pos="1 0 0">
+          <joint type="slide" axis="1 0 0" damping="5"/>
+          <geom type="box" size="0.1 0.1 0.1"/>
+          <site name="load"/>
+        </body>
+      </worldbody>
+      <tendon>
+        <spatial name="rope">
+          <site site="wall"/>
+          <site site="load"/>
+        </spatial>
+      </tendon>
+      <actuator>
+        <general tendon="rope" lengthrange="0.5 1"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <site name="wall"/>
+        <body pos="1 0 0">
+          <joint type="slide" axis="1 0 0" damping="5"/>
+          <geom type="box" size="0.1 0.1 0.1"/>
+          <site name="load"/>
+        </body>
+      </worldbody>
+      <tendon>
+        <spatial name="rope">
+          <site site="wall"/>
+          <site site="load"/>
+        </spatial>
+      </tendon>
+      <actuator>
+        <position tendon="rope" ctrlrange="0.5 1" kp="100" dampratio="1"/>
+      </actuator>
+    </mujoco>
+
+The number: how many elements have the attribute, with another value than MuJoCo's own, and not what it needs. MuJoCo's
+manual, XML reference, tells of each what reads it.
+
+When it is wrong: a number that your own code reads, or a spring that it switches on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Suspect, counted
+
+TITLE = "An attribute that has no effect"
+FAMILIES = ("stuck", "drifts", "wrong-numbers", "sags")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "what was meant by it, only intent knows"
+
+MUSCLE, USER, NONE = 2, 3, 0  # mjtGain, mjtBias; mjtBias, mjtDyn
+
+
+class Idle(NamedTuple):
+    """An attribute without effect.
+
+    Attributes:
+        kind: Of the elements that have it.
+        attribute: As it is written.
+        needs: The attribute that it needs, and what that would have to be.
+        says: Why it has no effect.
+    """
+
+    kind: str
+    attribute: str
+    needs: tuple[str, str]
+    says: str
+
+
+IDLE = {
+    Idle("actuator", "biasprm", ("biastype", "affine"), "Without biastype it is not read, and the control is a force."),
+    Idle("actuator", "lengthrange", ("", ""), "It is no muscle, and nothing else reads its lengthrange."),
+    Idle("actuator", "dynprm", ("dyntype", "filter"), "Without dyntype it is not read."),
+    Idle("joint", "springref", ("stiffness", "above 0"), "Without stiffness there is no spring."),
+    Idle("geom", "fluidshape", ("", "density or viscosity of <option>"), "There is no fluid: both are 0 in <option>."),
+}
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The attributes that have no effect, all of one kind together."""
+    of = model.simulation
+    if model.source is None or model.source.urdf:
+        return
+    for idle in sorted(IDLE):
+        found = [each for each in range(of.count(idle.kind)) if _without_effect(model, idle, each)]
+        if not found:
+            continue
+        needed, value = idle.needs
+        edits: tuple[Edit, ...] = ()
+        if value.isalpha():
+            elements = [model.element(idle.kind, each) for each in found]
+            edits = tuple(set_attribute(element, needed, value) for element in elements if element is not None)
+        probe = counted("attributes without effect", len(found))
+        names = tuple(of.name(idle.kind, each) for each in found)
+        now = model.value(idle.kind, found[0], idle.attribute) or ""
+        at = model.element(idle.kind, found[0])
+        healthy = f"with {needed} {value}".strip() if value else "left out"
+        yield Suspect(names, idle.attribute, now, value, edits, probe, 0, idle.says, healthy, level="hint", at=at)
+
+
+def _without_effect(model: ReaderModel, idle: Idle, each: int) -> bool:
+    written = model.value(idle.kind, each, idle.attribute)
+    if written is None or not any(word.strip("0.-+") for word in written.split()) or written == "none":
+        return False
+    return not _read(model.simulation, idle.attribute, each)
+
+
+def _read(of: Simulation, attribute: str, each: int) -> bool:
+    """Whether something reads an attribute."""
+    match attribute:
+        case "biasprm":
+            return int(of.model("actuator_biastype")[each]) != NONE
+        case "dynprm":
+            return int(of.model("actuator_dyntype")[each]) != NONE
+        case "lengthrange":
+            kinds = {int(of.model(f"actuator_{what}type")[each]) for what in ("gain", "bias")}
+            return bool(kinds & {MUSCLE, USER})
+        case "springref":
+            return bool(of.model("jnt_stiffness")[each])
+        case _:
+            return any(of.model(f"opt.{what}")[0] for what in ("density", "viscosity"))

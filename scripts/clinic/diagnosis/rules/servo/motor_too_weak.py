@@ -32,7 +32,8 @@ Good:
     </mujoco>
 
 The number: the inertia at the joint over the motor's greatest force or torque, more than 1 s2/m or 1 s2/rad: it takes
-a second and more to 1 m/s or 1 rad/s. Of the 289 healthy models one robot's have such a joint.
+a second and more to 1 m/s or 1 rad/s. Of the 289 healthy models one robot's have such a joint. Of a velocity servo the
+greatest load of the joint's weight over kv times the greatest control: more than 1.
 
 When it is wrong: large things that are meant to be slow.
 """
@@ -43,6 +44,7 @@ import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.probes.load import loads
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
@@ -54,10 +56,12 @@ LEVEL = "hint"
 UNPLANTED = "how fast a joint should be, its maker knows"
 
 SLOW = 1.0  # s2/m, s2/rad
+AFFINE = 1  # mjtBias
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """The motors with a limit that barely move their joints, all together."""
+    """The motors with a limit that barely move their joints, all together, and velocity servos below the weight."""
+    yield from _unlifted(model)
     of = model.simulation
     slow = {joint: value for joint, value in _slow(of).items() if value > SLOW}
     if not slow:
@@ -78,6 +82,40 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         f"{of.name('joint', joint)} gains {1 / slow[joint]:.2g} {unit}/s in a second at full control.",
         "1.5 m/s2 and 1.5 rad/s2 are the least of healthy models but one",
     )
+
+
+def _unlifted(model: ReaderModel) -> Iterator[Suspect]:
+    """Velocity servos that give less at their greatest speed error than the weight asks for."""
+    of = model.simulation
+    found = [each for each in range(of.count("actuator")) if _burden(of, each) > 1]
+    if not found:
+        return
+    worst = max(found, key=lambda each: _burden(of, each))
+    kv, joint = of.gain(worst)[0], of.name("joint", of.driven_joint(worst) or 0)
+    most = -of.bias(worst)[2] * _fastest(of, worst)
+    value = rounded(10 * kv * _burden(of, worst))
+    says = f"Against a {joint} that stands still it gives {most:.3g} N m (N) at most: kv times the greatest control. "
+    says += f"The weight asks for {_burden(of, worst):.2g} times as much."
+    probe = Probe("weight over what a velocity servo gives", "", _burden, (worst,), dynamic=False)
+    names = tuple(of.name("actuator", each) for each in found)
+    edits = model.set("actuator", found, "kv", value)
+    yield Suspect(names, "kv", f"{kv:g}", value, edits, probe, 1, says, "well above the weight", level="hint")
+
+
+def _fastest(of: Simulation, actuator: int) -> float:
+    return max(map(abs, of.row("actuator_ctrlrange", actuator, 2)))
+
+
+def _burden(of: Simulation, actuator: int) -> float:
+    """The greatest load of a joint's weight over what its velocity servo gives while it stands; 0 for what is none."""
+    joint, bias = of.driven_joint(actuator), of.bias(actuator)[:3]
+    drives = [each for each in range(of.count("actuator")) if of.driven_joint(each) == joint]
+    velocity = int(of.model("actuator_biastype")[actuator]) == AFFINE and not any(bias[:2]) and bias[2] < 0
+    if joint is None or not velocity or not of.model("actuator_ctrllimited")[actuator] or len(drives) > 1:
+        return 0.0
+    gear = abs(of.row("actuator_gear", actuator, 6)[0])
+    most = -bias[2] * _fastest(of, actuator) * gear
+    return loads(of)[of.dof(joint)] / most if most > 0 else 0.0
 
 
 def _slow_of(of: Simulation, joint: int) -> float:

@@ -52,11 +52,11 @@ Good:
       </keyframe>
     </mujoco>
 
-The number: the weight over what the rotors lift at most, above 1 or below 1/30. At equal controls that carry the
-weight: the torque of roll and pitch as a share of the weight times the mean arm, above 0.06 (0.2 where more hangs on
-joints), and the sum of the drags as a share of the sum of their magnitudes, above 0.22, of four rotors and more. How
-far the force of a keyframe that is named for hovering is from the weight, above 5 %. Three rotors at least, along one
-axis.
+The number: how level they push, where all have the gear that is MuJoCo's own, 1 along the x axis of the site. Else the
+weight over what the rotors lift at most, above 1 or below 1/30. At equal controls that carry the weight: the torque of
+roll and pitch as a share of the weight times the mean arm, above 0.06 (0.2 where more hangs on joints), and the sum of
+the drags as a share of the sum of their magnitudes, above 0.22, of four rotors and more. How far the force of a
+keyframe that is named for hovering is from the weight, above 5 %. Three rotors at least, along one axis.
 
 When it is wrong: a frame whose rotors are meant to carry unlike shares, and a balloon or a boat whose buoyancy the code
 adds. Where `<option>` has the density of water, or a body has `gravcomp`, nothing is told.
@@ -90,6 +90,7 @@ ALONG = 0.7  # of a rotor's push along the common axis
 TILT, LOADED, YAW, OFF = 0.06, 0.2, 0.22, 0.05
 STRONG = 30.0  # of the weight
 WATER = 100.0  # kg/m3
+LEVEL_FROM, UP = 0.9, "0 0 1 0 0 0"
 
 
 @dataclass(frozen=True)
@@ -114,6 +115,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     for drone in _drones(of):
         names = tuple(of.name("actuator", each.actuator) for each in drone.rotors)
+        if _level(of, drone.body) > LEVEL_FROM:
+            probe = Probe("how level the rotors push", "", _level, (drone.body,), dynamic=False)
+            says = "All push along the x axis of their sites, which is level: no gear says otherwise."
+            edits = model.set("actuator", [each.actuator for each in drone.rotors], "gear", UP)
+            yield Suspect(names, "gear", "1 0 0 0 0 0", UP, edits, probe, LEVEL_FROM, says, "0, upwards")
+            continue
         yield from _lifts(model, drone, names)
         most = LOADED if drone.loaded else TILT
         if _tilt(of, drone.body) > most:
@@ -210,6 +217,16 @@ def _torques(of: Simulation, drone: Drone) -> tuple[float, Sequence[float]]:
         whole = add(whole, each.torque, force * drone.weight / lift)
     drags = [force * dot(each.drag, drone.up) for each, force in pairs]
     return abs(sum(drags)) / max(sum(map(abs, drags)), 1e-12), sub(whole, [dot(whole, drone.up) * x for x in drone.up])
+
+
+def _level(of: Simulation, body: int) -> float:
+    """The sine of the angle between gravity and rotors that are left with the gear of x; 0 for others."""
+    drone = _found(of, body)
+    gears = {of.row("actuator_gear", each.actuator, 6) for each in drone.rotors} if drone else set()
+    if drone is None or gears != {(1.0, 0.0, 0.0, 0.0, 0.0, 0.0)}:
+        return 0.0
+    of.begin()
+    return math.sqrt(max(0.0, 1 - dot(drone.up, _against(of, body)) ** 2))
 
 
 def _tilt(of: Simulation, body: int) -> float:

@@ -10,7 +10,7 @@ Bad:
         <geom name="floor" type="plane" size="2 2 0.1"/>
         <body name="puck" pos="0 0 0.02">
           <freejoint/>
-          <geom type="cylinder" size="0.05 0.02" mass="0.1" friction="0.01"/>
+          <geom type="cylinder" size="0.05 0.02" mass="0.1" friction="0.15"/>
         </body>
       </worldbody>
     </mujoco>
@@ -22,7 +22,7 @@ Good:
         <geom name="floor" type="plane" size="2 2 0.1"/>
         <body name="puck" pos="0 0 0.02">
           <freejoint/>
-          <geom type="cylinder" size="0.05 0.02" mass="0.1" friction="0.01" priority="1"/>
+          <geom type="cylinder" size="0.05 0.02" mass="0.1" friction="0.15" priority="1"/>
         </body>
       </worldbody>
     </mujoco>

@@ -44,7 +44,8 @@ Good:
     </mujoco>
 
 The number: the greatest length in 2 s after letting go, as a share of the upper limit: below 0.95 it never holds. Told
-where something falls by more than 10 % of the length in that time, and all of the model's ropes hang slack.
+where something falls by more than 10 % of the length in that time, and all of the model's ropes hang slack. So is a
+rope with a `range` whose two ends are equal, which is none, and no other force.
 
 When it is wrong: a leash that is to hold later, and hangs slack until then.
 """
@@ -55,7 +56,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe, Suspect, rounded
+from clinic.diagnosis.suspect import Probe, Suspect, counted, rounded
 
 TITLE = "A rope that never gets taut"
 FAMILIES = ("falls-through", "drifts", "sensor-reads-zero", "stuck")
@@ -70,8 +71,9 @@ SAMPLES = 50
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """The ropes of a model, where none of them holds what falls."""
+    """The ropes of a model, where none of them holds what falls, and those that are no limit at all."""
     of = model.simulation
+    yield from _without_limit(model)
     ropes = [tendon for tendon in range(of.count("tendon")) if _rope(of, tendon)]
     if not ropes or any(_slack(of, tendon) <= SLACK for tendon in ropes):
         return
@@ -87,6 +89,31 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     names = tuple(of.name("tendon", tendon) for tendon in grown)
     now = f"{of.row('tendon_range', worst, 2)[0]:g} {limit:g}"
     yield Suspect(names, "range", now, value, edits, probe, SLACK, says, "no longer than the rope", level="hint")
+
+
+def _without_limit(model: ReaderModel) -> Iterator[Suspect]:
+    """Ropes whose range has two equal ends, which MuJoCo takes for none."""
+    of = model.simulation
+    for tendon in range(of.count("tendon")):
+        low, high = of.row("tendon_range", tendon, 2)
+        if low < high or model.value("tendon", tendon, "range") is None or _acts(of, tendon):
+            continue
+        length = of.model("tendon_length0")[tendon]
+        value = f"0 {rounded(length)}"
+        edits = model.set("tendon", [tendon], "range", value)
+        says = f"A range from {low:g} to {high:g} is none, and nothing else acts on it: it holds nothing."
+        probe = counted("ropes that hold nothing", 1)
+        name, now = of.name("tendon", tendon), f"{low:g} {high:g}"
+        yield Suspect((name,), "range", now, value, edits, probe, 0, says, "up to its length", level="hint")
+
+
+def _acts(of: Simulation, tendon: int) -> bool:
+    """Whether a spring, a damper, friction, an actuator or a limit acts on a tendon."""
+    passive = any(of.model(f"tendon_{what}")[tendon] for what in ("stiffness", "damping", "frictionloss", "limited"))
+    return passive or any(
+        int(kind) == TENDON and int(of.model("actuator_trnid")[2 * each]) == tendon
+        for each, kind in enumerate(of.model("actuator_trntype"))
+    )
 
 
 def _rope(of: Simulation, tendon: int) -> bool:

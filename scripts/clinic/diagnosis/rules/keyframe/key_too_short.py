@@ -55,7 +55,8 @@ from clinic.diagnosis.engine import FREE
 from clinic.diagnosis.probes.key import astray
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.source import Element
+from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A keyframe is too short"
 FAMILIES = ("jumps-at-start", "drifts")
@@ -73,7 +74,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         missing = len(start) - len(values)
         free = 7 * len(of.free_bodies)
         first = bool(of.count("joint")) and of.joint_type(0) == FREE
-        if element is None or not values or missing <= 0 or not first or missing > free:
+        if element is None or not values or missing <= 0:
+            continue
+        if not first or missing > free:
+            yield _padded(model, key, element, values)
             continue
         qpos = [*start[:missing], *values]
         yield Suspect(
@@ -88,3 +92,18 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "as many numbers as nq",
             level="cause" if missing % 7 == 0 and len(values) % 7 else "hint",
         )
+
+
+def _padded(model: ReaderModel, key: int, element: Element, values: list[float]) -> Suspect:
+    """A keyframe whose missing numbers are those of the joints that come last."""
+    of = model.simulation
+    start = list(of.model("qpos0"))
+    qpos = written([*values, *start[len(values) :]])
+    says = (
+        f"It has {len(values)} of {len(start)} numbers: MuJoCo 4 takes the rest from the model, older releases refuse."
+    )
+    probe = counted("numbers that a keyframe lacks", len(start) - len(values))
+    edits = (set_attribute(element, "qpos", qpos),)
+    told, having, wanted = (of.name("key", key),), f"{len(values)} numbers", f"{len(start)} numbers"
+    healthy = "as many numbers as nq"
+    return Suspect(told, "qpos", having, wanted, edits, probe, 0, says, healthy, level="hint")

@@ -60,23 +60,27 @@ Good:
     </mujoco>
 
 The number: how many `<position>` have no `kp`, neither themselves nor by their class, where as many others and more
-have one.
+have one. Where none has one, those that a kp of 1 lets swing at less than 3 rad/s: it takes seconds to get anywhere.
 
 When it is wrong: a servo for which 1 N m/rad is enough.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect, counted
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect, counted, rounded
 
 TITLE = "A servo without a gain among others that have one"
 FAMILIES = ("sags", "stuck", "oscillates")
 SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "a gain that is as small as the default is planted as a weak servo"
+
+SLOW = 3.0  # rad/s
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -85,6 +89,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     servos = [i for i in range(of.count("actuator")) if (e := model.element("actuator", i)) and e.tag == "position"]
     bare = [each for each in servos if model.value("actuator", each, "kp") is None]
     tuned = [each for each in servos if each not in bare]
+    if not tuned:
+        yield from _none(model, bare)
     if not bare or len(tuned) < max(2, len(bare)):
         return
     gains = sorted(float(model.value("actuator", each, "kp") or 1) for each in tuned)
@@ -96,3 +102,32 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     names = tuple(of.name("actuator", each) for each in bare)
     edits = model.set("actuator", bare, "kp", f"{usual:g}")
     yield Suspect(names, "kp", "left out", f"{usual:g}", edits, probe, 0, says, "a gain by its load", level="hint")
+
+
+def _none(model: ReaderModel, bare: list[int]) -> Iterator[Suspect]:
+    """Servos of a model in which nobody wrote a gain, where that of 1 is slow."""
+    of = model.simulation
+    slow = [each for each in bare if 0 < _swing(of, each) < SLOW]
+    if not slow:
+        return
+    worst = min(slow, key=lambda each: _swing(of, each))
+    says = f"No kp is written for it, so that it is 1: {of.name('joint', of.driven_joint(worst) or 0)} swings at "
+    says += f"{_swing(of, worst):.2g} rad/s by it."
+    value = rounded((2 * SLOW / _swing(of, worst)) ** 2)
+    probe = Probe("seconds of a radian at a gain of 1", "s", _seconds, (worst,), dynamic=False)
+    names = tuple(of.name("actuator", each) for each in slow)
+    edits = model.set("actuator", slow, "kp", value)
+    yield Suspect(names, "kp", "left out", value, edits, probe, 1 / SLOW, says, "a gain by its load", level="hint")
+
+
+def _swing(of: Simulation, actuator: int) -> float:
+    """The frequency in rad/s of a joint on its servo; 0 for an actuator of something else."""
+    joint = of.driven_joint(actuator)
+    if joint is None:
+        return 0.0
+    stiffness = -of.bias(actuator)[1] * of.row("actuator_gear", actuator, 6)[0] ** 2
+    return math.sqrt(max(0.0, stiffness) / max(of.mass_diagonal[of.dof(joint)], 1e-12))
+
+
+def _seconds(of: Simulation, actuator: int) -> float:
+    return 1 / max(_swing(of, actuator), 1e-9)

@@ -43,6 +43,7 @@ When it is wrong: something that is meant to spin fast. A gain or a spring that 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.drive import commanded, pressed_in
@@ -75,7 +76,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         before = model.measured(probe)
         if before <= limit:
             continue
-        if (edits := patient(model)) and model.measured(probe, edits) <= HALF * before:
+        edits = patient(model)
+        if edits and math.isfinite(after := model.measured(probe, edits)) and after <= HALF * before:
             return  # the solver stops too early, which another rule tells
         for divisor in (2, 4, 8, 16):
             if probe == pressed_in() and of.steps(divisor * SECONDS) < WHOLE * divisor * of.steps(SECONDS):

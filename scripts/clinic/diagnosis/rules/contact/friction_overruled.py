@@ -1,7 +1,8 @@
-"""A slippery geom does not slide: what it touches has more friction, and MuJoCo takes the larger of the two.
+"""A slippery geom is not slippery: what it touches has more friction, and MuJoCo takes the larger of the two.
 
 The friction of a contact is that of the geom with the higher `priority`; with equal ones it is the larger number. So
-`friction="0"` on a block alone changes nothing on a floor that has MuJoCo's default of 1.
+`friction="0"` on a block alone changes nothing on a floor that has MuJoCo's default of 1, nor does a floor of ice below
+a block of it.
 
 Bad:
 
@@ -28,7 +29,7 @@ Good:
     </mujoco>
 
 The number: the least sliding friction of the contacts that the geom has within 2 s, over its own, from 4 on; told of
-frictions up to 0.2 of geoms that move. MuJoCo's manual, Computation, Contact: the element-wise maximum.
+frictions up to 0.2, in a model without `<pair>`. MuJoCo's manual, Computation, Contact: the element-wise maximum.
 
 When it is wrong: a geom that is slippery against others, which it does not touch here.
 """
@@ -48,7 +49,7 @@ LEVEL = "hint"
 UNPLANTED = "how slippery it is to be, only intent knows"
 
 SLIPPERY, TIMES, LEAST = 0.2, 4.0, 1e-3
-SAMPLES = 50
+SAMPLES, FRICTIONLESS, OVERRIDE = 50, 1, 1  # condim; mjtEnableBit
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -73,12 +74,12 @@ def _over(of: Simulation, geom: int) -> float:
 
 @kept
 def _felt(of: Simulation) -> dict[int, float]:
-    """The least friction of the contacts of each slippery geom that moves, as priority and the larger one have it."""
+    """The least friction of the contacts of each slippery geom, as priority and the larger one have it."""
     friction, priority = of.model("geom_friction")[::3], of.model("geom_priority")
-    welds, bodies = of.model("body_weldid"), of.model("geom_bodyid")
+    condim = of.model("geom_condim")
     made: dict[int, float] = {}
-    slippery = {geom for geom, each in enumerate(friction) if each <= SLIPPERY and welds[int(bodies[geom])]}
-    if not slippery:
+    slippery = {geom for geom, each in enumerate(friction) if each <= SLIPPERY}
+    if not slippery or of.count("pair") or int(of.model("opt.enableflags")[0]) & OVERRIDE:
         return made
     of.begin()
     for _ in of.run(of.begin_with.duration, SAMPLES):
@@ -86,6 +87,8 @@ def _felt(of: Simulation) -> dict[int, float]:
             for geom in slippery & set(contact.geoms) if contact.force > 0 and min(contact.geoms) >= 0 else ():
                 other = sum(contact.geoms) - geom
                 ranks = priority[geom] - priority[other]
+                if max(condim[geom], condim[other]) == FRICTIONLESS:
+                    continue
                 own = (
                     friction[geom]
                     if ranks > 0

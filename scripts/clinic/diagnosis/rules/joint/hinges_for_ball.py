@@ -62,17 +62,29 @@ ACROSS, LOST = 0.2, 0.5
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The bodies that three free hinges turn, all together."""
     of = model.simulation
-    found = [body for body in range(1, of.count("body")) if _turned_by_three(of, body)]
-    if not found:
+    if of.count("tendon") or of.count("equality"):
         return
+    every = [body for body in range(1, of.count("body")) if _turned_by_three(of, body)]
+    for sliding in (True, False):
+        if found := [body for body in every if _slides_too(of, body) is sliding]:
+            yield _suspect(model, found, sliding)
+
+
+def _suspect(model: ReaderModel, found: list[int], sliding: bool) -> Suspect:
+    of = model.simulation
     hinges = _hinges(of, found[0])
-    slides = sum(of.joint_type(joint) == SLIDE for joint in of.joints_of(found[0]))
-    value = "<freejoint/> in place of all six" if slides == 3 else 'type="ball" in place of the three'
+    value = "<freejoint/> in place of all six" if sliding else 'type="ball" in place of the three'
     says = f"{of.name('joint', hinges[1])} at 90 degrees lays the axes of the other two hinges on one another."
     probe = Probe("ways to turn that are lost at 90 degrees", "", _lost, (found[0],), dynamic=False)
     names = (*(of.name("body", body) for body in found), *(of.name("joint", joint) for joint in hinges))
     at = model.element("joint", hinges[0])
-    yield Suspect(names, "type", "hinge, hinge, hinge", value, (), probe, LOST, says, value, level="hint", at=at)
+    return Suspect(names, "type", "hinge, hinge, hinge", value, (), probe, LOST, says, value, level="hint", at=at)
+
+
+def _slides_too(of: Simulation, body: int) -> bool:
+    """Whether a body of the world has three slides as well, and so could have a free joint."""
+    slides = sum(of.joint_type(joint) == SLIDE for joint in of.joints_of(body))
+    return slides == 3 and not of.model("body_parentid")[body]
 
 
 def _hinges(of: Simulation, body: int) -> list[int]:

@@ -64,6 +64,8 @@ SLOW = 0.5  # rad/s or m/s that full force reaches
 LEFT = 0.7
 STILL = 0.03  # rad/s or m/s that its own weight gives what nothing drives
 HEAVY = 0.05  # of weight times size: a joint that is balanced has less
+IN_PARENT = 1  # mjtTrn
+LEVER = 0.1  # m: a knob is turned by what is longer than it
 PUSH, WEIGHTS, OPENING = 50.0, 2.0, 0.1  # N, times its weight, and the rad/s or m/s that it is to reach by them
 
 
@@ -134,8 +136,8 @@ def _shut(model: ReaderModel) -> Iterator[Suspect]:
         attribute = "damping" if OPENING * damping >= friction else "frictionloss"
         now = damping if attribute == "damping" else friction
         edits = model.set("joint", [joint], attribute, f"{now / 1000:.2g}")
-        slow = f"with {_push(of, joint) * _reach(of, joint) / max(damping, 1e-9):.2g} rad/s (m/s)"
-        moves = f"moves it {slow}" if attribute == "damping" else "does not move it"
+        slow = f"at {_push(of, joint) * _reach(of, joint) / max(damping, 1e-9):.2g} rad/s (m/s)"
+        moves = f"moves it {slow} at most" if attribute == "damping" else "does not move it"
         says = f"Nothing drives it, and a push of {_push(of, joint):.3g} N at its far end {moves}."
         probe = Probe("what holds it, times a strong push", "", _push_held, (joint,), dynamic=False)
         name = of.name("joint", joint)
@@ -144,7 +146,8 @@ def _shut(model: ReaderModel) -> Iterator[Suspect]:
 
 def _push_held(of: Simulation, joint: int) -> float:
     """What holds a joint that nothing moves over what a strong push at its far end gives."""
-    if of.joint_type(joint) not in (HINGE, SLIDE) or joint in _moved(of) or joint in _held(of):
+    told = joint in _held(of) or bool(of.model("jnt_actfrclimited")[joint])  # an effort of a URDF drives it
+    if of.joint_type(joint) not in (HINGE, SLIDE) or joint in _moved(of) or told:
         return 0.0
     damping, friction = (of.model(f"dof_{name}")[of.dof(joint)] for name in FIELDS)
     most = _push(of, joint) * _reach(of, joint)
@@ -154,11 +157,16 @@ def _push_held(of: Simulation, joint: int) -> float:
 def _moved(of: Simulation) -> set[int | None]:
     """The joints that an actuator, a spring, a tendon or an equality may move."""
     every = set(range(of.count("joint")))
-    if of.count("tendon"):
+    if of.count("tendon") or _cranked(of):
         return set(every)
     driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
     tied = every if of.count("equality") else set()
     return driven | {joint for joint in every if of.model("jnt_stiffness")[joint]} | tied
+
+
+def _cranked(of: Simulation) -> bool:
+    """Whether an actuator moves what it moves otherwise than by its joint: by a crank, at a site."""
+    return any(int(kind) > IN_PARENT for kind in of.model("actuator_trntype"))
 
 
 def _push(of: Simulation, joint: int) -> float:
@@ -168,7 +176,7 @@ def _push(of: Simulation, joint: int) -> float:
 
 def _reach(of: Simulation, joint: int) -> float:
     """The lever of a push in m; 1 for a slide, which has none."""
-    return size(of, int(of.model("jnt_bodyid")[joint])) if of.joint_type(joint) == HINGE else 1.0
+    return max(LEVER, size(of, int(of.model("jnt_bodyid")[joint]))) if of.joint_type(joint) == HINGE else 1.0
 
 
 def _beyond_effort(model: ReaderModel) -> Iterator[Suspect]:
@@ -203,6 +211,8 @@ def _most_beyond(of: Simulation, attribute: str, *joints: int) -> float:
 def _held(simulation: Simulation) -> dict[int, float]:
     """What holds each joint that neither an actuator nor a spring moves over what its weight gives, on one side."""
     if not simulation.count("actuator") or simulation.count("tendon") or simulation.count("equality"):
+        return {}
+    if _cranked(simulation):
         return {}
     driven = {simulation.driven_joint(actuator) for actuator in range(simulation.count("actuator"))}
     gravity, springs = math.hypot(*simulation.model("opt.gravity")), simulation.model("jnt_stiffness")

@@ -44,7 +44,7 @@ Good:
     </mujoco>
 
 The number: the greatest length in 2 s after letting go, as a share of the upper limit: below 0.95 it never holds. Told
-where something falls by more than 10 % of the length in that time, and all of the model's ropes hang slack. So is a
+where a rope grows by more than 10 % in that time, and all of the model's ropes hang slack. So is a
 rope with a `range` whose two ends are equal, which is none, and no other force.
 
 When it is wrong: a leash that is to hold later, and hangs slack until then.
@@ -83,12 +83,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     worst = grown[0]
     limit, length, most = of.row("tendon_range", worst, 2)[1], of.model("tendon_length0")[worst], _longest(of)[worst]
     says = f"It is {length:.3g} m long at the start and {most:.3g} m at most, and holds from {limit:g} m on."
-    value = f"0 {rounded(0.99 * length)}"
-    edits = model.set("tendon", grown, "range", value)
+    edits = tuple(edit for each in grown for edit in model.set("tendon", [each], "range", _shortened(of, each)))
+    value = _shortened(of, worst)
     probe = Probe("upper limit over the greatest length", "", _slack, (worst,))
     names = tuple(of.name("tendon", tendon) for tendon in grown)
     now = f"{of.row('tendon_range', worst, 2)[0]:g} {limit:g}"
     yield Suspect(names, "range", now, value, edits, probe, SLACK, says, "no longer than the rope", level="hint")
+
+
+def _shortened(of: Simulation, tendon: int) -> str:
+    return f"{of.row('tendon_range', tendon, 2)[0]:g} {0.99 * of.model('tendon_length0')[tendon]:.3g}"
 
 
 def _without_limit(model: ReaderModel) -> Iterator[Suspect]:
@@ -109,6 +113,9 @@ def _without_limit(model: ReaderModel) -> Iterator[Suspect]:
 
 def _acts(of: Simulation, tendon: int) -> bool:
     """Whether a spring, a damper, friction, an actuator or a limit acts on a tendon."""
+    first, number = (int(of.model(f"tendon_{what}")[tendon]) for what in ("adr", "num"))
+    if any(int(of.model("wrap_type")[wrap]) == JOINT for wrap in range(first, first + number)):
+        return True
     passive = any(of.model(f"tendon_{what}")[tendon] for what in ("stiffness", "damping", "frictionloss", "limited"))
     return passive or any(
         int(kind) == TENDON and int(of.model("actuator_trnid")[2 * each]) == tendon

@@ -97,7 +97,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     steering = [joint for joint in hinges if STEERING.search(of.names("joint")[joint])]
     wheels = [joint for joint in hinges if joint not in steering and is_wheel(of.names("joint")[joint])]
     for joints, against, says in (
-        (wheels, RIGHT, "A positive speed drives it backwards: its axis points to the right of the base."),
+        (wheels, RIGHT, "A positive speed drives it backwards: its axis points to the right of the root link."),
         (steering, DOWN, "A positive angle steers to the right: its axis points down."),
     ):
         if len(joints) > 1 and (least := _least(of, tuple(joints), against)) > FAR:

@@ -43,6 +43,9 @@ The number: how many numbers go to another joint than with the edit, which puts 
 first before the numbers that are written. A cause is told where the count of the missing is a multiple of seven, and
 that of the written is not.
 
+Where no free body stands first the numbers that are there belong to the joints they are meant for: a hint, for releases
+of MuJoCo before 4 refuse the text.
+
 When it is wrong: free bodies that come last and are meant to keep their places.
 """
 
@@ -77,7 +80,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if element is None or not values or missing <= 0:
             continue
         if not first or missing > free:
-            yield _padded(model, key, element, values)
+            if len(values) in {int(place) for place in of.model("jnt_qposadr")}:
+                yield _padded(model, key, element, values)
             continue
         qpos = [*start[:missing], *values]
         yield Suspect(

@@ -67,7 +67,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if of.joint_type(joint) != BALL or not driving or not (missing := _missing(of, joint)):
             continue
         gears = [" ".join(f"{x:g}" for x in of.row("actuator_gear", each, 6)[:3]) for each in driving]
-        axes = {1: "one axis", 2: "two axes"}[AXES - int(missing)]
+        axes = ("no axis", "one axis", "two axes")[AXES - int(missing)]
         says = (
             f"The gears of its actuators, {', '.join(gears)}, turn it about {axes}: on a ball joint a gear is an axis."
         )

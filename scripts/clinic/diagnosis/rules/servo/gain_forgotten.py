@@ -87,7 +87,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The position servos that nobody gave a gain, all together."""
     of = model.simulation
     servos = [i for i in range(of.count("actuator")) if (e := model.element("actuator", i)) and e.tag == "position"]
-    bare = [each for each in servos if model.value("actuator", each, "kp") is None]
+    bare = [each for each in servos if model.value("actuator", each, "kp") is None and of.gain(each)[0] == 1]
     tuned = [each for each in servos if each not in bare]
     if not tuned:
         yield from _none(model, bare)

@@ -32,7 +32,8 @@ Good:
     </mujoco>
 
 The number: where the servo rests over its control: `gainprm[0] / -biasprm[1]`, from 0.2 to 5 and off 1 by more than
-2 %. Farther off the control has another unit, such as 0 to 255; and where half of the servos have it, it is meant.
+2 %. Farther off the control has another unit, such as 0 to 255; where its ends are led to those of the joint's range,
+and where half of the servos have it, it is meant.
 
 When it is wrong: a control that is scaled on purpose.
 """
@@ -64,11 +65,27 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     gain, bias = of.gain(found[0])[0], of.bias(found[0])
     says = f"It rests at {ratios[found[0]]:.3g} times its control: gainprm {gain:g}, biasprm {bias[1]:g}."
-    value = f"{bias[0]:g} {-gain:g} {bias[2]:g}"
-    edits = model.set("actuator", found[:1], "biasprm", value)
+    value = _mended(of, found[0])
+    edits = tuple(edit for each in found for edit in model.set("actuator", [each], "biasprm", _mended(of, each)))
     probe = Probe("where a servo rests over its control, off 1 by", "", _off, (found[0],), dynamic=False)
     names, now = tuple(of.name("actuator", each) for each in found), f"{bias[0]:g} {bias[1]:g} {bias[2]:g}"
     yield Suspect(names, "biasprm", now, value, edits, probe, OFF, says, "1", level="hint")
+
+
+def _mended(of: Simulation, actuator: int) -> str:
+    bias = of.bias(actuator)
+    return f"{bias[0]:g} {-of.gain(actuator)[0]:g} {bias[2]:g}"
+
+
+def _spans(of: Simulation, actuator: int) -> bool:
+    """Whether the control's range is led to the joint's own: it is scaled on purpose."""
+    joint, bias = of.driven_joint(actuator), of.bias(actuator)
+    if joint is None or not of.model("actuator_ctrllimited")[actuator] or not of.model("jnt_limited")[joint]:
+        return False
+    ratio, rest = of.gain(actuator)[0] / -bias[1], bias[0] / -bias[1]
+    ends = [rest + ratio * end for end in of.row("actuator_ctrlrange", actuator, 2)]
+    low, high = of.row("jnt_range", joint, 2)
+    return max(abs(ends[0] - low), abs(ends[1] - high)) < OFF * (high - low)
 
 
 def _ratio(of: Simulation, actuator: int) -> float:
@@ -77,7 +94,7 @@ def _ratio(of: Simulation, actuator: int) -> float:
         int(of.model("actuator_gaintype")[actuator]) == FIXED and int(of.model("actuator_biastype")[actuator]) == AFFINE
     )
     gain, bias = of.gain(actuator)[0], of.bias(actuator)[1]
-    return gain / -bias if affine and bias < 0 < gain else 0.0
+    return gain / -bias if affine and bias < 0 < gain and not _spans(of, actuator) else 0.0
 
 
 def _off(of: Simulation, actuator: int) -> float:

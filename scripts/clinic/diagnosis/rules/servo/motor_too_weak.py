@@ -92,7 +92,7 @@ def _unlifted(model: ReaderModel) -> Iterator[Suspect]:
         return
     worst = max(found, key=lambda each: _burden(of, each))
     kv, joint = of.gain(worst)[0], of.name("joint", of.driven_joint(worst) or 0)
-    most = -of.bias(worst)[2] * _fastest(of, worst)
+    most = _strongest(of, worst)
     value = rounded(10 * kv * _burden(of, worst))
     says = f"Against a {joint} that stands still it gives {most:.3g} N m (N) at most: kv times the greatest control. "
     says += f"The weight asks for {_burden(of, worst):.2g} times as much."
@@ -102,8 +102,11 @@ def _unlifted(model: ReaderModel) -> Iterator[Suspect]:
     yield Suspect(names, "kv", f"{kv:g}", value, edits, probe, 1, says, "well above the weight", level="hint")
 
 
-def _fastest(of: Simulation, actuator: int) -> float:
-    return max(map(abs, of.row("actuator_ctrlrange", actuator, 2)))
+def _strongest(of: Simulation, actuator: int) -> float:
+    """What a velocity servo gives while its joint stands, at its greatest control."""
+    most = -of.bias(actuator)[2] * max(map(abs, of.row("actuator_ctrlrange", actuator, 2)))
+    limited = of.model("actuator_forcelimited")[actuator]
+    return min(most, max(map(abs, of.row("actuator_forcerange", actuator, 2)))) if limited else most
 
 
 def _burden(of: Simulation, actuator: int) -> float:
@@ -113,9 +116,11 @@ def _burden(of: Simulation, actuator: int) -> float:
     velocity = int(of.model("actuator_biastype")[actuator]) == AFFINE and not any(bias[:2]) and bias[2] < 0
     if joint is None or not velocity or not of.model("actuator_ctrllimited")[actuator] or len(drives) > 1:
         return 0.0
-    gear = abs(of.row("actuator_gear", actuator, 6)[0])
-    most = -bias[2] * _fastest(of, actuator) * gear
-    return loads(of)[of.dof(joint)] / most if most > 0 else 0.0
+    if of.model("jnt_stiffness")[joint] or of.count("equality") or of.count("tendon"):
+        return 0.0
+    most = _strongest(of, actuator) * abs(of.row("actuator_gear", actuator, 6)[0])
+    held = loads(of)[of.dof(joint)] - of.model("dof_frictionloss")[of.dof(joint)]
+    return held / most if most > 0 else 0.0
 
 
 def _slow_of(of: Simulation, joint: int) -> float:

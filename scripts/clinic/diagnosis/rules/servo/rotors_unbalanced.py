@@ -226,7 +226,12 @@ def _level(of: Simulation, body: int) -> float:
     if drone is None or gears != {(1.0, 0.0, 0.0, 0.0, 0.0, 0.0)}:
         return 0.0
     of.begin()
-    return math.sqrt(max(0.0, 1 - dot(drone.up, _against(of, body)) ** 2))
+    sites = [int(of.model("actuator_trnid")[2 * each.actuator]) for each in drone.rotors]
+    upright = all(of.data_row("site_xmat", site, 9)[8] > LEVEL_FROM for site in sites)
+    places = [each.place for each in drone.rotors]
+    middle = tuple(sum(place[k] for place in places) / len(places) for k in range(3))
+    around = norm(middle) < sum(map(norm, places)) / len(places) / 2  # and not behind
+    return math.sqrt(max(0.0, 1 - dot(drone.up, _against(of, body)) ** 2)) if upright and around else 0.0
 
 
 def _tilt(of: Simulation, body: int) -> float:

@@ -67,12 +67,12 @@ Good:
     </mujoco>
 
 The number: how far a distance between two axes in a row, or the offset between their two neighbours along an axis, is
-from the data sheet's; more than 2 mm and 1 %, where at most two of an arm's are. Or the axes that point against the
-ones in the maker's description while all the others point along them, at most two. Or how far the shoulder is from
-where it is above the base; or how many times the links together weigh what they do there, from 2 on; or by how many
-degrees a range goes beyond theirs, from 3 to 45. Lengths and axes are those of Denavit and Hartenberg, so that they do
-not depend on where the frames of the bodies are. They are from the makers' own descriptions, for the arms in
-`probes/arms.toml`.
+from the data sheet's; more than 2 mm and 1 %, where at most two of an arm's are, and half of those that are not 0. Or
+the axes that point against the ones in the maker's description while all the others point along them, at most two. Or
+how far the shoulder is from where it is above the base; or how many times the links together weigh what they do there,
+from 2 on; or by how many degrees a range goes beyond theirs, from 3 to 45. Lengths and axes are those of Denavit and
+Hartenberg, so that they do not depend on where the frames of the bodies are. They are from the makers' own
+descriptions, for the arms in `probes/arms.toml`.
 
 When it is wrong: an arm that was measured itself, or one of another series of the same name.
 """
@@ -120,9 +120,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for count in dict.fromkeys(len(arm.axes) for arm in arms):
         alike = [arm for arm in arms if len(arm.axes) == count]
         for row in rows_of_hinges(model.simulation, count):
-            arm = min(alike, key=lambda arm: len(_wrong(arm, row)))
+            arm = min(alike, key=lambda arm: (len(_wrong(arm, row)), len(_farther(model, arm, row))))
             wrong = _wrong(arm, row)
-            if len(wrong) <= FEW:
+            if len(wrong) <= FEW and 2 * len(wrong) <= sum(each > 0 for each in arm.numbers):
                 yield from (_length(model, arm, row, which) for which in wrong)
                 yield from _axes(model, arm, row)
                 yield from _base(model, arm, row)
@@ -200,10 +200,17 @@ def _against(of: Simulation, joints: tuple[int, ...], which: int, right: str) ->
 def _base(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     """An arm whose shoulder is not where its base carries it."""
     of, height = model.simulation, arm.height
-    if height is None or not BASE.search(_foot(of, row.joints)) or _sunk(of, row.joints, height) <= NEAR:
-        return
     body = int(of.model("jnt_bodyid")[row.joints[0]])
     parent = int(of.model("body_parentid")[body])
+    urdf = model.source is not None and model.source.urdf  # looked at afloat
+    carries = [each for each in range(1, of.count("body")) if of.model("body_parentid")[each] == parent]
+    own = not of.model("body_weldid")[parent] or (
+        urdf and not any(of.joints_of(each) for each in carries if each != body)
+    )
+    if height is None or not own or not BASE.search(of.names("body")[parent]):
+        return
+    if _sunk(of, row.joints, height) <= NEAR:
+        return
     of.begin()
     away = sub(tuple(height * x for x in row.axes[0]), sub(row.shoulder, of.data_row("xpos", parent, 3)))
     place = add(of.row("body_pos", body, 3), times(transpose(of.data_row("xmat", parent, 9)), away))
@@ -213,11 +220,6 @@ def _base(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     says += f"{1000 * height:.4g} mm above the frame of the base."
     now, value = written(of.row("body_pos", body, 3)), written(place)
     yield Suspect((of.name("body", body),), "pos", now, value, edits, probe, NEAR, says, value, level="hint")
-
-
-def _foot(of: Simulation, joints: tuple[int, ...]) -> str:
-    """The name of what carries the first joint."""
-    return of.names("body")[int(of.model("body_parentid")[int(of.model("jnt_bodyid")[joints[0]])])]
 
 
 def _sunk(of: Simulation, joints: tuple[int, ...], height: float) -> float:
@@ -242,13 +244,8 @@ def _mass(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
 
 def _ranges(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     """Joints that turn farther than those of the arm; where the axes are the same, so that their signs are."""
-    of = model.simulation
-    beyond = {
-        joint: right
-        for joint, right in zip(row.joints, arm.ranges, strict=False)
-        if _beyond(of, joint, right) > FARTHER and (not any(arm.axes) or not _unlike(row, arm.axes))
-    }
-    if not beyond:
+    of, beyond = model.simulation, _farther(model, arm, row)
+    if not beyond or (any(arm.axes) and _unlike(row, arm.axes)):
         return
     unit = model.angle_unit
     worst = max(beyond, key=lambda joint: _beyond(of, joint, beyond[joint]))
@@ -263,6 +260,12 @@ def _ranges(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     probe = Probe("range beyond the data sheet's", "rad", _beyond, (worst, beyond[worst]), dynamic=False)
     names = tuple(of.name("joint", joint) for joint in beyond)
     yield Suspect(names, "range", now, values[worst], edits, probe, FARTHER, says, values[worst], level="hint")
+
+
+def _farther(model: ReaderModel, arm: Arm, row: Measured) -> dict[int, tuple[float, float]]:
+    """The joints of a row that turn farther than the arm's, with the arm's ranges."""
+    ranges = zip(row.joints, arm.ranges, strict=False)
+    return {joint: right for joint, right in ranges if _beyond(model.simulation, joint, right) > FARTHER}
 
 
 def _beyond(of: Simulation, joint: int, right: tuple[float, float]) -> float:

@@ -58,7 +58,8 @@ Good:
     </mujoco>
 
 The number: the letters by which the word differs, one, from a word of five letters and more that stands in four and
-more of the names of its kind, where the one stands in no other name of the model. A plural is not told.
+more of the names of its kind, where the one stands in no other name of the model, and begins with the same letter. A
+plural is not told.
 
 When it is wrong: two words that happen to be so alike, or a name that your own code knows as it is.
 """
@@ -95,12 +96,19 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 if everywhere[word] > 1 or not meant:
                     continue
                 says = f"{word} stands in this name alone, and {meant[0]} in {common[meant[0]]} others."
-                value = re.sub(word, meant[0], name, flags=re.IGNORECASE)
+                value = _corrected(name, word, meant[0])
                 probe = counted("names with a word that is nearly another", 1)
                 at = model.element(kind, index)
                 yield Suspect(
                     (of.name(kind, index),), "name", name, value, (), probe, 0, says, value, level="hint", at=at
                 )
+
+
+def _corrected(name: str, word: str, meant: str) -> str:
+    """A name with another word, which begins with a capital letter where the one did."""
+    for wrong, right in ((word, meant), (word.capitalize(), meant.capitalize()), (word.upper(), meant.upper())):
+        name = re.sub(rf"{wrong}(?![a-z])", right, name)
+    return name
 
 
 def _words(name: str) -> list[str]:
@@ -110,7 +118,7 @@ def _words(name: str) -> list[str]:
 def _nearly(word: str, other: str) -> bool:
     """Whether one letter of another word is missing, is one too many, is another one, or two are swapped."""
     short, long = sorted((word, other), key=len)
-    if word == other or len(other) < LETTERS or len(word) < LETTERS - 1 or long == f"{short}s":
+    if word == other or word[:1] != other[:1] or len(other) < LETTERS or len(word) < LETTERS - 1 or long == f"{short}s":
         return False
     if len(short) == len(long):
         unlike = [at for at in range(len(short)) if short[at] != long[at]]

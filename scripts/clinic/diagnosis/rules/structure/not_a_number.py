@@ -47,7 +47,21 @@ UNPLANTED = "the compiler refuses most of what one would plant"
 
 NONE = re.compile(r"[-+]?nan", re.IGNORECASE)
 NUMBER = re.compile(r"[-+]?(nan|inf|\d*\.?\d+\.?([eE][-+]?\d+)?)", re.IGNORECASE)
-NAMES = {"name", "class", "joint", "body", "link"}
+NAMES = {
+    "name",
+    "class",
+    "childclass",
+    "joint",
+    "body",
+    "link",
+    "material",
+    "mesh",
+    "texture",
+    "site",
+    "geom",
+    "tendon",
+}
+NOT_ZERO = {"xyaxes", "axis", "zaxis", "mass", "size", "fovy"}
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -64,7 +78,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             mended = " ".join("0" if NONE.fullmatch(word) else word for word in words)
             name = element.get("name")
             told = f'{element.tag} "{name}"' if name else f"a <{element.tag}>"
-            says = f"{wrong[0]} is no number, and MuJoCo takes it for one here."
-            edits = (set_attribute(element, attribute, mended),)
+            says = f"{wrong[0]} is no number, and MuJoCo accepts it."
+            zero = not any(float(word) for word in mended.split())
+            edits = () if zero or attribute in NOT_ZERO else (set_attribute(element, attribute, mended),)
             probe = counted("attributes with nan among their numbers", 1)
             yield Suspect((told,), attribute, value, mended, edits, probe, 0, says, "numbers alone", level="hint")

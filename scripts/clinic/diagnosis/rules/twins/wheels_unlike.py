@@ -54,6 +54,8 @@ Good:
 The number: of the two driven wheels on one axle, how much equal controls roll them against each other, from -1, both
 the same way, to 1; and by how much the smaller radius is less than the other, from 0.2 % on.
 
+In a URDF, which has no actuators, it is the hinges that are called wheels'.
+
 When it is wrong: a robot whose code turns one side round, as for motors that are mounted as mirror images.
 """
 
@@ -83,6 +85,8 @@ AGAINST, ALONG, LEVEL_ENOUGH, UNLIKE = 0.9, 0.95, 0.2, 0.002
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Axles whose two wheels turn against each other, and such as have two radii."""
     of = model.simulation
+    if not of.count("actuator") and not (model.source is not None and model.source.urdf):
+        return
     for one, other in _axles(of):
         names = tuple(of.name("joint", joint) for joint in (one, other))
         if (against := _against(of, one, other)) > AGAINST:
@@ -98,6 +102,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             driving = [motor for motor in motors if motor is not None]
             turned = model.turned_axis(other)
             edits = turned if attribute == "axis" else model.set("actuator", driving[1:], "gear", value)
+            value = edits[0].value if edits else value
             told = (*names, *(of.name("actuator", motor) for motor in driving))
             yield Suspect(told, attribute, now, value, edits, probe, AGAINST, says, "both the same way", share=against)
         if _unlike(of, one, other) > UNLIKE:

@@ -2,7 +2,7 @@
 
 `biasprm` needs `biastype="affine"`: without it a `<general>` is a motor, its control a force. `lengthrange` tells a
 muscle how its tendon's length is scaled, and nobody else; `<position>` with a `ctrlrange` holds a length. `springref`
-needs a `stiffness`, `dynprm` a `dyntype`, `fluidshape` a `density` or a `viscosity` of the `<option>`.
+needs a `stiffness`, `fluidshape` a `density` or a `viscosity` of the `<option>`.
 
 Bad:
 
@@ -70,7 +70,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "what was meant by it, only intent knows"
 
-MUSCLE, USER, NONE = 2, 3, 0  # mjtGain, mjtBias; mjtBias, mjtDyn
+MUSCLE, USER, NONE = 2, 3, 0  # mjtGain, mjtBias
 
 
 class Idle(NamedTuple):
@@ -92,7 +92,6 @@ class Idle(NamedTuple):
 IDLE = {
     Idle("actuator", "biasprm", ("biastype", "affine"), "Without biastype it is not read, and the control is a force."),
     Idle("actuator", "lengthrange", ("", ""), "It is no muscle, and nothing else reads its lengthrange."),
-    Idle("actuator", "dynprm", ("dyntype", "filter"), "Without dyntype it is not read."),
     Idle("joint", "springref", ("stiffness", "above 0"), "Without stiffness there is no spring."),
     Idle("geom", "fluidshape", ("", "density or viscosity of <option>"), "There is no fluid: both are 0 in <option>."),
 }
@@ -132,12 +131,10 @@ def _read(of: Simulation, attribute: str, each: int) -> bool:
     match attribute:
         case "biasprm":
             return int(of.model("actuator_biastype")[each]) != NONE
-        case "dynprm":
-            return int(of.model("actuator_dyntype")[each]) != NONE
         case "lengthrange":
             kinds = {int(of.model(f"actuator_{what}type")[each]) for what in ("gain", "bias")}
             return bool(kinds & {MUSCLE, USER})
         case "springref":
-            return bool(of.model("jnt_stiffness")[each])
+            return bool(of.model("jnt_stiffness")[each]) or any(of.model("tendon_stiffness"))
         case _:
             return any(of.model(f"opt.{what}")[0] for what in ("density", "viscosity"))

@@ -37,7 +37,8 @@ Good:
     </mujoco>
 
 The number: how many actuators, limits, loops or pairs the model has of what is switched off. Of equality constraints
-those that hold at the start, to 1 mm or mrad: their parts stand as if they were on.
+those whose parts stand at the start as if they held, to 1 mm or mrad, and of connections and welds of two bodies
+without `relpose`, which MuJoCo takes from the start, those within one mechanism.
 
 When it is wrong: a model in which the code switches things on, or an actuator group that is chosen at run time.
 """
@@ -49,7 +50,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import remove_attribute
 from clinic.diagnosis.probes.couplings import JOINT as COUPLED
 from clinic.diagnosis.probes.equalities import by_mocap, gap, held, kind_of, sited
-from clinic.diagnosis.probes.shape import collides
+from clinic.diagnosis.probes.shape import collides, root_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
@@ -88,7 +89,7 @@ def _inactive(model: ReaderModel) -> Iterator[Suspect]:
     of.begin()
     for each, active in enumerate(of.model("eq_active0")):
         apart, edits = gap(of, each), model.set("equality", [each], "active", "true")
-        if active or by_mocap(of, each) or apart is None or apart > FITS:
+        if active or by_mocap(of, each) or apart is None or apart > FITS or not _placed(model, each):
             continue
         what = of.name("equality", each)
         kind = "joint" if kind_of(of, each) == COUPLED else "site" if sited(of, each) else "body"
@@ -96,6 +97,18 @@ def _inactive(model: ReaderModel) -> Iterator[Suspect]:
         says = f"{what} is off from the start, and its parts stand as if it held them."
         probe = counted("equality constraints that are off and fit", 1)
         yield Suspect((what, *ties), "active", "false", "true", edits, probe, 0, says, "true", level="hint")
+
+
+def _placed(model: ReaderModel, each: int) -> bool:
+    """Whether it is said where the parts belong: MuJoCo takes the places of two bodies from the start if it is not.
+
+    Two bodies of one mechanism are a loop; of two mechanisms one may hold the other now and then.
+    """
+    of = model.simulation
+    if kind_of(of, each) == COUPLED or sited(of, each) or model.value("equality", each, "relpose"):
+        return True
+    one, other = (root_of(of)[body] for body in held(of, each))
+    return one == other
 
 
 def _suspect(element: Element, attribute: str, now: str, number: int, says: str, value: str) -> Suspect:

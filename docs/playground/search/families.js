@@ -12,9 +12,9 @@ const IDLE = new Set(
 );
 
 const SHARP = 12;
-const UNIT = 100;
+const UNIT = 20;
 
-/** @typedef {{families: string[], prior: number[], stems: Record<string, number[]>}} Weights what stems say, by family, in hundredths */
+/** @typedef {{families: string[], prior: number[], stems: Record<string, number[]>}} Weights what stems say, by family, in twentieths */
 
 /**
  * @param {Weights} weights

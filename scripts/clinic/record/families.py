@@ -23,13 +23,13 @@ LEAST = 0.2  # the likelihood from which on a family is named
 OFTEN = 4  # how often a stem stands somewhere, to be known
 RIDGE = 1.0  # what keeps weights small
 SHARP = 12.0  # how much a score tells: with it, sayings that are left out find their family likeliest
-UNIT = 100.0  # weights are whole numbers, of hundredths
+UNIT = 20.0  # weights are whole numbers, of twentieths
 IDLE = """a an and are as at be been but by can did do does doing done for from had has have i if in is it its me my of
 on or so that the their them there they this to was we were when while with you your mujoco simulation"""
 
 
 class Weights(NamedTuple):
-    """What a text's stems say of its family: all by family, in the order of `families()`, in hundredths.
+    """What a text's stems say of its family: all by family, in the order of `families()`, in twentieths.
 
     Attributes:
         prior: What is said without a word.
@@ -122,8 +122,8 @@ def weights_of(phrases: Iterable[tuple[str, str]]) -> Weights:
     said /= np.maximum(1, np.linalg.norm(said, axis=1, keepdims=True))
     prior = wanted.mean(axis=0)
     solved = np.linalg.solve(said.T @ said + RIDGE * np.eye(len(column)), said.T @ (wanted - prior))
-    hundredths = np.rint(UNIT * solved).astype(int).tolist()
-    return Weights(np.rint(UNIT * prior).astype(int).tolist(), dict(zip(column, hundredths, strict=True)))
+    twentieths = np.rint(UNIT * solved).astype(int).tolist()
+    return Weights(np.rint(UNIT * prior).astype(int).tolist(), dict(zip(column, twentieths, strict=True)))
 
 
 @cache

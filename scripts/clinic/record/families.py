@@ -11,7 +11,6 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
 import yaml
 
 FOLDER = Path(__file__).parent
@@ -112,6 +111,8 @@ def weights_of(phrases: Iterable[tuple[str, str]]) -> Weights:
     A phrase is a vector of length 1 with as much of each of its stems. The weights are those of least squares towards
     1 for its family and 0 for the others: Rifkin, Yeo and Poggio, *Regularized Least-Squares Classification*, 2003.
     """
+    import numpy as np
+
     known = [(name, {*_stems(phrase)}) for name, phrase in phrases]
     often = Counter(stem for _, stems in known for stem in stems)
     column = {stem: place for place, stem in enumerate(sorted(stem for stem in often if often[stem] >= OFTEN))}

@@ -82,21 +82,17 @@ def known_arms() -> tuple[Arm, ...]:
 
 def _arm(name: str, said: dict[str, Any]) -> Arm:
     lengths, offsets = (tuple(each / 1000 for each in said.get(key, ())) for key in ("lengths", "offsets"))
-    height, ranges = (
-        said.get("height"),
-        [(math.radians(low), math.radians(high)) for low, high in said.get("range", ())],
-    )
+    height = said.get("height")
+    ranges = tuple((math.radians(low), math.radians(high)) for low, high in said.get("range", ()))
     axes = tuple(said["axes"].split()) if "axes" in said else ("",) * (len(lengths) + 1)
     metres = None if height is None else height / 1000
-    return Arm((name, *said.get("also", ())), lengths, offsets, axes, metres, said.get("mass"), tuple(ranges))
+    return Arm((name, *said.get("also", ())), lengths, offsets, axes, metres, said.get("mass"), ranges)
 
 
 def called(text: str) -> list[Arm]:
     """The arms of which a text has a name, as a word of its own; the maker's in common where it names none of them."""
-    said = re.sub(r"[^a-z0-9]+", "_", text.lower())
-    named = [
-        arm for arm in known_arms() if any(re.search(rf"(?<![a-z0-9]){name}(?![a-z0-9])", said) for name in arm.names)
-    ]
+    said = re.sub(r"[^a-z0-9]+", "_", f" {text.lower()} ")
+    named = [arm for arm in known_arms() if any(f"_{name}_" in said for name in arm.names)]
     return [arm for arm in named if arm.lengths] or named
 
 
@@ -110,6 +106,11 @@ def rows_of_hinges(of: Simulation, count: int) -> Iterator[Measured]:
     for joints in _chains(of):
         for first in range(len(joints) - count + 1):
             yield measured(of, joints[first : first + count])
+
+
+def longest_row(of: Simulation) -> int:
+    """The most hinges in a row."""
+    return max(map(len, _chains(of)), default=0)
 
 
 @kept

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from clinic.diagnosis.probes.couplings import JOINT as COUPLED
 from clinic.diagnosis.probes.vector import Vector, add, norm, sub, times
 from clinic.diagnosis.simulation import Simulation
 
-CONNECT, WELD, SITE = 0, 1, 6  # mjtEq; mjtObj
+CONNECT, WELD, COUPLED, SITE = 0, 1, 2, 6  # mjtEq; mjtObj
 
 Frame = tuple[Vector, Vector]  # where it is in the world, and its axes
 

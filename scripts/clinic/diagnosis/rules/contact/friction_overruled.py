@@ -28,8 +28,8 @@ Good:
       </worldbody>
     </mujoco>
 
-The number: the least sliding friction of the contacts that the geom has within 2 s, over its own, from 4 on; told of
-frictions up to 0.2, in a model without `<pair>`. MuJoCo's manual, Computation, Contact: the element-wise maximum.
+The number: the least sliding friction of the contacts on which the geom rests after 2 s, over its own, from 4 on; told
+of frictions up to 0.2. MuJoCo's manual, Computation, Contact: the element-wise maximum.
 
 When it is wrong: a geom that is slippery against others, which it does not touch here.
 """
@@ -38,6 +38,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.touch import resting
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -49,7 +50,7 @@ LEVEL = "hint"
 UNPLANTED = "how slippery it is to be, only intent knows"
 
 SLIPPERY, TIMES, LEAST = 0.2, 4.0, 1e-3
-SAMPLES, FRICTIONLESS, OVERRIDE = 50, 1, 1  # condim; mjtEnableBit
+OVERRIDE = 1  # mjtEnableBit
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -74,27 +75,12 @@ def _over(of: Simulation, geom: int) -> float:
 
 @kept
 def _felt(of: Simulation) -> dict[int, float]:
-    """The least friction of the contacts of each slippery geom, as priority and the larger one have it."""
-    friction, priority = of.model("geom_friction")[::3], of.model("geom_priority")
-    condim = of.model("geom_condim")
-    made: dict[int, float] = {}
-    slippery = {geom for geom, each in enumerate(friction) if each <= SLIPPERY}
-    if not slippery or of.count("pair") or int(of.model("opt.enableflags")[0]) & OVERRIDE:
+    """The least friction of the contacts that each slippery geom rests on."""
+    friction, made = of.model("geom_friction")[::3], dict[int, float]()
+    if int(of.model("opt.enableflags")[0]) & OVERRIDE:
         return made
-    of.begin()
-    for _ in of.run(of.begin_with.duration, SAMPLES):
-        for contact in of.engine.contacts():
-            for geom in slippery & set(contact.geoms) if contact.force > 0 and min(contact.geoms) >= 0 else ():
-                other = sum(contact.geoms) - geom
-                ranks = priority[geom] - priority[other]
-                if max(condim[geom], condim[other]) == FRICTIONLESS:
-                    continue
-                own = (
-                    friction[geom]
-                    if ranks > 0
-                    else friction[other]
-                    if ranks < 0
-                    else max(friction[geom], friction[other])
-                )
-                made[geom] = min(made.get(geom, own), own)
+    for contact, decides in resting(of):
+        for geom in contact.geoms if decides.dim > 1 else ():
+            if geom >= 0 and friction[geom] <= SLIPPERY:
+                made[geom] = min(made.get(geom, decides.friction), decides.friction)
     return made

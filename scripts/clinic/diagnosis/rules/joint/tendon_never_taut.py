@@ -100,7 +100,12 @@ def _without_limit(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     for tendon in range(of.count("tendon")):
         low, high = of.row("tendon_range", tendon, 2)
-        if low < high or model.value("tendon", tendon, "range") is None or _acts(of, tendon):
+        if (
+            low < high
+            or of.model("tendon_limited")[tendon]
+            or model.value("tendon", tendon, "range") is None
+            or _acts(of, tendon)
+        ):
             continue
         length = of.model("tendon_length0")[tendon]
         value = f"0 {rounded(length)}"
@@ -112,27 +117,23 @@ def _without_limit(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _acts(of: Simulation, tendon: int) -> bool:
-    """Whether a spring, a damper, friction, an actuator or a limit acts on a tendon."""
-    first, number = (int(of.model(f"tendon_{what}")[tendon]) for what in ("adr", "num"))
-    if any(int(of.model("wrap_type")[wrap]) == JOINT for wrap in range(first, first + number)):
-        return True
-    passive = any(of.model(f"tendon_{what}")[tendon] for what in ("stiffness", "damping", "frictionloss", "limited"))
-    return passive or any(
-        int(kind) == TENDON and int(of.model("actuator_trnid")[2 * each]) == tendon
-        for each, kind in enumerate(of.model("actuator_trntype"))
+    """Whether a spring, a damper, friction or an actuator acts on a tendon, or it is one of joints."""
+    fixed = int(of.model("wrap_type")[int(of.model("tendon_adr")[tendon])]) == JOINT
+    passive = any(of.model(f"tendon_{what}")[tendon] for what in ("stiffness", "damping", "frictionloss"))
+    return (
+        fixed
+        or passive
+        or any(
+            int(kind) == TENDON and int(of.model("actuator_trnid")[2 * each]) == tendon
+            for each, kind in enumerate(of.model("actuator_trntype"))
+        )
     )
 
 
 def _rope(of: Simulation, tendon: int) -> bool:
     """Whether a tendon runs through space, and nothing acts on it but its limit."""
-    wrap = int(of.model("tendon_adr")[tendon])
-    acts = any(of.model(f"tendon_{what}")[tendon] for what in ("stiffness", "damping", "frictionloss"))
-    driven = any(
-        int(kind) == TENDON and int(of.model("actuator_trnid")[2 * each]) == tendon
-        for each, kind in enumerate(of.model("actuator_trntype"))
-    )
     limited = bool(of.model("tendon_limited")[tendon]) and of.row("tendon_range", tendon, 2)[1] > 0
-    return limited and not acts and not driven and int(of.model("wrap_type")[wrap]) != JOINT
+    return limited and not _acts(of, tendon)
 
 
 @kept

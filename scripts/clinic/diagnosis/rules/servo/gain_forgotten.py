@@ -70,6 +70,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.servo import servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, counted, rounded
@@ -86,9 +87,9 @@ SLOW = 3.0  # rad/s
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The position servos that nobody gave a gain, all together."""
     of = model.simulation
-    servos = [i for i in range(of.count("actuator")) if (e := model.element("actuator", i)) and e.tag == "position"]
-    bare = [each for each in servos if model.value("actuator", each, "kp") is None and of.gain(each)[0] == 1]
-    tuned = [each for each in servos if each not in bare]
+    told = [i for i in range(of.count("actuator")) if (e := model.element("actuator", i)) and e.tag == "position"]
+    bare = [each for each in told if model.value("actuator", each, "kp") is None and of.gain(each)[0] == 1]
+    tuned = [each for each in told if each not in bare]
     if not tuned:
         yield from _none(model, bare)
     if not bare or len(tuned) < max(2, len(bare)):
@@ -122,11 +123,7 @@ def _none(model: ReaderModel, bare: list[int]) -> Iterator[Suspect]:
 
 def _swing(of: Simulation, actuator: int) -> float:
     """The frequency in rad/s of a joint on its servo; 0 for an actuator of something else."""
-    joint = of.driven_joint(actuator)
-    if joint is None:
-        return 0.0
-    stiffness = -of.bias(actuator)[1] * of.row("actuator_gear", actuator, 6)[0] ** 2
-    return math.sqrt(max(0.0, stiffness) / max(of.mass_diagonal[of.dof(joint)], 1e-12))
+    return next((math.sqrt(each.stiffness / each.inertia) for each in servos(of) if each.actuator == actuator), 0.0)
 
 
 def _seconds(of: Simulation, actuator: int) -> float:

@@ -42,6 +42,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -52,24 +53,24 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "a control that is scaled differs from a slip by intent alone"
 
-FIXED, AFFINE = 0, 1  # mjtGain, mjtBias
 OFF, SCALED = 0.02, 5.0
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The servos whose gain and bias differ by a little, all together."""
     of = model.simulation
-    ratios = {each: ratio for each in range(of.count("actuator")) if (ratio := _ratio(of, each))}
+    ratios = {each.actuator: _ratio(of, each) for each in servos(of)}
+    scaled = {each.actuator for each in servos(of) if _spans(each)}
     found = [each for each, ratio in ratios.items() if abs(ratio - 1) > OFF and 1 / SCALED < ratio < SCALED]
+    found = [each for each in found if each not in scaled]
     if not found or (len(ratios) > 2 and 2 * len(found) >= len(ratios)):
         return
     gain, bias = of.gain(found[0])[0], of.bias(found[0])
     says = f"It rests at {ratios[found[0]]:.3g} times its control: gainprm {gain:g}, biasprm {bias[1]:g}."
-    value = _mended(of, found[0])
     edits = tuple(edit for each in found for edit in model.set("actuator", [each], "biasprm", _mended(of, each)))
     probe = Probe("where a servo rests over its control, off 1 by", "", _off, (found[0],), dynamic=False)
     names, now = tuple(of.name("actuator", each) for each in found), f"{bias[0]:g} {bias[1]:g} {bias[2]:g}"
-    yield Suspect(names, "biasprm", now, value, edits, probe, OFF, says, "1", level="hint")
+    yield Suspect(names, "biasprm", now, _mended(of, found[0]), edits, probe, OFF, says, "1", level="hint")
 
 
 def _mended(of: Simulation, actuator: int) -> str:
@@ -77,25 +78,18 @@ def _mended(of: Simulation, actuator: int) -> str:
     return f"{bias[0]:g} {-of.gain(actuator)[0]:g} {bias[2]:g}"
 
 
-def _spans(of: Simulation, actuator: int) -> bool:
+def _spans(servo: Servo) -> bool:
     """Whether the control's range is led to the joint's own: it is scaled on purpose."""
-    joint, bias = of.driven_joint(actuator), of.bias(actuator)
-    if joint is None or not of.model("actuator_ctrllimited")[actuator] or not of.model("jnt_limited")[joint]:
+    if servo.targets is None or servo.range is None:
         return False
-    ratio, rest = of.gain(actuator)[0] / -bias[1], bias[0] / -bias[1]
-    ends = [rest + ratio * end for end in of.row("actuator_ctrlrange", actuator, 2)]
-    low, high = of.row("jnt_range", joint, 2)
-    return max(abs(ends[0] - low), abs(ends[1] - high)) < OFF * (high - low)
+    (low, high), (least, most) = servo.targets, servo.range
+    return max(abs(low - least), abs(high - most)) < OFF * (most - least)
 
 
-def _ratio(of: Simulation, actuator: int) -> float:
-    """Where a servo rests over its control; 0 for what is none."""
-    affine = (
-        int(of.model("actuator_gaintype")[actuator]) == FIXED and int(of.model("actuator_biastype")[actuator]) == AFFINE
-    )
-    gain, bias = of.gain(actuator)[0], of.bias(actuator)[1]
-    return gain / -bias if affine and bias < 0 < gain and not _spans(of, actuator) else 0.0
+def _ratio(of: Simulation, servo: Servo) -> float:
+    """Where a servo rests, as the actuator's length, over its control."""
+    return servo.scale * of.row("actuator_gear", servo.actuator, 6)[0]
 
 
 def _off(of: Simulation, actuator: int) -> float:
-    return abs(_ratio(of, actuator) - 1)
+    return max((abs(_ratio(of, each) - 1) for each in servos(of) if each.actuator == actuator), default=0.0)

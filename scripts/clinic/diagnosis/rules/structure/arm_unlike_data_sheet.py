@@ -93,10 +93,11 @@ from clinic.diagnosis.probes.arms import (
     called,
     differs,
     direction,
+    longest_row,
     measured,
     rows_of_hinges,
 )
-from clinic.diagnosis.probes.vector import add, norm, sub, times, transpose, written
+from clinic.diagnosis.probes.vector import Vector, add, norm, sub, times, transpose, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -111,12 +112,13 @@ UNPLANTED = "one of the 81 models of the bench is an arm that is sold"
 BASE = re.compile(r"(?<![a-z])base(?![a-z])|link_?0(?![0-9])", re.IGNORECASE)
 FARTHER, ANOTHER, ROUND = math.radians(3), math.radians(45), 2 * math.pi - 0.1
 HEAVY = 2.0  # times the mass of the data sheet
+LEAST = 5  # hinges in a row: no arm of the table has fewer
 FEW = 2  # lengths, or axes, that may be wrong in an arm that is still the one of the data sheet
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Rows of hinges that have nearly all numbers of an arm whose name stands in the model."""
-    arms = called(_names(model))
+    arms = called(_names(model)) if longest_row(model.simulation) >= LEAST else []
     for count in dict.fromkeys(len(arm.axes) for arm in arms):
         alike = [arm for arm in arms if len(arm.axes) == count]
         for row in rows_of_hinges(model.simulation, count):
@@ -209,10 +211,9 @@ def _base(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     )
     if height is None or not own or not BASE.search(of.names("body")[parent]):
         return
-    if _sunk(of, row.joints, height) <= NEAR:
+    away = _away(of, row.joints, height)
+    if norm(away) <= NEAR:
         return
-    of.begin()
-    away = sub(tuple(height * x for x in row.axes[0]), sub(row.shoulder, of.data_row("xpos", parent, 3)))
     place = add(of.row("body_pos", body, 3), times(transpose(of.data_row("xmat", parent, 9)), away))
     edits = model.placed(body, place)
     probe = Probe("shoulder off where the base has it", "m", _sunk, (row.joints, height), dynamic=False)
@@ -222,11 +223,16 @@ def _base(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     yield Suspect((of.name("body", body),), "pos", now, value, edits, probe, NEAR, says, value, level="hint")
 
 
-def _sunk(of: Simulation, joints: tuple[int, ...], height: float) -> float:
+def _away(of: Simulation, joints: tuple[int, ...], height: float) -> Vector:
+    """From where the shoulder is to where the base has it, in m."""
     row = measured(of, joints)
     of.begin()
     parent = int(of.model("body_parentid")[int(of.model("jnt_bodyid")[joints[0]])])
-    return norm(sub(sub(row.shoulder, of.data_row("xpos", parent, 3)), tuple(height * x for x in row.axes[0])))
+    return sub(add(of.data_row("xpos", parent, 3), row.axes[0], height), row.shoulder)
+
+
+def _sunk(of: Simulation, joints: tuple[int, ...], height: float) -> float:
+    return norm(_away(of, joints, height))
 
 
 def _mass(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:

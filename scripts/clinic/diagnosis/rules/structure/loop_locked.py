@@ -68,8 +68,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.engine import BALL, FREE
-from clinic.diagnosis.probes.couplings import JOINT as COUPLED
-from clinic.diagnosis.probes.equalities import CONNECT, WELD, by_mocap, ends, frames, kind_of, off_course
+from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, WELD, by_mocap, ends, frames, kind_of, off_course
 from clinic.diagnosis.probes.vector import dot, sub, transpose
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import WIDTH, Simulation

@@ -42,8 +42,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.couplings import JOINT as COUPLED
-from clinic.diagnosis.probes.equalities import CONNECT, WELD, by_mocap, kind_of
+from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, WELD, by_mocap, kind_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect

@@ -48,8 +48,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import remove_attribute
-from clinic.diagnosis.probes.couplings import JOINT as COUPLED
-from clinic.diagnosis.probes.equalities import by_mocap, gap, held, kind_of, sited
+from clinic.diagnosis.probes.equalities import COUPLED, by_mocap, gap, held, kind_of, sited
 from clinic.diagnosis.probes.shape import collides, root_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation

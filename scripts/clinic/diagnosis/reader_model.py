@@ -26,9 +26,16 @@ URDF = {
     "axis": ("axis", "xyz"),
     "origin": ("origin", "xyz"),
 }
-AFLOAT = """<mujoco><compiler fusestatic="false" boundmass="1e-9" boundinertia="1e-15" inertiagrouprange="0 0"
- discardvisual="false"/></mujoco><link name="world"/><joint name="afloat" type="floating">
-<parent link="world"/><child link="{root}"/></joint>"""
+AFLOAT = (
+    """<link name="world"/><joint name="afloat" type="floating"><parent link="world"/><child link="{root}"/></joint>"""
+)
+UNFUSED = {
+    "fusestatic": "false",
+    "boundmass": "1e-9",
+    "boundinertia": "1e-15",
+    "inertiagrouprange": "0 0",
+    "discardvisual": "false",
+}
 SECTION = {"actuator": "actuator", "sensor": "sensor", "equality": "equality", "tendon": "tendon", "key": "keyframe"}
 
 
@@ -88,15 +95,26 @@ class ReaderModel:
         MuJoCo makes the root link of a URDF the world, and fuses the links without a joint: what is written of their
         mass does not show in the compiled model. It does once the robot is put on a free joint.
         """
-        if self.source is None or not self.source.urdf or "<mujoco" in self.texts[self.source.main]:
+        if self.source is None or not self.source.urdf:
             return self
         children = {each.get("link") for each in self.source.elements("child")}
         roots = [name for each in self.source.root.children if each.tag == "link" and (name := each.get("name"))]
         roots = [name for name in roots if name not in children and not set(name) & set('"&<')]
-        edits = tuple(insert(self.source.root, AFLOAT.format(root=root)) for root in roots[:1])
-        texts = apply(self.texts, edits)
+        edits = [insert(self.source.root, AFLOAT.format(root=root)) for root in roots[:1]]
+        texts = apply(self.texts, [*edits, *self._unfused()])
         floating = ReaderModel(self.engine, texts, self.source, Start())
         return self if floating.error else floating
+
+    def _unfused(self) -> list[Edit]:
+        """The edits that have MuJoCo keep every link of a URDF, with what little mass it has."""
+        assert self.source is not None
+        root = self.source.root
+        given = next((each for each in root.children if each.tag == "mujoco"), None)
+        compiler = next((each for each in given.children if each.tag == "compiler"), None) if given else None
+        if compiler is not None:
+            return [set_attribute(compiler, *each) for each in UNFUSED.items()]
+        xml = f"<compiler {' '.join(f'{name}={value!r}' for name, value in UNFUSED.items())}/>"
+        return [insert(given, xml) if given else insert(root, f"<mujoco>{xml}</mujoco>")]
 
     @property
     def angle_unit(self) -> float:

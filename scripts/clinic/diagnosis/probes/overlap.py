@@ -6,11 +6,13 @@ import math
 
 from clinic.diagnosis.engine import HINGE, SLIDE, Contact
 from clinic.diagnosis.probes.run import State, state
-from clinic.diagnosis.probes.shape import falling, geoms_of_tree, root_of, thickness
+from clinic.diagnosis.probes.shape import falling, geoms_of_tree, root_of, roots, thickness
 from clinic.diagnosis.probes.vector import at
+from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
+LIMBS = 3  # that make a walker
 LINKS = 3  # bodies further apart in the tree are no relatives
 
 
@@ -116,3 +118,19 @@ def _buried(simulation: Simulation) -> float:
 def at_start() -> Probe:
     """The deepest overlap at the start of something that can fall, as a share of its extent."""
     return Probe("deepest overlap at the start", "of its extent", _buried, dynamic=False)
+
+
+def legged(model: ReaderModel) -> bool:
+    """Whether it is fixed in an empty world, has three limbs or more, and no exclude names what they hang on."""
+    simulation = model.simulation
+    empty = not any(int(body) == 0 for body in simulation.model("geom_bodyid"))
+    excludes = [each for each in (model.source.section("contact") if model.source else ()) if each.tag == "exclude"]
+    told = {each.get(side) for each in excludes for side in ("body1", "body2")}
+    minded = any(simulation.names("body")[body] in told for body in _parents(model))
+    return empty and not minded and len(roots(simulation)) >= LIMBS
+
+
+def _parents(model: ReaderModel) -> set[int]:
+    """The fixed bodies on which what moves hangs."""
+    of = model.simulation
+    return {body for root in roots(of) for body in of.ancestors(root) if body not in (0, root)}

@@ -22,6 +22,7 @@ SIDES = {"l": "r", "fl": "fr", "hl": "hr", "bl": "br", "ml": "mr", "rl": "rr"} |
 WORDS = (("left", "right"), ("Left", "Right"), ("LEFT", "RIGHT"))
 EXCHANGED = {"l": "r", "r": "l", "L": "R", "R": "L"}
 TOKEN = re.compile(r"[A-Z](?=[A-Z][a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
+FIRST_LETTER = re.compile(r"(?<![A-Za-z])[lL](?=[a-z]{3})")  # lfemur beside rfemur
 FIRST_FINGER = re.compile(r"(?<![a-z])ff(?![a-z])", re.IGNORECASE)  # beside it lf and rf are the little and ring finger
 LITTLE_FINGER, RING_FINGER = (re.compile(rf"(?<![a-z]){name}(?![a-z])", re.IGNORECASE) for name in ("lf", "rf"))
 KINDS = ("body", "joint", "geom", "site", "camera", "actuator", "sensor")
@@ -47,6 +48,8 @@ def right_of(name: str) -> Iterator[str]:
         other = SIDES[side.lower()]
         other = other.upper() if side.isupper() else other.title() if side[0].isupper() else other
         yield name[: found.start()] + other + name[found.end() :]
+    if (letter := FIRST_LETTER.sub(lambda found: EXCHANGED[found.group()], name)) != name:
+        yield letter
     if (bare := re.sub(r"_left(?![a-z])|(?<![a-z])left_", "", name)) != name:
         yield bare
 
@@ -270,6 +273,8 @@ def _by_name(simulation: Simulation, kind: str) -> list[tuple[int, int]]:
     hand = any(FIRST_FINGER.search(name) for name in names)
     for index, name in enumerate(names):
         right = next((places[other] for other in right_of(name) if other in places), None) if name else None
+        if FIRST_LETTER.sub("m", name) != name and FIRST_LETTER.sub("m", name) in places:  # lf, rf and mf are fingers
+            continue
         if right is not None and hand and RING_FINGER.search(names[right]) and LITTLE_FINGER.search(name):
             continue
         if right is not None and not used & {index, right}:

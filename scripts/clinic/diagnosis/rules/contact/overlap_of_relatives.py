@@ -47,8 +47,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.overlap import of_relatives, relatives
-from clinic.diagnosis.probes.shape import root_of, roots, thickness
+from clinic.diagnosis.probes.overlap import legged, of_relatives, relatives
+from clinic.diagnosis.probes.shape import root_of, thickness
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -58,13 +58,13 @@ SINCE = "0.1"
 LEVEL = "hint"
 CASE = "joint-snaps-at-start"
 
-MOST, LIMBS = 0.1, 3
+MOST = 0.1
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """All pairs of relatives that overlap, excluded together."""
     simulation = model.simulation
-    if model.measured(of_relatives()) <= MOST or _walker(model):
+    if model.measured(of_relatives()) <= MOST or legged(model):
         return
     names = ["world", *simulation.names("body")[1:]]
     deep: dict[tuple[int, int], float] = {}
@@ -85,18 +85,3 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     edits = model.add("contact", xml) if named else ()
     value = f"{len(deep)} excluded" if len(deep) > 1 else "excluded"
     yield Suspect(tuple(dict.fromkeys(bodies)), "exclude", "none", value, edits, of_relatives(), MOST, says, excess=2.0)
-
-
-def _walker(model: ReaderModel) -> bool:
-    simulation = model.simulation
-    empty = not any(int(body) == 0 for body in simulation.model("geom_bodyid"))
-    excludes = [each for each in (model.source.section("contact") if model.source else ()) if each.tag == "exclude"]
-    told = {each.get(side) for each in excludes for side in ("body1", "body2")}
-    minded = any(simulation.names("body")[body] in told for body in _parents(model))
-    return empty and not minded and len(roots(simulation)) >= LIMBS
-
-
-def _parents(model: ReaderModel) -> set[int]:
-    """The bodies on which what moves hangs."""
-    parents = model.simulation.model("body_parentid")
-    return {int(parents[root]) for root in roots(model.simulation)} - {0}

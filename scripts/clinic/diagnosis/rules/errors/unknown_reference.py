@@ -63,6 +63,7 @@ OTHER = re.compile(
 )
 SIDES = [{"left", "right"}, {"l", "r"}, {"front", "rear"}, {"front", "back"}, {"fl", "fr"}, {"rl", "rr"}]
 SIDES += [{"fl", "rl"}, {"fr", "rr"}, {"lf", "rf"}, {"lh", "rh"}, {"upper", "lower"}]
+CLASSES = ("class", "childclass")
 OPTIONAL = {"class", "childclass", "material", "texture"}  # without them the element still is what it was
 
 
@@ -85,8 +86,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             wrong = now in names or (not names and attribute in (*OPTIONAL, "target"))
             if attribute == "name" or not wrong or (now in known and attribute in ("name", "file")):
                 continue
+            if attribute in CLASSES and now in (each.get("class") for each in every if each.tag == "default"):
+                continue
             if (found := _nearest(model, element, attribute, now, known)) is not None:
                 yield found
+                if attribute in CLASSES and model.measured(found.probe, found.edits) > 0:
+                    says = f"No <default> has the class {now!r}: the <include> that has it may be missing."
+                    yield advised(element, says, attribute)
                 return
         if names and set(element.attributes.values()) & set(names):
             if other := next((name for name in nearest(names[0], known) if _another(names[0], name)), ""):

@@ -54,6 +54,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.tendons import joints_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect, counted, rounded
@@ -65,7 +66,6 @@ LEVEL = "hint"
 UNPLANTED = "no healthy model hangs anything on a rope"
 
 TENDON = 3  # mjtTrn
-JOINT = 1  # mjtWrap
 SLACK, GROWN = 1 / 0.95, 1.1
 SAMPLES = 50
 
@@ -118,7 +118,7 @@ def _without_limit(model: ReaderModel) -> Iterator[Suspect]:
 
 def _acts(of: Simulation, tendon: int) -> bool:
     """Whether a spring, a damper, friction or an actuator acts on a tendon, or it is one of joints."""
-    fixed = int(of.model("wrap_type")[int(of.model("tendon_adr")[tendon])]) == JOINT
+    fixed = bool(joints_of(of, tendon))
     passive = any(of.model(f"tendon_{what}")[tendon] for what in ("stiffness", "damping", "frictionloss"))
     return (
         fixed

@@ -48,7 +48,8 @@ Good:
 
 The number: the distance between target and joint that three quarters of the position servos keep, in rad or m; 0.1 and
 more tells a cause, for keyframes in which at least two servos and half of them are off. Where there is no `ctrl`, two
-servos that go 0.5 away are told in a hint.
+servos that go 0.5 away are told in a hint. So is a servo on a tendon, a gripper's, that goes more than half of the
+tendon's way.
 
 When it is wrong: a keyframe that is meant to start a motion.
 Whether `ctrl` is left out on purpose, only its author knows: all zero and no `ctrl` is a hint.
@@ -59,10 +60,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.probes.key import farthest_target, off_target, reordered, servos
+from clinic.diagnosis.probes import tendons
+from clinic.diagnosis.probes.key import farthest_target, off_target, reordered, servos, start_at
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A keyframe's targets are not its pose"
 FAMILIES = ("drifts", "jumps-at-start", "sags")
@@ -70,12 +73,14 @@ SINCE = "0.1"
 UNPLANTED = "no healthy model has a keyframe with controls"
 
 LIMIT, FAR = 0.1, 0.5  # rad or m
+WAY = 0.5  # of a tendon's
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Keyframes whose `ctrl` holds another pose than their `qpos`."""
     of = model.simulation
     for key in range(of.count("key")):
+        yield from _tendons(model, key)
         if reordered(model, key):
             continue
         found = servos(of, key)
@@ -108,3 +113,38 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "the targets of a pose are its joints' positions",
             level="hint" if left_out else "cause",
         )
+
+
+def _tendons(model: ReaderModel, key: int) -> Iterator[Suspect]:
+    """Servos on tendons, such as a gripper's, that a keyframe with `ctrl` tells to go most of their way."""
+    of, element = model.simulation, model.element("key", key)
+    if element is None or not element.get("ctrl"):
+        return
+    for actuator in range(of.count("actuator")):
+        if _away(of, key, actuator) <= WAY:
+            continue
+        offset, scale = tendons.servo(of, actuator) or (0.0, 1.0)
+        tendon = int(of.model("actuator_trnid")[2 * actuator])
+        start_at(of, key)
+        ctrl, length = list(of.data("ctrl")), of.data("ten_length")[tendon]
+        now, held = f"{ctrl[actuator]:g}", rounded((length - offset) / scale)
+        ctrl[actuator] = float(held)
+        says = f"{of.name('actuator', actuator)} pulls {of.name('tendon', tendon)} from {length:.3g} to "
+        says += f"{offset + scale * float(now):.3g}; a control of {held} would hold it."
+        probe = Probe("way that a servo goes from the keyframe", "of the tendon's way", _away, (key, actuator), False)
+        edits, names = (
+            (set_attribute(element, "ctrl", written(ctrl)),),
+            (of.name("key", key), of.name("actuator", actuator)),
+        )
+        yield Suspect(names, "ctrl", now, held, edits, probe, WAY, says, "the tendon's length", level="hint")
+
+
+def _away(of: Simulation, key: int, actuator: int) -> float:
+    """How far a servo's tendon is from its target in a keyframe, as a share of the way that it has."""
+    line = tendons.servo(of, actuator)
+    tendon = int(of.model("actuator_trnid")[2 * actuator])
+    way = tendons.reach(of, tendon) if line else None
+    if line is None or way is None or way[1] <= way[0]:
+        return 0.0
+    start_at(of, key)
+    return abs(line[0] + line[1] * of.data("ctrl")[actuator] - of.data("ten_length")[tendon]) / (way[1] - way[0])

@@ -29,8 +29,9 @@ Good:
 
 The number: the inertia about the longest axis of the geoms, where the mean of the three is 1. A thin rod has 0 about
 its axis and 1.5 across. Of 249 long bodies of healthy robots, whose geoms have at most 0.3, none has more than 0.9.
-What makes whole turns, as wheels do, is the other way round: where the geoms have more than 1.25 about their own axis,
-less than 0.9 is a hint.
+Where the geoms have up to 0.5, more than 1.2 is told of a trunk, and of a body whose `diaginertia` alone lacks the
+`quat` that the others' have. What makes whole turns, as wheels do, is the other way round: where the geoms have more
+than 1.25 about their own axis, less than 0.9 is a hint.
 
 When it is wrong: a long cover around a flat motor; a hand, whose motor lies across it. In four of 160 models of other
 people that had another fault a hand or a finger was so: a hint.
@@ -43,7 +44,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
-from clinic.diagnosis.probes.inertia import set_inertial
+from clinic.diagnosis.probes.inertia import inertial, set_inertial
 from clinic.diagnosis.probes.matter import Matter, across, explicit, flat
 from clinic.diagnosis.probes.vector import dot, norm
 from clinic.diagnosis.reader_model import ReaderModel
@@ -56,6 +57,8 @@ AFLOAT = True
 LEVEL = "hint"
 
 LONG, LIMIT = 0.3, 1.0
+STOUT, ACROSS, OTHERS = 0.5, 1.2, 3
+TURNS = ("quat", "euler", "axisangle", "xyaxes", "zaxis")
 FLAT, OFF, ALONG = 1.25, 1.1, 0.95
 
 
@@ -72,7 +75,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             and min(moments) < 0.7 * max(moments)
         ):
             wheels[body] = found.flat, _turned(model, body, found)
-        if geoms > LONG or own <= LIMIT or min(moments) > 0.6 * max(moments):
+        stout = (
+            LONG < geoms < STOUT
+            and own > ACROSS
+            and (body in model.simulation.free_bodies or _turn_left_out(model, body))
+        )
+        if (geoms > LONG and not stout) or own <= LIMIT or min(moments) > 0.6 * max(moments):
             continue
         yield Suspect(
             (model.simulation.name("body", body),),
@@ -100,6 +108,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "a disk has 1.5, a wheel as wide as its radius 1.2",
             level="hint",
         )
+
+
+def _turn_left_out(model: ReaderModel, body: int) -> bool:
+    """Whether `diaginertia` stands without the turn that it has in nearly all other bodies."""
+    of = model.simulation
+    written = [each for one in range(1, of.count("body")) if (each := inertial(model, one)) is not None]
+    turned = [any(each.get(name) for name in TURNS) for each in written if each.get("diaginertia")]
+    own = inertial(model, body)
+    bare = own is not None and bool(own.get("diaginertia")) and not any(own.get(name) for name in TURNS)
+    return bare and sum(turned) >= max(OTHERS, 0.7 * len(turned))
 
 
 def _rolls(model: ReaderModel, body: int, found: Matter) -> bool:

@@ -31,7 +31,7 @@ Good:
 
 The number: the angle between the image's up and the world's, at most 100 degrees, for a camera that is fixed to the
 world or follows a robot, and does not look straight up or down. A hint tells of an image that lies on its side by more
-than 45 degrees, of a body with a free joint too.
+than 45 degrees, of a body with a free joint too; an upside-down one there is a hint as well.
 
 When it is wrong: a camera that is mounted upside down on purpose. Cameras on arms are left alone.
 """
@@ -44,7 +44,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.probes.view import FIXED, axes, onlookers, turned
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Level, Probe, Suspect
 
 TITLE = "A camera that is upside down"
 FAMILIES = ("camera",)
@@ -63,7 +63,8 @@ def _tilt(simulation: Simulation, camera: int) -> float:
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each camera that looks from outside, turned by 180 degrees about its view."""
     simulation = model.simulation
-    for camera in onlookers(simulation):
+    aboard = [camera for camera in _aboard(simulation) if camera not in onlookers(simulation)]
+    for camera in (*onlookers(simulation), *aboard):
         if _tilt(simulation, camera) > MOST:
             right, up, _ = axes(simulation, camera)
             edits = turned(model, camera, [-each for each in right], [-each for each in up])
@@ -73,16 +74,23 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             )
             says = "The image's up points down in the world."
             value = edits[-1].value if edits else "turned by 180 degrees"
-            yield Suspect((name,), "xyaxes", "", value, edits, probe, MOST, says, "0 to 90 degrees")
+            level: Level = "hint" if camera in aboard else "cause"
+            yield Suspect((name,), "xyaxes", "", value, edits, probe, MOST, says, "0 to 90 degrees", level=level)
     yield from _aside(simulation)
+
+
+def _aboard(simulation: Simulation) -> list[int]:
+    """The cameras that are fixed to a body with a free joint."""
+    bodies, modes = simulation.model("cam_bodyid"), simulation.model("cam_mode")
+    pairs = enumerate(zip(bodies, modes, strict=True))
+    return [camera for camera, (body, mode) in pairs if int(mode) == FIXED and int(body) in simulation.free_bodies]
 
 
 def _aside(simulation: Simulation) -> Iterator[Suspect]:
     """Each camera of the world or of a body with a free joint whose image lies on its side."""
-    bodies, modes = simulation.model("cam_bodyid"), simulation.model("cam_mode")
-    for camera, body in enumerate(map(int, bodies)):
-        outside = camera in onlookers(simulation)
-        if int(modes[camera]) != FIXED or not (outside or body in simulation.free_bodies):
+    modes, aboard = simulation.model("cam_mode"), _aboard(simulation)
+    for camera in range(simulation.count("camera")):
+        if int(modes[camera]) != FIXED or not (camera in onlookers(simulation) or camera in aboard):
             continue
         roll = _roll(simulation, camera)
         if roll > ASIDE:

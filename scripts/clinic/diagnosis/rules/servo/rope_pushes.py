@@ -60,6 +60,7 @@ import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.tendons import TENDON, joints_of
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -71,7 +72,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "a tendon may stand for a piston"
 
-TENDON, JOINT_WRAP = 3, 1  # mjtTrn; mjtWrap
 MOST = 10.0  # times what it pulls
 PISTON = re.compile(r"(?i)piston|cylinder|hydraul|pneum|strut|linear")
 
@@ -111,7 +111,7 @@ def _forces(of: Simulation, actuator: int) -> tuple[float, float]:
     tendon = int(of.model("actuator_trnid")[2 * actuator])
     if tuple(map(int, fields)) != (TENDON, 0, 0, 1):
         return 0.0, 0.0
-    if int(of.model("wrap_type")[int(of.model("tendon_adr")[tendon])]) == JOINT_WRAP:
+    if joints_of(of, tendon):
         return 0.0, 0.0
     factor = of.gain(actuator)[0] * of.row("actuator_gear", actuator, 6)[0]
     forces = [factor * ctrl for ctrl in of.row("actuator_ctrlrange", actuator, 2)]

@@ -68,6 +68,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.engine import BALL, FREE
+from clinic.diagnosis.probes import tendons
 from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, WELD, by_mocap, ends, frames, kind_of, off_course
 from clinic.diagnosis.probes.vector import dot, sub, transpose
 from clinic.diagnosis.reader_model import ReaderModel
@@ -80,7 +81,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "the healthy models have few loops"
 
-TENDON, JOINT_WRAP = 3, 1  # mjtTrn; mjtWrap
 MOST, SMALL = 0.1, 1e-3  # shares of how fast a joint tears at the connections
 STEP = 1e-5  # rad, m
 LARGE = 80  # degrees of freedom
@@ -115,11 +115,9 @@ def _driven(of: Simulation) -> list[int]:
     """The hinges and slides that actuators drive, themselves or by a fixed tendon."""
     found = [of.driven_joint(each) for each in range(of.count("actuator"))]
     for each, kind in enumerate(of.model("actuator_trntype")):
-        if int(kind) == TENDON:
+        if int(kind) == tendons.TENDON:
             tendon = int(of.model("actuator_trnid")[2 * each])
-            first, number = int(of.model("tendon_adr")[tendon]), int(of.model("tendon_num")[tendon])
-            wraps = range(first, first + number)
-            found += [int(of.model("wrap_objid")[i]) for i in wraps if int(of.model("wrap_type")[i]) == JOINT_WRAP]
+            found += [joint for joint, _ in tendons.joints_of(of, tendon)]
     return list(dict.fromkeys(joint for joint in found if joint is not None))
 
 

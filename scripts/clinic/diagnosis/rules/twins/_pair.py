@@ -19,6 +19,7 @@ ODD_SHARE = 0.12  # of all comparisons: more of them, and the model is not meant
 FEW = 0.2  # of the comparisons of one quantity
 SWAPPED = " It has the same digits in another order."
 EITHER = " Nothing here tells which of the two is wrong."
+PLACES = ("axis", "axis sign", "pos", "quat", "center of mass", "direction")
 ENOUGH = 12  # comparisons that make a model one of pairs
 
 
@@ -44,7 +45,8 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
             agree = len(same) - len(few)
             close = sum(each.unlike <= each.limit / 5 for each in same)
             most = max(1, FEW * len(same), 2 if agree >= 3 else 0)
-            if not few or len(few) > most or (agree < 2 and quantity not in ("joint", "target")) or close < 0.6 * agree:
+            known = agree >= 2 or quantity in ("joint", "target") or (len(few) == 1 and _only(found, trusted, few[0]))
+            if not few or len(few) > most or not known or close < 0.6 * agree:
                 continue
             bodies = {found.bodies(each) for each in few}
             alone = len(trusted) >= 30 and not any(each.odd and found.bodies(each) not in bodies for each in trusted)
@@ -59,6 +61,15 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
                 before, was_clear = told.get((kind, *pairs), ([], False))
                 told[kind, *pairs] = ([*before, *few], clear or was_clear)
     yield from told.values()
+
+
+def _only(found: Twins, trusted: Sequence[Comparison], odd: Comparison) -> bool:
+    """Whether it is the one difference of a pair that is alike in all else, such as two fingers."""
+    group = found.group(odd)
+    beside = [each for each in trusted if found.group(each) == group and each is not odd]
+    return (
+        odd.quantity not in PLACES and len(beside) >= ENOUGH and all(each.unlike <= each.limit / 5 for each in beside)
+    )
 
 
 def siblings(model: ReaderModel, kind: str, attributes: Collection[str] = ()) -> Iterator[Suspect]:

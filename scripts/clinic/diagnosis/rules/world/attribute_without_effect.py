@@ -2,7 +2,8 @@
 
 `biasprm` needs `biastype="affine"`: without it a `<general>` is a motor, its control a force. `lengthrange` tells a
 muscle how its tendon's length is scaled, and nobody else; `<position>` with a `ctrlrange` holds a length. `springref`
-needs a `stiffness`, `fluidshape` a `density` or a `viscosity` of the `<option>`.
+needs a `stiffness`, `fluidshape` a `density` or a `viscosity` of the `<option>`, and the `friction` of a geom that
+decides by its `priority` a `condim` above 1.
 
 Bad:
 
@@ -93,6 +94,7 @@ IDLE = {
     Idle("actuator", "biasprm", ("biastype", "affine"), "Without biastype it is not read, and the control is a force."),
     Idle("actuator", "lengthrange", ("", ""), "It is no muscle, and nothing else reads its lengthrange."),
     Idle("joint", "springref", ("stiffness", "above 0"), "Without stiffness there is no spring."),
+    Idle("geom", "friction", ("condim", "3"), "With condim 1, which decides here, a contact has no friction."),
     Idle("geom", "fluidshape", ("", "density or viscosity of <option>"), "There is no fluid: both are 0 in <option>."),
 }
 
@@ -108,7 +110,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         needed, value = idle.needs
         edits: tuple[Edit, ...] = ()
-        if value.isalpha():
+        if value.isalnum():
             elements = [model.element(idle.kind, each) for each in found]
             edits = tuple(set_attribute(element, needed, value) for element in elements if element is not None)
         probe = counted("attributes without effect", len(found))
@@ -136,5 +138,14 @@ def _read(of: Simulation, attribute: str, each: int) -> bool:
             return bool(kinds & {MUSCLE, USER})
         case "springref":
             return bool(of.model("jnt_stiffness")[each]) or any(of.model("tendon_stiffness"))
+        case "friction":
+            return not _slick(of, each)
         case _:
             return any(of.model(f"opt.{what}")[0] for what in ("density", "viscosity"))
+
+
+def _slick(of: Simulation, geom: int) -> bool:
+    """Whether a geom decides by its priority that its contacts have no friction."""
+    solid = of.model("geom_contype")[geom] or of.model("geom_conaffinity")[geom]
+    own = of.model("geom_priority")[geom]
+    return bool(solid) and own > 0 and of.model("geom_condim")[geom] == 1

@@ -1,0 +1,70 @@
+"""Tendons: the joints of fixed ones, the lengths that they can have, and the lengths that servos ask of them."""
+
+from __future__ import annotations
+
+from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.probes.servo import AFFINE, FIXED, INTEGRATOR, USER
+from clinic.diagnosis.simulation import Simulation, kept
+
+TENDON, JOINT_WRAP = 3, 1  # mjtTrn; mjtWrap
+POSES, GOLDEN = 64, 0.6180339887
+
+
+def joints_of(of: Simulation, tendon: int) -> list[tuple[int, float]]:
+    """The joints of a fixed tendon with their coefficients; none of a spatial one."""
+    first, number = int(of.model("tendon_adr")[tendon]), int(of.model("tendon_num")[tendon])
+    if int(of.model("wrap_type")[first]) != JOINT_WRAP:
+        return []
+    return [(int(of.model("wrap_objid")[each]), of.model("wrap_prm")[each]) for each in range(first, first + number)]
+
+
+def reach(of: Simulation, tendon: int) -> tuple[float, float] | None:
+    """The least and the most of a tendon's length over its joints' ranges; None where a joint has no range.
+
+    Of a spatial tendon in so many poses that the true ends lie a little outside.
+    """
+    fixed = joints_of(of, tendon)
+    if not fixed:
+        lengths = sampled(of)
+        return (min(each[tendon] for each in lengths), max(each[tendon] for each in lengths)) if lengths else None
+    if not all(of.model("jnt_limited")[joint] for joint, _ in fixed):
+        return None
+    ends = [[coefficient * x for x in of.row("jnt_range", joint, 2)] for joint, coefficient in fixed]
+    return sum(map(min, ends)), sum(map(max, ends))
+
+
+@kept
+def sampled(of: Simulation) -> list[tuple[float, ...]]:
+    """The lengths of all tendons in poses between the ends of all ranges; none where a hinge or slide has no range."""
+    kinds = [of.joint_type(joint) for joint in range(of.count("joint"))]
+    joints = [joint for joint, kind in enumerate(kinds) if kind in (HINGE, SLIDE)]
+    limited = all(of.model("jnt_limited")[joint] for joint in joints)
+    made = []
+    for pose in range(POSES if limited and joints else 0):
+        of.begin(forward=False)
+        for place, joint in enumerate(joints):
+            share = (0.5 + pose * (place + 1) * GOLDEN) % 1.0
+            share = (pose >> place % 6) % 2 if pose % 3 == 0 else share
+            low, high = of.row("jnt_range", joint, 2)
+            of.engine.write("qpos", [low + share * (high - low)], int(of.model("jnt_qposadr")[joint]))
+        of.engine.forward()
+        made.append(tuple(of.data("ten_length")))
+    return made
+
+
+def servo(of: Simulation, actuator: int) -> tuple[float, float] | None:
+    """Of a position servo on a tendon: the length it asks for at control 0, and what a unit adds; else None."""
+    kinds = [int(of.model(f"actuator_{kind}type")[actuator]) for kind in ("trn", "gain", "bias", "dyn")]
+    gain, bias, gear = of.gain(actuator)[0], of.bias(actuator), of.row("actuator_gear", actuator, 6)[0]
+    if kinds[:3] != [TENDON, FIXED, AFFINE] or kinds[3] in (INTEGRATOR, USER) or bias[1] >= 0 or not gain * gear:
+        return None
+    return bias[0] / (-bias[1] * gear), gain / (-bias[1] * gear)
+
+
+def targets(of: Simulation, actuator: int) -> tuple[float, float] | None:
+    """The least and the most that a servo on a tendon is told over its control range; None for another actuator."""
+    line = servo(of, actuator)
+    if line is None or not of.model("actuator_ctrllimited")[actuator]:
+        return None
+    ends = [line[0] + line[1] * ctrl for ctrl in of.row("actuator_ctrlrange", actuator, 2)]
+    return min(ends), max(ends)

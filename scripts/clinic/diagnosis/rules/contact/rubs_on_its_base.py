@@ -1,0 +1,100 @@
+"""A link rubs on the fixed base that it turns on, in all of its range, so that friction holds the joint.
+
+MuJoCo does not let a body collide with its parent, unless the parent is fixed to the world. Two collision meshes whose
+faces just meet need no depth for that: the contact is there at every angle, and the motor has to turn against it.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="base">
+          <geom type="cylinder" size="0.1 0.1" pos="0 0 0.1"/>
+          <body name="shoulder" pos="0 0 0.2">
+            <joint name="turn" axis="0 0 1" range="-170 170"/>
+            <geom type="cylinder" size="0.08 0.1" pos="0 0 0.099"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="base">
+          <geom type="cylinder" size="0.1 0.1" pos="0 0 0.1"/>
+          <body name="shoulder" pos="0 0 0.2">
+            <joint name="turn" axis="0 0 1" range="-170 170"/>
+            <geom type="cylinder" size="0.08 0.1" pos="0 0 0.099"/>
+          </body>
+        </body>
+      </worldbody>
+      <contact>
+        <exclude body1="base" body2="shoulder"/>
+      </contact>
+    </mujoco>
+
+The number: the share of 21 poses over the range, or over a turn where there is none, in which a contact of the two has
+force, however shallow; the other joints are at their start. MuJoCo's manual, Computation, Collision detection: the
+filter of parents.
+
+When it is wrong: a brake or a bearing that is modelled by its friction. Deep overlaps are told by
+`overlap-of-relatives`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.probes.overlap import legged, of_relatives
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A link that rubs on its fixed base"
+FAMILIES = ("stuck",)
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "whether a base touches the link on it is the geoms', which no edit of one number changes"
+
+POSES, ALWAYS, DEEP = 21, 0.99, 0.1
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Each hinge of a body on a fixed one that touches it at every angle."""
+    of = model.simulation
+    for joint in range(of.count("joint")):
+        body = int(of.model("jnt_bodyid")[joint])
+        base = int(of.model("body_parentid")[body])
+        fixed = base and not of.model("body_weldid")[base]
+        if of.joint_type(joint) != HINGE or not fixed or _share(of, joint, body, base) < ALWAYS:
+            continue
+        if model.measured(of_relatives()) > DEEP or legged(
+            model
+        ):  # told as an overlap, or by its free joint that is elsewhere
+            return
+        names = of.names("body")[base], of.names("body")[body]
+        edits = model.add("contact", '<exclude body1="{}" body2="{}"/>'.format(*names)) if all(names) else ()
+        told = of.name("body", base), of.name("body", body)
+        says = f"{told[1]} touches {told[0]}, which is fixed to the world, wherever {of.name('joint', joint)} stands."
+        probe = Probe("share of the poses in which the two touch", "", _share, (joint, body, base), dynamic=False)
+        yield Suspect((of.name("joint", joint), *told), "exclude", "none", "excluded", edits, probe, 0.5, says, "none")
+
+
+def _share(of: Simulation, joint: int, body: int, base: int) -> float:
+    """The share of poses of a joint in which its body and the one below press on each other."""
+    low, high = of.row("jnt_range", joint, 2) if of.model("jnt_limited")[joint] else (-math.pi, math.pi)
+    owners, place = of.model("geom_bodyid"), int(of.model("jnt_qposadr")[joint])
+    touched = 0
+    of.begin(forward=False)
+    for pose in range(POSES):
+        of.engine.write("qpos", [low + (high - low) * pose / (POSES - 1)], place)
+        of.engine.forward()
+        contacts = (each for each in of.engine.contacts() if min(each.geoms) >= 0 and each.force > 0)
+        touching = any({int(owners[geom]) for geom in each.geoms} == {body, base} for each in contacts)
+        if not touching and pose < 2:
+            return 0.0
+        touched += touching
+    return touched / POSES

@@ -1,0 +1,169 @@
+"""A part is turned unlike its twin, left and right, so that all that hangs on it points elsewhere.
+
+The `quat` or `euler` of a shoulder or a hip is copied from the other side, where its mirror image is meant. Each link
+below sits right on its parent, and the whole limb hangs askew.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="trunk" pos="0 0 1">
+          <freejoint/>
+          <geom type="box" size="0.1 0.08 0.2"/>
+          <body name="left_upper" pos="0 0.12 0.15" euler="30 0 0">
+            <joint name="left_shoulder" axis="0 1 0" range="-90 90"/>
+            <geom type="capsule" fromto="0 0 -0.03 0 0.02 -0.2" size="0.025"/>
+            <body name="left_lower" pos="0 0.03 -0.25">
+              <joint name="left_elbow" axis="0 1 0" range="-90 0"/>
+              <geom type="capsule" fromto="0 0 -0.03 0 0.02 -0.2" size="0.02"/>
+              <body name="left_hand" pos="0 0.02 -0.25">
+                <joint name="left_wrist" axis="0 1 0" range="-60 60"/>
+                <geom type="box" pos="0 0.02 -0.03" size="0.02 0.01 0.02"/>
+              </body>
+            </body>
+          </body>
+          <body name="right_upper" pos="0 -0.12 0.15" euler="30 0 0">
+            <joint name="right_shoulder" axis="0 1 0" range="-90 90"/>
+            <geom type="capsule" fromto="0 0 -0.03 0 -0.02 -0.2" size="0.025"/>
+            <body name="right_lower" pos="0 -0.03 -0.25">
+              <joint name="right_elbow" axis="0 1 0" range="-90 0"/>
+              <geom type="capsule" fromto="0 0 -0.03 0 -0.02 -0.2" size="0.02"/>
+              <body name="right_hand" pos="0 -0.02 -0.25">
+                <joint name="right_wrist" axis="0 1 0" range="-60 60"/>
+                <geom type="box" pos="0 -0.02 -0.03" size="0.02 0.01 0.02"/>
+              </body>
+            </body>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <worldbody>
+        <body name="trunk" pos="0 0 1">
+          <freejoint/>
+          <geom type="box" size="0.1 0.08 0.2"/>
+          <body name="left_upper" pos="0 0.12 0.15" euler="30 0 0">
+            <joint name="left_shoulder" axis="0 1 0" range="-90 90"/>
+            <geom type="capsule" fromto="0 0 -0.03 0 0.02 -0.2" size="0.025"/>
+            <body name="left_lower" pos="0 0.03 -0.25">
+              <joint name="left_elbow" axis="0 1 0" range="-90 0"/>
+              <geom type="capsule" fromto="0 0 -0.03 0 0.02 -0.2" size="0.02"/>
+              <body name="left_hand" pos="0 0.02 -0.25">
+                <joint name="left_wrist" axis="0 1 0" range="-60 60"/>
+                <geom type="box" pos="0 0.02 -0.03" size="0.02 0.01 0.02"/>
+              </body>
+            </body>
+          </body>
+          <body name="right_upper" pos="0 -0.12 0.15" euler="-30 0 0">
+            <joint name="right_shoulder" axis="0 1 0" range="-90 90"/>
+            <geom type="capsule" fromto="0 0 -0.03 0 -0.02 -0.2" size="0.025"/>
+            <body name="right_lower" pos="0 -0.03 -0.25">
+              <joint name="right_elbow" axis="0 1 0" range="-90 0"/>
+              <geom type="capsule" fromto="0 0 -0.03 0 -0.02 -0.2" size="0.02"/>
+              <body name="right_hand" pos="0 -0.02 -0.25">
+                <joint name="right_wrist" axis="0 1 0" range="-60 60"/>
+                <geom type="box" pos="0 -0.02 -0.03" size="0.02 0.01 0.02"/>
+              </body>
+            </body>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+The number: bodies, centres of mass and joints of the limb that are not where the image of the other side has them;
+told where the mirrored turn of one body mends at least four of five, and three at least.
+
+When it is wrong: two sides that are meant to differ, and happen to do so by a mirrored turn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
+from clinic.diagnosis.probes.twins import Twins, twins
+from clinic.diagnosis.probes.vector import Vector, written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A limb that is turned unlike its twin"
+FAMILIES = ("drifts", "jumps-at-start", "wrong-numbers")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "no pair of limbs in the bench's healthy models is written with a turn of its own"
+
+LEAST, LEFT, TURNED = 3, 0.2, 1e-3
+"""How many must be astray, which share of them may stay so, and what tells a turn from none."""
+MIRRORS = ((1, 1, -1, -1), (1, -1, 1, -1), (1, -1, -1, 1))  # a turn seen in a mirror across x, y or z
+OTHERS = ("euler", "axisangle", "xyaxes", "zaxis")
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The turn of a limb's first body that, mirrored, brings the limb to where its twin has it."""
+    of = model.simulation
+    for left, right in _turned(of):
+        before = _astray(of, left)
+        for body, twin in ((right, left), (left, right)) if before >= LEAST else ():
+            for turn in _mirrored(of, twin):
+                if _differs(turn, of.row("body_quat", body, 4)) and _with(of, body, turn, left) <= LEFT * before:
+                    yield _suspect(model, body, twin, turn, left)
+                    return
+
+
+def _suspect(model: ReaderModel, body: int, twin: int, turn: Vector, left: int) -> Suspect:
+    of, element = model.simulation, model.element("body", body)
+    before = _astray(of, left)
+    edits: tuple[Edit, ...] = ()
+    if element is not None and model.source is not None and not model.source.urdf:
+        others = [name for name in OTHERS if element.get(name)]
+        edits = (set_attribute(element, "quat", written(turn)), *(remove_attribute(element, name) for name in others))
+    names = of.name("body", body), of.name("body", twin)
+    says = (
+        f"{before:.0f} bodies, centres of mass and joints are not where the image of the other side has them; with the "
+    )
+    says += f"turn of {names[1]} mirrored nearly all are."
+    probe = Probe("bodies, centres of mass and joints unlike their twins", "", _astray, (left,), dynamic=False)
+    now, value = written(of.row("body_quat", body, 4)), written(turn)
+    return Suspect(names, "quat", now, value, edits, probe, LEFT * before, says, "two sides alike")
+
+
+def _turned(of: Simulation) -> list[tuple[int, int]]:
+    """The pairs of bodies of which one is turned against its parent, those nearest to the root first."""
+    pairs = [pair for pair in twins(of).pairs["body"] if pair[0] in twins(of).images]
+    turned = [pair for pair in pairs if any(_differs(of.row("body_quat", each, 4), (1, 0, 0, 0)) for each in pair)]
+    return sorted(turned, key=lambda pair: len(of.ancestors(pair[0])))
+
+
+def _mirrored(of: Simulation, body: int) -> list[Vector]:
+    """A body's turn as mirrors across the axes of its parent show it."""
+    own = of.row("body_quat", body, 4)
+    return [tuple(sign * x for sign, x in zip(mirror, own, strict=True)) for mirror in MIRRORS]
+
+
+def _differs(one: Vector, other: Vector) -> bool:
+    return min(max(abs(a - sign * b) for a, b in zip(one, other, strict=True)) for sign in (1, -1)) > TURNED
+
+
+def _astray(of: Simulation, left: int) -> float:
+    """How many places of bodies, centres of mass and joints of a limb are odd."""
+    return _count(twins(of), left)
+
+
+def _count(found: Twins, left: int) -> float:
+    quantities = ("pos", "center of mass", "axis")
+    places = [each for each in found.comparisons if each.kind in ("body", "joint") and each.quantity in quantities]
+    return float(sum(each.odd and left in found.of.ancestors(found.bodies(each)[0]) for each in places))
+
+
+def _with(of: Simulation, body: int, turn: Vector, left: int) -> float:
+    """How many are astray with another turn of a body."""
+    before = of.row("body_quat", body, 4)
+    of.engine.write_model("body_quat", turn, 4 * body)
+    try:
+        return _count(Twins(of), left)
+    finally:
+        of.engine.write_model("body_quat", before, 4 * body)

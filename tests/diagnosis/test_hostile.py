@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from clinic.commands.cli import app
 from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.edit import apply
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import rules
 from mutilated import KINDS, mutilated
@@ -36,3 +37,26 @@ def test_a_text_is_read_as_utf_8_whatever_it_declares(name: str) -> None:
         NativeEngine(), {"model.xml": f'<?xml version="1.0" encoding="{name}"?>\n{text}'}, select=["visual-mass"]
     ).causes
     assert (cause.elements, cause.line) == (('body "perçeuse"',), 6)
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ("<worldbody>", "<!-- ---- the world ---- --><worldbody>"),
+        ("<worldbody>", "<!--- the world ---><worldbody>"),
+        ('name="drill" pos', 'name="drill"pos'),
+        ("<worldbody>", '<worldbody><site name="up & down"/>'),
+        ("<mujoco>", '\n<?xml version="1.0"?><mujoco>'),
+    ],
+    ids=["dashes", "dash at the end", "no blank", "ampersand", "declaration below"],
+)
+def test_what_mujoco_reads_and_xml_does_not_allow_is_mended_at_its_place(before: str, after: str) -> None:
+    text = rules()["visual-mass"].example("Bad")
+    odd = text.replace(before, after)
+    assert text.count(before) == 1
+
+    plain, told = (examine(NativeEngine(), {"model.xml": each}, select=["visual-mass"]) for each in (text, odd))
+
+    assert [each.elements for each in told.causes] == [each.elements for each in plain.causes]
+    mended = [apply({"model.xml": each}, found.causes[0].edit) for each, found in ((text, plain), (odd, told))]
+    assert mended[1]["model.xml"] == mended[0]["model.xml"].replace(before, after)

@@ -4,11 +4,17 @@ from __future__ import annotations
 
 import posixpath
 import re
+from bisect import bisect_left
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
-HEAD = re.compile(rb"""<[^\s/>]+(?:\s+[^\s=/>]+\s*=\s*(?:"[^"]*"|'[^']*'))*\s*/?>""")
+HEAD = re.compile(rb"""<[^\s/>]+(?:\s*[^\s=/>]+\s*=\s*(?:"[^"]*"|'[^']*'))*\s*/?>""")
+PART = re.compile(rb"""<!--(?P<comment>.*?)-->|(?P<head><[^\s!?/>](?:"[^"]*"|'[^']*'|[^"'>])*>)""", re.DOTALL)
+DASH = re.compile(rb"-(?=-)")
+UNSPACED = re.compile(rb"""=\s*(?:"[^"]*"|'[^']*')(?=[^\s/>])""")
+AMPERSAND = re.compile(rb"&(?!(?:amp|lt|gt|quot|apos|#\d+|#x[0-9A-Fa-f]+);)")
+FRONT = re.compile(rb"(?:\xef\xbb\xbf)?[^<]*(?:<\?xml.*?\?>)?", re.DOTALL)
 TRANSPARENT = {"frame"}  # its children belong to the body around it
 REPEATING = {"replicate", "composite", "flexcomp", "attach"}  # what they make has no line of its own
 
@@ -175,13 +181,17 @@ class Source:
 
     def _parsed(self, file: str) -> Element:
         text = self.texts[file].encode()
+        allowed, added = _well_formed(text)
         parser = expat.ParserCreate("utf-8")  # whatever the text says of itself, as MuJoCo reads it
         roots: list[Element] = []
         open_: list[Element] = []
         said: list[tuple[str, int, int]] = []
 
+        def place() -> int:
+            return parser.CurrentByteIndex - bisect_left(added, parser.CurrentByteIndex)
+
         def comment(text: str) -> None:
-            said.append((text, parser.CurrentLineNumber, parser.CurrentByteIndex))
+            said.append((text, parser.CurrentLineNumber, place()))
 
         def keep(following: Element | None) -> None:
             for words, line, at in said:
@@ -189,7 +199,7 @@ class Source:
             said.clear()
 
         def begin(tag: str, attributes: dict[str, str]) -> None:
-            start = parser.CurrentByteIndex
+            start = place()
             head = HEAD.match(text, start)
             end = head.end() if head else text.find(b">", start) + 1
             made = Element(tag, file, parser.CurrentLineNumber, attributes, start=start, head_end=end, end=end)
@@ -205,11 +215,11 @@ class Source:
             keep(None)
             made = open_.pop()
             if not text[made.start : made.head_end].endswith(b"/>"):
-                made.end = text.find(b">", parser.CurrentByteIndex) + 1
+                made.end = text.find(b">", place()) + 1
 
         parser.StartElementHandler, parser.EndElementHandler, parser.CommentHandler = begin, finish, comment
         try:
-            parser.Parse(text, True)
+            parser.Parse(allowed, True)
         except expat.ExpatError as error:
             raise SourceError(file, error.lineno, expat.errors.messages[error.code]) from None
         keep(None)
@@ -230,6 +240,32 @@ class Source:
                 self._includes(child, depth)
                 made.append(child)
         element.children = made
+
+
+def _well_formed(text: bytes) -> tuple[bytes, list[int]]:
+    """A text without what MuJoCo's parser lets pass and XML does not, and where blanks were added.
+
+    `--` in a comment, attributes without a blank between, a bare `&`, something before the declaration. All else stays
+    where it is.
+    """
+    made, added, seen = bytearray(), list[int](), 0
+    front = FRONT.match(text)
+    if front:
+        seen = front.end()
+        made += re.sub(rb"[^\n]", b" ", front.group())
+    for part in PART.finditer(text, seen):
+        made += text[seen : part.start()]
+        seen = part.end()
+        if part["comment"] is not None:
+            made += b"<!--" + DASH.sub(b" ", part["comment"] + b"-")[:-1] + b"-->"
+            continue
+        read = 0
+        for value in UNSPACED.finditer(part["head"]):
+            made += part["head"][read : value.end()] + b" "
+            read = value.end()
+            added.append(len(made) - 1)
+        made += part["head"][read:]
+    return AMPERSAND.sub(b"_", bytes(made + text[seen:])), added
 
 
 def read_source(texts: Mapping[str, str]) -> Source | None:

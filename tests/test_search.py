@@ -211,6 +211,12 @@ def test_what_is_not_covered_is_told_so(ask: Ask) -> None:
     assert not told, "raise COVERED in docs/playground/search/index.js, or is it covered now?"
 
 
+def test_a_sentence_that_is_not_covered_is_asked_for_its_likeliest_symptom_first(page: Page, served: str) -> None:
+    page.goto(served)
+    page.locator(".search input").first.fill("my hexapod's tibia keeps wobbling to and fro on the sandbox terrain")
+    expect(page.locator(".search-results p a").first).to_have_attribute("href", re.compile("symptoms/oscillates.html"))
+
+
 def test_nothing_is_fetched_before_the_first_letter(page: Page, served: str) -> None:
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))

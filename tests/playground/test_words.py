@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from clinic.engine.node import executable as node
 from clinic.pages.completion import completion
+from clinic.pages.search_index import packed_weights
 from clinic.record.families import families, family_shares, family_weights, sayings
 from project import ROOT
 
@@ -141,7 +142,7 @@ def test_the_editor_knows_what_mujoco_s_schema_and_manual_say() -> None:
 
 def test_a_query_speaks_of_the_same_families_as_in_python() -> None:
     asked = [text for texts in sayings().values() for text in texts]
-    weights = {"families": [*families()], **family_weights()._asdict()}
+    weights = {"families": [*families()], **packed_weights(family_weights())}
     told = call("search/families.js", "told", [weights, asked])[0]
     for text, shares in zip(asked, told, strict=True):
         assert shares == pytest.approx(family_shares(text)), text

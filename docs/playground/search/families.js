@@ -12,20 +12,22 @@ const IDLE = new Set(
 );
 
 const SHARP = 12;
-const UNIT = 20;
+const UNIT = 40;
+const NOUGHT = 80;
 
-/** @typedef {{families: string[], prior: number[], stems: Record<string, number[]>}} Weights what stems say, by family, in twentieths */
+/** @typedef {{families: string[], prior: number[], stems: string, adds: string[]}} Weights what stems say, by family, in fortieths, a letter each */
 
 /**
  * @param {Weights} weights
  * @returns {(query: string) => Map<string, number>} how likely the query speaks of each family; empty if it has no word of any
  */
-export function shares({ families, prior, stems }) {
-  const table = new Map(Object.entries(stems));
+export function shares({ families, prior, stems, adds }) {
+  const places = new Map(stems.split(" ").map((stem, place) => [stem, place]));
   return (query) => {
-    const said = [...stemmed(query)].map((stem) => table.get(stem)).filter((each) => each !== undefined);
+    const said = [...stemmed(query)].map((stem) => places.get(stem)).filter((place) => place !== undefined);
     if (!said.length) return new Map();
-    const scores = prior.map((each, family) => (SHARP / UNIT) * (each + sum(said.map((weights) => weights[family])) / Math.sqrt(said.length)));
+    const added = adds.map((letters) => sum(said.map((place) => letters.charCodeAt(place) - NOUGHT)));
+    const scores = prior.map((each, family) => (SHARP / UNIT) * (each + added[family] / Math.sqrt(said.length)));
     const odds = scores.map((score) => Math.exp(score - Math.max(...scores)));
     const total = sum(odds);
     return new Map(families.map((family, index) => [family, odds[index] / total]));
@@ -50,7 +52,7 @@ function stemmed(text) {
     const stems = found.filter((word) => !IDLE.has(word)).map((word) => word.replace(SUFFIX, "").replace(DOUBLE, "$1"));
     const heard = stems.map((stem) => (NOT.has(stem) ? "not" : stem));
     for (const stem of heard) said.add(stem);
-    for (const gap of [1, 2]) heard.slice(gap).forEach((stem, at) => heard[at] === "not" && said.add(`not ${stem}`));
+    for (const gap of [1, 2]) heard.slice(gap).forEach((stem, at) => heard[at] === "not" && said.add(`not_${stem}`));
   }
   return said;
 }

@@ -5,7 +5,7 @@ import { shares } from "./families.js";
 import { stem, stems, thesaurus, words } from "./words.js";
 
 /** @typedef {{kind: string, at: string, title: string, words: string, text: string, case?: string, family?: string, context?: string}} Document `case` is the address of a message's case */
-/** @typedef {{found: Document[], covered: boolean}} Answer `covered` is whether the best is about most of what was asked */
+/** @typedef {{found: Document[], covered: boolean, families: Map<string, number>}} Answer `covered` is whether the best is about most of what was asked, `families` how likely it is about each symptom */
 
 const FIELDS = ["title", "words", "context", "text", "answer"];
 const BOOST = { title: 3, words: 2, context: 1, text: 1, answer: 0.5 };
@@ -14,6 +14,7 @@ const KINDS = { case: 2, symptom: 0.8, message: 1, rule: 0.6, page: 0.6 };
 const BEGINNING = 3; // letters from which on a word may be unfinished
 const LONG = 8; // letters from which on a word may have two typos
 const OWN = 0.5; // by which the weight grows of what belongs to the symptom that is spoken of
+const SENTENCE = 6; // words from which on a query tells of a symptom more than it names things, and OWN is as many times larger
 const PASTED = 3; // the weight of a message of whose words most are asked for
 const MOST = 2 / 3;
 const LIKE = 0.5; // a synonym's weight
@@ -43,6 +44,7 @@ export function searcher({ documents, synonyms, families: weights }, answers = {
   return (query) => {
     const asked = stems(query);
     const families = spoken(query);
+    const own = OWN * (asked.length < SENTENCE ? 1 : SENTENCE);
     const last = stem(words(query).at(-1) ?? "");
     const pasted = (/** @type {number} */ id) => titles[id].length > 1 && titles[id].filter((term) => asked.includes(term)).length >= MOST * titles[id].length;
     const meant = new Map(asked.map((term) => [term, term]));
@@ -54,7 +56,7 @@ export function searcher({ documents, synonyms, families: weights }, answers = {
       prefix: (term) => term === last && term.length >= BEGINNING,
       fuzzy: (term) => (meant.get(term) === term && !known.has(term) && term.length > BEGINNING ? 1 + Number(term.length >= LONG) : false),
       boostTerm: (term) => (meant.get(term) === term ? 1 : LIKE),
-      boostDocument: (id) => KINDS[texts[id].kind] * (pasted(id) ? PASTED : 1) * (1 + OWN * (families.get(texts[id].family ?? "") ?? 0)),
+      boostDocument: (id) => KINDS[texts[id].kind] * (pasted(id) ? PASTED : 1) * (1 + own * (families.get(texts[id].family ?? "") ?? 0)),
     });
     const total = asked.reduce((sum, term) => sum + weight(term), 0);
     const best = results.slice(0, 3).map(({ queryTerms }) => {
@@ -65,6 +67,6 @@ export function searcher({ documents, synonyms, families: weights }, answers = {
     const found = worth.map(({ id }) => texts[id]);
     const shown = found.findIndex(({ at }) => at === found[0].case);
     if (shown > 1 && pasted(worth[0].id)) found.splice(1, 0, ...found.splice(shown, 1)); // what is about the message, right after it
-    return { found, covered: Math.max(0, ...best) >= COVERED };
+    return { found, covered: Math.max(0, ...best) >= COVERED, families };
   };
 }

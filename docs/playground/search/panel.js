@@ -15,13 +15,13 @@ const NAMES = { case: "Case", symptom: "Symptom", message: "MuJoCo says", rule: 
  * @param {Answer} answer
  * @param {{site: string, symptoms: Document[], report?: string, more?: HTMLElement}} around `site` is the address that the documents' are relative to
  */
-export function show(place, query, { found, covered }, { site, symptoms, report, more }) {
+export function show(place, query, { found, covered, families }, { site, symptoms, report, more }) {
   const status = element("p", { role: "status" });
   const shown = found.slice(0, MOST);
   if (covered) status.textContent = `${found.length} found`;
   else status.append("Nothing here is about ", element("em", {}, query), " yet.");
   const parts = [status];
-  if (!covered) parts.push(elsewhere(site, symptoms, report));
+  if (!covered) parts.push(elsewhere(site, likeliest(symptoms, families), report));
   if (!covered && shown.length) parts.push(element("p", {}, "Nearest, and perhaps not it:"));
   const asked = new Set(stems(query));
   parts.push(element("ol", {}, ...shown.slice(0, covered ? MOST : 3).map((document) => item(document, site, asked))));
@@ -35,6 +35,9 @@ function item({ kind, at, title, text }, site, asked) {
   if (text) link.append(element("span", {}, marked(text, asked)));
   return element("li", {}, link);
 }
+
+/** @param {Document[]} symptoms @param {Map<string, number>} families */
+const likeliest = (symptoms, families) => [...symptoms].sort((one, other) => (families.get(other.family ?? "") ?? 0) - (families.get(one.family ?? "") ?? 0));
 
 /** @param {string} site @param {Document[]} symptoms @param {string} [report] */
 function elsewhere(site, symptoms, report) {

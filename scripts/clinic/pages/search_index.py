@@ -12,13 +12,14 @@ import yaml
 
 from clinic.pages.cases import FOLDER, CasePage
 from clinic.pages.messages import Message
-from clinic.record.families import Family, family_weights
+from clinic.record.families import Family, Weights, family_weights
 from clinic.record.prose import FIELD
 from clinic.work.cache import Files
 
 FILE = "javascripts/search/index.js"
 ANSWERS = "javascripts/search/answers.js"
 SYNONYMS = Path(__file__).with_name("synonyms.toml")
+NOUGHT = 80  # the letter that adds nothing; those 45 below and above it are printed too
 HEAD = re.compile(r"\A---\n(.*?)^---\n", re.DOTALL | re.MULTILINE)
 HEADING = re.compile(r"^#+ (.*?)(?: \{[^}]*\})?$", re.MULTILINE)
 
@@ -47,7 +48,7 @@ def search_files(
     index = {
         "documents": packed(documents),
         "synonyms": synonyms(),
-        "families": {"families": [*families], **family_weights()._asdict()},
+        "families": {"families": [*families], **packed_weights(family_weights())},
     }
     return {FILE: _script("clinicIndex", index), ANSWERS: _script("clinicAnswers", answers)}
 
@@ -72,6 +73,16 @@ def packed(documents: Iterable[Document]) -> dict[str, object]:
         ]
         made[kind] = {"around": [before, after], "fields": fields, "rows": rows}
     return made
+
+
+def packed_weights(weights: Weights) -> dict[str, object]:
+    """The stems in one text, and by family a text with a letter for what each of them adds.
+
+    docs/playground/search/families.js reads it.
+    """
+    columns = zip(*weights.stems.values(), strict=True)
+    letters = ["".join(chr(NOUGHT + weight) for weight in column) for column in columns]
+    return {"prior": weights.prior, "stems": " ".join(weights.stems), "adds": letters}
 
 
 def _beginning(texts: list[str]) -> str:

@@ -21,14 +21,16 @@ NOT = {"no", "never", "cannot", "without", "unable", "fail", "nothing", "nobody"
 LEAST = 0.2  # the likelihood from which on a family is named
 OFTEN = 4  # how often a stem stands somewhere, to be known
 RIDGE = 1.0  # what keeps weights small
+LITTLE, MOST = 2, 45  # weights up to the one are left out, beyond the other cut off
 SHARP = 12.0  # how much a score tells: with it, sayings that are left out find their family likeliest
-UNIT = 20.0  # weights are whole numbers, of twentieths
-IDLE = """a an and are as at be been but by can did do does doing done for from had has have i if in is it its me my of
-on or so that the their them there they this to was we were when while with you your mujoco simulation"""
+UNIT = 40.0  # weights are whole numbers, of fortieths
+NO_MEANING = """a an and are as at be been but by can did do does doing done for from had has have i if in is it its
+me my of on or so that the their them there they this to was we were when while with you your mujoco simulation"""
+IDLE = frozenset(NO_MEANING.split())
 
 
 class Weights(NamedTuple):
-    """What a text's stems say of its family: all by family, in the order of `families()`, in twentieths.
+    """What a text's stems say of its family: all by family, in the order of `families()`, in fortieths.
 
     Attributes:
         prior: What is said without a word.
@@ -116,34 +118,37 @@ def weights_of(phrases: Iterable[tuple[str, str]]) -> Weights:
     known = [(name, {*_stems(phrase)}) for name, phrase in phrases]
     often = Counter(stem for _, stems in known for stem in stems)
     column = {stem: place for place, stem in enumerate(sorted(stem for stem in often if often[stem] >= OFTEN))}
-    said, wanted = np.zeros((len(known), len(column))), np.zeros((len(known), len(families())))
-    for row, (name, stems) in enumerate(known):
-        said[row, [column[stem] for stem in stems if stem in column]] = 1
-        wanted[row, [*families()].index(name)] = 1
-    said /= np.maximum(1, np.linalg.norm(said, axis=1, keepdims=True))
-    prior = wanted.mean(axis=0)
-    solved = np.linalg.solve(said.T @ said + RIDGE * np.eye(len(column)), said.T @ (wanted - prior))
-    twentieths = np.rint(UNIT * solved).astype(int).tolist()
-    return Weights(np.rint(UNIT * prior).astype(int).tolist(), dict(zip(column, twentieths, strict=True)))
+    place = {name: number for number, name in enumerate(families())}
+    prior = np.bincount([place[name] for name, _ in known], minlength=len(place)) / len(known)
+    together, wanted = RIDGE * np.eye(len(column)), np.zeros((len(column), len(place)))
+    for name, stems in known:
+        said = [column[stem] for stem in stems if stem in column]
+        together[np.ix_(said, said)] += 1 / max(1, len(said))
+        wanted[said] -= prior / math.sqrt(max(1, len(said)))
+        wanted[said, place[name]] += 1 / math.sqrt(max(1, len(said)))
+    solved = np.linalg.solve(together, wanted)
+    rounded = np.clip(np.rint(UNIT * solved), -MOST, MOST).astype(int)
+    rounded[abs(rounded) <= LITTLE] = 0
+    return Weights(np.rint(UNIT * prior).astype(int).tolist(), dict(zip(column, rounded.tolist(), strict=True)))
 
 
 @cache
 def sayings() -> dict[str, list[str]]:
     """What people wrote when they asked, by the family that it speaks of."""
-    read: dict[str, list[str]] = yaml.safe_load((FOLDER / "sayings.yaml").read_text(encoding="utf-8"))
+    read: dict[str, list[str]] = yaml.load((FOLDER / "sayings.yaml").read_text(encoding="utf-8"), yaml.CSafeLoader)
     return read
 
 
 def _stems(text: str) -> list[str]:
     """The words of a text without endings, in order; idle ones are left out, and `not` stands for every no.
 
-    What is denied follows as a pair: `not mov`.
+    What is denied follows as a pair: `not_mov`.
     """
     said, denied = [], []
     for clause in STOP.split(re.sub(r"n['\u2019]t\b", " not", text.lower())):
-        words = (word for word in re.findall(r"[a-z0-9_]+", clause) if word not in IDLE.split())
+        words = (word for word in re.findall(r"[a-z0-9_]+", clause) if word not in IDLE)
         stems = [DOUBLE.sub(r"\1", SUFFIX.sub("", word)) for word in words]
         stems = ["not" if stem in NOT else stem for stem in stems]
         said += stems
-        denied += [f"not {stem}" for gap in (1, 2) for no, stem in zip(stems, stems[gap:], strict=False) if no == "not"]
+        denied += [f"not_{stem}" for gap in (1, 2) for no, stem in zip(stems, stems[gap:], strict=False) if no == "not"]
     return said + denied

@@ -55,7 +55,8 @@ def relatives(simulation: Simulation) -> list[tuple[int, int, Contact]]:
         links = lines[0].index(common) + lines[1].index(common)
         same = owner[one] == owner[other]
         rail = links == 1 and common == 0 and not _turns(simulation, max(one, other))  # a cart and its rail
-        bolted = not same and not rail and common in (one, other) and not {owner[one], owner[other]} & set(falls)
+        based = common in (one, other) or (common and 0 in (owner[one], owner[other]))  # also a part of the same base
+        bolted = not same and not rail and based and not {owner[one], owner[other]} & set(falls)
         siblings = (
             not same and links == 2 and owner[one] and owner[other] and not {owner[one], owner[other]} & set(falls)
         )

@@ -77,6 +77,11 @@ def _faces(simulation: Simulation, mesh: int) -> list[tuple[Triangle, Ball]]:
     return made
 
 
+def triangles(simulation: Simulation, mesh: int) -> list[Triangle]:
+    """A mesh's triangles in the geom's frame; none of one that is too fine."""
+    return [triangle for triangle, _ in _faces(simulation, mesh)]
+
+
 def _distance(simulation: Simulation, mesh: int, point: Vector, near: float) -> float:
     """From a point to a mesh's surface in m; 0 where that is near, and for a mesh that is too fine."""
     faces, best = _faces(simulation, mesh), math.inf

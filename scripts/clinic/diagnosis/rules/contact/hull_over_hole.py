@@ -42,6 +42,8 @@ The number: how far from the mesh's own surface another mechanism touches it wit
 radius, or of 2.5 radii of what touches it where that is less; below 0.15 is well. MuJoCo's manual, Computation,
 Collision detection: meshes are replaced by their hulls. The edit, `type="sdf"`, collides with the surface itself: it is
 slow and may shake, and proves the cause. What to build instead are primitives, or the mesh cut into convex pieces.
+A hint tells of meshes that begin in each other's hulls by a twentieth of their radius, as the links of a chain do,
+where no edge of one goes through a face of the other.
 
 When it is wrong: a coarse collision mesh whose hull is meant to be filled. Parts of one mechanism, and two mechanisms
 that collide, are not looked at.
@@ -52,6 +54,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import MESH
+from clinic.diagnosis.probes.hulls import DEEP, closed_holes, holes_closed
 from clinic.diagnosis.probes.surface import away, touched_off_surface
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -76,3 +79,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield Suspect(
             (of.name("geom", geom),), "type", "mesh", "sdf", edits, away(geom), AWAY, says, "touched at its surface"
         )
+    closed = closed_holes(of)
+    geoms = sorted({geom for pair in closed for geom in pair if int(of.model("geom_type")[geom]) == MESH})
+    if geoms:
+        names, edits = tuple(of.name("geom", geom) for geom in geoms), model.set("geom", geoms, "type", "sdf")
+        says = f"{len(closed)} pairs of meshes overlap at the start by their hulls, and their surfaces do not meet."
+        yield Suspect(names, "type", "mesh", "sdf", edits, holes_closed(), DEEP, says, "no overlap", level="hint")

@@ -1,0 +1,101 @@
+"""Meshes that overlap by their convex hulls alone: their own surfaces do not meet."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from clinic.diagnosis.engine import MESH, Contact
+from clinic.diagnosis.probes.overlap import beginning
+from clinic.diagnosis.probes.surface import SDF, Triangle, triangles
+from clinic.diagnosis.probes.vector import Vector, add, at, cross, dot, sub, times
+from clinic.diagnosis.simulation import Simulation, kept
+from clinic.diagnosis.suspect import Probe
+
+PAIRS = 24  # the deepest ones are looked at
+FACES = 4000  # of a finer mesh nothing is told
+DEEP = 0.05  # of the smaller mesh's radius
+
+
+@kept
+def closed_holes(simulation: Simulation) -> dict[tuple[int, int], float]:
+    """The depth, as a share of the smaller mesh's radius, of pairs at the start whose surfaces do not meet."""
+    kinds, radii = simulation.model("geom_type"), simulation.model("geom_rbound")
+    made = {}
+    for contact in _deepest(simulation):
+        share = -contact.distance / max(min(radii[geom] for geom in contact.geoms), 1e-9)
+        meshes = all(int(kinds[geom]) in (MESH, SDF) for geom in contact.geoms)
+        if meshes and contact.force > 0 and share > DEEP and not _meet(simulation, *contact.geoms):
+            made[contact.geoms] = share
+    return made
+
+
+def _deepest(simulation: Simulation) -> list[Contact]:
+    """The deepest contact of each pair of geoms at the start, the deepest pairs first."""
+    pairs: dict[tuple[int, int], Contact] = {}
+    for contact in sorted(beginning(simulation).contacts, key=lambda each: each.distance):
+        if min(contact.geoms) >= 0:
+            pairs.setdefault(contact.geoms, contact)
+    return [*pairs.values()][:PAIRS]
+
+
+def _meet(simulation: Simulation, one: int, other: int) -> bool:
+    """Whether an edge of one mesh goes through a face of the other; also where one of them is too fine to tell."""
+    mine, theirs = (_in_world(simulation, geom) for geom in (one, other))
+    if not mine or not theirs:
+        return True
+    theirs = _near(theirs, mine)
+    return any(_crosses(a, b) or _crosses(b, a) for a in _near(mine, theirs) for b in _near(theirs, [a]))
+
+
+def _in_world(simulation: Simulation, geom: int) -> list[Triangle]:
+    now = beginning(simulation)
+    place, frame = at(now.geom_xpos, geom), now.geom_xmat[9 * geom : 9 * geom + 9]
+    own = triangles(simulation, int(simulation.model("geom_dataid")[geom]))
+    points = ([add(place, times(frame, point)) for point in each] for each in own if len(own) <= FACES)
+    return [(one, two, three) for one, two, three in points]
+
+
+def _near(these: Sequence[Triangle], those: Sequence[Triangle]) -> list[Triangle]:
+    """The triangles whose boxes touch the box of all others."""
+    if not those:
+        return []
+    low, high = _box([point for each in those for point in each])
+    boxes = ((each, *_box(each)) for each in these)
+    ways = ((each, zip((*least, *low), (*high, *most), strict=True)) for each, least, most in boxes)
+    return [each for each, ends in ways if all(a <= b for a, b in ends)]
+
+
+def _box(points: Sequence[Vector]) -> tuple[Vector, Vector]:
+    return tuple(map(min, zip(*points, strict=True))), tuple(map(max, zip(*points, strict=True)))
+
+
+def _crosses(edges: Triangle, face: Triangle) -> bool:
+    """Whether an edge of one triangle goes through another one.
+
+    T. Moeller and B. Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.
+    """
+    a, b, c = face
+    for start, end in zip(edges, (*edges[1:], edges[0]), strict=True):
+        along = sub(end, start)
+        normal = cross(along, sub(c, a))
+        across = dot(sub(b, a), normal)
+        if not across:
+            continue
+        from_a = sub(start, a)
+        u = dot(from_a, normal) / across
+        around = cross(from_a, sub(b, a))
+        v, t = dot(along, around) / across, dot(sub(c, a), around) / across
+        if u >= 0 and v >= 0 and u + v <= 1 and 0 <= t <= 1:
+            return True
+    return False
+
+
+def _closed(simulation: Simulation) -> float:
+    return max(closed_holes(simulation).values(), default=0.0)
+
+
+def holes_closed() -> Probe:
+    """The deepest overlap at the start of meshes whose surfaces do not meet."""
+    return Probe(
+        "deepest overlap at the start of meshes that do not touch", "of a mesh's radius", _closed, dynamic=False
+    )

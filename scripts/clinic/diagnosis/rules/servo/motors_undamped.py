@@ -1,0 +1,123 @@
+"""Motors drive light joints without damping, friction or armature: a controller in code shakes them.
+
+With `<motor>` the gains stand in the code that computes the torques. What they may be hangs on the joints: a joint
+that has nothing but the inertia of a light link bears no derivative gain that a real wrist or ankle has. The model by
+itself shows nothing.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="upper_arm">
+          <joint name="shoulder" axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="1"/>
+          <body name="forearm" pos="0.3 0 0">
+            <joint name="elbow" axis="0 1 0"/>
+            <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.5"/>
+            <body name="hand" pos="0.2 0 0">
+              <joint name="wrist" axis="1 0 0"/>
+              <geom type="box" size="0.04 0.02 0.02" mass="0.2"/>
+            </body>
+          </body>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor joint="shoulder"/>
+        <motor joint="elbow"/>
+        <motor joint="wrist"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    <mujoco>
+      <default>
+        <joint damping="0.05" armature="0.01" frictionloss="0.1"/>
+      </default>
+      <worldbody>
+        <body name="upper_arm">
+          <joint name="shoulder" axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="1"/>
+          <body name="forearm" pos="0.3 0 0">
+            <joint name="elbow" axis="0 1 0"/>
+            <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.5"/>
+            <body name="hand" pos="0.2 0 0">
+              <joint name="wrist" axis="1 0 0"/>
+              <geom type="box" size="0.04 0.02 0.02" mass="0.2"/>
+            </body>
+          </body>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor joint="shoulder"/>
+        <motor joint="elbow"/>
+        <motor joint="wrist"/>
+      </actuator>
+    </mujoco>
+
+The number: the derivative gain that the lightest joint bears, 2 M / h with its inertia M and the timestep h, below
+1 N m s/rad (an explicit damper is stable below h kd / M = 2). Told where three motors and more drive hinges of which
+none has damping, friction or armature. Of the healthy robots with motors none is so.
+
+When it is wrong: torques that come from a policy without any gains.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.probes.servo import AFFINE
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "Motors on joints that nothing damps"
+FAMILIES = ("oscillates", "explodes", "drifts")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "the harm shows under a controller in code alone"
+
+ENOUGH, LEAST = 3, 1.0  # motors; N m s/rad
+ROTOR = 0.01  # kg m2
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The driven joints of a robot of which none has damping, friction or armature, together."""
+    of = model.simulation
+    joints = _bare(of)
+    if len(joints) < ENOUGH:
+        return
+    lightest = min(joints, key=lambda joint: of.mass_diagonal[of.dof(joint)])
+    inertia = of.mass_diagonal[of.dof(lightest)]
+    says = (
+        f"{len(joints)} joints have none. With its inertia of {inertia:.2g} kg m2 {of.name('joint', lightest)} bears "
+    )
+    says += f"a derivative gain of {2 * inertia / of.timestep:.2g} N m s/rad; in code it is often more."
+    yield Suspect(
+        tuple(of.name("joint", joint) for joint in (lightest, *(each for each in joints if each != lightest))),
+        "armature",
+        "0",
+        f"{ROTOR:g}",
+        model.set("joint", joints, "armature", f"{ROTOR:g}"),
+        Probe("what a derivative gain of 1 N m s/rad is of the most that a joint bears", "", _share, dynamic=False),
+        1 / LEAST,
+        says,
+        "damping, friction or armature on some joint, as all healthy robots with motors have",
+    )
+
+
+def _share(of: Simulation) -> float:
+    """The timestep over twice the least inertia of the bare joints, in rad/(N m s)."""
+    return max((of.timestep / (2 * of.mass_diagonal[of.dof(joint)]) for joint in _bare(of)), default=0.0)
+
+
+def _bare(of: Simulation) -> list[int]:
+    """The hinges that motors drive; none where one of them has damping, friction or armature, or a servo's gains."""
+    actuators = range(of.count("actuator"))
+    joints = [of.driven_joint(each) for each in actuators]
+    hinges = list(dict.fromkeys(each for each in joints if each is not None and of.joint_type(each) == HINGE))
+    fields = ("dof_damping", "dof_armature", "dof_frictionloss")
+    held = any(of.model(field)[of.dof(joint)] for joint in hinges for field in fields)
+    servos = any(int(of.model("actuator_biastype")[each]) == AFFINE for each in actuators)
+    return [] if held or servos else hinges

@@ -220,3 +220,12 @@ def test_a_motor_that_turns_the_other_way_is_the_one_with_the_rare_sign():
     text = robot(right="-60 30").replace("</mujoco>", f"<actuator>{motors}</actuator></mujoco>")
     hint = diagnosed(text).hints[0]
     assert (hint.attribute, hint.elements, hint.value) == ("gear sign", ('actuator "left_rear"',), "5")
+
+
+def test_what_moves_nothing_is_told_last():
+    noisy = robot({'left_front:mass="0.2"': 'mass="0.3"'}).replace(
+        "</mujoco>", '<sensor><jointpos joint="left_front" noise="0.1"/></sensor></mujoco>'
+    )
+    told = [each.rule for each in diagnosed(noisy).hints]
+    assert "twin-inertia-differs" in told[:-1]
+    assert told[-1] == "noise-not-added"

@@ -140,16 +140,16 @@ def _beats(one: Judged, other: Judged) -> bool:
 def order(found: Sequence[Judged], families: Sequence[str]) -> list[Judged]:
     """The worst first, after those that an edit mends; those of the symptom that the reader names before all others.
 
-    What a rule says after its worst comes after the worst of the other rules.
+    Minor ones come last. What a rule says after its worst comes after the worst of the other rules.
     """
 
-    def key(each: Judged) -> tuple[bool, bool, float, float]:
+    def key(each: Judged) -> tuple[bool, bool, bool, float, float]:
         named = bool(set(each.rule.families) & set(families))
-        return (not named, each.after is None, -each.severity, -each.suspect.excess)
+        return (not named, each.rule.minor, each.after is None, -each.severity, -each.suspect.excess)
 
     placed, said = [], set()
     for each in sorted(found, key=key):
-        placed.append((key(each)[0], (each.level, each.rule.id) in said, each))
+        placed.append((key(each)[:2], (each.level, each.rule.id) in said, each))
         said.add((each.level, each.rule.id))
     return [each for *_, each in sorted(placed, key=lambda one: one[:2])]
 

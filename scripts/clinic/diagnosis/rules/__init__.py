@@ -7,6 +7,7 @@ FAMILIES   the symptoms that it explains, by their names in `families.toml`; the
 SINCE      the release of the clinic that brought it
 LEVEL      "hint", where it finds less than four in five of the faults that the bench plants for it
 UNPLANTED  why the bench plants none for it, where it plants none
+MINOR      whether what it tells moves nothing by itself, so that it is told after all else
 AFLOAT     whether a URDF is looked at with its root free to move, where it is not the world
 CASE       the case that shows it, where there is one
 suspects   a function that takes a `ReaderModel` and gives `Suspect`s; for a model that does not compile, with FAMILIES
@@ -44,6 +45,7 @@ class Rule:
     case: str | None
     level: Level
     unplanted: str
+    minor: bool
     text: str
     afloat: bool
     suspects: Callable[[ReaderModel], Iterable[Suspect]]
@@ -82,6 +84,7 @@ def rules() -> dict[str, Rule]:
             case=getattr(module, "CASE", None),
             level=getattr(module, "LEVEL", "cause"),
             unplanted=getattr(module, "UNPLANTED", ""),
+            minor=getattr(module, "MINOR", False),
             text=(module.__doc__ or "").strip(),
             afloat=getattr(module, "AFLOAT", False),
             suspects=module.suspects,

@@ -29,7 +29,8 @@ Good:
     </mujoco>
 
 The number: the widest gap of a contact that carries something, 2 s after letting go, as a share of the thinner geom's
-thickness; below 0.2 is well. MuJoCo's manual, Computation, Margin and gap.
+thickness; below 0.2 is well, and below 0.5 % of how far the thing itself reaches. MuJoCo's manual, Computation, Margin
+and gap.
 
 When it is wrong: an air bearing.
 """
@@ -39,6 +40,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import Contact
+from clinic.diagnosis.probes.overlap import extent
 from clinic.diagnosis.probes.run import let_go
 from clinic.diagnosis.probes.shape import falling, root_of, thickness
 from clinic.diagnosis.probes.touch import resting
@@ -51,15 +53,23 @@ FAMILIES = ("stuck", "sinks", "jumps-at-start")
 SINCE = "0.1"
 
 MOST = 0.2  # of the thinner geom's thickness
+SEEN = 0.005  # of how far the thing reaches
 
 
 def _hovers(simulation: Simulation) -> float:
     made = 0.0
     for contact in _floating(simulation):
         thick = min(thickness(simulation, geom) for geom in contact.geoms)
-        if 0 < thick < float("inf"):
+        if 0 < thick < float("inf") and contact.distance > SEEN * _reach(simulation, contact):
             made = max(made, contact.distance / thick)
     return made if let_go(simulation).end else float("inf")
+
+
+def _reach(simulation: Simulation, contact: Contact) -> float:
+    """How far the smaller thing of a contact that can fall reaches, in m."""
+    owner, bodies = root_of(simulation), simulation.model("geom_bodyid")
+    trees = {owner[int(bodies[geom])] for geom in contact.geoms} & set(falling(simulation))
+    return min((extent(simulation, root) for root in trees), default=0.0)
 
 
 def _floating(simulation: Simulation) -> list[Contact]:

@@ -51,6 +51,7 @@ TITLE = "Torsional friction that condim leaves out"
 FAMILIES = ("slips", "drifts")
 SINCE = "0.1"
 LEVEL = "hint"
+MINOR = True
 UNPLANTED = "in none of the healthy models do fingers hold anything at the start"
 
 FINGER = re.compile(r"finger|thumb|grip|jaw|pad|(?<![a-z])tip", re.IGNORECASE)

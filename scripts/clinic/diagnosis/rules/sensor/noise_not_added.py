@@ -47,6 +47,7 @@ TITLE = "Sensor noise that nothing adds"
 FAMILIES = ("sensor-reads-zero",)
 SINCE = "0.1"
 LEVEL = "hint"
+MINOR = True
 UNPLANTED = "no release since 3.1.4 adds noise: with or without it a model moves and reads alike"
 
 

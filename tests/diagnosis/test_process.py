@@ -166,6 +166,13 @@ def test_a_start_that_the_model_lacks_is_a_sentence(start, said):
 
 
 def test_a_file_that_is_no_text_is_a_sentence(tmp_path):
-    (tmp_path / "model.xml").write_bytes(b"<mujoco>\n<!-- per\xe7euse -->\n</mujoco>")
-    with pytest.raises(DiagnosisError, match="not a text in UTF-8: byte 0xe7 in line 2"):
+    (tmp_path / "model.xml").write_bytes(b"<mujoco>\n<!-- \0 -->\n</mujoco>")
+    with pytest.raises(DiagnosisError, match="not a text in UTF-8: byte 0x00 in line 2"):
         diagnose(tmp_path / "model.xml")
+
+
+def test_a_text_in_latin_1_is_diagnosed(tmp_path):
+    (tmp_path / "model.xml").write_bytes(TALL.replace("<mujoco>", "<mujoco><!-- per\xe7euse -->").encode("latin-1"))
+    assert [each.line for each in diagnose(tmp_path / "model.xml").causes] == [
+        each.line for each in diagnose(TALL).causes
+    ]

@@ -106,13 +106,12 @@ export function textOf(files, path) {
   const bytes = files.get(path) ?? new Uint8Array();
   const large = bytes.length > MAX_TEXT;
   if (large) throw new FilesError(`the text has ${megabytes(bytes.length)}; this page reads up to ${megabytes(MAX_TEXT)}. \`clinic diagnose\` in a terminal reads more.`);
+  if (bytes.includes(0)) throw new FilesError("this is not a text in UTF-8; expected MJCF or URDF.");
   try {
-    const text = new TextDecoder("utf-8", { fatal: true }).decode(bytes);
-    if (!text.includes("\0")) return text;
+    return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
   } catch {
-    // said below
+    return new TextDecoder("latin1").decode(bytes); // byte by byte, as MuJoCo reads it
   }
-  throw new FilesError("this is not a text in UTF-8; expected MJCF or URDF.");
 }
 
 /**

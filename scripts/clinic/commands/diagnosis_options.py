@@ -12,6 +12,7 @@ from pathlib import Path
 from clinic.diagnosis.ignores import unknown
 from clinic.diagnosis.rules import Rule, rules
 from clinic.diagnosis.simulation import Start
+from clinic.diagnosis.source import decoded
 from clinic.record.families import families, family_shares, likely_families
 
 STDIN = "-"
@@ -105,8 +106,8 @@ def read_source(model: str) -> str:
     if model != STDIN:
         return model
     try:
-        text = sys.stdin.buffer.read().decode("utf-8-sig")
-    except UnicodeDecodeError:
+        text, _ = decoded(sys.stdin.buffer.read())
+    except ValueError:
         raise OptionError("standard input: not a text in UTF-8") from None
     if not text.lstrip().startswith("<"):
         raise OptionError("standard input: no XML")

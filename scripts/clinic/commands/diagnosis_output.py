@@ -11,6 +11,7 @@ from clinic.commands.diagnosis_options import STDIN, OptionError
 from clinic.commands.github import workflow_command, workflow_commands
 from clinic.commands.sarif import sarif
 from clinic.diagnosis.finding import Diagnosis
+from clinic.diagnosis.source import decoded
 
 
 def check_output(models: Sequence[str], form: str, fix: str | None, force: bool) -> None:
@@ -32,7 +33,7 @@ def check_output(models: Sequence[str], form: str, fix: str | None, force: bool)
 
 
 def write_fix(model: str, made: Diagnosis, out: Path) -> None:
-    """Writes the mended model, with the line ends of the model; nothing where there is nothing to mend.
+    """Writes the mended model, with its line ends and its encoding; nothing where there is nothing to mend.
 
     Raises:
         OptionError: If other files would have to change as well, or it cannot be written.
@@ -44,9 +45,10 @@ def write_fix(model: str, made: Diagnosis, out: Path) -> None:
         )
     if not made.diff():
         return
-    ends = "\r\n" if model != STDIN and b"\r\n" in Path(model).read_bytes() else "\n"
+    content = Path(model).read_bytes() if model != STDIN else b""
+    ends = "\r\n" if b"\r\n" in content else "\n"
     try:
-        out.write_text(made.fixed[made.file], encoding="utf-8", newline=ends)
+        out.write_text(made.fixed[made.file], encoding=decoded(content)[1], newline=ends)
     except OSError as error:
         raise OptionError(f"--fix {out}: {error.strerror or error}") from None
 

@@ -17,7 +17,7 @@ from clinic.diagnosis.judge import Judged, grouped, judge, order, suspects_of, w
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import Rule, rules
 from clinic.diagnosis.simulation import Start
-from clinic.diagnosis.source import read_source, read_texts
+from clinic.diagnosis.source import decoded, read_source, read_texts
 
 LIMIT = 20.0  # s for a start, after which no further rule is tried
 
@@ -123,7 +123,7 @@ def diagnose_here(path: Path | str, **options: object) -> Diagnosis:
     before = Path.cwd()
     os.chdir(path.parent)
     try:
-        texts = read_texts(path.read_text(encoding="utf-8"), path.name, read_file)
+        texts = read_texts(decoded(path.read_bytes())[0], path.name, read_file)
         return examine(NativeEngine(), texts, **options)  # type: ignore[arg-type]
     finally:
         os.chdir(before)
@@ -132,6 +132,6 @@ def diagnose_here(path: Path | str, **options: object) -> Diagnosis:
 def read_file(name: str) -> str | None:
     """The text of a file; None where there is none that is text."""
     try:
-        return Path(name).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError):
+        return decoded(Path(name).read_bytes())[0]
+    except (OSError, ValueError):
         return None

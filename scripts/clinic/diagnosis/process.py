@@ -16,7 +16,7 @@ from typing import Any
 from clinic.diagnosis.diagnose import examine, read_file
 from clinic.diagnosis.finding import KILLED, LATE, Diagnosis, ending
 from clinic.diagnosis.simulation import Start, StartError
-from clinic.diagnosis.source import read_texts
+from clinic.diagnosis.source import decoded, read_texts
 from clinic.diagnosis.symptom import code_of, measure
 
 LIMIT = 60.0  # s, for one process
@@ -108,13 +108,11 @@ def _read(source: Any) -> tuple[str, str, str]:
         raise DiagnosisError(f"{type(source).__name__}: expected a path, a text, an MjSpec, or a pair (model, xml)")
     path = Path(source).absolute()
     try:
-        return path.read_text(encoding="utf-8-sig"), path.name, str(path.parent)
+        return decoded(path.read_bytes())[0], path.name, str(path.parent)
     except OSError as error:
         raise DiagnosisError(f"{source}: {error.strerror or error}") from None
-    except UnicodeDecodeError as error:
-        line = error.object[: error.start].count(b"\n") + 1
-        where = f"byte 0x{error.object[error.start]:02x} in line {line}"
-        raise DiagnosisError(f"{source}: not a text in UTF-8: {where}") from None
+    except ValueError as error:
+        raise DiagnosisError(f"{source}: not a text in UTF-8: {error}") from None
 
 
 def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | None, str, str]:

@@ -276,6 +276,21 @@ def read_source(texts: Mapping[str, str]) -> Source | None:
         return None
 
 
+def decoded(content: bytes) -> tuple[str, str]:
+    """A text in UTF-8, or byte by byte where it is none, as MuJoCo reads it; and its encoding.
+
+    Raises:
+        ValueError: If it is no text: it has a byte 0.
+    """
+    if 0 in content:
+        line = content[: content.index(0)].count(b"\n") + 1
+        raise ValueError(f"byte 0x00 in line {line}")
+    try:
+        return content.decode("utf-8-sig"), "utf-8"
+    except UnicodeDecodeError:
+        return content.decode("latin-1"), "latin-1"
+
+
 def read_texts(main: str, name: str, read: Callable[[str], str | None]) -> dict[str, str]:
     """The text of a model and those that it includes, by the names that are written.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -29,6 +30,15 @@ def test_its_bad_example_is_found_and_its_good_one_is_not(rule, tmp_path, monkey
     good = diagnosed(rule.example("Good"), tmp_path, monkeypatch)
     assert not good.causes, good.text()
     assert rule.id not in {each.rule for each in good.hints}
+
+
+@pytest.mark.parametrize("taken", ['<joint name="elbow"/>', "<worldbody>", ""], ids=["none", "two", "nothing"])
+def test_a_diff_that_does_not_fit_its_bad_example_is_told(taken):
+    bad = "<mujoco>\n<worldbody>\n</worldbody>\n<worldbody>\n</worldbody>\n</mujoco>"
+    indented = bad.replace("\n", "\n    ")
+    text = f"A fault.\n\nBad:\n\n    {indented}\n\nGood:\n\n    - {taken}\n    + <option/>\n\nThe number: 1."
+    with pytest.raises(ValueError, match="in the bad example, expected once"):
+        replace(rules()["no-armature"], text=text).example("Good")
 
 
 @pytest.mark.parametrize("case", MODELS, ids=lambda case: case.slug)

@@ -98,9 +98,10 @@ def _diagnosed(text: str) -> str:
 
 def _page(rule: Rule, told: Mapping[str, str], cases: Mapping[str, Case], kept: Kept) -> str:
     def example(found: re.Match[str]) -> str:
-        model = rule.example(found[1]).rstrip()
+        model = rule.shown(found[1]).rstrip()
+        language = "xml" if model.startswith("<") or found[1] == "Bad" else "diff"
         said = f"`clinic diagnose` prints:\n\n``` {{ .text .wrap }}\n{told[found[1]]}\n```"
-        return f"## {found[1]}\n\n```xml\n{model}\n```\n\n{said}\n\n"
+        return f"## {found[1]}\n\n```{language}\n{model}\n```\n\n{said}\n\n"
 
     text = EXAMPLE.sub(example, rule.text + "\n")
     first, _, rest = text.partition("\n\n")

@@ -13,8 +13,8 @@ CASE       the case that shows it, where there is one
 suspects   a function that takes a `ReaderModel` and gives `Suspect`s; for a model that does not compile, with FAMILIES
            `will-not-compile`, it reads `model.error`
 
-and a docstring that is its page: what it is, why it matters, `Bad:` and `Good:` with an example of a few lines each,
-the number and its source, and when it is wrong.
+and a docstring that is its page: what it is, why it matters, `Bad:` with an example of a few lines, `Good:` with the
+diff that makes a good one of it or with another example, the number and its source, and when it is wrong.
 """
 
 from __future__ import annotations
@@ -51,19 +51,41 @@ class Rule:
     suspects: Callable[[ReaderModel], Iterable[Suspect]]
 
     def example(self, which: str) -> str:
-        """The model that the docstring shows under `Bad:` or `Good:`."""
+        """The model that the docstring shows under `Bad:` or `Good:`.
+
+        Raises:
+            ValueError: If what `Good:` takes out does not stand once in the bad one.
+        """
+        shown = self.shown(which)
+        return shown if which == "Bad" or shown.startswith("<") else _changed(self.example("Bad"), shown)
+
+    def shown(self, which: str) -> str:
+        """The text under `Bad:` or `Good:`: a model, or the diff that makes the good one of the bad one."""
         lines = iter(self.text.partition(f"\n{which}:\n")[2].splitlines())
         shown: list[str] = []
         for line in lines:
             if line.strip() and not line.startswith("    "):
                 break
             shown.append(line[4:])
-        return "\n".join(shown).strip() + "\n"
+        return "\n".join(shown).strip("\n") + "\n"
 
     @property
     def of_errors(self) -> bool:
         """Whether it is about models that do not compile."""
         return COMPILES_NOT in self.families
+
+
+def _changed(text: str, diff: str) -> str:
+    """A text with the parts of a diff, which blank lines part, put in place of what they take out."""
+    lines = text.splitlines()
+    for part in diff.strip("\n").split("\n\n"):
+        marked = [(line[:1], line[2:]) for line in part.splitlines()]
+        before, after = ([line for mark, line in marked if mark in (" ", sign)] for sign in "-+")
+        places = [at for at in range(len(lines)) if lines[at : at + len(before)] == before]
+        if len(places) != 1:
+            raise ValueError(f"stands {len(places)} times in the bad example, expected once: {before}")
+        lines[places[0] : places[0] + len(before)] = after
+    return "\n".join(lines) + "\n"
 
 
 @cache

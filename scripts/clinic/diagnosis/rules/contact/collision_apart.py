@@ -17,15 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="tool" pos="0 0 0.5">
-          <freejoint/>
-          <geom name="seen" type="box" size="0.05 0.05 0.1" contype="0" conaffinity="0" mass="0"/>
-          <geom name="touched" type="box" size="0.05 0.05 0.1"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <geom name="touched" type="box" size="0.05 0.05 0.1" pos="0 0 0.3"/>
+    +       <geom name="touched" type="box" size="0.05 0.05 0.1"/>
 
 The number: how far the middles of the two are apart, or how far one is turned, where one shape, or one mesh, is in the
 body once to be seen and once to be touched; more than 2 mm, or 5 degrees. One of 289 healthy models has such a pair,

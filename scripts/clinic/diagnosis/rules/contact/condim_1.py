@@ -17,15 +17,11 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="5 5 0.1"/>
-        <body name="box" pos="0 0 0.05">
-          <freejoint/>
-          <geom name="box" type="box" size="0.05 0.05 0.05"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -     <geom type="plane" size="5 5 0.1" condim="1"/>
+    +     <geom type="plane" size="5 5 0.1"/>
+
+    -       <geom name="box" type="box" size="0.05 0.05 0.05" condim="1"/>
+    +       <geom name="box" type="box" size="0.05 0.05 0.05"/>
 
 The number: a push, once at rest, at the speed of a fall over a tenth of the size of what is pushed; with friction 0.3
 it would be over when the probe looks. Below 0.3 of the push's speed is well.

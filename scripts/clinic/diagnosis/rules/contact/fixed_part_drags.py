@@ -31,28 +31,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="2 2 0.1"/>
-        <body name="base" pos="0 0 0.035">
-          <freejoint/>
-          <geom type="cylinder" size="0.15 0.02" pos="0 0 0.03" mass="3"/>
-          <geom name="caster" type="sphere" size="0.015" pos="-0.11 0 -0.02" mass="0.02" condim="1" priority="1"/>
-          <body name="left_wheel" pos="0.03 0.13 0">
-            <joint name="left_wheel" axis="0 1 0" damping="0.005" armature="0.001"/>
-            <geom type="cylinder" size="0.035 0.01" euler="90 0 0" mass="0.1"/>
-          </body>
-          <body name="right_wheel" pos="0.03 -0.13 0">
-            <joint name="right_wheel" axis="0 1 0" damping="0.005" armature="0.001"/>
-            <geom type="cylinder" size="0.035 0.01" euler="90 0 0" mass="0.1"/>
-          </body>
-        </body>
-      </worldbody>
-      <actuator>
-        <velocity joint="left_wheel" kv="0.3" ctrlrange="-20 20"/>
-        <velocity joint="right_wheel" kv="0.3" ctrlrange="-20 20"/>
-      </actuator>
-    </mujoco>
+    -       <geom name="caster" type="sphere" size="0.015" pos="-0.11 0 -0.02" mass="0.02"/>
+    +       <geom name="caster" type="sphere" size="0.015" pos="-0.11 0 -0.02" mass="0.02" condim="1" priority="1"/>
 
 The number: what friction of the parts that have no joint but the free one takes, as a share of the weight, once the
 robot stands on driven wheels and on them; above 0.05 is told. A wheel is a body that a driven level hinge without a

@@ -18,15 +18,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom name="floor" type="plane" size="2 2 0.1"/>
-        <body name="puck" pos="0 0 0.02">
-          <freejoint/>
-          <geom type="cylinder" size="0.05 0.02" mass="0.1" friction="0.15" priority="1"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <geom type="cylinder" size="0.05 0.02" mass="0.1" friction="0.15"/>
+    +       <geom type="cylinder" size="0.05 0.02" mass="0.1" friction="0.15" priority="1"/>
 
 The number: the least sliding friction of the contacts on which the geom rests after 2 s, over its own, from 4 on; told
 of frictions up to 0.2. MuJoCo's manual, Computation, Contact: the element-wise maximum.

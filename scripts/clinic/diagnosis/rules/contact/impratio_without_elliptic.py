@@ -19,16 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <option impratio="10" cone="elliptic"/>
-      <worldbody>
-        <geom type="plane" size="1 1 0.1"/>
-        <body name="box" pos="0 0 0.05">
-          <freejoint/>
-          <geom type="box" size="0.05 0.05 0.05"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -   <option impratio="10"/>
+    +   <option impratio="10" cone="elliptic"/>
 
 The number: `impratio` itself, with the cone that it needs. MuJoCo's manual, XML reference, `option-impratio`: *it is
 not recommended to use high impratio values with pyramidal cones.*

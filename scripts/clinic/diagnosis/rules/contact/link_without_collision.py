@@ -32,30 +32,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="base" pos="0 0 0.1">
-          <joint axis="0 0 1"/>
-          <geom type="cylinder" size="0.08 0.1"/>
-          <body name="upper" pos="0 0 0.12">
-            <joint axis="0 1 0"/>
-            <geom type="capsule" fromto="0 0 0.04 0 0 0.26" size="0.03"/>
-            <body name="fore" pos="0 0 0.3">
-              <joint axis="0 1 0"/>
-              <geom type="capsule" fromto="0 0 0.04 0 0 0.26" size="0.03"/>
-              <body name="wrist" pos="0 0 0.3">
-                <joint axis="0 1 0"/>
-                <geom type="capsule" fromto="0 0 0.04 0 0 0.1" size="0.03"/>
-                <body name="hand" pos="0 0 0.15">
-                  <joint axis="0 0 1"/>
-                  <geom type="box" pos="0 0 0.04" size="0.04 0.02 0.04"/>
-                </body>
-              </body>
-            </body>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+    -           <geom type="capsule" fromto="0 0 0.04 0 0 0.26" size="0.03" contype="0" conaffinity="0"/>
+    +           <geom type="capsule" fromto="0 0 0.04 0 0 0.26" size="0.03"/>
 
 The number: how many of a robot's links have geoms and none that collides; one alone is told, or two, of five and more,
 where it is more than half as large as the link in the middle and the link before it collides; or one limb, such as a

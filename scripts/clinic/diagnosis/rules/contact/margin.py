@@ -18,15 +18,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom name="floor" type="plane" size="1 1 0.1"/>
-        <body name="box" pos="0 0 0.2">
-          <freejoint/>
-          <geom name="box" type="box" size="0.05 0.05 0.05" margin="0.0005"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <geom name="box" type="box" size="0.05 0.05 0.05" margin="0.05"/>
+    +       <geom name="box" type="box" size="0.05 0.05 0.05" margin="0.0005"/>
 
 The number: the widest gap of a contact that carries something, 2 s after letting go, as a share of the thinner geom's
 thickness; below 0.2 is well, and below 0.5 % of how far the thing itself reaches. MuJoCo's manual, Computation, Margin

@@ -17,15 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom name="floor" type="plane" size="1 1 0.1"/>
-        <body name="box" pos="0 0 0.5">
-          <freejoint/>
-          <geom name="box" type="box" size="0.05 0.05 0.05"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -     <geom name="floor" type="plane" size="1 1 0.1" contype="2" conaffinity="2"/>
+    +     <geom name="floor" type="plane" size="1 1 0.1"/>
 
 The number: how far the centre of a body ends below a surface that it began above, 2 s after letting go. MuJoCo's
 manual, Computation, Collision detection, has the condition.

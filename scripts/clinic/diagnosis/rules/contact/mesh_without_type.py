@@ -18,17 +18,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <asset>
-        <mesh name="wedge" vertex="0 0 0 0.4 0 0 0 0.05 0 0 0 0.05"/>
-      </asset>
-      <worldbody>
-        <body pos="0 0 1">
-          <freejoint/>
-          <geom name="wedge" type="mesh" mesh="wedge"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <geom name="wedge" mesh="wedge"/>
+    +       <geom name="wedge" type="mesh" mesh="wedge"/>
 
 The number: geoms with a mesh for which no type is written, neither on them nor in a default class.
 

@@ -17,15 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="1 1 0.1"/>
-        <body name="box" pos="0 0 0.05">
-          <freejoint/>
-          <geom name="box" type="box" size="0.05 0.05 0.05"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -     <body name="box">
+    +     <body name="box" pos="0 0 0.05">
 
 The number: the deepest overlap at the start as a share of how far the thing reaches from its own origin; below 0.05 is
 well. Robots are often pressed into the floor by a few millimetres.

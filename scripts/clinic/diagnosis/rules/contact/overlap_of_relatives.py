@@ -19,20 +19,10 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="base">
-          <geom type="sphere" size="0.1"/>
-          <body name="arm" pos="0.1 0 0">
-            <joint axis="0 1 0" damping="1"/>
-            <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.04"/>
-          </body>
-        </body>
-      </worldbody>
-      <contact>
-        <exclude body1="base" body2="arm"/>
-      </contact>
-    </mujoco>
+        </worldbody>
+    +   <contact>
+    +     <exclude body1="base" body2="arm"/>
+    +   </contact>
 
 The number: the deepest overlap at the start of bodies at most 3 links apart, as a share of the thinner geom's
 thickness; below 0.1 is well. MuJoCo's manual, Computation, Collision detection: the filter of parents.

@@ -24,21 +24,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="5 5 0.1"/>
-        <body name="hub" pos="0 0 0.1">
-          <joint axis="0 1 0"/>
-          <geom type="cylinder" size="0.05 0.02" zaxis="0 1 0" contype="0" conaffinity="0"/>
-          <replicate count="20" euler="0 18 0">
-            <body name="roller" pos="0.08 0 0">
-              <joint axis="0 0.7 0.7"/>
-              <geom size="0.015" mass="0.02"/>
-            </body>
-          </replicate>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <replicate count="6" euler="0 60 0">
+    +       <replicate count="20" euler="0 18 0">
 
 The number: how much the radius varies over a turn, as a share of its mean; above 3 % is told. A ring of n spheres of
 radius r around R varies by R (1 - cos(pi / n)). A wheel is a hinge that carries five and more bodies with one sphere

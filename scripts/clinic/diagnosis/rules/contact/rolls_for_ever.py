@@ -17,15 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom name="field" type="plane" size="9 6 0.1"/>
-        <body name="ball" pos="0 0 0.095">
-          <freejoint/>
-          <geom name="ball" type="sphere" size="0.095" mass="0.45" condim="6" friction="1 0.005 0.008"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <geom name="ball" type="sphere" size="0.095" mass="0.45"/>
+    +       <geom name="ball" type="sphere" size="0.095" mass="0.45" condim="6" friction="1 0.005 0.008"/>
 
 The number: of the speed of a rolling ball, what is left 1 s later; above 0.99 it never stops. A soccer ball on grass
 loses 0.6 m/s in a second.

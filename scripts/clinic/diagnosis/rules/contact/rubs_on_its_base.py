@@ -19,20 +19,10 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="base">
-          <geom type="cylinder" size="0.1 0.1" pos="0 0 0.1"/>
-          <body name="shoulder" pos="0 0 0.2">
-            <joint name="turn" axis="0 0 1" range="-170 170"/>
-            <geom type="cylinder" size="0.08 0.1" pos="0 0 0.099"/>
-          </body>
-        </body>
-      </worldbody>
-      <contact>
-        <exclude body1="base" body2="shoulder"/>
-      </contact>
-    </mujoco>
+        </worldbody>
+    +   <contact>
+    +     <exclude body1="base" body2="shoulder"/>
+    +   </contact>
 
 The number: the share of 21 poses over the range, or over a turn where there is none, in which a contact of the two has
 force, however shallow; the other joints are at their start. MuJoCo's manual, Computation, Collision detection: the

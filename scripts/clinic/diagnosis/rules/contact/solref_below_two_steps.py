@@ -17,15 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="1 1 0.1"/>
-        <body pos="0 0 0.1">
-          <freejoint/>
-          <geom name="box" type="box" size="0.1 0.1 0.1" solref="0.02 1"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <geom name="box" type="box" size="0.1 0.1 0.1" solref="0.0000001 1"/>
+    +       <geom name="box" type="box" size="0.1 0.1 0.1" solref="0.02 1"/>
 
 The number: two timesteps over the time constant; more than 10.
 

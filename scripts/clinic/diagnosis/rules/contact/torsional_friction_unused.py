@@ -20,18 +20,11 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="left_finger" pos="0 0.03 0.2">
-          <joint type="slide" axis="0 1 0" range="-0.02 0.02"/>
-          <geom name="left_pad" type="box" size="0.01 0.005 0.02" mass="0.02" friction="1 0.05 0.001" condim="4"/>
-        </body>
-        <body name="right_finger" pos="0 -0.03 0.2">
-          <joint type="slide" axis="0 1 0" range="-0.02 0.02"/>
-          <geom name="right_pad" type="box" size="0.01 0.005 0.02" mass="0.02" friction="1 0.05 0.001" condim="4"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <geom name="left_pad" type="box" size="0.01 0.005 0.02" mass="0.02" friction="1 0.05 0.001"/>
+    +       <geom name="left_pad" type="box" size="0.01 0.005 0.02" mass="0.02" friction="1 0.05 0.001" condim="4"/>
+
+    -       <geom name="right_pad" type="box" size="0.01 0.005 0.02" mass="0.02" friction="1 0.05 0.001"/>
+    +       <geom name="right_pad" type="box" size="0.01 0.005 0.02" mass="0.02" friction="1 0.05 0.001" condim="4"/>
 
 The number: how many geoms of fingers, thumbs, jaws, pads and tips have more than the default of 0.005 m, in a model
 without any `condim` above 3; two at least are told. So are 3 of the 289 healthy models.

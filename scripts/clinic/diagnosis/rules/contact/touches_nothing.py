@@ -25,23 +25,15 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="2 2 0.1"/>
-        <body name="car" pos="0 0 0.1">
-          <freejoint/>
-          <geom type="box" size="0.2 0.1 0.03"/>
-          <body name="left_wheel" pos="0 0.15 0">
-            <joint axis="0 1 0"/>
-            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
-          </body>
-          <body name="right_wheel" pos="0 -0.15 0">
-            <joint axis="0 1 0"/>
-            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+            <body name="left_wheel" pos="0 0.15 0">
+              <joint axis="0 1 0"/>
+    -         <geom type="cylinder" size="0.1 0.02" euler="90 0 0" contype="0" conaffinity="0"/>
+    +         <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
+
+            <body name="right_wheel" pos="0 -0.15 0">
+              <joint axis="0 1 0"/>
+    -         <geom type="cylinder" size="0.1 0.02" euler="90 0 0" contype="0" conaffinity="0"/>
+    +         <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
 
 The number: bodies that are called a wheel, caster, tyre, foot, finger, pad, jaw or claw, that have geoms and none which
 collides, nor has what hangs on them, while other parts of the same robot collide.

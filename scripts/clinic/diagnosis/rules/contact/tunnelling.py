@@ -17,15 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom name="shelf" type="box" pos="0 0 0.15" size="0.08 0.05 0.05"/>
-        <body name="block" pos="0 0 2">
-          <freejoint/>
-          <geom name="block" type="box" size="0.01 0.01 0.01" mass="0.03"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -     <geom name="shelf" type="box" pos="0 0 0.2" size="0.08 0.05 0.002"/>
+    +     <geom name="shelf" type="box" pos="0 0 0.15" size="0.08 0.05 0.05"/>
 
 The number: how far the centre of a body ends below a surface that it began above, 2 s after letting go, although the
 masks of the two match. Tried: 1/2 to 1/8 of the timestep with a contact of twice that as its time constant.

@@ -20,18 +20,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <default>
-        <default class="visual"><geom group="2" contype="0" conaffinity="0" mass="0"/></default>
-      </default>
-      <worldbody>
-        <body name="link" pos="0 0 1">
-          <joint axis="0 1 0"/>
-          <geom class="visual" type="capsule" fromto="0 0 0 0 0 0.3" size="0.04"/>
-          <geom type="capsule" fromto="0 0 0 0 0 0.3" size="0.03" mass="1"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -     <default class="visual"><geom group="2"/></default>
+    +     <default class="visual"><geom group="2" contype="0" conaffinity="0" mass="0"/></default>
 
 The number: geoms whose class or name says visual, in a body that has another geom that collides, with masks that are
 not zero.

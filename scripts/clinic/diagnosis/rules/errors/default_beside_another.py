@@ -21,20 +21,12 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <default>
-        <joint damping="1"/>
-        <default class="kettle">
-          <geom density="500"/>
-        </default>
-      </default>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint axis="0 1 0"/>
-          <geom class="kettle" type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -   </default>
+    -   <default class="kettle">
+    +     <default class="kettle">
+    -     <geom density="500"/>
+    +       <geom density="500"/>
+    +     </default>
 
 The number: none; the text compiles with the edit, which puts the class inside.
 

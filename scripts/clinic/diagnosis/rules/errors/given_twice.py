@@ -17,14 +17,7 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="arm" pos="0 0 1">
-          <joint name="elbow" axis="0 1 0"/>
-          <inertial pos="0 0 0" mass="1" diaginertia="0.01 0.01 0.01"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <inertial pos="0 0 0" mass="2" diaginertia="0.02 0.02 0.02"/>
 
 The number: none; the text compiles with the edit, which keeps the first.
 

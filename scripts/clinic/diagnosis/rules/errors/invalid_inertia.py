@@ -17,14 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="arm" pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" damping="1"/>
-          <inertial pos="0.1 0 0" mass="1" diaginertia="0.01 0.01 0.01"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <inertial pos="0.1 0 0" mass="1" diaginertia="0.01 0.01 0.1"/>
+    +       <inertial pos="0.1 0 0" mass="1" diaginertia="0.01 0.01 0.01"/>
 
 The number: A + B >= C is checked by MuJoCo. The edit takes off a sign, fills in a zero, or shortens the largest moment
 until it fits.

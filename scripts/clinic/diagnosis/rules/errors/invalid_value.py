@@ -13,14 +13,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="arm" pos="0 0 1">
-          <joint name="elbow" type="hinge" axis="0 1 0" damping="1"/>
-          <geom name="link" type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <joint name="elbow" type="revolute" axis="0 1 0" damping="1"/>
+    +       <joint name="elbow" type="hinge" axis="0 1 0" damping="1"/>
 
 The number: none; the text compiles with the edit.
 

@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="arm" pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" damping="1"/>
-          <geom name="link" type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-        </body>
-      </worldbody>
-      <keyframe>
-        <key name="home" qpos="0.5"/>
-      </keyframe>
-    </mujoco>
+    -     <key name="home" qpos="0.5 0 0"/>
+    +     <key name="home" qpos="0.5"/>
 
 The number: MuJoCo's message has both counts. The numbers that are left over are cut.
 

@@ -21,19 +21,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="arm" pos="0 0 1">
-          <joint name="elbow" axis="0 1 0"/>
-          <geom name="link" type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-        </body>
-      </worldbody>
-      <tendon>
-        <fixed name="pull">
-          <joint joint="elbow" coef="1"/>
-        </fixed>
-      </tendon>
-    </mujoco>
+    -       <joint joint="elbow"/>
+    +       <joint joint="elbow" coef="1"/>
 
 The number: none; the text compiles with the edit. Where a name is left out, the only element of that kind is tried, or
 the one with nearly the same name; where a mass is left out, that of a ball of 50 mm radius with the written inertia.

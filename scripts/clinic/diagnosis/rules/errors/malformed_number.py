@@ -13,11 +13,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom name="box" type="box" size="0.1 0.1 0.1"/>
-      </worldbody>
-    </mujoco>
+    -     <geom name="box" type="box" size="0.1, 0.1, 0.1"/>
+    +     <geom name="box" type="box" size="0.1 0.1 0.1"/>
 
 The number: none; the text compiles with the edit.
 

@@ -15,13 +15,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="arm">
-          <geom name="link" size="0.1"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -     </bodi>
+    +     </body>
 
 The number: none; the text is read with the edit.
 

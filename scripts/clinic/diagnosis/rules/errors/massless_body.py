@@ -17,15 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="wrist" pos="0 0 1">
-          <joint name="turn" axis="0 0 1"/>
-          <inertial pos="0 0 0" mass="0.01" diaginertia="1e-5 1e-5 1e-5"/>
-          <site name="tip" pos="0.1 0 0"/>
-        </body>
-      </worldbody>
-    </mujoco>
+            <joint name="turn" axis="0 0 1"/>
+    +       <inertial pos="0 0 0" mass="0.01" diaginertia="1e-5 1e-5 1e-5"/>
 
 The number: mjMINVAL is 1e-15. The edit gives a body without mass 10 g, and a body without
 inertia that of a ball of 50 mm radius. A body whose geoms do have mass is too small: a box of 0.1 mm has an inertia

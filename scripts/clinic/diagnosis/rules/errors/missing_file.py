@@ -17,14 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <asset>
-        <texture name="wood" type="2d" builtin="flat" width="8" height="8" rgb1="0.5 0.3 0.1"/>
-      </asset>
-      <worldbody>
-        <geom name="box" type="box" size="0.1 0.1 0.1"/>
-      </worldbody>
-    </mujoco>
+    -     <texture name="wood" type="2d" file="textures/wood.png"/>
+    +     <texture name="wood" type="2d" builtin="flat" width="8" height="8" rgb1="0.5 0.3 0.1"/>
 
 The number: none; a file of that name is looked for below the model's folder and the one around it, then one with
 nearly that name that nothing else uses. Where there is none, this is a hint that says which file is missing.

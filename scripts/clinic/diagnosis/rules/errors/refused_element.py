@@ -15,13 +15,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="shelf">
-          <geom name="board" type="box" size="0.3 0.1 0.01"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -     <body name="shelf" sleep="init">
+    +     <body name="shelf">
 
 The number: none; the text compiles with the edit.
 

@@ -14,12 +14,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom name="box" type="box" size="0.1 0.1 0.1"/>
-        <geom name="box_2" type="box" size="0.1 0.1 0.1" pos="1 0 0"/>
-      </worldbody>
-    </mujoco>
+    -     <geom name="box" type="box" size="0.1 0.1 0.1" pos="1 0 0"/>
+    +     <geom name="box_2" type="box" size="0.1 0.1 0.1" pos="1 0 0"/>
 
 The number: none; the text compiles with the edit.
 

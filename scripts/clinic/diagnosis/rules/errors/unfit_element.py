@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="arm" pos="0 0 1">
-          <joint name="shoulder" type="ball"/>
-          <geom name="link" type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-        </body>
-      </worldbody>
-      <sensor>
-        <ballquat name="angle" joint="shoulder"/>
-      </sensor>
-    </mujoco>
+    -     <jointpos name="angle" joint="shoulder"/>
+    +     <ballquat name="angle" joint="shoulder"/>
 
 The number: none; the text compiles with the edit.
 

@@ -17,14 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="arm">
-          <joint name="elbow"/>
-          <geom name="link" size="0.1"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <hinge name="elbow"/>
+    +       <joint name="elbow"/>
 
 The number: none; the text compiles with the edit.
 

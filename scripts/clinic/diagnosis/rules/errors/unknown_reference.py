@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="arm" pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" damping="1"/>
-          <geom name="link" type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <motor name="motor" joint="elbow"/>
-      </actuator>
-    </mujoco>
+    -     <motor name="motor" joint="elbo"/>
+    +     <motor name="motor" joint="elbow"/>
 
 The number: none; the text compiles with the edit. The nearest name that stands in the model is tried.
 

@@ -27,25 +27,8 @@ Bad:
 
 Good:
 
-    <robot name="arm">
-      <link name="base"/>
-      <link name="upper">
-        <inertial><origin xyz="0 0 0.1"/><mass value="1"/>
-          <inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.0005"/></inertial>
-      </link>
-      <link name="fore">
-        <inertial><origin xyz="0 0 0.1"/><mass value="1"/>
-          <inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.0005"/></inertial>
-      </link>
-      <joint name="shoulder" type="revolute">
-        <parent link="base"/><child link="upper"/><axis xyz="0 1 0"/>
-        <limit lower="-1" upper="1" effort="20" velocity="3"/>
-      </joint>
-      <joint name="elbow" type="revolute">
-        <parent link="upper"/><child link="fore"/><origin xyz="0 0 0.25" rpy="0 0 0"/><axis xyz="0 1 0"/>
-        <limit lower="-1" upper="1" effort="20" velocity="3"/>
-      </joint>
-    </robot>
+    -     <parent link="upper"/><child link="fore"/><origin xyz="0 0 0.25" rpy="0 0 0"/>
+    +     <parent link="upper"/><child link="fore"/><origin xyz="0 0 0.25" rpy="0 0 0"/><axis xyz="0 1 0"/>
 
 The number: the joints that move and have no axis. None is told where no joint that moves has one.
 

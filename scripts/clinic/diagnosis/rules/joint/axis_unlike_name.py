@@ -18,16 +18,10 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="base">
-          <joint name="base_x" type="slide" axis="1 0 0"/>
-          <joint name="base_y" type="slide" axis="0 1 0"/>
-          <joint name="base_yaw" axis="0 0 1"/>
-          <geom type="box" size="0.2 0.1 0.05"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <joint name="base_x" type="slide" axis="0 1 0"/>
+    -       <joint name="base_y" type="slide" axis="1 0 0"/>
+    +       <joint name="base_x" type="slide" axis="1 0 0"/>
+    +       <joint name="base_y" type="slide" axis="0 1 0"/>
 
 The number: the angle in degrees between a slide and the axis that its name says: x, forward; y, side, lateral; z,
 vertical. More than 60, both in the world and as it is written, where two slides and more are called so; of 289 healthy

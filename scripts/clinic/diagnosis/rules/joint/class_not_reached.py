@@ -24,22 +24,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <default>
-        <default class="arm">
-          <joint damping="1" armature="0.1"/>
-        </default>
-      </default>
-      <worldbody>
-        <body name="upper" pos="0 0 1" childclass="arm">
-          <joint name="shoulder" axis="0 1 0"/>
-          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.5"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <position joint="shoulder" kp="50" kv="5"/>
-      </actuator>
-    </mujoco>
+    -     <body name="upper" pos="0 0 1">
+    +     <body name="upper" pos="0 0 1" childclass="arm">
 
 The number: how many driven joints have no class and none of damping, armature and frictionloss, where a class gives
 joints some of it, which no joint uses, or more than there are such driven joints.

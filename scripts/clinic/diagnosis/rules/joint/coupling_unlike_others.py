@@ -41,39 +41,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="a1" axis="0 1 0" damping="0.1"/>
-          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.008"/>
-          <body pos="0.06 0 0">
-            <joint name="a2" axis="0 1 0" damping="0.1"/>
-            <geom type="capsule" fromto="0 0 0 0.03 0 0" size="0.008"/>
-          </body>
-        </body>
-        <body pos="0 0.03 1">
-          <joint name="b1" axis="0 1 0" damping="0.1"/>
-          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.008"/>
-          <body pos="0.06 0 0">
-            <joint name="b2" axis="0 1 0" damping="0.1"/>
-            <geom type="capsule" fromto="0 0 0 0.03 0 0" size="0.008"/>
-          </body>
-        </body>
-        <body pos="0 0.06 1">
-          <joint name="c1" axis="0 1 0" damping="0.1"/>
-          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.008"/>
-          <body pos="0.06 0 0">
-            <joint name="c2" axis="0 1 0" damping="0.1"/>
-            <geom type="capsule" fromto="0 0 0 0.03 0 0" size="0.008"/>
-          </body>
-        </body>
-      </worldbody>
-      <equality>
-        <joint joint1="a2" joint2="a1"/>
-        <joint joint1="b2" joint2="b1"/>
-        <joint joint1="c2" joint2="c1"/>
-      </equality>
-    </mujoco>
+    -     <joint joint1="b2" joint2="a1"/>
+    +     <joint joint1="b2" joint2="b1"/>
 
 The number: three and more couplings of two joints each. In all but one the leader is as many joints above its follower;
 in that one it is on another branch, though a joint is as far above its follower as well.

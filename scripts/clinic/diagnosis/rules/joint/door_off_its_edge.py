@@ -17,15 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="box" size="0.02 0.02 0.5" pos="0 0.02 0.5"/>
-        <body name="door" pos="0 -0.4 0.5">
-          <joint axis="0 0 1" range="0 100" damping="1" pos="0 0.38 0"/>
-          <geom type="box" size="0.02 0.38 0.45" mass="8"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <joint axis="0 0 1" range="0 100" damping="1"/>
+    +       <joint axis="0 0 1" range="0 100" damping="1" pos="0 0.38 0"/>
 
 The number: how far the hinge is from the middle of the door's geoms, in half widths of them; less than 0.3 is told, and
 0 stands for an axis across the panel, which is the largest geom. Looked at are bodies with one hinge that are called a

@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <robot name="arm">
-      <link name="base"/>
-      <link name="arm">
-        <inertial><origin xyz="0 0 0.1"/><mass value="1"/>
-          <inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.0005"/></inertial>
-      </link>
-      <joint name="shoulder" type="revolute">
-        <parent link="base"/><child link="arm"/><axis xyz="0 1 0"/>
-        <limit lower="-1" upper="1" effort="20" velocity="3"/>
-      </joint>
-    </robot>
+    -     <limit lower="-1" upper="1" effort="0" velocity="0"/>
+    +     <limit lower="-1" upper="1" effort="20" velocity="3"/>
 
 The number: how many joints have no limit of force once the model is compiled, although the text states an effort.
 

@@ -24,21 +24,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="left" pos="0.03 0 1">
-          <joint name="left" type="slide" axis="1 0 0" range="0 0.04"/>
-          <geom type="box" size="0.01 0.01 0.04"/>
-        </body>
-        <body name="right" pos="-0.03 0 1">
-          <joint name="right" type="slide" axis="-1 0 0" range="0 0.04"/>
-          <geom type="box" size="0.01 0.01 0.04"/>
-        </body>
-      </worldbody>
-      <equality>
-        <joint joint1="left" joint2="right"/>
-      </equality>
-    </mujoco>
+    -       <joint name="right" type="slide" axis="1 0 0" range="0 0.04"/>
+    +       <joint name="right" type="slide" axis="-1 0 0" range="0 0.04"/>
 
 The number: how far the two move the same way, as a share of how far they move; 0 for fingers that close, 1 for two that
 keep their distance. The axis is turned where the coupling leads within the range, and else the factor.

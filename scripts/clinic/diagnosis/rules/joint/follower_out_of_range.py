@@ -23,21 +23,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="knuckle" axis="0 1 0" range="0 50"/>
-          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
-        </body>
-        <body pos="0 0.1 1">
-          <joint name="tip" axis="0 1 0" range="-50 0"/>
-          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
-        </body>
-      </worldbody>
-      <equality>
-        <joint joint1="tip" joint2="knuckle" polycoef="0 -1 0 0 0"/>
-      </equality>
-    </mujoco>
+    -       <joint name="tip" axis="0 1 0" range="0 50"/>
+    +       <joint name="tip" axis="0 1 0" range="-50 0"/>
 
 The number: the share of the leader's range that leads the follower out of its own; more than a half. A `polycoef` of a
 constant alone, such as `1 0 0 0 0` for `0 1 0 0 0`, leads the follower nowhere: 1 where that is so.

@@ -20,18 +20,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <default>
-        <joint damping="2" armature="0.1"/>
-      </default>
-      <worldbody>
-        <geom type="plane" size="1 1 0.1"/>
-        <body name="cube" pos="0 0 0.5">
-          <freejoint/>
-          <geom type="box" size="0.03 0.03 0.03" mass="0.2"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <joint type="free"/>
+    +       <freejoint/>
 
 The number: what the joint takes of the weight at the speed of a fall over its own size, or one size below its start;
 armature counts by its share of the mass that gravity then has to move. Below 0.1 is well.

@@ -19,18 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <compiler angle="radian"/>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="finger" type="slide" axis="0 1 0" range="0 0.04" damping="1"/>
-          <geom type="box" size="0.01 0.01 0.03"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <position joint="finger" kp="100" ctrlrange="0 0.04"/>
-      </actuator>
-    </mujoco>
+    -       <joint name="finger" axis="0 1 0" range="0 0.04" damping="1"/>
+    +       <joint name="finger" type="slide" axis="0 1 0" range="0 0.04" damping="1"/>
 
 The number: by how much the narrowest range is below 0.15 rad, of the hinges for which nobody wrote a type, which
 something drives or a spring holds, and whose range is so narrow as it is written, too.

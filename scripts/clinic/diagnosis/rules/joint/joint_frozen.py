@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" range="-90 90" damping="0.5"/>
-          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <motor joint="elbow" ctrlrange="-1 1" gear="5"/>
-      </actuator>
-    </mujoco>
+    -       <joint name="elbow" axis="0 1 0" range="-90 90" damping="500"/>
+    +       <joint name="elbow" axis="0 1 0" range="-90 90" damping="0.5"/>
 
 The number: driven for 2 s with all that its actuators give, without gravity and contacts, more than 80 % of the way to
 1 rad (0.1 m), or to the far limit, is left. In a URDF, whose efforts no actuator gives yet, friction above the effort,

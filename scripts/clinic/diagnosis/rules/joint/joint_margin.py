@@ -17,14 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" range="-60 60" margin="0.01"/>
-          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <joint name="elbow" axis="0 1 0" range="-60 60" margin="0.5"/>
+    +       <joint name="elbow" axis="0 1 0" range="-60 60" margin="0.01"/>
 
 The number: the share of its range by which a joint that is at rest is away from its upper limit and pushed back from
 it, without gravity, contacts, springs and actuators, in steps of 2.5 %; of a tendon the margin over the

@@ -15,14 +15,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" damping="0.05"/>
-          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <joint name="elbow" axis="0 1 0" damping="-0.05"/>
+    +       <joint name="elbow" axis="0 1 0" damping="0.05"/>
 
 The number: the most negative coefficient; 0 and more is well.
 

@@ -16,14 +16,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" range="-90 90"/>
-          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <joint name="elbow" axis="0 1 0" range="90 -90"/>
+    +       <joint name="elbow" axis="0 1 0" range="-90 90"/>
 
 In URDF a `<limit>` that has no lower and upper, or none at all, is the same, where another joint has a range.
 

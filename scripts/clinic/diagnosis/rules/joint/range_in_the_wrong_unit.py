@@ -20,19 +20,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <compiler angle="radian"/>
-      <worldbody>
-        <geom type="plane" size="1 1 0.1"/>
-        <body pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" range="0 2.5" damping="0.1"/>
-          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <motor joint="elbow"/>
-      </actuator>
-    </mujoco>
+      <mujoco>
+    +   <compiler angle="radian"/>
 
 The number: ranges under 0.12 rad (7 degrees) or over 25 rad (4 turns), of at least half of the hinges that have a
 range; or of a few, where the number as it is written is a usual angle in the other unit. Between 0.3 and 6.5 rad lie

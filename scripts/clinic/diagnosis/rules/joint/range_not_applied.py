@@ -15,14 +15,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" range="-30 30" limited="true"/>
-          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <joint name="elbow" axis="0 1 0" range="-30 30" limited="false"/>
+    +       <joint name="elbow" axis="0 1 0" range="-30 30" limited="true"/>
 
 The number: the joint is put a tenth of its range beyond a limit; 1 where nothing pushes it back.
 

@@ -25,23 +25,12 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <default>
-        <joint stiffness="10" damping="1"/>
-      </default>
-      <worldbody>
-        <body name="trunk" pos="0 0 1">
-          <joint name="root_x" type="slide" axis="1 0 0" stiffness="0" damping="0"/>
-          <joint name="root_z" type="slide" axis="0 0 1" stiffness="0" damping="0"/>
-          <joint name="root_y" axis="0 1 0" stiffness="0" damping="0"/>
-          <geom type="capsule" fromto="-0.2 0 0 0.2 0 0" size="0.05"/>
-          <body pos="0.2 0 0">
-            <joint name="hip" axis="0 1 0"/>
-            <geom type="capsule" fromto="0 0 0 0 0 -0.4" size="0.03"/>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <joint name="root_x" type="slide" axis="1 0 0"/>
+    +       <joint name="root_x" type="slide" axis="1 0 0" stiffness="0" damping="0"/>
+    -       <joint name="root_z" type="slide" axis="0 0 1"/>
+    +       <joint name="root_z" type="slide" axis="0 0 1" stiffness="0" damping="0"/>
+    -       <joint name="root_y" axis="0 1 0"/>
+    +       <joint name="root_y" axis="0 1 0" stiffness="0" damping="0"/>
 
 The number: the largest stiffness of the root's joints, where a slide is among three and more that nothing drives, and
 none of them states its own.

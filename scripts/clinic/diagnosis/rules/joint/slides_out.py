@@ -18,17 +18,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="cabinet" pos="0 0 0.5">
-          <geom type="box" size="0.2 0.2 0.01" pos="0 0 -0.1"/>
-          <body name="drawer">
-            <joint type="slide" axis="1 0 0" range="0 0.3" damping="5"/>
-            <geom type="box" size="0.18 0.18 0.05" mass="1"/>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+    -         <joint type="slide" axis="1 0 0" range="0 35" damping="5"/>
+    +         <joint type="slide" axis="1 0 0" range="0 0.3" damping="5"/>
 
 The number: the gap, along the slide, between what moves and the body that carries it where the range ends, in lengths
 of what moves, told from 0 on; for a slide without a range, and for every one of a URDF, whether its body is called a

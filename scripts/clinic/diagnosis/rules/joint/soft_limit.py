@@ -17,14 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" range="-60 60"/>
-          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <joint name="elbow" axis="0 1 0" range="-60 60" solreflimit="0.5 1"/>
+    +       <joint name="elbow" axis="0 1 0" range="-60 60"/>
 
 The number: the joint is put at its upper limit and moves outwards at 3 rad/s (0.3 m/s), without gravity, contacts,
 springs and actuators; how much further it goes than with MuJoCo's own limit, over 0.15 rad (5 % of the range of a

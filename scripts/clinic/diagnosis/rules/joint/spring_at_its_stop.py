@@ -21,19 +21,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="1 1 0.1"/>
-        <body name="chassis" pos="0 0 0.3">
-          <freejoint/>
-          <geom type="box" size="0.2 0.1 0.03" mass="4"/>
-          <body name="wheel" pos="0 0 -0.1">
-            <joint name="spring" type="slide" axis="0 0 1" stiffness="5000" damping="60" range="-0.03 0.03"/>
-            <geom type="box" size="0.2 0.1 0.05" mass="0.5"/>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+    -         <joint name="spring" type="slide" axis="0 0 1" stiffness="500" damping="60" range="-0.03 0.03"/>
+    +         <joint name="spring" type="slide" axis="0 0 1" stiffness="5000" damping="60" range="-0.03 0.03"/>
 
 The number: two seconds after the model was let go, how far a slide that has a spring and no actuator is from where the
 spring is at rest, as a share of the way to its limit; above 0.75, and where it stands still.

@@ -17,15 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <compiler angle="radian"/>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" range="-1 1" stiffness="1" springref="0.785" damping="0.1"/>
-          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <joint name="elbow" axis="0 1 0" range="-1 1" stiffness="1" springref="45" damping="0.1"/>
+    +       <joint name="elbow" axis="0 1 0" range="-1 1" stiffness="1" springref="0.785" damping="0.1"/>
 
 The number: how far the rest of the spring is beyond the range, or from the start where there is none; more than 2.5 rad
 (6.3 rad without a range). Springs that preload a mechanism are up to 1.8 rad beyond.

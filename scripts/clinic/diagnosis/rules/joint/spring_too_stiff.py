@@ -16,14 +16,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="hinge" axis="0 1 0" stiffness="20" damping="0.05"/>
-          <geom type="capsule" fromto="0 0 0 0.1 0 0" size="0.01" mass="0.02"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <joint name="hinge" axis="0 1 0" stiffness="2000"/>
+    +       <joint name="hinge" axis="0 1 0" stiffness="20" damping="0.05"/>
 
 The number: with the timestep h, stiffness k and inertia M of the joint, h sqrt(k / M) must stay below 2 for the fastest
 mode of the whole chain, which is faster than each joint alone. It is the timestep that is too long where 2 ms suffice.

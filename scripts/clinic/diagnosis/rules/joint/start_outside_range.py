@@ -16,14 +16,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" range="-5 150"/>
-          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <joint name="elbow" axis="0 1 0" range="45 150"/>
+    +       <joint name="elbow" axis="0 1 0" range="-5 150"/>
 
 The number: how fast the limit makes the joint in the first 20 ms, without gravity and contacts; more than 1 rad/s or
 0.1 m/s, and the start is outside by more than 5 % of the range.

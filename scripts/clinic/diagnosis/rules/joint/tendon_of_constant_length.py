@@ -36,33 +36,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <geom type="box" size="0.05 0.05 0.02"/>
-          <body pos="0 0.02 0.05">
-            <joint name="left" type="slide" axis="0 1 0" range="0 0.04"/>
-            <geom type="box" size="0.01 0.005 0.02"/>
-          </body>
-          <body pos="0 -0.02 0.05">
-            <joint name="right" type="slide" axis="0 -1 0" range="0 0.04"/>
-            <geom type="box" size="0.01 0.005 0.02"/>
-          </body>
-        </body>
-      </worldbody>
-      <tendon>
-        <fixed name="split">
-          <joint joint="left" coef="0.5"/>
-          <joint joint="right" coef="0.5"/>
-        </fixed>
-      </tendon>
-      <equality>
-        <joint joint1="left" joint2="right"/>
-      </equality>
-      <actuator>
-        <position tendon="split" kp="100" ctrlrange="0 0.04"/>
-      </actuator>
-    </mujoco>
+    -       <joint joint="right" coef="-0.5"/>
+    +       <joint joint="right" coef="0.5"/>
 
 The number: how many actuators, limits, springs and sensors such a tendon has. A tendon that is drawn, and no more, is
 left alone.

@@ -53,51 +53,9 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="palm">
-          <geom type="box" size="0.04 0.01 0.04"/>
-          <body name="FF" pos="0.03 0 0.04">
-            <joint name="FFJ2" axis="1 0 0" range="0 90"/>
-            <geom type="capsule" fromto="0 0 0.01 0 0 0.03" size="0.008"/>
-            <body pos="0 0 0.04">
-              <joint name="FFJ1" axis="1 0 0" range="0 90"/>
-              <geom type="capsule" fromto="0 0 0.01 0 0 0.03" size="0.008"/>
-            </body>
-          </body>
-          <body name="MF">
-            <joint name="MFJ2" axis="1 0 0" range="0 90"/>
-            <geom type="capsule" fromto="0 0 0.05 0 0 0.07" size="0.008"/>
-            <body pos="0 0 0.08">
-              <joint name="MFJ1" axis="1 0 0" range="0 90"/>
-              <geom type="capsule" fromto="0 0 0.01 0 0 0.03" size="0.008"/>
-            </body>
-          </body>
-          <body name="RF" pos="-0.03 0 0.04">
-            <joint name="RFJ2" axis="1 0 0" range="0 90"/>
-            <geom type="capsule" fromto="0 0 0.01 0 0 0.03" size="0.008"/>
-            <body pos="0 0 0.04">
-              <joint name="RFJ1" axis="1 0 0" range="0 90"/>
-              <geom type="capsule" fromto="0 0 0.01 0 0 0.03" size="0.008"/>
-            </body>
-          </body>
-        </body>
-      </worldbody>
-      <tendon>
-        <fixed name="FFJ0">
-          <joint joint="FFJ2" coef="1"/>
-          <joint joint="FFJ1" coef="1"/>
-        </fixed>
-        <fixed name="MFJ0">
-          <joint joint="MFJ2" coef="1"/>
-          <joint joint="MFJ1" coef="1"/>
-        </fixed>
-        <fixed name="RFJ0">
-          <joint joint="RFJ2" coef="1"/>
-          <joint joint="RFJ1" coef="1"/>
-        </fixed>
-      </tendon>
-    </mujoco>
+            <joint joint="RFJ2" coef="1"/>
+    -       <joint joint="MFJ1" coef="1"/>
+    +       <joint joint="RFJ1" coef="1"/>
 
 The number: of three fixed tendons and more whose names differ by a finger or a number alone, and of which all but one
 have the same coefficients over joints as far from each other in the tree, how many stand apart.

@@ -34,30 +34,11 @@ Bad:
 
 Good:
 
-    <robot name="car">
-      <link name="base_link">
-        <inertial><mass value="2"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>
-        <collision><geometry><box size="0.4 0.2 0.1"/></geometry></collision>
-      </link>
-      <link name="left_wheel">
-        <inertial><mass value="0.2"/><inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial>
-        <collision><geometry><cylinder radius="0.05" length="0.02"/></geometry></collision>
-      </link>
-      <link name="right_wheel">
-        <inertial><mass value="0.2"/><inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial>
-        <collision><geometry><cylinder radius="0.05" length="0.02"/></geometry></collision>
-      </link>
-      <joint name="left_wheel_joint" type="continuous">
-        <origin xyz="0 0.12 0" rpy="-1.5708 0 0"/>
-        <parent link="base_link"/><child link="left_wheel"/>
-        <axis xyz="0 0 1"/>
-      </joint>
-      <joint name="right_wheel_joint" type="continuous">
-        <origin xyz="0 -0.12 0" rpy="-1.5708 0 0"/>
-        <parent link="base_link"/><child link="right_wheel"/>
-        <axis xyz="0 0 1"/>
-      </joint>
-    </robot>
+    -     <origin xyz="0 0.12 0" rpy="1.5708 0 0"/>
+    +     <origin xyz="0 0.12 0" rpy="-1.5708 0 0"/>
+
+    -     <origin xyz="0 -0.12 0" rpy="1.5708 0 0"/>
+    +     <origin xyz="0 -0.12 0" rpy="-1.5708 0 0"/>
 
 The number: how far the axes of all hinges that are called a wheel's point to the right of the base, or those that are
 called a steering's down, from -1 to 1; told from 0.9 on, where there are two at least.

@@ -30,28 +30,10 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <compiler angle="radian"/>
-      <worldbody>
-        <geom type="plane" size="2 2 0.1"/>
-        <body name="car" pos="0 0 0.1">
-          <freejoint/>
-          <geom type="box" size="0.2 0.1 0.03"/>
-          <body name="left_wheel" pos="0 0.15 0">
-            <joint name="left_wheel" axis="0 1 0"/>
-            <geom type="cylinder" size="0.1 0.02" euler="1.5708 0 0"/>
-          </body>
-          <body name="right_wheel" pos="0 -0.15 0">
-            <joint name="right_wheel" axis="0 1 0"/>
-            <geom type="cylinder" size="0.1 0.02" euler="1.5708 0 0"/>
-          </body>
-        </body>
-      </worldbody>
-      <actuator>
-        <velocity joint="left_wheel" kv="2" ctrlrange="-10 10"/>
-        <velocity joint="right_wheel" kv="2" ctrlrange="-10 10"/>
-      </actuator>
-    </mujoco>
+    -     <position joint="left_wheel" kp="20" kv="2" ctrlrange="-10 10"/>
+    +     <velocity joint="left_wheel" kv="2" ctrlrange="-10 10"/>
+    -     <position joint="right_wheel" kp="20" kv="2" ctrlrange="-10 10"/>
+    +     <velocity joint="right_wheel" kv="2" ctrlrange="-10 10"/>
 
 The number: how many wheels of a free base cannot go on turning. A wheel is a body that is called so, or whose hinge is,
 with a cylinder, sphere, ellipsoid or mesh that collides; a hinge across the vertical turns it. The ground turns a

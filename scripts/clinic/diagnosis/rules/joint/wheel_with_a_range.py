@@ -20,19 +20,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="5 5 0.1"/>
-        <body name="car" pos="0 0 0.1">
-          <freejoint/>
-          <geom type="box" size="0.2 0.1 0.03"/>
-          <body name="left_wheel" pos="0 0.15 0">
-            <joint axis="0 1 0"/>
-            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+    -         <joint axis="0 1 0" range="-180 180"/>
+    +         <joint axis="0 1 0"/>
 
 The number: how many turns the range lets a wheel make, at most 4; a wheel is a body or joint that is called so, with a
 level hinge through the middle of its geoms.

@@ -26,25 +26,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="hip" axis="0 1 0" damping="1" armature="0.1"/>
-          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
-          <body pos="0.2 0 0">
-            <joint name="knee" axis="0 1 0" damping="1" armature="0.1"/>
-            <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
-          </body>
-        </body>
-      </worldbody>
-      <actuator>
-        <motor joint="hip"/>
-        <motor joint="knee"/>
-      </actuator>
-      <keyframe>
-        <key name="home" qpos="0.9 -1.8"/>
-      </keyframe>
-    </mujoco>
+    -     <key name="home" qpos="0.9 -1.8" ctrl="0.9 -1.8"/>
+    +     <key name="home" qpos="0.9 -1.8"/>
 
 The number: of the motors of a keyframe whose control is not zero, how many have just the position of their joint; two
 and more, and all but one of them.

@@ -28,25 +28,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="box" pos="1 0 0.5">
-          <freejoint/>
-          <geom size="0.1"/>
-        </body>
-        <body name="upper" pos="0 0 1">
-          <joint axis="0 1 0" range="-90 90"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-          <body name="lower" pos="0.3 0 0">
-            <joint axis="0 1 0" range="-90 90"/>
-            <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-          </body>
-        </body>
-      </worldbody>
-      <keyframe>
-        <key name="home" qpos="1 0 0.5 1 0 0 0 0.8 -0.4"/>
-      </keyframe>
-    </mujoco>
+    -     <key name="home" qpos="0.8 -0.4 1 0 0.5 1 0 0 0"/>
+    +     <key name="home" qpos="1 0 0.5 1 0 0 0 0.8 -0.4"/>
 
 The number: how many numbers go to another joint. Told where a quaternion, as it is read, has a length that differs
 from 1 by more than 2 %, and where with the free joints and what stands between them in another order all quaternions

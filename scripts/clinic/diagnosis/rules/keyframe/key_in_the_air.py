@@ -19,18 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="2 2 0.1"/>
-        <body name="robot" pos="0 0 0.1">
-          <freejoint/>
-          <geom type="box" size="0.2 0.1 0.1" mass="5"/>
-        </body>
-      </worldbody>
-      <keyframe>
-        <key name="home" qpos="0 0 0.1 1 0 0 0"/>
-      </keyframe>
-    </mujoco>
+    -     <key name="home" qpos="0 0 100 1 0 0 0"/>
+    +     <key name="home" qpos="0 0 0.1 1 0 0 0"/>
 
 The number: how far the lowest geom of the one free robot is above the plane, or what stands there, at the keyframe, in
 sizes of the robot; told from 1 on, where it starts at less than a quarter without the keyframe.

@@ -20,18 +20,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="2 2 0.1"/>
-        <body name="robot" pos="0 0 0.2">
-          <freejoint/>
-          <geom type="box" size="0.2 0.1 0.1"/>
-        </body>
-      </worldbody>
-      <keyframe>
-        <key name="home" qpos="0 0 0.1 1 0 0 0"/>
-      </keyframe>
-    </mujoco>
+    -     <key name="home" qpos="0 0 0.02 1 0 0 0"/>
+    +     <key name="home" qpos="0 0 0.1 1 0 0 0"/>
 
 The number: how deep the deepest contact with a plane is at the keyframe, over the size of the model: 6 % and more.
 

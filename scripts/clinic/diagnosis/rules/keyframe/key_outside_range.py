@@ -23,21 +23,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="upper" pos="0 0 1">
-          <joint name="shoulder" axis="0 1 0" range="-90 90" damping="1" armature="0.1"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-          <body name="lower" pos="0.3 0 0">
-            <joint name="elbow" axis="0 1 0" range="0 120" damping="1" armature="0.1"/>
-            <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-          </body>
-        </body>
-      </worldbody>
-      <keyframe>
-        <key name="home" qpos="0.2 1.2"/>
-      </keyframe>
-    </mujoco>
+    -     <key name="home" qpos="0.2 -1.2"/>
+    +     <key name="home" qpos="0.2 1.2"/>
 
 The number: how far the worst joint is outside, in rad or m: 0.1 and more.
 

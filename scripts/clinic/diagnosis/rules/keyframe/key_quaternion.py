@@ -19,18 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="2 2 0.1"/>
-        <body name="robot" pos="0 0 0.2">
-          <freejoint/>
-          <geom type="box" size="0.2 0.1 0.1"/>
-        </body>
-      </worldbody>
-      <keyframe>
-        <key name="home" qpos="0 0 0.1 1 0 0 0"/>
-      </keyframe>
-    </mujoco>
+    -     <key name="home" qpos="0 0 0.1 0 0 0 1"/>
+    +     <key name="home" qpos="0 0 0.1 1 0 0 0"/>
 
 The number: the angle between the free body at the keyframe and at the model's start. Told for `0 0 0 1`, and
 where the body is tilted by more than 60 degrees and would be by less than 15 if w stood first.

@@ -26,25 +26,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="upper" pos="0 0 1">
-          <joint name="shoulder" axis="0 1 0" range="-90 90" damping="1" armature="0.1"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-          <body name="lower" pos="0.3 0 0">
-            <joint name="elbow" axis="0 1 0" range="0 120" damping="1" armature="0.1"/>
-            <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-          </body>
-        </body>
-      </worldbody>
-      <actuator>
-        <position name="shoulder" joint="shoulder" kp="50" kv="5"/>
-        <position name="elbow" joint="elbow" kp="50" kv="5"/>
-      </actuator>
-      <keyframe>
-        <key name="home" qpos="0.8 1.2" ctrl="0.8 1.2"/>
-      </keyframe>
-    </mujoco>
+    -     <key name="home" qpos="0.8 1.2"/>
+    +     <key name="home" qpos="0.8 1.2" ctrl="0.8 1.2"/>
 
 The number: the distance between target and joint that three quarters of the position servos keep, in rad or m; 0.1 and
 more tells a cause, for keyframes in which at least two servos and half of them are off. Where there is no `ctrl`, two

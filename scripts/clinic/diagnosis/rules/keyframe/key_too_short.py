@@ -23,21 +23,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="box" pos="1 0 0.5">
-          <freejoint/>
-          <geom size="0.1"/>
-        </body>
-        <body name="link" pos="0 0 1">
-          <joint axis="0 1 0" range="-90 90"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-        </body>
-      </worldbody>
-      <keyframe>
-        <key name="home" qpos="1 0 0.5 1 0 0 0 0.8"/>
-      </keyframe>
-    </mujoco>
+    -     <key name="home" qpos="0.8"/>
+    +     <key name="home" qpos="1 0 0.5 1 0 0 0 0.8"/>
 
 The number: how many numbers go to another joint than with the edit, which puts the places of free bodies that stand
 first before the numbers that are written. A cause is told where the count of the missing is a multiple of seven, and

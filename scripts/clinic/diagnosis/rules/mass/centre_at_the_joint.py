@@ -27,25 +27,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="upper" pos="0 0 1">
-          <joint axis="0 1 0"/>
-          <inertial pos="0 0 0.15" mass="1" diaginertia="0.008 0.008 0.0005"/>
-          <geom type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
-          <body name="fore" pos="0 0 0.3">
-            <joint axis="0 1 0"/>
-            <inertial pos="0 0 0.15" mass="1" diaginertia="0.008 0.008 0.0005"/>
-            <geom type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
-            <body name="hand" pos="0 0 0.3">
-              <joint axis="0 1 0"/>
-              <inertial pos="0 0 0.05" mass="0.3" diaginertia="0.0005 0.0005 0.0002"/>
-              <geom type="capsule" fromto="0 0 0 0 0 0.1" size="0.03"/>
-            </body>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+    -         <inertial pos="0 0 0" mass="1" diaginertia="0.008 0.008 0.0005"/>
+    +         <inertial pos="0 0 0.15" mass="1" diaginertia="0.008 0.008 0.0005"/>
 
 The number: how far the middle of the geoms is from the joint, in half lengths of the box around them; told from 0.7 on
 of one link that a hinge turns, where no other is so. Of two it may be a habit: the URDF of the UR10 has two.

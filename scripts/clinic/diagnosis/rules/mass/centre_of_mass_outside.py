@@ -17,15 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="link" pos="0 0 1">
-          <joint axis="0 1 0"/>
-          <inertial pos="0 0 0.2" mass="1" diaginertia="0.0135 0.0135 0.0002"/>
-          <geom type="capsule" fromto="0 0 0 0 0 0.4" size="0.02"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <inertial pos="0 0 200" mass="1" diaginertia="0.0135 0.0135 0.0002"/>
+    +       <inertial pos="0 0 0.2" mass="1" diaginertia="0.0135 0.0135 0.0002"/>
 
 The number: how far outside of the box around the geoms, in half lengths of that box. 0 for 95 % of 1475 bodies in
 healthy models; 0.5 for one body of five and more, else 2.5, are told. Where the other sign of one coordinate brings it

@@ -33,31 +33,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="trunk" pos="0 0 1">
-          <freejoint/>
-          <inertial pos="0.06 0 0" mass="10" diaginertia="0.1 0.1 0.1"/>
-          <geom type="box" size="0.2 0.1 0.05"/>
-          <body name="left_front" pos="0.2 0.1 0">
-            <joint name="left_front" axis="0 1 0"/>
-            <geom type="capsule" fromto="0 0 0 0 0 -0.2" size="0.02"/>
-          </body>
-          <body name="right_front" pos="0.2 -0.1 0">
-            <joint name="right_front" axis="0 1 0"/>
-            <geom type="capsule" fromto="0 0 0 0 0 -0.2" size="0.02"/>
-          </body>
-          <body name="left_rear" pos="-0.2 0.1 0">
-            <joint name="left_rear" axis="0 1 0"/>
-            <geom type="capsule" fromto="0 0 0 0 0 -0.2" size="0.02"/>
-          </body>
-          <body name="right_rear" pos="-0.2 -0.1 0">
-            <joint name="right_rear" axis="0 1 0"/>
-            <geom type="capsule" fromto="0 0 0 0 0 -0.2" size="0.02"/>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <inertial pos="0 0.06 0" mass="10" diaginertia="0.1 0.1 0.1"/>
+    +       <inertial pos="0.06 0 0" mass="10" diaginertia="0.1 0.1 0.1"/>
 
 The number: how far the centre of mass of a body whose origin is on the plane of symmetry is from it, in distances of
 the farthest twin from that plane; more than 0.2. The plane is that of at least two pairs of bodies, and looked at are

@@ -16,14 +16,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="arm" pos="0 0 1">
-          <joint axis="0 1 0"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="0.35"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="350"/>
+    +       <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="0.35"/>
 
 The number: the body's mass over the volume of its geoms; osmium, the densest metal, has 22,600 kg/m3, and half of 1475
 bodies in healthy models have 243 to 677. A cause has 24,000 and more than a twentieth of the moving mass. A hint are

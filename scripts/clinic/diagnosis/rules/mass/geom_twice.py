@@ -16,14 +16,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="palm" pos="0 0 1">
-          <joint axis="0 1 0" range="-90 90"/>
-          <geom type="box" size="0.05 0.02 0.04"/>
-        </body>
-      </worldbody>
-    </mujoco>
+            <geom type="box" size="0.05 0.02 0.04"/>
+    -       <geom type="box" size="0.05 0.02 0.04"/>
 
 The number: the body's mass, and without the copy. Geoms count as the same when type, size, place, mesh, masks and
 color are.

@@ -17,15 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="2 2 0.1"/>
-        <body name="parcel" pos="0 0 0.2">
-          <freejoint/>
-          <geom type="box" size="0.2 0.2 0.2" mass="2"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <geom type="box" size="0.2 0.2 0.2"/>
+    +       <geom type="box" size="0.2 0.2 0.2" mass="2"/>
 
 The number: the mass of a free body alone, where no geom of it has a `mass` or a `density` but 0: more than 5 kg. Of 289
 healthy models one has such an object, a ball of 14 kg.

@@ -17,15 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="link" pos="0 0 1">
-          <joint axis="0 1 0"/>
-          <inertial pos="0 0 0.2" mass="1" diaginertia="0.0135 0.0135 0.0002"/>
-          <geom type="capsule" fromto="0 0 0 0 0 0.4" size="0.02"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <inertial pos="0 0 0.2" mass="1" diaginertia="0.0002 0.0135 0.0135"/>
+    +       <inertial pos="0 0 0.2" mass="1" diaginertia="0.0135 0.0135 0.0002"/>
 
 The number: the inertia about the longest axis of the geoms, where the mean of the three is 1. A thin rod has 0 about
 its axis and 1.5 across. Of 249 long bodies of healthy robots, whose geoms have at most 0.3, none has more than 0.9.

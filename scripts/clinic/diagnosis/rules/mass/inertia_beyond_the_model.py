@@ -20,18 +20,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint axis="0 1 0" damping="1"/>
-          <inertial pos="0 0 0" mass="0.001" diaginertia="1e-6 1e-6 1e-6"/>
-          <body pos="0.3 0 0">
-            <joint axis="0 1 0" damping="1"/>
-            <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <inertial pos="0 0 0" mass="0.001" diaginertia="1 1 1"/>
+    +       <inertial pos="0 0 0" mass="0.001" diaginertia="1e-6 1e-6 1e-6"/>
 
 The number: the radius of gyration, the root of inertia over mass, over the size of the model, `stat.extent`; more than
 2 is told. In 81 healthy models the most is 0.67, but for a link of 11.7 g in two copies of an arm, whose inertia is

@@ -22,20 +22,11 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="upper" pos="0 0 1">
-          <joint axis="0 1 0"/>
-          <inertial pos="0.15 0 0" mass="1" diaginertia="0.0002 0.0075 0.0075"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-          <body name="fore" pos="0.3 0 0">
-            <joint axis="0 1 0"/>
-            <inertial pos="0.15 0 0" mass="1" diaginertia="0.0002 0.0075 0.0075"/>
-            <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <inertial pos="0.15 0 0" mass="1" diaginertia="200 7500 7500"/>
+    +       <inertial pos="0.15 0 0" mass="1" diaginertia="0.0002 0.0075 0.0075"/>
+
+    -         <inertial pos="0.15 0 0" mass="1" diaginertia="200 7500 7500"/>
+    +         <inertial pos="0.15 0 0" mass="1" diaginertia="0.0002 0.0075 0.0075"/>
 
 The number: the inertia of each body over that of its geoms, filled evenly with its mass. In healthy robots nearly all
 lie between 0.1 and 10; told is a median beyond 300 or below 1/300, with most bodies within a factor of 30 of it.

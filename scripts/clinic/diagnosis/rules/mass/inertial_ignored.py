@@ -18,15 +18,7 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="arm" pos="0 0 1">
-          <joint axis="0 1 0"/>
-          <inertial pos="0.1 0 0" mass="0.5" diaginertia="0.0001 0.002 0.002"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" density="7800"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -   <compiler inertiafromgeom="true"/>
 
 The number: how much a body's mass is off the one that its `<inertial>` says; more than a fifth.
 

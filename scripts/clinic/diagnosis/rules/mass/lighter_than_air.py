@@ -16,15 +16,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="1 1 0.1"/>
-        <body name="puck" pos="0 0 0.1">
-          <freejoint/>
-          <geom type="cylinder" size="0.05 0.05" density="500"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <geom type="cylinder" size="0.05 0.05" density="0.00001"/>
+    +       <geom type="cylinder" size="0.05 0.05" density="500"/>
 
 The number: the mass of the air that its geoms displace (1.2 kg/m3) over its own, for everything that moves together,
 and for single links with a joint. More than 300 tells a cause: Gymnasium's second pusher pushes a puck of 120, its

@@ -28,26 +28,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="upper" pos="0 0 1">
-          <joint axis="0 1 0"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="1.2"/>
-          <body name="fore" pos="0.3 0 0">
-            <joint axis="0 1 0"/>
-            <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="1"/>
-            <body name="wrist" pos="0.3 0 0">
-              <joint axis="0 1 0"/>
-              <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.03" mass="0.7"/>
-              <body name="hand" pos="0.2 0 0">
-                <joint axis="0 1 0"/>
-                <geom type="box" pos="0.05 0 0" size="0.05 0.05 0.02" mass="0.3"/>
-              </body>
-            </body>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+    -         <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="10"/>
+    +         <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="1"/>
 
 The number: the mass of a link over the box around its largest geom, beside that of the link in the middle; more than 4
 times that, and more than 6 % of the robot's mass. 5 of 135 healthy robots of four links and more have such a link; with

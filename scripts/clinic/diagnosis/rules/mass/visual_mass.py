@@ -18,15 +18,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="drill" pos="0 0 1">
-          <freejoint/>
-          <geom type="sphere" size="0.05" contype="0" conaffinity="0" mass="0"/>
-          <geom type="sphere" size="0.05" mass="0.2"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <geom type="sphere" size="0.05" contype="0" conaffinity="0"/>
+    +       <geom type="sphere" size="0.05" contype="0" conaffinity="0" mass="0"/>
 
 The number: the body's mass, and without that of geoms for which no mass and no density is written, or the very mass of
 a colliding geom of the same type. Half as much again tells a cause.

@@ -18,16 +18,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="1 1 0.1"/>
-        <body name="hand" pos="0 0 0.5">
-          <joint axis="0 1 0"/>
-          <geom type="box" size="0.05 0.05 0.03" rgba="0.8 0.3 0.2 1"/>
-          <camera name="wrist" pos="0 0 -0.13"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <camera name="wrist" pos="0 0 -0.13" euler="180 0 0"/>
+    +       <camera name="wrist" pos="0 0 -0.13"/>
 
 The number: how many of nine rays through the image, the middle and those halfway to its edges and corners, meet the box
 around a visible geom of the body that carries the camera, and of what is fixed to it; meshes are left out. All nine are

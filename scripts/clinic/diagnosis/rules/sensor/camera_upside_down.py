@@ -18,16 +18,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <camera name="front" pos="1.6 0 0.5" xyaxes="0 1 0 0 0 1"/>
-        <geom type="plane" size="1 1 0.1"/>
-        <body name="box" pos="0 0 0.05">
-          <freejoint/>
-          <geom type="box" size="0.05 0.05 0.05"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -     <camera name="front" pos="1.6 0 0.5" xyaxes="0 -1 0 0 0 -1"/>
+    +     <camera name="front" pos="1.6 0 0.5" xyaxes="0 1 0 0 0 1"/>
 
 The number: the angle between the image's up and the world's, at most 100 degrees, for a camera that is fixed to the
 world or follows a robot, and does not look straight up or down. A hint tells of an image that lies on its side by more

@@ -18,13 +18,9 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <statistic extent="1"/>
-      <worldbody>
-        <camera name="front" pos="1 0 0.5" xyaxes="0 1 0 -0.4 0 1"/>
-        <geom type="box" size="0.05 0.05 0.05"/>
-      </worldbody>
-    </mujoco>
+    -   <visual>
+    -     <map znear="3" zfar="5"/>
+    -   </visual>
 
 The number: of the geoms in a camera's sight, the share that is nearer than `znear` or farther than `zfar` times the
 extent; below 0.9 is well.

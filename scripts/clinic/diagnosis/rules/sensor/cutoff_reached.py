@@ -20,18 +20,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="arm" pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" damping="1"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-          <site name="imu"/>
-        </body>
-      </worldbody>
-      <sensor>
-        <accelerometer name="imu" site="imu" cutoff="100"/>
-      </sensor>
-    </mujoco>
+    -     <accelerometer name="imu" site="imu" cutoff="1"/>
+    +     <accelerometer name="imu" site="imu" cutoff="100"/>
 
 The number: the share of the time after letting go in which some value of the sensor is at its cutoff; below 0.8 is
 well.

@@ -22,19 +22,11 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="1 1 0.1"/>
-        <body name="box" pos="0 0 0.05">
-          <freejoint/>
-          <geom type="box" size="0.05 0.05 0.05"/>
-          <site name="sole" pos="0 0 -0.05" size="0.08"/>
-        </body>
-      </worldbody>
-      <sensor>
-        <touch name="touch" site="sole"/>
-      </sensor>
-    </mujoco>
+    -       <site name="sole" pos="0 0 -0.05"/>
+    +       <site name="sole" pos="0 0 -0.05" size="0.08"/>
+
+    -     <force name="force" site="sole"/>
+    +     <touch name="touch" site="sole"/>
 
 The number: of what contacts of the body carry within 2 s after letting go, the share that the sensor never reads;
 below 0.99 is well.

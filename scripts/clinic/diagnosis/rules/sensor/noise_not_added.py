@@ -18,17 +18,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="arm" pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" damping="1"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-        </body>
-      </worldbody>
-      <sensor>
-        <jointpos name="angle" joint="elbow"/>
-      </sensor>
-    </mujoco>
+    -     <jointpos name="angle" joint="elbow" noise="0.01"/>
+    +     <jointpos name="angle" joint="elbow"/>
 
 The number: how many sensors have it. MuJoCo's changelog, 3.1.4.
 

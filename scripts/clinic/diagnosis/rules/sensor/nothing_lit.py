@@ -16,15 +16,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <visual>
-        <headlight active="0"/>
-      </visual>
-      <worldbody>
-        <light pos="0 0 2"/>
-        <geom type="box" size="0.05 0.05 0.05"/>
-      </worldbody>
-    </mujoco>
+        <worldbody>
+    +     <light pos="0 0 2"/>
 
 The number: how many lamps are off where none is on.
 

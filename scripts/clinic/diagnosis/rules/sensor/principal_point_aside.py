@@ -15,13 +15,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <camera name="front" pos="1 0 0.5" xyaxes="0 1 0 -0.4 0 1"
-          resolution="640 480" sensorsize="0.004 0.003" focal="0.003 0.003" principalpixel="2 -1"/>
-        <geom type="box" size="0.05 0.05 0.05"/>
-      </worldbody>
-    </mujoco>
+    -       resolution="640 480" sensorsize="0.004 0.003" focal="0.003 0.003" principalpixel="320 240"/>
+    +       resolution="640 480" sensorsize="0.004 0.003" focal="0.003 0.003" principalpixel="2 -1"/>
 
 The number: the offset as a share of the sensor's side; below 0.25 is well. Real lenses are off by a few pixels.
 

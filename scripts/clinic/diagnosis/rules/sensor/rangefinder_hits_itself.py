@@ -24,22 +24,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="2 2 0.1"/>
-        <body name="car" pos="0 0 0.2">
-          <freejoint/>
-          <geom type="box" size="0.2 0.1 0.05"/>
-          <site name="front" pos="0.24 0 0" zaxis="1 0 0"/>
-          <body name="bumper" pos="0.22 0 0">
-            <geom type="box" size="0.01 0.1 0.05"/>
-          </body>
-        </body>
-      </worldbody>
-      <sensor>
-        <rangefinder name="ahead" site="front"/>
-      </sensor>
-    </mujoco>
+    -       <site name="front" pos="0.2 0 0" zaxis="1 0 0"/>
+    +       <site name="front" pos="0.24 0 0" zaxis="1 0 0"/>
 
 The number: rangefinders whose reading at the start ends at a geom of their own robot, on another body.
 

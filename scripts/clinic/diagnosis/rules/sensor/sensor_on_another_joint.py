@@ -22,21 +22,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="shoulder" axis="0 1 0"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03"/>
-          <body pos="0.3 0 0">
-            <joint name="elbow" axis="0 1 0"/>
-            <geom type="capsule" fromto="0.05 0 0 0.3 0 0" size="0.03"/>
-          </body>
-        </body>
-      </worldbody>
-      <sensor>
-        <jointpos name="elbow_pos" joint="elbow"/>
-      </sensor>
-    </mujoco>
+    -     <jointpos name="elbow_pos" joint="shoulder"/>
+    +     <jointpos name="elbow_pos" joint="elbow"/>
 
 The number: how many sensors of a joint bear the name of another joint, or of another actuator, and not of their own. Of
 568 healthy models none has one.

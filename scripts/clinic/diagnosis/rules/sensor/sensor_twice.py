@@ -24,22 +24,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="shoulder" axis="0 1 0"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03"/>
-          <body pos="0.3 0 0">
-            <joint name="elbow" axis="0 1 0"/>
-            <geom type="capsule" fromto="0.05 0 0 0.3 0 0" size="0.03"/>
-          </body>
-        </body>
-      </worldbody>
-      <sensor>
-        <jointpos name="shoulder_angle" joint="shoulder"/>
-        <jointpos name="elbow_angle" joint="elbow"/>
-      </sensor>
-    </mujoco>
+    -     <jointpos name="elbow_angle" joint="shoulder"/>
+    +     <jointpos name="elbow_angle" joint="elbow"/>
 
 The number: how many sensors read what another one reads: written alike but for `name` and `user`. Where the name of one
 has the name of something that no sensor of its kind reads, that is what is meant.

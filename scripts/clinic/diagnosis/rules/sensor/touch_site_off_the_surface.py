@@ -21,18 +21,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="finger" pos="0 0 1">
-          <joint name="close" type="slide" axis="0 1 0" range="0 0.04"/>
-          <geom type="box" size="0.012 0.008 0.03"/>
-          <site name="pad" type="box" size="0.014 0.01 0.032"/>
-        </body>
-      </worldbody>
-      <sensor>
-        <touch name="pad" site="pad"/>
-      </sensor>
-    </mujoco>
+    -       <site name="pad"/>
+    +       <site name="pad" type="box" size="0.014 0.01 0.032"/>
 
 The number: 1 for a site of which all of 7 x 7 x 7 points lie more than 1 mm inside of the same geom, or outside of all
 geoms of its body that collide. Bodies with meshes or planes are left alone.

@@ -21,19 +21,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="1 1 0.1"/>
-        <body name="box" pos="0 0 0.05">
-          <freejoint/>
-          <geom type="box" size="0.05 0.05 0.05"/>
-          <site name="sole" pos="0 0 -0.05" type="box" size="0.06 0.06 0.01"/>
-        </body>
-      </worldbody>
-      <sensor>
-        <touch name="touch" site="sole"/>
-      </sensor>
-    </mujoco>
+    -       <site name="sole" pos="0 0 -0.05"/>
+    +       <site name="sole" pos="0 0 -0.05" type="box" size="0.06 0.06 0.01"/>
 
 The number: of what contacts of the body carry within 2 s after letting go, the share that the sensor never reads;
 below 0.95 is well.

@@ -24,22 +24,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="left_hip" axis="0 1 0" damping="1"/>
-          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02" mass="1"/>
-        </body>
-        <body pos="0 0.3 1">
-          <joint name="right_hip" axis="0 1 0" damping="1"/>
-          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02" mass="1"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <position name="left_hip" joint="left_hip" kp="50"/>
-        <position name="right_hip" joint="right_hip" kp="50"/>
-      </actuator>
-    </mujoco>
+    -     <position name="right_hip" joint="left_hip" kp="50"/>
+    +     <position name="right_hip" joint="right_hip" kp="50"/>
 
 The number: how many actuators drive another joint than the one that they are named after.
 

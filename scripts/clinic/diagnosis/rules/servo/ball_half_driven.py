@@ -19,19 +19,10 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="wrist" type="ball"/>
-          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <motor joint="wrist" gear="7 0 0" ctrlrange="-1 1"/>
-        <motor joint="wrist" gear="0 7 0" ctrlrange="-1 1"/>
-        <motor joint="wrist" gear="0 0 7" ctrlrange="-1 1"/>
-      </actuator>
-    </mujoco>
+    -     <motor joint="wrist" gear="7" ctrlrange="-1 1"/>
+    +     <motor joint="wrist" gear="7 0 0" ctrlrange="-1 1"/>
+    +     <motor joint="wrist" gear="0 7 0" ctrlrange="-1 1"/>
+    +     <motor joint="wrist" gear="0 0 7" ctrlrange="-1 1"/>
 
 The number: about how many of its three axes the actuators of a ball joint turn it: the rank of their gears. MuJoCo's
 manual, XML reference, actuator/general: for ball joints the first three elements of `gear` are the axis.

@@ -38,36 +38,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <default>
-        <joint axis="0 1 0" range="-60 60" damping="1" armature="0.1"/>
-        <position kp="50" kv="5"/>
-      </default>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="a"/>
-          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
-          <body pos="0.2 0 0">
-            <joint name="b"/>
-            <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
-            <body pos="0.2 0 0">
-              <joint name="c"/>
-              <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
-              <body pos="0.2 0 0">
-                <joint name="d"/>
-                <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
-              </body>
-            </body>
-          </body>
-        </body>
-      </worldbody>
-      <actuator>
-        <position name="a" joint="a" ctrlrange="-1 1"/>
-        <position name="b" joint="b" ctrlrange="-1 1"/>
-        <position name="c" joint="c" ctrlrange="-1 1"/>
-        <position name="d" joint="d" ctrlrange="-1 1"/>
-      </actuator>
-    </mujoco>
+    -     <position name="c" joint="c"/>
+    +     <position name="c" joint="c" ctrlrange="-1 1"/>
 
 The number: how many servos of joints with a range take any target; told are at most two, where three and three times
 as many have a control range.

@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" range="-180 0" damping="1"/>
-          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <position joint="elbow" kp="20" ctrlrange="-3.14 0"/>
-      </actuator>
-    </mujoco>
+    -     <position joint="elbow" kp="20" ctrlrange="0 3.14"/>
+    +     <position joint="elbow" kp="20" ctrlrange="-3.14 0"/>
 
 The number: the share of the joint's range that no target reaches; more than 60 %, of at most a whole turn.
 

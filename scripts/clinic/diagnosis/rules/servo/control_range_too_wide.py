@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="finger" axis="0 1 0" range="0 90" damping="0.1"/>
-          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <position joint="finger" kp="20" inheritrange="1"/>
-      </actuator>
-    </mujoco>
+    -     <position joint="finger" kp="20" ctrlrange="-3 5"/>
+    +     <position joint="finger" kp="20" inheritrange="1"/>
 
 The number: after 1 s at each end of the control range the joint is more than 30 % of its range beyond a limit; or
 a hinge's targets lie more than 120 % of its range beyond (0.56 is the most in 55 healthy models with servos). A hint

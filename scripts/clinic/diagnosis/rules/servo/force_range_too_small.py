@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="shoulder" axis="0 1 0" damping="1"/>
-          <geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.02" mass="1"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <position joint="shoulder" kp="500" dampratio="1" forcerange="-10 10"/>
-      </actuator>
-    </mujoco>
+    -     <position joint="shoulder" kp="500" dampratio="1" forcerange="-1 1"/>
+    +     <position joint="shoulder" kp="500" dampratio="1" forcerange="-10 10"/>
 
 The number: the model's own weight at the joint over the greatest force of its servos, in the worst of 17 poses. Or the
 height that a robot with a free base loses within 1 s, its servos told to stay where they are, where some give all they

@@ -33,31 +33,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <default>
-        <default class="arm"><position kp="60" kv="3"/></default>
-        <default class="head"><position kp="60" kv="3"/></default>
-      </default>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="shoulder" axis="0 1 0" damping="1" armature="0.1"/>
-          <geom type="capsule" fromto="0 0 0 0.1 0 0" size="0.02" mass="0.2"/>
-          <body pos="0.1 0 0">
-            <joint name="elbow" axis="0 1 0" damping="1" armature="0.1"/>
-            <geom type="capsule" fromto="0 0 0 0.1 0 0" size="0.02" mass="0.1"/>
-          </body>
-        </body>
-        <body pos="0 0 1.3">
-          <joint name="neck" axis="0 0 1" damping="1" armature="0.1"/>
-          <geom type="box" size="0.05 0.05 0.05" mass="0.3"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <position joint="shoulder" class="arm"/>
-        <position joint="elbow" class="arm"/>
-        <position joint="neck" class="head"/>
-      </actuator>
-    </mujoco>
+    -     <default class="head"><joint damping="0.1"/></default>
+    +     <default class="head"><position kp="60" kv="3"/></default>
 
 The number: how many `<position>` have no `kp`, neither themselves nor by their class, where as many others and more
 have one. Where none has one, those that a kp of 1 lets swing at less than 3 rad/s: it takes seconds to get anywhere.

@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" range="-120 120"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <general joint="elbow" gainprm="200" biastype="affine" biasprm="0 -200 -10" ctrlrange="-1 1"/>
-      </actuator>
-    </mujoco>
+    -     <general joint="elbow" gainprm="200" biastype="affine" biasprm="0 -100 -10" ctrlrange="-1 1"/>
+    +     <general joint="elbow" gainprm="200" biastype="affine" biasprm="0 -200 -10" ctrlrange="-1 1"/>
 
 The number: where the servo rests over its control: `gainprm[0] / -biasprm[1]`, from 0.2 to 5 and off 1 by more than
 2 %. Farther off the control has another unit, such as 0 to 255; where its ends are led to those of the joint's range,

@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="hinge" axis="0 0 1" damping="1"/>
-          <geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.02"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <position joint="hinge" kp="10"/>
-      </actuator>
-    </mujoco>
+    -     <position joint="hinge" gear="10"/>
+    +     <position joint="hinge" kp="10"/>
 
 The number: the gear of a position servo without a control range; 1.5 and more is told. Where the joint and the servo
 have ranges, `control-range-too-narrow` says how much of the range is out of reach.

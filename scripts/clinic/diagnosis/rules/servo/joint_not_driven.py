@@ -25,25 +25,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="trunk" pos="0 0 1">
-          <geom type="box" size="0.1 0.1 0.1"/>
-          <body name="left_arm" pos="0 0.15 0">
-            <joint name="left_arm" axis="0 1 0" damping="0.1"/>
-            <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02"/>
-          </body>
-          <body name="right_arm" pos="0 -0.15 0">
-            <joint name="right_arm" axis="0 1 0" damping="0.1"/>
-            <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02"/>
-          </body>
-        </body>
-      </worldbody>
-      <actuator>
-        <motor joint="left_arm" gear="10" ctrlrange="-1 1"/>
-        <motor joint="right_arm" gear="10" ctrlrange="-1 1"/>
-      </actuator>
-    </mujoco>
+          <motor joint="left_arm" gear="10" ctrlrange="-1 1"/>
+    +     <motor joint="right_arm" gear="10" ctrlrange="-1 1"/>
 
 The number: joints that no actuator, tendon, coupling or spring moves, where the twin of left and right is moved, or all
 others of three and more that are called alike but for a number or a finger, unless those hang as deep as each other and

@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" range="-120 10" damping="1"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="1"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <position joint="elbow" kp="100" ctrlrange="-2.0944 0.17453"/>
-      </actuator>
-    </mujoco>
+    -     <motor joint="elbow" ctrlrange="-2.0944 0.17453"/>
+    +     <position joint="elbow" kp="100" ctrlrange="-2.0944 0.17453"/>
 
 The number: how many motors and velocity servos have the range of their joint, to 1 %. Ranges of 1 are left out, for
 they are those of scaled controls, and whole numbers are where no other actuator is a servo.

@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="hinge" axis="0 1 0" damping="0.01"/>
-          <geom type="capsule" fromto="0 0 0 0 0 -0.5" size="0.02" mass="1"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <motor joint="hinge" gear="1" ctrlrange="-2 2"/>
-      </actuator>
-    </mujoco>
+    -     <motor joint="hinge" gear="1000" ctrlrange="-2 2"/>
+    +     <motor joint="hinge" gear="1" ctrlrange="-2 2"/>
 
 The number: the speed in rad/s that the greatest force of a motor gives its hinge within 0.2 s at the inertia of the
 start, or that damping lets it reach, if that is less; more than 1000, where no range ends it.

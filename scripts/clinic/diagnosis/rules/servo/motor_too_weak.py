@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body>
-          <joint name="x" type="slide" axis="1 0 0" damping="1"/>
-          <geom type="capsule" size="0.1 0.1" euler="0 90 0"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <motor joint="x" ctrlrange="-3 3" gear="100"/>
-      </actuator>
-    </mujoco>
+    -     <motor joint="x" ctrlrange="-3 3"/>
+    +     <motor joint="x" ctrlrange="-3 3" gear="100"/>
 
 The number: the inertia at the joint over the motor's greatest force or torque, more than 1 s2/m or 1 s2/rad: it takes
 a second and more to 1 m/s or 1 rad/s. Of the 289 healthy models one robot's have such a joint. Of a velocity servo the

@@ -30,30 +30,10 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <default>
-        <joint damping="0.05" armature="0.01" frictionloss="0.1"/>
-      </default>
-      <worldbody>
-        <body name="upper_arm">
-          <joint name="shoulder" axis="0 1 0"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="1"/>
-          <body name="forearm" pos="0.3 0 0">
-            <joint name="elbow" axis="0 1 0"/>
-            <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.5"/>
-            <body name="hand" pos="0.2 0 0">
-              <joint name="wrist" axis="1 0 0"/>
-              <geom type="box" size="0.04 0.02 0.02" mass="0.2"/>
-            </body>
-          </body>
-        </body>
-      </worldbody>
-      <actuator>
-        <motor joint="shoulder"/>
-        <motor joint="elbow"/>
-        <motor joint="wrist"/>
-      </actuator>
-    </mujoco>
+      <mujoco>
+    +   <default>
+    +     <joint damping="0.05" armature="0.01" frictionloss="0.1"/>
+    +   </default>
 
 The number: the derivative gain that the lightest joint bears, 2 M / h with its inertia M and the timestep h, below
 1 N m s/rad (an explicit damper is stable below h kd / M = 2). Told where three motors and more drive hinges of which

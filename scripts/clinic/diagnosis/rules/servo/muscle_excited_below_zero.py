@@ -30,25 +30,12 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <site name="origin" pos="0.05 0 1"/>
-        <body pos="0 0 0.9">
-          <joint name="elbow" axis="0 1 0" damping="0.1"/>
-          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
-          <site name="insertion" pos="0.05 0 0"/>
-        </body>
-      </worldbody>
-      <tendon>
-        <spatial name="biceps">
-          <site site="origin"/>
-          <site site="insertion"/>
-        </spatial>
-      </tendon>
-      <actuator>
-        <muscle name="biceps" tendon="biceps" lengthrange="0.05 0.15" ctrllimited="true" ctrlrange="0 1"/>
-      </actuator>
-    </mujoco>
+    -   <default>
+    -     <general ctrllimited="true" ctrlrange="-1 1"/>
+    -   </default>
+
+    -     <muscle name="biceps" tendon="biceps" lengthrange="0.05 0.15"/>
+    +     <muscle name="biceps" tendon="biceps" lengthrange="0.05 0.15" ctrllimited="true" ctrlrange="0 1"/>
 
 The number: the share of the control range that lies outside of 0 to 1, where nothing changes; more than 5 %.
 

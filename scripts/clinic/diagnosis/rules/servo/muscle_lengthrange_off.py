@@ -25,23 +25,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <site name="origin" pos="0 0 1.4"/>
-        <geom type="capsule" fromto="0 0 1.08 0 0 1.4" size="0.03"/>
-        <body name="forearm" pos="0 0 1">
-          <joint name="elbow" axis="0 -1 0" range="0 120"/>
-          <geom type="capsule" fromto="0 0 -0.04 0 0 -0.25" size="0.02"/>
-          <site name="insertion" pos="0.02 0 -0.05"/>
-        </body>
-      </worldbody>
-      <tendon>
-        <spatial name="biceps"><site site="origin"/><site site="insertion"/></spatial>
-      </tendon>
-      <actuator>
-        <muscle name="biceps" tendon="biceps" force="100" lengthrange="0.359 0.451"/>
-      </actuator>
-    </mujoco>
+    -     <muscle name="biceps" tendon="biceps" force="100" lengthrange="0.2 0.34"/>
+    +     <muscle name="biceps" tendon="biceps" force="100" lengthrange="0.359 0.451"/>
 
 The number: how far the tendon's length goes out of `lengthrange` at either end, in widths of it, over 64 poses of all
 joints; from 0.2 on, where half of the model's muscles have less than a third of that. Left out, MuJoCo finds the range

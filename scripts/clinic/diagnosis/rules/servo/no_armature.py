@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body>
-          <joint name="wrist" axis="0 0 1" armature="0.1"/>
-          <geom type="capsule" fromto="0 0 0 0.03 0 0" size="0.01" mass="0.02"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <position joint="wrist" kp="200" kv="20"/>
-      </actuator>
-    </mujoco>
+    -       <joint name="wrist" axis="0 0 1"/>
+    +       <joint name="wrist" axis="0 0 1" armature="0.1"/>
 
 The number: with the timestep h and the inertia M a velocity gain is stable below h kv / M = 2, a position gain below
 h^2 kp / M = 4 (explicit integration of a spring and a damper); damping that is integrated implicitly adds h kv / 2 to

@@ -28,25 +28,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <site name="winch" pos="0 0 2"/>
-        <body name="weight" pos="0 0 1">
-          <joint type="slide" axis="0 0 1"/>
-          <geom type="sphere" size="0.05" mass="1"/>
-          <site name="eye" pos="0 0 0.05"/>
-        </body>
-      </worldbody>
-      <tendon>
-        <spatial name="rope">
-          <site site="winch"/>
-          <site site="eye"/>
-        </spatial>
-      </tendon>
-      <actuator>
-        <motor tendon="rope" ctrlrange="0 50" gear="-1"/>
-      </actuator>
-    </mujoco>
+    -     <motor tendon="rope" ctrlrange="0 50"/>
+    +     <motor tendon="rope" ctrlrange="0 50" gear="-1"/>
 
 The number: the most that the motor pushes over its control range in N, at least ten times what it can pull. Actuators
 with a bias are left out: servos of length, and muscles, which pull with positive controls.

@@ -27,24 +27,10 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="drone" pos="0 0 1">
-          <freejoint/>
-          <geom type="box" size="0.1 0.1 0.02" mass="0.5"/>
-          <site name="one" pos="-0.1 -0.1 0"/>
-          <site name="two" pos="-0.1 0.1 0"/>
-          <site name="three" pos="0.1 0.1 0"/>
-          <site name="four" pos="0.1 -0.1 0"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <motor name="one" site="one" gear="0 0 1 0 0 -0.02"/>
-        <motor name="two" site="two" gear="0 0 1 0 0 0.02"/>
-        <motor name="three" site="three" gear="0 0 1 0 0 -0.02"/>
-        <motor name="four" site="four" gear="0 0 1 0 0 0.02"/>
-      </actuator>
-    </mujoco>
+    -     <motor name="three" site="three" gear="0 0 1 0 0 0.02"/>
+    +     <motor name="three" site="three" gear="0 0 1 0 0 -0.02"/>
+    -     <motor name="four" site="four" gear="0 0 1 0 0 -0.02"/>
+    +     <motor name="four" site="four" gear="0 0 1 0 0 0.02"/>
 
 The number: the volume that thrust and the torques about the drone's three axes span, each made as long as 1; four
 rotors that are arranged well have 1, and those that cannot be told apart 0. Suspected is less than a hundredth.

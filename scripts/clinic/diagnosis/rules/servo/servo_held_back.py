@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="arm" pos="0 0 1">
-          <joint name="shoulder" axis="0 0 1" damping="2" range="-90 90"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="1"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <position joint="shoulder" kp="50" ctrlrange="-1.5 1.5" forcerange="-40 40"/>
-      </actuator>
-    </mujoco>
+    -       <joint name="shoulder" axis="0 0 1" damping="100" range="-90 90"/>
+    +       <joint name="shoulder" axis="0 0 1" damping="2" range="-90 90"/>
 
 The number: how much of a step of 0.1 rad (0.01 m) is left after 1 s; more than 0.45 by damping, 0.2 by armature. The
 joint's `damping` is more than 0.6 s times the stiffness (10 s of a slide), most of all damping there is, and 3 times

@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="arm" pos="0 0 1">
-          <joint name="shoulder" axis="0 1 0" damping="2" range="-90 90"/>
-          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03" mass="1"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <position joint="shoulder" kp="50" ctrlrange="-1.5 1.5" forcerange="-40 40"/>
-      </actuator>
-    </mujoco>
+    -     <position joint="shoulder" kp="50" ctrlrange="-1.5 1.5" forcerange="0 40"/>
+    +     <position joint="shoulder" kp="50" ctrlrange="-1.5 1.5" forcerange="-40 40"/>
 
 The number: how many position servos have a force range of which one end is less than a 20th of the other, a control
 range that ends at 0 where a fifth of the joint's range and more lies beyond, or a negative gear. Of 96 healthy models

@@ -20,17 +20,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" damping="0.5" armature="0.01"/>
-          <geom type="capsule" fromto="0 0 0 0 0 -0.2" size="0.02" mass="0.3"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <general joint="elbow" gainprm="20" biastype="affine" biasprm="0 -20 -1" dyntype="filter" dynprm="0.02"/>
-      </actuator>
-    </mujoco>
+    -     <general joint="elbow" gainprm="20" biastype="affine" biasprm="0 -20 -1" dyntype="filter"/>
+    +     <general joint="elbow" gainprm="20" biastype="affine" biasprm="0 -20 -1" dyntype="filter" dynprm="0.02"/>
 
 The number: the greatest time constant of the actuators with a filter; 0.5 s and more is told.
 

@@ -29,27 +29,11 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="5 5 0.1"/>
-        <body name="car" pos="0 0 0.1">
-          <freejoint/>
-          <geom type="box" size="0.2 0.1 0.03" mass="3"/>
-          <body name="left_wheel" pos="0 0.15 0">
-            <joint name="left_wheel" axis="0 1 0" damping="0.01"/>
-            <geom type="cylinder" size="0.1 0.02" euler="90 0 0" mass="0.3"/>
-          </body>
-          <body name="right_wheel" pos="0 -0.15 0">
-            <joint name="right_wheel" axis="0 1 0" damping="0.01"/>
-            <geom type="cylinder" size="0.1 0.02" euler="90 0 0" mass="0.3"/>
-          </body>
-        </body>
-      </worldbody>
-      <actuator>
-        <velocity joint="left_wheel" kv="0.2" ctrlrange="-20 20"/>
-        <velocity joint="right_wheel" kv="0.2" ctrlrange="-20 20"/>
-      </actuator>
-    </mujoco>
+    -         <joint name="left_wheel" axis="0 1 0" damping="5"/>
+    +         <joint name="left_wheel" axis="0 1 0" damping="0.01"/>
+
+    -         <joint name="right_wheel" axis="0 1 0" damping="5"/>
+    +         <joint name="right_wheel" axis="0 1 0" damping="0.01"/>
 
 The number: all velocity servos of hinges without limits are told half of their greatest speed; the share of it that is
 missing after 2 s, of the fastest wheel. Above 0.8 is told.

@@ -20,17 +20,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="elbow" axis="0 1 0" range="-60 60" damping="1"/>
-          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02" mass="0.1"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <position name="elbow" joint="elbow" kp="10" ctrlrange="-1 1"/>
-      </actuator>
-    </mujoco>
+    -       <joint name="elbow" axis="0 1 0" range="-60 60" stiffness="10" damping="1"/>
+    +       <joint name="elbow" axis="0 1 0" range="-60 60" damping="1"/>
 
 The number: the joint is put at 0.8 of the way from the spring's rest to the farther end of what range and control range
 allow, without gravity and contacts; what its spring pulls there, over that and what the servo pulls per rad (m) times

@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="finger" axis="0 1 0" range="0 90" damping="0.1"/>
-          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <general joint="finger" biastype="affine" ctrlrange="0 1.57" gainprm="10" biasprm="0 -10 -0.1"/>
-      </actuator>
-    </mujoco>
+    -     <general joint="finger" biastype="affine" ctrlrange="0 1.57"/>
+    +     <general joint="finger" biastype="affine" ctrlrange="0 1.57" gainprm="10" biasprm="0 -10 -0.1"/>
 
 The number: how the force changes when the joint is moved by 0.1 rad, over what the gain asks for; 1 where it does not.
 A position gain whose sign is the gain's, so that the joint is pushed away from its target, is told as well.

@@ -34,31 +34,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <option integrator="implicitfast"/>
-      <worldbody>
-        <body pos="0 0 1">
-          <geom type="box" size="0.05 0.05 0.02"/>
-          <body pos="0 0.02 0.05">
-            <joint name="left" type="slide" axis="0 1 0" range="0 0.04" damping="5"/>
-            <geom type="box" size="0.01 0.005 0.02"/>
-          </body>
-          <body pos="0 -0.02 0.05">
-            <joint name="right" type="slide" axis="0 -1 0" range="0 0.04" damping="5"/>
-            <geom type="box" size="0.01 0.005 0.02"/>
-          </body>
-        </body>
-      </worldbody>
-      <tendon>
-        <fixed name="split">
-          <joint joint="left" coef="0.5"/>
-          <joint joint="right" coef="0.5"/>
-        </fixed>
-      </tendon>
-      <actuator>
-        <position tendon="split" kp="100" kv="5" ctrlrange="0 0.04"/>
-      </actuator>
-    </mujoco>
+    -     <position tendon="split" kp="100" kv="5" ctrlrange="0 255"/>
+    +     <position tendon="split" kp="100" kv="5" ctrlrange="0 0.04"/>
 
 The number: the share of the targets that the tendon cannot reach while its joints are within their ranges; more than
 two thirds. Of a spatial tendon the reach is that of 64 poses, and a fifth more at each end. Targets that take the

@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body>
-          <joint name="hinge" axis="0 0 1"/>
-          <geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.02" mass="1"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <position joint="hinge" kp="100" dampratio="1"/>
-      </actuator>
-    </mujoco>
+    -     <position joint="hinge" kp="100"/>
+    +     <position joint="hinge" kp="100" dampratio="1"/>
 
 The number: a damping ratio under 0.08, and a step of 0.1 rad (0.01 m for a slide), without gravity and contacts, that
 overshoots by more than 22 % and crosses its target four times. With a damping ratio z the overshoot of one joint alone

@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="shoulder" axis="0 1 0" damping="1"/>
-          <geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.02" mass="1"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <position joint="shoulder" kp="200" dampratio="1"/>
-      </actuator>
-    </mujoco>
+    -     <position joint="shoulder"/>
+    +     <position joint="shoulder" kp="200" dampratio="1"/>
 
 The number: the model's own weight at the joint over the gain, in the worst of 17 poses: more than 0.3 rad (0.3 m),
 0.55 rad where the base is free: legs that a learned policy drives go up to 0.5.

@@ -22,20 +22,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="rod" pos="0.5 0 1">
-          <freejoint/>
-          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
-        </body>
-        <body name="wall" pos="0.75 0 1">
-          <geom type="box" size="0.02 0.05 0.05"/>
-        </body>
-      </worldbody>
-      <equality>
-        <connect body1="rod" body2="wall" anchor="0.22 0 0"/>
-      </equality>
-    </mujoco>
+    -     <connect body1="rod" body2="wall" anchor="0.72 0 1"/>
+    +     <connect body1="rod" body2="wall" anchor="0.22 0 0"/>
 
 The number: the distance of the anchor from the nearer of the two bodies over that body's own size; more than 0.3, or
 more than 3 on the line between the two, and from the world. Of 289 healthy models 12 connect bodies, and all have 0.

@@ -18,16 +18,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <compiler angle="radian"/>
-      <worldbody>
-        <body name="car" pos="0 0 0.1">
-          <freejoint/>
-          <geom type="box" size="0.2 0.1 0.05"/>
-          <site name="lidar" pos="0.2 0 0" euler="0 1.5708 0.7854"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <site name="lidar" pos="0.2 0 0" euler="0 90 45"/>
+    +       <site name="lidar" pos="0.2 0 0" euler="0 1.5708 0.7854"/>
 
 The number: elements with an angle of more than a turn in radians, in URDF an `rpy`, which has no other unit; or whose
 angles in degrees are all quarters of pi. Of 289 healthy models none has one of the first kind.

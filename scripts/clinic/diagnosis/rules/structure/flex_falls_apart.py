@@ -15,13 +15,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <flexcomp name="towel" type="grid" dim="2" count="4 4 1" spacing="0.1 0.1 0.1" pos="0 0 1" radius="0.01">
-          <edge damping="0.1" equality="true"/>
-        </flexcomp>
-      </worldbody>
-    </mujoco>
+    -       <edge damping="0.1"/>
+    +       <edge damping="0.1" equality="true"/>
 
 The number: flexcomps that move and have no equality, no stiffness of their edges, no elasticity and no plugin.
 

@@ -18,16 +18,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="5 5 0.1"/>
-        <geom name="step" type="box" size="0.15 0.6 0.05" pos="0.65 0 0.05"/>
-        <body pos="0 0 1">
-          <freejoint/>
-          <geom size="0.1"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -     <geom name="step" type="box" size="0.3 1.2 0.1" pos="0.65 0 0.05"/>
+    +     <geom name="step" type="box" size="0.15 0.6 0.05" pos="0.65 0 0.05"/>
 
 The number: upright boxes and cylinders whose middle is as high above a plane, or above the box that they stand on, as a
 half of their half height: with half the size they would stand on it.

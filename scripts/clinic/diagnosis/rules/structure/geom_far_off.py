@@ -21,19 +21,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="base" pos="0 0 0.5">
-          <freejoint/>
-          <geom type="box" size="0.1 0.1 0.05"/>
-          <geom name="bumper" size="0.03" pos="-0.12 0 0"/>
-          <body name="arm" pos="0 0 0.1">
-            <joint axis="0 1 0"/>
-            <geom type="capsule" fromto="0 0 0 0 0 0.2" size="0.02"/>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <geom name="bumper" size="0.03" pos="-19.4 0 15.5"/>
+    +       <geom name="bumper" size="0.03" pos="-0.12 0 0"/>
 
 The number: how far the geom's middle is from the nearest other geom of its mechanism at the start, in sizes of the box
 around all the others; more than 3.

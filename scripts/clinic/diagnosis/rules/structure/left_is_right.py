@@ -18,16 +18,10 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="head" pos="0 0 1">
-          <freejoint/>
-          <geom type="box" size="0.05 0.1 0.05"/>
-          <camera name="left_eye" pos="0.05 0.03 0" xyaxes="0 -1 0 0 0 1"/>
-          <camera name="right_eye" pos="0.05 -0.03 0" xyaxes="0 -1 0 0 0 1"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <camera name="left_eye" pos="0.05 -0.03 0" xyaxes="0 -1 0 0 0 1"/>
+    +       <camera name="left_eye" pos="0.05 0.03 0" xyaxes="0 -1 0 0 0 1"/>
+    -       <camera name="right_eye" pos="0.05 0.03 0" xyaxes="0 -1 0 0 0 1"/>
+    +       <camera name="right_eye" pos="0.05 -0.03 0" xyaxes="0 -1 0 0 0 1"/>
 
 The number: how far the left one is to the right of the other: along the image of two cameras of one body that look the
 same way; for wheels, hinges without limits, against y of the robot's root, where x is forward. Of 289 healthy models

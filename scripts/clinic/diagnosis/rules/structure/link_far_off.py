@@ -19,18 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="upper" pos="0 0 1">
-          <joint axis="0 1 0"/>
-          <geom type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
-          <body name="fore" pos="0 0 0.3">
-            <joint axis="0 1 0"/>
-            <geom type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <body name="fore" pos="0 0 300">
+    +       <body name="fore" pos="0 0 0.3">
 
 The number: how far a body with a joint is from the body that it hangs on, in sizes (radii of the largest geom) of its
 mechanism; told from 20 on, and from 2 m on.

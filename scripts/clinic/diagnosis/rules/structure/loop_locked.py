@@ -31,28 +31,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="crank" pos="0 0 0.2">
-          <joint name="crank" axis="0 1 0"/>
-          <geom type="capsule" fromto="0 0 0 0 0 0.1" size="0.01" contype="0"/>
-          <body name="coupler" pos="0 0 0.1">
-            <joint name="pin" axis="0 1 0"/>
-            <geom type="capsule" fromto="0 0 0 0.3 0 0.1" size="0.01" contype="0"/>
-          </body>
-        </body>
-        <body name="rocker" pos="0.3 0 0.2">
-          <joint name="rocker" axis="0 1 0"/>
-          <geom type="capsule" fromto="0 0 0 0 0 0.2" size="0.01" contype="0"/>
-        </body>
-      </worldbody>
-      <equality>
-        <connect body1="coupler" body2="rocker" anchor="0.3 0 0.1"/>
-      </equality>
-      <actuator>
-        <motor joint="crank" ctrlrange="-5 5"/>
-      </actuator>
-    </mujoco>
+    -       <joint name="rocker"/>
+    +       <joint name="rocker" axis="0 1 0"/>
 
 The number: of how fast a driven joint would tear the connections open if it moved alone, the share that no motion of
 all the other joints takes away; 0 in a mechanism, 1 where nothing else gives way. More than 0.1. At the start, by small

@@ -32,30 +32,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="index_link1" pos="0 0 1">
-          <joint name="index_joint1" axis="0 1 0"/>
-          <geom size="0.01"/>
-          <body name="index_link2" pos="0 0 0.03">
-            <joint name="index_joint2" axis="0 1 0"/>
-            <geom size="0.01"/>
-          </body>
-        </body>
-        <body name="middle_link1" pos="0 0.05 1">
-          <joint name="middle_joint1" axis="0 1 0"/>
-          <geom size="0.01"/>
-          <body name="middle_link2" pos="0 0 0.03">
-            <joint name="middle_joint2" axis="0 1 0"/>
-            <geom size="0.01"/>
-          </body>
-        </body>
-        <body name="thumb_link1" pos="0 -0.05 1">
-          <joint name="thumb_joint1" axis="0 1 0"/>
-          <geom size="0.01"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -         <joint name="index_join2" axis="0 1 0"/>
+    +         <joint name="index_joint2" axis="0 1 0"/>
 
 The number: the letters by which the word differs, one, from a word of five letters and more that stands in four and
 more of the names of its kind, where the one stands in no other name of the model, and begins with the same letter. A

@@ -16,14 +16,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1" quat="1 0 0 0">
-          <freejoint/>
-          <geom type="box" size="0.1 0.1 0.1"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -     <body pos="0 0 1" quat="1 nan 0 0">
+    +     <body pos="0 0 1" quat="1 0 0 0">
 
 The number: how many attributes have `nan` among their numbers. `<custom>` and names are not looked at.
 

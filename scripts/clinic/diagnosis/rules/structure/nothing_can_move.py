@@ -16,15 +16,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="2 2 0.1"/>
-        <body name="box" pos="0 0 0.5">
-          <freejoint/>
-          <geom type="box" size="0.1 0.1 0.1"/>
-        </body>
-      </worldbody>
-    </mujoco>
+          <body name="box" pos="0 0 0.5">
+    +       <freejoint/>
 
 The number: the share of the bodies and geoms in the air that nothing can move. All of them, above a plane and with
 gravity, is a cause; geoms of the world itself count where they are meshes.

@@ -19,19 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="2 2 0.1"/>
-        <body name="arm" pos="0 0 0.5">
-          <joint axis="0 0 1"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
-        </body>
-        <body name="parcel" pos="0.6 0 0.8">
-          <freejoint/>
-          <geom type="box" size="0.05 0.05 0.05" mass="0.2"/>
-        </body>
-      </worldbody>
-    </mujoco>
+          <body name="parcel" pos="0.6 0 0.8">
+    +       <freejoint/>
 
 The number: the height in m of what hangs above the floor. Told are bodies of the world without joints and without
 others on them that collide, that reach neither a plane nor another thing that stands still, and whose mass somebody

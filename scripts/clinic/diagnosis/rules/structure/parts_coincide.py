@@ -23,21 +23,11 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="palm" pos="0 0 0.5">
-          <geom type="box" size="0.05 0.05 0.02"/>
-          <body name="left_finger" pos="0 0.005 0.05">
-            <joint name="left" type="slide" axis="0 1 0" range="0 0.04"/>
-            <geom type="box" size="0.01 0.005 0.03"/>
-          </body>
-          <body name="right_finger" pos="0 -0.005 0.05">
-            <joint name="right" type="slide" axis="0 -1 0" range="0 0.04"/>
-            <geom type="box" size="0.01 0.005 0.03"/>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <body name="left_finger" pos="0 0 0.05">
+    +       <body name="left_finger" pos="0 0.005 0.05">
+
+    -       <body name="right_finger" pos="0 0 0.05">
+    +       <body name="right_finger" pos="0 -0.005 0.05">
 
 The number: groups of moving bodies, none of which hangs on another, that begin with all their solid geoms in the same
 places, of the same kinds and sizes, and touch. Of 499 healthy models none has one.

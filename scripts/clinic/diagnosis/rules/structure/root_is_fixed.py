@@ -23,23 +23,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="2 2 0.1"/>
-        <body name="cart" pos="0 0 0.1">
-          <freejoint/>
-          <geom type="box" size="0.2 0.1 0.03"/>
-          <body name="left_wheel" pos="0 0.15 0">
-            <joint name="left_wheel" axis="0 1 0"/>
-            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
-          </body>
-          <body name="right_wheel" pos="0 -0.15 0">
-            <joint name="right_wheel" axis="0 1 0"/>
-            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+          <body name="cart" pos="0 0 0.1">
+    +       <freejoint/>
 
 The number: wheels that touch the floor, below a body that nothing can move. A wheel is a hinge without limits whose
 round geom has its middle on the axis. Legs are two limbs and more of a body in the air whose ends are within 15 % of

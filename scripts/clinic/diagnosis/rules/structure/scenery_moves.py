@@ -18,14 +18,7 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="2 2 0.1"/>
-        <body name="table" pos="0.6 0 0.2">
-          <geom type="box" size="0.3 0.4 0.2"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <joint type="slide" axis="1 0 0" damping="1000"/>
 
 The number: how many joints let it move. Told are bodies of the world whose name says that they are scenery and that
 have a free joint, and bodies with nothing but slides that nothing drives, holds or springs back and whose damping is

@@ -19,17 +19,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="box" pos="0 0 1">
-          <freejoint/>
-          <geom type="box" size="0.05 0.05 0.05"/>
-        </body>
-      </worldbody>
-      <equality>
-        <connect body1="box" anchor="0 0 0.05" solref="0.01 1"/>
-      </equality>
-    </mujoco>
+    -     <connect body1="box" anchor="0 0 0.05" solref="1 1"/>
+    +     <connect body1="box" anchor="0 0 0.05" solref="0.01 1"/>
 
 The number: the time constant times the damping ratio in s, whose square is the inverse of the stiffness; more than
 0.1, which is 25 times as soft as MuJoCo's own 0.02.

@@ -27,24 +27,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="2 2 0.1"/>
-        <body name="base" pos="0 0 0.1">
-          <freejoint/>
-          <geom type="box" size="0.15 0.08 0.03"/>
-          <geom name="caster" size="0.02" pos="0.12 0 -0.03"/>
-          <body name="left_wheel" pos="-0.1 0.1 0">
-            <joint axis="0 1 0"/>
-            <geom type="cylinder" size="0.05 0.01" zaxis="0 1 0"/>
-          </body>
-          <body name="right_wheel" pos="-0.1 -0.1 0">
-            <joint axis="0 1 0"/>
-            <geom type="cylinder" size="0.05 0.01" zaxis="0 1 0"/>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+    -       <geom name="caster" size="0.02" pos="0.12 0 -0.04"/>
+    +       <geom name="caster" size="0.02" pos="0.12 0 -0.03"/>
 
 The number: how far below the wheels the lowest other geom reaches at the start, or how far a root that is called a
 footprint is from the ground under the wheels: more than 1 mm, and less than a wheel's radius. Or how far above the

@@ -20,18 +20,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <option timestep="0.002"/>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="hinge" axis="0 1 0"/>
-          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.01" mass="0.3"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <position joint="hinge" kp="100" kv="2"/>
-      </actuator>
-    </mujoco>
+    -   <option timestep="0.02"/>
+    +   <option timestep="0.002"/>
 
 The number: the fastest joint within 2 s after letting go (100 rad/s are 16 turns a second), or, where that is calm, how
 much a joint's speed jumps to and fro from step to step after a nudge, how fast it is under command, and how deep

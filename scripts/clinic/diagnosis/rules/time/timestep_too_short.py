@@ -18,16 +18,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <option timestep="0.002"/>
-      <worldbody>
-        <geom type="plane" size="1 1 0.1"/>
-        <body name="ball" pos="0 0 1">
-          <freejoint/>
-          <geom type="sphere" size="0.1"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -   <option timestep="0.000002"/>
+    +   <option timestep="0.002"/>
 
 The number: the steps for a second; more than 50,000. The shortest timestep of 568 healthy models is 0.0001 s: 10,000.
 

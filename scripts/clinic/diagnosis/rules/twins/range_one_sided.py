@@ -36,34 +36,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="pelvis" pos="0 0 1">
-          <freejoint/>
-          <geom size="0.1"/>
-          <body name="torso" pos="0 0 0.2">
-            <joint name="waist" axis="0 0 1" range="-60 60"/>
-            <geom size="0.1"/>
-            <body name="left_arm" pos="0 0.2 0">
-              <joint name="left_arm" axis="0 1 0" range="-90 90"/>
-              <geom size="0.05"/>
-            </body>
-            <body name="right_arm" pos="0 -0.2 0">
-              <joint name="right_arm" axis="0 1 0" range="-90 90"/>
-              <geom size="0.05"/>
-            </body>
-          </body>
-          <body name="left_leg" pos="0 0.1 -0.2">
-            <joint name="left_leg" axis="0 1 0" range="-90 30"/>
-            <geom size="0.05"/>
-          </body>
-          <body name="right_leg" pos="0 -0.1 -0.2">
-            <joint name="right_leg" axis="0 1 0" range="-90 30"/>
-            <geom size="0.05"/>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+    -         <joint name="waist" axis="0 0 1" range="0 60"/>
+    +         <joint name="waist" axis="0 0 1" range="-60 60"/>
 
 The number: the difference of the two ends' magnitudes over the width of the range, above 0.3, of a hinge whose anchor
 is its own image and whose turn is the opposite of its image's, where two pairs of bodies and more are mirrored. The

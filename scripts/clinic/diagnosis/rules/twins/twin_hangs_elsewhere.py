@@ -47,45 +47,9 @@ Bad:
 
 Good:
 
-    <robot name="car">
-      <link name="base"/>
-      <joint name="left_steering" type="revolute">
-        <parent link="base"/>
-        <child link="left_hinge"/>
-        <origin xyz="0.3 0.1 0"/>
-        <axis xyz="0 0 1"/>
-        <limit lower="-0.5" upper="0.5" effort="10" velocity="10"/>
-      </joint>
-      <joint name="right_steering" type="revolute">
-        <parent link="base"/>
-        <child link="right_hinge"/>
-        <origin xyz="0.3 -0.1 0"/>
-        <axis xyz="0 0 1"/>
-        <limit lower="-0.5" upper="0.5" effort="10" velocity="10"/>
-      </joint>
-      <joint name="left_axle" type="continuous">
-        <parent link="left_hinge"/>
-        <child link="left_wheel"/>
-        <axis xyz="0 1 0"/>
-      </joint>
-      <joint name="right_axle" type="continuous">
-        <parent link="right_hinge"/>
-        <child link="right_wheel"/>
-        <axis xyz="0 1 0"/>
-      </joint>
-      <link name="left_hinge">
-        <inertial><mass value="0.2"/><inertia ixx="1e-3" ixy="0" ixz="0" iyy="1e-3" iyz="0" izz="1e-3"/></inertial>
-      </link>
-      <link name="right_hinge">
-        <inertial><mass value="0.2"/><inertia ixx="1e-3" ixy="0" ixz="0" iyy="1e-3" iyz="0" izz="1e-3"/></inertial>
-      </link>
-      <link name="left_wheel">
-        <inertial><mass value="0.4"/><inertia ixx="1e-3" ixy="0" ixz="0" iyy="1e-3" iyz="0" izz="1e-3"/></inertial>
-      </link>
-      <link name="right_wheel">
-        <inertial><mass value="0.4"/><inertia ixx="1e-3" ixy="0" ixz="0" iyy="1e-3" iyz="0" izz="1e-3"/></inertial>
-      </link>
-    </robot>
+        <joint name="right_axle" type="continuous">
+    -     <parent link="left_hinge"/>
+    +     <parent link="right_hinge"/>
 
 The number: parts of one side that hang on a part of the other, beside their own twins, where the part that they are
 named after carries nothing of the kind.

@@ -29,27 +29,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="5 5 0.1"/>
-        <body name="car" pos="0 0 0.1">
-          <freejoint/>
-          <geom type="box" size="0.2 0.1 0.03"/>
-          <body name="left_wheel" pos="0 0.15 0">
-            <joint name="left_wheel" axis="0 1 0"/>
-            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
-          </body>
-          <body name="right_wheel" pos="0 -0.15 0">
-            <joint name="right_wheel" axis="0 1 0"/>
-            <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>
-          </body>
-        </body>
-      </worldbody>
-      <actuator>
-        <motor joint="left_wheel" ctrlrange="-1 1"/>
-        <motor joint="right_wheel" ctrlrange="-1 1"/>
-      </actuator>
-    </mujoco>
+    -         <joint name="right_wheel" axis="0 -1 0"/>
+    +         <joint name="right_wheel" axis="0 1 0"/>
 
 The number: of the two driven wheels on one axle, how much equal controls roll them against each other, from -1, both
 the same way, to 1; and by how much the smaller radius is less than the other, from 0.2 % on.

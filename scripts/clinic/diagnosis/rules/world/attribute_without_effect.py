@@ -29,25 +29,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <site name="wall"/>
-        <body pos="1 0 0">
-          <joint type="slide" axis="1 0 0" damping="5"/>
-          <geom type="box" size="0.1 0.1 0.1"/>
-          <site name="load"/>
-        </body>
-      </worldbody>
-      <tendon>
-        <spatial name="rope">
-          <site site="wall"/>
-          <site site="load"/>
-        </spatial>
-      </tendon>
-      <actuator>
-        <position tendon="rope" ctrlrange="0.5 1" kp="100" dampratio="1"/>
-      </actuator>
-    </mujoco>
+    -     <general tendon="rope" lengthrange="0.5 1"/>
+    +     <position tendon="rope" ctrlrange="0.5 1" kp="100" dampratio="1"/>
 
 The number: how many elements have the attribute, with another value than MuJoCo's own, and not what it needs. MuJoCo's
 manual, XML reference, tells of each what reads it.

@@ -19,15 +19,9 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="1 1 0.1"/>
-        <body name="box" pos="0 0 0.5">
-          <freejoint/>
-          <geom type="box" size="0.05 0.05 0.05"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -   <option>
+    -     <flag contact="disable"/>
+    -   </option>
 
 The number: how far the centre of a body ends below a surface that it began above, 2 s after letting go.
 

@@ -20,15 +20,9 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="1 1 0.1"/>
-        <body name="box" pos="0 0 0.5">
-          <freejoint/>
-          <geom type="box" size="0.05 0.05 0.05"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -   <contact>
+    -     <exclude body1="world" body2="box"/>
+    -   </contact>
 
 The number: how far the centre of a body ends below a surface that it began above, 2 s after letting go; and how many
 excludes are between the world and one of the parts that a robot stands on, which reach as low as any other of it but

@@ -18,16 +18,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <option density="1.2"/>
-      <worldbody>
-        <geom type="plane" size="1 1 0.1"/>
-        <body name="box" pos="0 0 0.5">
-          <freejoint/>
-          <geom type="box" size="0.05 0.05 0.05"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -   <option density="5000"/>
+    +   <option density="1.2"/>
 
 The number: what the medium holds back of something that falls at the speed of a fall over its own size, as a share of
 its weight; below 0.1 is well. A little viscosity is a usual way to bring what dangles to rest.

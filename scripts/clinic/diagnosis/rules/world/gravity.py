@@ -17,16 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <option gravity="0 0 -9.81"/>
-      <worldbody>
-        <geom type="plane" size="1 1 0.1"/>
-        <body name="box" pos="0 0 0.5">
-          <freejoint/>
-          <geom type="box" size="0.05 0.05 0.05"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -   <option gravity="0 0 9.81"/>
+    +   <option gravity="0 0 -9.81"/>
 
 The number: the angle between gravity and the way down to the floor (-z where there is no horizontal plane), at most
 45 degrees; and the time in which something falls as far as the model is wide: 0.45 s for 1 m, told where it is under

@@ -26,23 +26,7 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom type="plane" size="1 1 0.1"/>
-        <body pos="0 0 0.05">
-          <freejoint/>
-          <geom type="box" size="0.05 0.05 0.05"/>
-        </body>
-        <body pos="0.2 0 0.05">
-          <freejoint/>
-          <geom type="box" size="0.05 0.05 0.05"/>
-        </body>
-        <body pos="0.4 0 0.05">
-          <freejoint/>
-          <geom type="box" size="0.05 0.05 0.05"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -   <size memory="14K"/>
 
 The number: how often MuJoCo warns `CONTACTFULL` or `CNSTRFULL` within 2 s after letting go.
 

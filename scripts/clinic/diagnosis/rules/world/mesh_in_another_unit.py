@@ -23,22 +23,9 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <asset>
-        <mesh name="finger" scale="0.001 0.001 0.001"
-          vertex="-9 -9 0  9 -9 0  9 9 0  -9 9 0  -9 -9 50  9 -9 50  9 9 50  -9 9 50"/>
-      </asset>
-      <worldbody>
-        <body name="hand" pos="0 0 0.5">
-          <freejoint/>
-          <geom type="box" size="0.04 0.03 0.02"/>
-          <body name="finger" pos="0.04 0 0.02">
-            <joint axis="0 1 0"/>
-            <geom type="mesh" mesh="finger"/>
-          </body>
-        </body>
-      </worldbody>
-    </mujoco>
+    +     <mesh name="finger" scale="0.001 0.001 0.001"
+    -     <mesh name="finger" vertex="-9 -9 0  9 -9 0  9 9 0  -9 9 0  -9 -9 50  9 -9 50  9 9 50  -9 9 50"/>
+    +       vertex="-9 -9 0  9 -9 0  9 9 0  -9 9 0  -9 -9 50  9 -9 50  9 9 50  -9 9 50"/>
 
 The number: half of the mesh's length over the usual size of the rest: the median of the distances between bodies and
 their parents, and of half the lengths of shapes other than meshes. In 215 healthy models with meshes it is 43 at most,

@@ -17,15 +17,8 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <geom name="ramp" type="plane" size="1 1 0.1" euler="0 30 0"/>
-        <body pos="0 0 0.1">
-          <freejoint/>
-          <geom type="box" size="0.05 0.05 0.05"/>
-        </body>
-      </worldbody>
-    </mujoco>
+    -     <geom name="ramp" type="plane" size="1 1 0.1" euler="0 0 30"/>
+    +     <geom name="ramp" type="plane" size="1 1 0.1" euler="0 30 0"/>
 
 The number: the angle of the turn about the normal, where it is all that the plane is turned by, and no quarter of a
 turn; of 289 healthy models none has such a plane without a `material`.

@@ -24,17 +24,9 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <joint name="hinge" axis="0 1 0"/>
-          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02"/>
-        </body>
-      </worldbody>
-      <actuator>
-        <motor joint="hinge" ctrlrange="-5 5"/>
-      </actuator>
-    </mujoco>
+    -   <option>
+    -     <flag actuation="disable"/>
+    -   </option>
 
 The number: how many actuators, limits, loops or pairs the model has of what is switched off. Of equality constraints
 those whose parts stand at the start as if they held, to 1 mm or mrad, and of connections and welds of two bodies

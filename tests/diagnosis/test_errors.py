@@ -285,6 +285,14 @@ def test_of_a_body_that_is_not_opened_only_the_end_is_taken(tmp_path, monkeypatc
     assert '<motor name="motor" joint="elbow"/>' in found.fixed["model.xml"]
 
 
+def test_of_a_conflict_that_a_merge_has_left_the_first_side_is_kept(tmp_path, monkeypatch):
+    sides = "<<<<<<< HEAD\n  <actuator>\n=======\n  <actuator><!-- theirs -->\n>>>>>>> theirs\n"
+    assert WHOLE.count("  <actuator>\n") == 1
+    found = diagnosed(WHOLE.replace("  <actuator>\n", sides), tmp_path, monkeypatch)
+    assert found.fixed["model.xml"] == WHOLE
+    assert "both sides of a conflict" in found.causes[0].says
+
+
 def test_a_comment_that_has_no_end_ends_with_its_line(tmp_path, monkeypatch):
     found = diagnosed(WHOLE.replace("  <actuator>", "  <!-- the motors\n  <actuator>"), tmp_path, monkeypatch)
     assert found.fixed["model.xml"] == WHOLE.replace("  <actuator>", "  <!-- the motors -->\n  <actuator>")

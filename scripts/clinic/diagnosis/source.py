@@ -181,7 +181,7 @@ class Source:
 
     def _parsed(self, file: str) -> Element:
         text = self.texts[file].encode()
-        allowed, added = _well_formed(text)
+        allowed, added = well_formed(text)
         parser = expat.ParserCreate("utf-8")  # whatever the text says of itself, as MuJoCo reads it
         roots: list[Element] = []
         open_: list[Element] = []
@@ -242,7 +242,7 @@ class Source:
         element.children = made
 
 
-def _well_formed(text: bytes) -> tuple[bytes, list[int]]:
+def well_formed(text: bytes) -> tuple[bytes, list[int]]:
     """A text without what MuJoCo's parser lets pass and XML does not, and where blanks were added.
 
     `--` in a comment, attributes without a blank between, a bare `&`, something before the declaration. All else stays

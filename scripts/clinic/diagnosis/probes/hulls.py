@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from clinic.diagnosis.engine import MESH, Contact
 from clinic.diagnosis.probes.overlap import beginning
+from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.surface import SDF, Triangle, triangles
 from clinic.diagnosis.probes.vector import Vector, add, at, cross, dot, sub, times
 from clinic.diagnosis.simulation import Simulation, kept
@@ -18,13 +19,18 @@ DEEP = 0.05  # of the smaller mesh's radius
 
 @kept
 def closed_holes(simulation: Simulation) -> dict[tuple[int, int], float]:
-    """The depth, as a share of the smaller mesh's radius, of pairs at the start whose surfaces do not meet."""
+    """The depth, as a share of the smaller mesh's radius, of pairs at the start whose surfaces do not meet.
+
+    Parts of one mechanism are left out: how they nest is `overlap_of_relatives`'s.
+    """
     kinds, radii = simulation.model("geom_type"), simulation.model("geom_rbound")
+    owner, bodies = root_of(simulation), simulation.model("geom_bodyid")
     made = {}
     for contact in _deepest(simulation):
         share = -contact.distance / max(min(radii[geom] for geom in contact.geoms), 1e-9)
         meshes = all(int(kinds[geom]) in (MESH, SDF) for geom in contact.geoms)
-        if meshes and contact.force > 0 and share > DEEP and not _meet(simulation, *contact.geoms):
+        strangers = len({owner[int(bodies[geom])] for geom in contact.geoms} - {0}) == 2
+        if strangers and meshes and contact.force > 0 and share > DEEP and not _meet(simulation, *contact.geoms):
             made[contact.geoms] = share
     return made
 

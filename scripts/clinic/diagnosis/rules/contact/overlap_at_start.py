@@ -84,6 +84,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             says += " The size of a box is half of its edge."
             yield Suspect(geoms, "size", "", halved[0].value, halved, at_start(), MOST, says, excess=2.0)
         elif not edits or model.measured(at_start(), edits) > MOST:
+            if not _trees(simulation, found) <= set(simulation.free_bodies):
+                return
             yield Suspect((*names, *geoms), "pos", "", "clear of what it is in", (), at_start(), MOST, says)
         else:
             level: Level = "hint" if any(_posed(simulation, root) for root in _trees(simulation, found)) else "cause"

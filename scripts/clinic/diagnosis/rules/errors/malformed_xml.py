@@ -1,7 +1,7 @@
 """The text is not well-formed XML.
 
-A tag is closed by another name or not at all, an attribute lacks its quotes or stands twice, a `<` or `&` stands bare
-in a value, a comment holds `--`, or the text ends before its last tag.
+A tag is closed by another name or not at all, an attribute lacks its quotes or stands twice, a comment has no end, a
+merge has left both sides of a conflict, or the text ends before its last tag.
 
 Bad:
 
@@ -35,6 +35,7 @@ from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.compiled import COMPILES
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._tags import closed
+from clinic.diagnosis.source import well_formed
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Malformed XML"
@@ -47,6 +48,7 @@ CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 NAKED = re.compile(
     r"(?m)^[ \t]*(?=/?[a-z]\w*(?:\s+[\w:.-]+\s*=\s*\"[^\"<>]*\")*\s*/?>[ \t]*$)"
 )  # a tag without its `<`
+CONFLICT = re.compile(r"(?ms)^<{7}[^\n]*\n(.*?)^={7}[^\n]*\n.*?^>{7}[^\n]*\n")  # as git marks it
 CUT = re.compile(r"<[^<>]*\Z")
 MOST = 20  # mistakes that are mended in turn
 MANY = 2000  # lines, beyond which a change is one from the first of them to the last
@@ -89,7 +91,7 @@ def _mistake(text: str) -> tuple[int, str] | None:
     """The line of the first mistake, and what it is."""
     parser = expat.ParserCreate("utf-8")  # whatever the text says of itself, as MuJoCo reads it
     try:
-        parser.Parse(text.encode(), True)
+        parser.Parse(well_formed(text.encode())[0], True)
     except expat.ExpatError as error:
         return error.lineno, expat.errors.messages[error.code]
     return None
@@ -108,6 +110,8 @@ def _mended(text: str, line: int) -> Try | None:
 
 
 def _tries(text: str, line: int) -> Iterator[Try]:
+    if CONFLICT.search(text):
+        yield CONFLICT.sub(r"\1", text), "a merge has left both sides of a conflict; the first is kept"
     for made in _of_characters(text, line):
         yield made, ""
     yield from closed(text)
@@ -136,16 +140,12 @@ def _of_characters(text: str, line: int) -> Iterator[str]:
         return _with_line(text, at, new)
 
     yield CONTROL.sub("", text)
-    yield text.lstrip()
     yield with_line(re.sub(r"(\s[\w:.-]+\s*=\s*)([^\s\"'<>/=][^\"'<>=]*\")", r'\1"\2', here))
     yield with_line(BARE.sub(r'\1"\2"', here))
     yield with_line(UNCLOSED.sub(r'\1"\2', here))
-    yield with_line(re.sub(r"&(?!#?\w+;)", "&amp;", here))
     yield with_line(re.sub(r"(=\s*\"[^\"]*)$", r'\1"', here))
     yield with_line(re.sub(r"(=\s*\"[^\"<>=]*?)(\s*/?>)", r'\1"\2', here))
-    yield with_line(re.sub(r"(\")([A-Za-z_]\w*\s*=)", r"\1 \2", here))
     yield _once(text, line)
-    yield re.sub(r"<!--(.*?)-->", lambda found: "<!--" + found[1].replace("--", "- -") + "-->", text, flags=re.S)
     for at in range(line, max(line - 4, 0), -1):
         row, below = lines[at - 1].rstrip() if at <= len(lines) else "", "".join(lines[at : at + 2]).lstrip()
         if row and below.startswith("<") and row.rfind("<") >= row.rfind(">"):  # a tag that has no end

@@ -30,8 +30,8 @@ def test_a_mesh_in_millimetres_explains_that_it_begins_in_the_floor(tmp_path):
 
 
 def test_a_mesh_of_a_text_that_no_parser_reads_is_told_without_an_edit():
-    with_a_bracket = ALONE.replace('body name="mug"', 'body name="<mug"')
-    found = examine(NativeEngine(), {"model.xml": with_a_bracket}, select=["mesh-in-another-unit"])
+    with_two_roots = ALONE + "<mujoco/>"
+    found = examine(NativeEngine(), {"model.xml": with_two_roots}, select=["mesh-in-another-unit"])
     assert [(each.elements, each.edit) for each in found.hints] == [(('mesh "mug"',), ())]
 
 

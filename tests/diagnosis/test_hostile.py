@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 from clinic.commands.cli import app
 from clinic.diagnosis.diagnose import examine
-from clinic.diagnosis.edit import apply
+from clinic.diagnosis.edit import apply, set_attribute
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import rules
+from clinic.diagnosis.source import Source
 from mutilated import KINDS, mutilated
 from typer.testing import CliRunner
 
@@ -47,8 +48,9 @@ def test_a_text_is_read_as_utf_8_whatever_it_declares(name: str) -> None:
         ('name="drill" pos', 'name="drill"pos'),
         ("<worldbody>", '<worldbody><site name="up & down"/>'),
         ("<mujoco>", '\n<?xml version="1.0"?><mujoco>'),
+        ("<worldbody>", '<worldbody><site name="a<b\x01"/>'),
     ],
-    ids=["dashes", "dash at the end", "no blank", "ampersand", "declaration below"],
+    ids=["dashes", "dash at the end", "no blank", "ampersand", "declaration below", "bracket and control"],
 )
 def test_what_mujoco_reads_and_xml_does_not_allow_is_mended_at_its_place(before: str, after: str) -> None:
     text = rules()["visual-mass"].example("Bad")
@@ -60,3 +62,13 @@ def test_what_mujoco_reads_and_xml_does_not_allow_is_mended_at_its_place(before:
     assert [each.elements for each in told.causes] == [each.elements for each in plain.causes]
     mended = [apply({"model.xml": each}, found.causes[0].edit) for each, found in ((text, plain), (odd, told))]
     assert mended[1]["model.xml"] == mended[0]["model.xml"].replace(before, after)
+
+
+def test_an_attribute_without_a_blank_before_it_is_set_and_not_written_twice() -> None:
+    texts = {"model.xml": """<mujoco><worldbody><geom name='b"margin="1" c'margin="2"/></worldbody></mujoco>"""}
+    (geom,) = Source(texts).elements("geom")
+    assert apply(texts, [set_attribute(geom, "margin", "0")])["model.xml"].count('margin="0"') == 1
+    assert (
+        """<geom name='b"margin="1" c' margin="0"/>"""
+        in apply(texts, [set_attribute(geom, "margin", "0")])["model.xml"]
+    )

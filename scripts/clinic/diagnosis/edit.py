@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import difflib
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from clinic.diagnosis.source import HEAD, Element
+from clinic.diagnosis.source import ATTRIBUTE, HEAD, Element
 
 Action = Literal["set", "remove", "delete", "insert", "replace"]
 
@@ -105,8 +104,7 @@ def _changed(text: bytes, each: Edit) -> bytes:
         return _inserted(text, each)
     # an earlier edit of the same element may have made the head longer
     head = _head(text, start)
-    pattern = re.compile(rb"\s+" + re.escape(each.attribute.encode()) + rb"\s*=\s*(?:\"[^\"]*\"|'[^']*')")
-    found = pattern.search(head)
+    found = next((one for one in ATTRIBUTE.finditer(head) if one["name"] == each.attribute.encode()), None)
     value = each.value.replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
     new = f' {each.attribute}="{value}"'.encode() if each.action == "set" else b""
     if found:

@@ -10,10 +10,12 @@ from dataclasses import dataclass, field
 from xml.parsers import expat
 
 HEAD = re.compile(rb"""<[^\s/>]+(?:\s*[^\s=/>]+\s*=\s*(?:"[^"]*"|'[^']*'))*\s*/?>""")
-PART = re.compile(rb"""<!--(?P<comment>.*?)-->|(?P<head><[^\s!?/>](?:"[^"]*"|'[^']*'|[^"'>])*>)""", re.DOTALL)
+PART = re.compile(rb"""<!--(?P<comment>.*?)-->|(?P<head><[^\s!?/>](?:"[^"]*"|'[^']*'|[^"'<>])*>)""", re.DOTALL)
+ATTRIBUTE = re.compile(rb"""\s*(?P<name>[^\s=/>"']+)\s*=\s*(?:"[^"]*"|'[^']*')""")
+VALUE = re.compile(rb"""(?P<named>=\s*)(?P<value>"[^"]*"|'[^']*')(?P<near>(?=[^\s/>]))?""")
 DASH = re.compile(rb"-(?=-)")
-UNSPACED = re.compile(rb"""=\s*(?:"[^"]*"|'[^']*')(?=[^\s/>])""")
-AMPERSAND = re.compile(rb"&(?!(?:amp|lt|gt|quot|apos|#\d+|#x[0-9A-Fa-f]+);)")
+BARE = re.compile(rb"<|&(?!(?:amp|lt|gt|quot|apos|#\d+|#x[0-9A-Fa-f]+);)")
+CONTROL = bytes.maketrans(bytes(range(1, 32)), bytes(each if each in b"\t\n\r" else 63 for each in range(1, 32)))
 FRONT = re.compile(rb"(?:\xef\xbb\xbf)?[^<]*(?:<\?xml.*?\?>)?", re.DOTALL)
 TRANSPARENT = {"frame"}  # its children belong to the body around it
 REPEATING = {"replicate", "composite", "flexcomp", "attach"}  # what they make has no line of its own
@@ -243,12 +245,18 @@ class Source:
 
 
 def well_formed(text: bytes) -> tuple[bytes, list[int]]:
-    """A text without what MuJoCo's parser lets pass and XML does not, and where blanks were added.
+    """A text without what MuJoCo's parser lets pass and XML does not, and where bytes were added.
 
-    `--` in a comment, attributes without a blank between, a bare `&`, something before the declaration. All else stays
-    where it is.
+    `--` in a comment, attributes without a blank between, a bare `&` or `<` in a value, a control character, something
+    before the declaration. All else stays where it is.
     """
     made, added, seen = bytearray(), list[int](), 0
+    text = text.translate(CONTROL)
+
+    def add(piece: bytes) -> None:
+        added.extend(range(len(made), len(made) + len(piece)))
+        made.extend(piece)
+
     front = FRONT.match(text)
     if front:
         seen = front.end()
@@ -259,13 +267,19 @@ def well_formed(text: bytes) -> tuple[bytes, list[int]]:
         if part["comment"] is not None:
             made += b"<!--" + DASH.sub(b" ", part["comment"] + b"-")[:-1] + b"-->"
             continue
-        read = 0
-        for value in UNSPACED.finditer(part["head"]):
-            made += part["head"][read : value.end()] + b" "
+        head, read = part["head"], 0
+        for value in VALUE.finditer(head):
+            for bare in BARE.finditer(head, value.start("value"), value.end("value")):
+                made += head[read : bare.start()]
+                made += b"&"
+                add(b"lt;" if bare.group() == b"<" else b"amp;")
+                read = bare.end()
+            made += head[read : value.end()]
             read = value.end()
-            added.append(len(made) - 1)
-        made += part["head"][read:]
-    return AMPERSAND.sub(b"_", bytes(made + text[seen:])), added
+            if value["near"] is not None:
+                add(b" ")
+        made += head[read:]
+    return bytes(made + text[seen:]), added
 
 
 def read_source(texts: Mapping[str, str]) -> Source | None:
@@ -286,9 +300,10 @@ def decoded(content: bytes) -> tuple[str, str]:
         line = content[: content.index(0)].count(b"\n") + 1
         raise ValueError(f"byte 0x00 in line {line}")
     try:
-        return content.decode("utf-8-sig"), "utf-8"
+        text, encoding = content.decode("utf-8-sig"), "utf-8"
     except UnicodeDecodeError:
-        return content.decode("latin-1"), "latin-1"
+        text, encoding = content.decode("latin-1"), "latin-1"
+    return text.replace("\r\n", "\n").replace("\r", "\n"), encoding
 
 
 def read_texts(main: str, name: str, read: Callable[[str], str | None]) -> dict[str, str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.probes.equalities import COUPLED
 from clinic.diagnosis.probes.servo import AFFINE, FIXED, INTEGRATOR, USER
 from clinic.diagnosis.simulation import Simulation, kept
 
@@ -35,12 +36,15 @@ def reach(of: Simulation, tendon: int) -> tuple[float, float] | None:
 
 @kept
 def sampled(of: Simulation) -> list[tuple[float, ...]]:
-    """The lengths of all tendons in poses between the ends of all ranges; none where a hinge or slide has no range."""
+    """The lengths of all tendons in poses between the ends of all ranges.
+
+    None where a hinge or slide has no range, or a joint follows another one.
+    """
     kinds = [of.joint_type(joint) for joint in range(of.count("joint"))]
     joints = [joint for joint, kind in enumerate(kinds) if kind in (HINGE, SLIDE)]
-    limited = all(of.model("jnt_limited")[joint] for joint in joints)
+    free = all(of.model("jnt_limited")[joint] for joint in joints) and COUPLED not in map(int, of.model("eq_type"))
     made = []
-    for pose in range(POSES if limited and joints else 0):
+    for pose in range(POSES if free and joints else 0):
         of.begin(forward=False)
         for place, joint in enumerate(joints):
             share = (0.5 + pose * (place + 1) * GOLDEN) % 1.0

@@ -91,9 +91,13 @@ def _bare(of: Simulation) -> list[int]:
     paired = {int(geom) for side in (1, 2) for geom in of.model(f"pair_geom{side}")}
     hard = {link for link, geoms in links.items() if any(solid(of, geom) or geom in paired for geom in geoms)} | {0}
     size = {link: max(of.model("geom_rbound")[geom] for geom in geoms) for link, geoms in links.items()}
+    robots: dict[int, list[int]] = {}
+    for link in links:
+        robots.setdefault(owner[link], []).append(link)
     made = []
-    for root in sorted({owner[link] for link in links} - {0}):
-        robot = [link for link in links if owner[link] == root]
+    for root, robot in sorted(robots.items()):
+        if not root:
+            continue
         bare = [link for link in robot if link not in hard]
         middle = sorted(size[link] for link in robot)[len(robot) // 2]
         above = {link: int(welds[int(parents[link])]) for link in bare}

@@ -80,11 +80,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = f"It begins {1000 * depth:.3g} mm inside of what it touches."
     if names:
         geoms = tuple(simulation.name("geom", geom) for _, contact in found.values() for geom in contact.geoms)
-        if model.measured(at_start(), edits) > MOST and (halved := _halved(model, found)):
+        halved = _halved(model, found) if model.measured(at_start(), edits) > MOST else ()
+        if halved and model.measured(at_start(), halved) <= MOST:
             says += " The size of a box is half of its edge."
             yield Suspect(geoms, "size", "", halved[0].value, halved, at_start(), MOST, says, excess=2.0)
         elif not edits or model.measured(at_start(), edits) > MOST:
-            if not _trees(simulation, found) <= set(simulation.free_bodies):
+            if not _trees(simulation, found) - {0} <= set(simulation.free_bodies):
                 return
             yield Suspect((*names, *geoms), "pos", "", "clear of what it is in", (), at_start(), MOST, says)
         else:

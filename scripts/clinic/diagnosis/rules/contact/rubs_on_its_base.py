@@ -24,8 +24,8 @@ Good:
     +     <exclude body1="base" body2="shoulder"/>
     +   </contact>
 
-The number: the share of 21 poses over the range, or over a turn where there is none, in which a contact of the two has
-force, however shallow; the other joints are at their start. MuJoCo's manual, Computation, Collision detection: the
+The number: the share of 21 poses over the range, or over a turn where there is none, in which the two are less than
+0.1 mm apart; the other joints are at their start. MuJoCo's manual, Computation, Collision detection: the
 filter of parents.
 
 When it is wrong: a brake or a bearing that is modelled by its friction. Deep overlaps are told by
@@ -36,6 +36,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from html import escape
 
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.overlap import legged, of_relatives
@@ -50,6 +51,7 @@ LEVEL = "hint"
 UNPLANTED = "whether a base touches the link on it is the geoms', which no edit of one number changes"
 
 POSES, ALWAYS, DEEP = 21, 0.99, 0.1
+FLUSH = 1e-4  # m: with the least sag it touches
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -61,12 +63,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         fixed = base and not of.model("body_weldid")[base]
         if of.joint_type(joint) != HINGE or not fixed or _share(of, joint, body, base) < ALWAYS:
             continue
-        if model.measured(of_relatives()) > DEEP or legged(
-            model
-        ):  # told as an overlap, or by its free joint that is elsewhere
+        told_elsewhere = model.measured(of_relatives()) > DEEP or legged(model)  # as an overlap, or by its free joint
+        if told_elsewhere:
             return
         names = of.names("body")[base], of.names("body")[body]
-        edits = model.add("contact", '<exclude body1="{}" body2="{}"/>'.format(*names)) if all(names) else ()
+        xml = '<exclude body1="{}" body2="{}"/>'.format(*map(escape, names))
+        edits = model.add("contact", xml) if all(names) else ()
         told = of.name("body", base), of.name("body", body)
         says = f"{told[1]} touches {told[0]}, which is fixed to the world, wherever {of.name('joint', joint)} stands."
         probe = Probe("share of the poses in which the two touch", "", _share, (joint, body, base), dynamic=False)
@@ -74,17 +76,22 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _share(of: Simulation, joint: int, body: int, base: int) -> float:
-    """The share of poses of a joint in which its body and the one below press on each other."""
+    """The share of poses of a joint in which its body and the one below are no further apart than FLUSH."""
     low, high = of.row("jnt_range", joint, 2) if of.model("jnt_limited")[joint] else (-math.pi, math.pi)
-    owners, place = of.model("geom_bodyid"), int(of.model("jnt_qposadr")[joint])
-    touched = 0
+    owners, place, margins = of.model("geom_bodyid"), int(of.model("jnt_qposadr")[joint]), list(of.model("geom_margin"))
+    touched, condims = 0, of.model("geom_condim")
     of.begin(forward=False)
-    for pose in range(POSES):
-        of.engine.write("qpos", [low + (high - low) * pose / (POSES - 1)], place)
-        of.engine.forward()
-        contacts = (each for each in of.engine.contacts() if min(each.geoms) >= 0 and each.force > 0)
-        touching = any({int(owners[geom]) for geom in each.geoms} == {body, base} for each in contacts)
-        if not touching and pose < 2:
-            return 0.0
-        touched += touching
+    of.engine.write_model("geom_margin", [max(margin, FLUSH) for margin in margins])
+    try:
+        for pose in range(POSES):
+            of.engine.write("qpos", [low + (high - low) * pose / (POSES - 1)], place)
+            of.engine.forward()
+            near = (each.geoms for each in of.engine.contacts() if min(each.geoms) >= 0 and each.distance < FLUSH)
+            rough = (geoms for geoms in near if max(condims[geom] for geom in geoms) > 1)
+            touching = any({int(owners[geom]) for geom in geoms} == {body, base} for geoms in rough)
+            if not touching and pose < 2:
+                return 0.0
+            touched += touching
+    finally:
+        of.engine.write_model("geom_margin", margins)
     return touched / POSES

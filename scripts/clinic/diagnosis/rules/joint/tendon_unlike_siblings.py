@@ -119,6 +119,8 @@ def _odd(of: Simulation) -> dict[int, list[int]]:
     for group in groups.values():
         for tendon in group if len(group) >= ENOUGH else ():
             others = [each for each in group if each != tendon]
+            if any({*dict(joints_of(of, each))} == {*dict(joints_of(of, tendon))} for each in others):
+                continue  # antagonists of the same joints
             usual = _shape(of, others[0])
             if all(_alike(_shape(of, each), usual) for each in others) and not _alike(_shape(of, tendon), usual):
                 made[tendon] = others

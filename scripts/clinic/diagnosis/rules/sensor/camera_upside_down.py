@@ -85,7 +85,7 @@ def _aside(simulation: Simulation) -> Iterator[Suspect]:
         if int(modes[camera]) != FIXED or not (camera in onlookers(simulation) or camera in aboard):
             continue
         roll = _roll(simulation, camera)
-        if roll > ASIDE:
+        if roll > ASIDE and _tilt(simulation, camera) <= MOST:  # else told as upside down
             probe = Probe("image's horizon against the world's", "degrees", _roll, (camera,), dynamic=False)
             says = f"The image's right points {roll:.0f} degrees up or down in the world: the image lies on its side."
             name, turned_by = (simulation.name("camera", camera),), f"turned by {roll:.0f} degrees"

@@ -9,13 +9,13 @@ Bad:
     <mujoco>
       <worldbody>
         <body name="upper_arm">
-          <joint name="shoulder" axis="0 1 0"/>
+          <joint name="shoulder" axis="0 1 0" range="-120 120"/>
           <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="1"/>
           <body name="forearm" pos="0.3 0 0">
-            <joint name="elbow" axis="0 1 0"/>
+            <joint name="elbow" axis="0 1 0" range="-120 120"/>
             <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.5"/>
             <body name="hand" pos="0.2 0 0">
-              <joint name="wrist" axis="1 0 0"/>
+              <joint name="wrist" axis="1 0 0" range="-90 90"/>
               <geom type="box" size="0.04 0.02 0.02" mass="0.2"/>
             </body>
           </body>
@@ -36,8 +36,8 @@ Good:
     +   </default>
 
 The number: the derivative gain that the lightest joint bears, 2 M / h with its inertia M and the timestep h, below
-1 N m s/rad (an explicit damper is stable below h kd / M = 2). Told where three motors and more drive hinges of which
-none has damping, friction or armature. Of the healthy robots with motors none is so.
+1 N m s/rad (an explicit damper is stable below h kd / M = 2). Told where three motors and more drive hinges with
+ranges, of which none has damping, friction or armature, in no fluid. Of the healthy robots with motors none is so.
 
 When it is wrong: torques that come from a policy without any gains.
 """
@@ -47,7 +47,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE
-from clinic.diagnosis.probes.servo import AFFINE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -93,11 +92,13 @@ def _share(of: Simulation) -> float:
 
 
 def _bare(of: Simulation) -> list[int]:
-    """The hinges that motors drive; none where one of them has damping, friction or armature, or a servo's gains."""
+    """The hinges that motors drive; none where one has damping, friction, armature, or no range, or in a fluid."""
     actuators = range(of.count("actuator"))
     joints = [of.driven_joint(each) for each in actuators]
     hinges = list(dict.fromkeys(each for each in joints if each is not None and of.joint_type(each) == HINGE))
     fields = ("dof_damping", "dof_armature", "dof_frictionloss")
     held = any(of.model(field)[of.dof(joint)] for joint in hinges for field in fields)
-    servos = any(int(of.model("actuator_biastype")[each]) == AFFINE for each in actuators)
-    return [] if held or servos else hinges
+    motors = all(int(of.model(f"actuator_{kind}type")[each]) == 0 for each in actuators for kind in ("gain", "bias"))
+    fluid = any(of.model(f"opt.{what}")[0] for what in ("density", "viscosity"))
+    ranged = [joint for joint in hinges if of.model("jnt_limited")[joint]]  # a rotor turns round, as a wheel does
+    return [] if held or not motors or fluid or len(ranged) < len(hinges) else hinges

@@ -79,6 +79,7 @@ def _together(of: Simulation) -> list[list[int]]:
         for geom in of.geoms_of(body) if of.joints_of(body) else ():
             if solid(of, geom):
                 key += [round(x, 4) for x in at(places, geom)]
+                key += [round(x, 3) + 0.0 for x in of.data_row("geom_xmat", geom, 9)]
                 key += [of.model("geom_type")[geom], *(round(x, 6) for x in of.row("geom_size", geom, 3))]
         if key:
             groups.setdefault(tuple(key), []).append(body)

@@ -53,7 +53,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A side that touches less than the other"
@@ -90,10 +90,12 @@ def _share(of: Simulation, side: int) -> float:
     return len(less[side]) / len(pairs) if len(less[side]) >= ENOUGH and not less[1 - side] else 0.0
 
 
+@kept
 def _pairs(of: Simulation) -> list[tuple[int, int]]:
     return [pair for pair in twins(of).pairs["geom"] if any(map(any, (_masks(of, geom) for geom in pair)))]
 
 
+@kept
 def _less(of: Simulation) -> tuple[dict[int, list[int]], dict[int, list[int]]]:
     """By geom of the left side, and of the right: what its twin may touch and it may not, of what has no twin."""
     paired = {geom for pair in twins(of).pairs["geom"] for geom in pair}

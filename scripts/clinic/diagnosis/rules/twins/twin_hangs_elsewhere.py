@@ -59,6 +59,7 @@ When it is wrong: names that do not mean sides.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
@@ -92,12 +93,13 @@ def _count(of: Simulation) -> float:
 
 def _astray(of: Simulation) -> dict[int, tuple[int, int]]:
     """The parts beside their twins on one side, with what they hang on and its twin, which carries less by two."""
-    found, parents = twins(of), of.model("body_parentid")
-    carried = [sum(int(parents[body]) == each for body in range(1, of.count("body"))) for each in range(len(parents))]
+    pairs, parents = twins(of).pairs["body"], of.model("body_parentid")
+    carried = Counter(int(parent) for parent in parents[1:])
+    beside = {body: pair for pair in pairs for body in pair}
     made = {}
-    for left, right in found.pairs["body"]:
+    for left, right in pairs:
         parent = int(parents[left])
-        pair = next((pair for pair in found.pairs["body"] if parent in pair), None)
+        pair = beside.get(parent)
         if pair is None or int(parents[right]) != parent:
             continue
         meant = pair[1] if parent == pair[0] else pair[0]

@@ -68,6 +68,7 @@ UNPLANTED = "no pair of limbs in the bench's healthy models is written with a tu
 
 LEAST, LEFT, TURNED = 3, 0.2, 1e-3
 """How many must be astray, which share of them may stay so, and what tells a turn from none."""
+FEW = 8  # pairs that are looked at, of those that are astray
 MIRRORS = ((1, 1, -1, -1), (1, -1, 1, -1), (1, -1, -1, 1))  # a turn seen in a mirror across x, y or z
 OTHERS = ("euler", "axisangle", "xyaxes", "zaxis")
 
@@ -75,9 +76,9 @@ OTHERS = ("euler", "axisangle", "xyaxes", "zaxis")
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The turn of a limb's first body that, mirrored, brings the limb to where its twin has it."""
     of = model.simulation
-    for left, right in _turned(of):
+    for left, right in _turned(of)[:FEW]:
         before = _astray(of, left)
-        for body, twin in ((right, left), (left, right)) if before >= LEAST else ():
+        for body, twin in ((right, left), (left, right)):
             for turn in _mirrored(of, twin):
                 if _differs(turn, of.row("body_quat", body, 4)) and _with(of, body, turn, left) <= LEFT * before:
                     yield _suspect(model, body, twin, turn, left)
@@ -102,10 +103,11 @@ def _suspect(model: ReaderModel, body: int, twin: int, turn: Vector, left: int) 
 
 
 def _turned(of: Simulation) -> list[tuple[int, int]]:
-    """The pairs of bodies of which one is turned against its parent, those nearest to the root first."""
+    """The pairs of astray bodies of which one is turned against its parent, those nearest to the root first."""
     pairs = [pair for pair in twins(of).pairs["body"] if pair[0] in twins(of).images]
     turned = [pair for pair in pairs if any(_differs(of.row("body_quat", each, 4), (1, 0, 0, 0)) for each in pair)]
-    return sorted(turned, key=lambda pair: len(of.ancestors(pair[0])))
+    astray = [pair for pair in turned if _astray(of, pair[0]) >= LEAST]
+    return sorted(astray, key=lambda pair: len(of.ancestors(pair[0])))
 
 
 def _mirrored(of: Simulation, body: int) -> list[Vector]:

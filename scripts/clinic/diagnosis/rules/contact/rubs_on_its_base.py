@@ -36,7 +36,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from html import escape
 
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.overlap import legged, of_relatives
@@ -67,8 +66,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if told_elsewhere:
             return
         names = of.names("body")[base], of.names("body")[body]
-        xml = '<exclude body1="{}" body2="{}"/>'.format(*map(escape, names))
-        edits = model.add("contact", xml) if all(names) else ()
+        xml = '<exclude body1="{}" body2="{}"/>'.format(*names)
+        edits = model.add("contact", xml) if all(names) and not set("".join(names)) & set('"&<') else ()
         told = of.name("body", base), of.name("body", body)
         says = f"{told[1]} touches {told[0]}, which is fixed to the world, wherever {of.name('joint', joint)} stands."
         probe = Probe("share of the poses in which the two touch", "", _share, (joint, body, base), dynamic=False)

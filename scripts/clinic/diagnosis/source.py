@@ -12,7 +12,7 @@ from xml.parsers import expat
 HEAD = re.compile(rb"""<[^\s/>]+(?:\s*[^\s=/>]+\s*=\s*(?:"[^"]*"|'[^']*'))*\s*/?>""")
 PART = re.compile(rb"""<!--(?P<comment>.*?)-->|(?P<head><[^\s!?/>](?:"[^"]*"|'[^']*'|[^"'<>])*>)""", re.DOTALL)
 ATTRIBUTE = re.compile(rb"""\s*(?P<name>[^\s=/>"']+)\s*=\s*(?:"[^"]*"|'[^']*')""")
-VALUE = re.compile(rb"""(?P<named>=\s*)(?P<value>"[^"]*"|'[^']*')(?P<near>(?=[^\s/>]))?""")
+VALUE = re.compile(rb"""=\s*(?P<value>"[^"]*"|'[^']*')(?P<near>(?=[^\s/>]))?""")
 DASH = re.compile(rb"-(?=-)")
 BARE = re.compile(rb"<|&(?!(?:amp|lt|gt|quot|apos|#\d+|#x[0-9A-Fa-f]+);)")
 CONTROL = bytes.maketrans(bytes(range(1, 32)), bytes(each if each in b"\t\n\r" else 63 for each in range(1, 32)))

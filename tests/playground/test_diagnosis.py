@@ -20,6 +20,15 @@ from clinic.work.cache import Cache
 pytestmark = pytest.mark.xdist_group("parity")
 APART = {"memory-full"}  # after it the page's engine cannot be trusted, and the page begins a new one
 MOST = 120  # models for one engine: what it leaks of each would fill it up, and the page begins a new one for each
+WITHOUT_MESHES = """<mujoco>
+  <asset><mesh name="upper" file="upper.stl"/><mesh file="lower.obj"/><texture name="wood" type="2d" file="wood.png"/></asset>
+  <worldbody>
+    <body name="arm"><joint name="elbow" axis="0 1 0" range="-90 90"/><geom type="mesh" mesh="upper"/>
+      <body name="hand" pos="0 0 0.3"><joint name="wrist" axis="0 1 0" range="0 0" limited="true"/>
+        <geom type="mesh" mesh="lower"/></body></body>
+  </worldbody>
+</mujoco>
+"""
 SAME = ("rule", "elements", "file", "line", "attribute", "now", "value", "edit")
 
 
@@ -28,6 +37,7 @@ def models(root: Path) -> dict[str, str]:
     broken = {case.slug: case.text for case in read_cases(root / "cases")[0] if case.record.model is not None}
     large = rules()["no-armature"].example("Bad").replace("<worldbody>", '<size memory="900M"/><worldbody>', 1)
     broken["of which the page's memory holds four"] = large
+    broken["whose meshes are missing"] = WITHOUT_MESHES
     return {**broken, **{rule.id: rule.example("Bad") for rule in rules().values() if rule.id not in APART}}
 
 

@@ -28,7 +28,7 @@ export function diagnoseIn(python, mujoco, rules, { text, name, files, symptom }
   python.runPython("import sys; sys.path.insert(0, '/lib/clinic-rules')");
   python.FS.mkdirTree(FOLDER);
   python.FS.chdir(FOLDER);
-  for (const [path] of files) touch(python.FS, path); // for the rule that looks for a missing file by its name
+  for (const [path, bytes] of files) place(python.FS, path, bytes); // for the rules that look for files, and at their first bytes
   const decoder = new TextDecoder();
   const texts = new Map(files.filter(([path]) => /\.(xml|mjcf|urdf)$/i.test(path)).map(([path, bytes]) => [path, decoder.decode(bytes)]));
   const read = (/** @type {string} */ path) => texts.get(path.replace(/^\.\//, ""));
@@ -43,13 +43,14 @@ export function diagnoseIn(python, mujoco, rules, { text, name, files, symptom }
 }
 
 /**
- * An empty file of this name.
+ * A file of this name; its bytes are not copied.
  * @param {any} FS
  * @param {string} path
+ * @param {Uint8Array} bytes
  */
-function touch(FS, path) {
+function place(FS, path, bytes) {
   const written = path.split("/").map(encodeURIComponent).join("/");
   const whole = decodeURIComponent(new URL(written, `file://${FOLDER}/`).pathname);
   FS.mkdirTree(whole.slice(0, whole.lastIndexOf("/")));
-  FS.writeFile(whole, "");
+  FS.writeFile(whole, bytes, { canOwn: true });
 }

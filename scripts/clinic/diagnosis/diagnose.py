@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from clinic.diagnosis.edit import Edit, apply
-from clinic.diagnosis.engine import CompileError, Engine
+from clinic.diagnosis.engine import MESH, CompileError, Engine
 from clinic.diagnosis.errors import mended
 from clinic.diagnosis.finding import Diagnosis, finding_of
 from clinic.diagnosis.ignores import Ignores
@@ -20,6 +20,7 @@ from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import decoded, read_source, read_texts
 
 LIMIT = 20.0  # s for a start, after which no further rule is tried
+OF_SHAPES = ("contact", "mass")  # areas of rules whose findings boxes in the place of meshes make
 
 
 def examine(
@@ -51,10 +52,17 @@ def examine(
     model = ReaderModel(engine, texts, read_source(texts), start or Start())
     ignores = Ignores(model)
     wanted = [rule for name, rule in rules().items() if name not in ignore and (not select or name in select)]
-    tried = [rule for rule in wanted if rule.of_errors == bool(model.error)]
-    if model.error:
-        found, fixed = mended(model, tried, tell)
-        found = grouped(found)
+    tried, error = [rule for rule in wanted if rule.of_errors == bool(model.error)], model.error
+    families = (symptom,) if symptom else ()
+    if error:
+        found, left = mended(model, tried, tell)
+        found, fixed = grouped(found), left.texts
+        if not left.error and left.texts == model.texts:  # it is without files, and boxes stand in for them
+            model = left
+            shapeless = [rule for rule in wanted if not rule.of_errors and rule.area not in OF_SHAPES]
+            behind, _, also = _found(model, shapeless, ignores, tell, limit)
+            found += order(grouped(_without_shapes(behind, model)), families)
+            tried += also
     else:
         found, fixed, tried = _found(model, tried, ignores, tell, limit)
         if start is None and model.simulation.count("key") and not any(each.proved for each in found):
@@ -62,7 +70,7 @@ def examine(
             found, fixed, tried = _found(model, tried, ignores, tell, limit)
             seen = {rule.id for rule in tried}  # a hint of the model's own start that is not one of the keyframe's
             found += [each for each in before if each.rule.id not in seen]
-        found = order(grouped(found), (symptom,) if symptom else ())
+        found = order(grouped(found), families)
     named = {each.rule.id for each in found}
     findings = [*(finding_of(each, model) for each in found), *ignores.findings({rule.id for rule in tried}, named)]
     kept = [each for each in findings if not each.silenced]
@@ -73,7 +81,7 @@ def examine(
         tuple(each for each in kept if each.level == "hint"),
         tuple(each for each in findings if each.silenced),
         tuple(rule.id for rule in tried if rule.id not in named),
-        model.error,
+        error,
         texts,
         fixed,
     )
@@ -105,6 +113,13 @@ def _found(
         if each.proved and not isinstance(model.with_edits([*edits, *each.suspect.edits]), CompileError):
             edits += each.suspect.edits
     return found, apply(model.texts, edits), tried
+
+
+def _without_shapes(found: Iterable[Judged], model: ReaderModel) -> list[Judged]:
+    """What was found in a model with boxes for meshes, as hints; nothing of a mesh."""
+    simulation = model.simulation
+    meshes = {simulation.name("geom", each) for each, of in enumerate(simulation.model("geom_type")) if of == MESH}
+    return [replace(each, level="hint") for each in found if not meshes & {*each.suspect.elements}]
 
 
 def diagnose_here(path: Path | str, **options: object) -> Diagnosis:

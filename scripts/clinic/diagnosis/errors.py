@@ -13,6 +13,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import Rule
 from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import Element, read_source
+from clinic.diagnosis.stand_ins import StandIns
 from clinic.diagnosis.suspect import Suspect
 
 MOST, LIMIT = 60, 15.0  # messages, s
@@ -21,10 +22,11 @@ LAST = "refused-element"  # what only takes an element out is tried where no oth
 Change = tuple[str, int, int, int]  # a file, where a change begins, and where it ended before and ends after it
 
 
-def mended(
-    model: ReaderModel, tried: Iterable[Rule], tell: Callable[[str], None]
-) -> tuple[list[Judged], Mapping[str, str]]:
-    """The faults in the order in which MuJoCo names them, and the texts as far as they could be mended."""
+def mended(model: ReaderModel, tried: Iterable[Rule], tell: Callable[[str], None]) -> tuple[list[Judged], ReaderModel]:
+    """The faults in the order in which MuJoCo names them, and the model as far as it could be mended.
+
+    Where files cannot be read, boxes stand in for them in all that follows (`stand_ins`).
+    """
     rules, found, changes = sorted(tried, key=lambda rule: rule.id == LAST), list[Judged](), list[Change]()
     written = dict(model.texts)
     until = time.monotonic() + LIMIT
@@ -33,14 +35,21 @@ def mended(
             break
         best, hints = _best(model, rules, tell)
         if best is None:
+            stand_ins = StandIns(model.engine)
+            filled = ReaderModel(stand_ins, model.texts, model.source, Start())
+            if stand_ins.absent:
+                hints = [(rule, replace(each, says=f"{each.says} {stand_ins.told()}")) for rule, each in hints[:1]]
             found += [Judged(rule, _placed(each, changes, written), "hint", 1.0, None) for rule, each in hints]
-            break
+            if not stand_ins.absent:
+                break
+            model = filled
+            continue
         rule, suspect = best
         found.append(Judged(rule, _placed(suspect, changes, written), "cause", 1.0, 0.0))
         texts = apply(model.texts, suspect.edits)
         changes += _changes(model.texts, suspect.edits)
         model = ReaderModel(model.engine, texts, read_source(texts), Start())
-    return found, model.texts
+    return found, model
 
 
 def _best(

@@ -97,3 +97,11 @@ def nearest(word: str, known: Iterable[str]) -> list[str]:
     if word.lower() in alike:
         return [alike[word.lower()]]
     return difflib.get_close_matches(word, words, 3, 0.6)
+
+
+def folder_of(model: ReaderModel, element: Element) -> str:
+    """Where files of this kind are looked for."""
+    assert model.source is not None
+    name = {"mesh": "meshdir", "texture": "texturedir"}.get(element.tag, "assetdir")
+    written = {key: value for each in model.source.elements("compiler") for key, value in each.attributes.items()}
+    return "" if element.tag == "include" else written.get(name, written.get("assetdir", ""))

@@ -39,7 +39,7 @@ from functools import cache
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.probes.compiled import COMPILES
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.errors._message import mends, sentence, told
+from clinic.diagnosis.rules.errors._message import folder_of, mends, sentence, told
 from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect
 
@@ -79,7 +79,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield mends(first, edits, says, attribute=edits[0].attribute, now=_file(first), value=edits[0].value)
     else:
         says = f"{found.group(1)} is not there, and no file called {base} below the model's folder."
-        yield Suspect((told(first),), "file", _file(first), "", (), COMPILES, 0.0, says, level="hint")
+        yield Suspect((told(first),), "file", _file(first), "", (), COMPILES, 0.0, says, level="hint", at=first)
 
 
 def _file(element: Element) -> str:
@@ -110,7 +110,7 @@ def _folder_of_all(model: ReaderModel, element: Element) -> Suspect | None:
 
 def _moved(model: ReaderModel, element: Element, there: Sequence[str]) -> list[Edit]:
     """The edit that points at the likeliest of some paths; none where the element's own exists, or there is no path."""
-    file, folder = _file(element), _folder(model, element)
+    file, folder = _file(element), folder_of(model, element)
     if not there or os.path.exists(posixpath.join(folder, file)):
         return []
     parts = set(file.split("/"))
@@ -131,14 +131,6 @@ def _nearly_called(base: str, used: Collection[str]) -> list[str]:
     files = _files(os.getcwd())
     kin = {posixpath.splitext(name)[0]: name for name in files if name.endswith(ending) and name not in used}
     return [path for like in difflib.get_close_matches(stem, kin, 1, NEARLY) for path in files[kin[like]]]
-
-
-def _folder(model: ReaderModel, element: Element) -> str:
-    """Where files of this kind are looked for."""
-    assert model.source is not None
-    name = {"mesh": "meshdir", "texture": "texturedir"}.get(element.tag, "assetdir")
-    written = {key: value for each in model.source.elements("compiler") for key, value in each.attributes.items()}
-    return "" if element.tag == "include" else written.get(name, written.get("assetdir", ""))
 
 
 @cache

@@ -37,7 +37,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit, delete, remove_attribute, replace, set_attribute
 from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.errors._message import meant, mends, sentence
+from clinic.diagnosis.rules.errors._message import folder_of, meant, mends, sentence
 from clinic.diagnosis.rules.errors._remedy import advised
 from clinic.diagnosis.rules.errors._scale import scaled_back
 from clinic.diagnosis.source import Element
@@ -60,6 +60,7 @@ FORMATS |= {"gltf": FORMATS["glb"], "jpeg": FORMATS["jpg"], "bmp": FORMATS["jpg"
 FACES, HEAD = 200_000, 84  # faces, bytes before them
 FLAT = "coplanar|volume is too small|at least 4 vertices|surface area is too small|eigenvalue of mesh inertia"
 BOX = "0.01 0.01 0.01"
+ANEW = "save it anew, or open it in another program."
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -112,7 +113,7 @@ def _bytes(file: str) -> str:
     """What a file is by its first bytes, where that is something else than a mesh or a picture."""
     found = _read(file)
     if found is None:
-        return "save it anew, or open it in another program."
+        return ANEW
     head, size = found
     start = head.lstrip()[:60].lower()
     if not size:
@@ -121,7 +122,7 @@ def _bytes(file: str) -> str:
         return "it is the pointer that git leaves where large files were not fetched; `git lfs pull` fetches them."
     if start.startswith((b"<!doctype html", b"<html")):
         return "it is a page of the web; download the raw file in its place."
-    return "save it anew, or open it in another program."
+    return ANEW
 
 
 def _stl(file: str) -> str:
@@ -130,7 +131,7 @@ def _stl(file: str) -> str:
     if found is None:
         return "it is text, or has too many faces: save it as binary STL or OBJ of at most 200,000 faces."
     head, size = found
-    if "save it anew" not in (other := _bytes(file)):
+    if (other := _bytes(file)) != ANEW:
         return other
     if head.lstrip().startswith(b"solid") and b"facet" in head:
         return "it is STL as text (ASCII), and MuJoCo reads binary STL: save it as binary, or as OBJ."
@@ -171,6 +172,10 @@ def _without_volume(model: ReaderModel, said: str) -> Iterator[Suspect]:
     for mesh in meant(model, "mesh")[:1]:
         if not (mesh.get("file") or mesh.get("vertex") or mesh.get("builtin")):
             yield advised(mesh, "A <mesh> names a file, or has vertex: this one has neither.", "file")
+            continue
+        file = posixpath.join(folder_of(model, mesh), mesh.get("file"))
+        if mesh.get("file") and _bytes(file) != ANEW:
+            yield advised(mesh, f"{posixpath.basename(file)}: {_bytes(file)}", "file")
             continue
         yield mends(
             mesh,

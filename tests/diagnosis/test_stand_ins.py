@@ -1,0 +1,104 @@
+"""Models without their meshes and pictures: what is wrong besides is found all the same."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import Diagnosis, examine
+from clinic.diagnosis.native import NativeEngine
+
+ARM = """<mujoco model="arm">
+  <compiler angle="radian" meshdir="meshes"/>
+  <asset>
+    <texture name="sky" type="skybox" file="sky.png"/>
+    <mesh name="upper" file="upper.stl" scale="0.001 0.001 0.001"/>
+    <mesh file="lower.stl" scale="0.001 0.001 0.001"/>
+    <hfield name="hills" file="hills.png" size="5 5 1 0.1"/>
+    <skin file="skin.skn"/>
+  </asset>
+  <worldbody>
+    <geom name="ground" type="hfield" hfield="hills" pos="0 0 -2"/>
+    <body name="arm" pos="0 0 0.2">
+      <joint name="shoulder" axis="0 1 0" range="-1.5 1.5" damping="5"/>
+      <geom name="upper" type="mesh" mesh="upper"/>
+      <body name="forearm" pos="0 0 0.3">
+        <joint name="elbow" axis="0 1 0" range="-1.5 1.5" damping="5"/>
+        <geom name="lower" type="mesh" mesh="lower"/>
+      </body>
+    </body>
+  </worldbody>
+  <actuator>
+    <position name="shoulder" joint="shoulder" kp="500" ctrlrange="-1.5 1.5"/>
+    <position name="elbow" joint="elbow" kp="500" ctrlrange="-1.5 1.5"/>
+  </actuator>
+</mujoco>
+"""
+URDF = """<robot name="arm">
+  <link name="base"/>
+  <link name="link">
+    <inertial>
+      <mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/>
+    </inertial>
+    <collision><geometry><mesh filename="package://arm/link.stl"/></geometry></collision>
+  </link>
+  <joint name="elbow" type="revolute"><limit lower="-1.6" upper="1.6" effort="10" velocity="1"/>
+    <parent link="base"/><child link="link"/><axis xyz="0 1 0"/>
+  </joint>
+</robot>
+"""
+
+
+@pytest.fixture
+def diagnosed(tmp_path, monkeypatch):
+    folder = tmp_path / "around" / "model"
+    (folder / "meshes").mkdir(parents=True)
+    monkeypatch.chdir(folder)
+
+    def diagnosed(text: str) -> Diagnosis:
+        return examine(NativeEngine(), {"model": text})
+
+    return diagnosed
+
+
+def test_of_a_well_model_only_the_files_are_told(diagnosed):
+    found = diagnosed(ARM)
+    assert "opening file" in found.error
+    assert [each.rule for each in (*found.causes, *found.hints)] == ["missing-file"], found.text()
+    assert "So it is with 4 more." in found.hints[0].says
+    assert found.fixed == found.texts
+
+
+@pytest.mark.parametrize(
+    ("text", "written", "wrong", "rule"),
+    [
+        (ARM, 'elbow" kp="500" ctrlrange="-1.5', 'elbow" kp="500" ctrlrange="-150', "control-range-too-wide"),
+        (ARM, 'elbow" axis="0 1 0" range="-1.5 1.5"', 'elbow" axis="0 1 0" range="0 0"', "range-empty"),
+        (URDF, 'lower="-1.6" upper="1.6"', 'lower="-90" upper="90"', "range-in-the-wrong-unit"),
+    ],
+    ids=["servo", "joint", "URDF"],
+)
+def test_what_is_wrong_besides_is_a_hint_at_its_line(diagnosed, text, written, wrong, rule):
+    assert rule not in [each.rule for each in diagnosed(text).hints]
+    found = diagnosed(text.replace(written, wrong))
+    assert not found.causes
+    line = text.partition(written)[0].count("\n") + 1
+    assert (rule, line) in [(each.rule, each.line) for each in found.hints], found.text()
+    assert not {"masks", "visual-mass", "overlap-at-start"} & {*found.ruled_out}, "boxes say nothing of these"
+
+
+def test_what_else_keeps_it_from_compiling_is_told_too(diagnosed):
+    key = '<keyframe><key name="home" qpos="0 0 0"/></keyframe>'
+    found = diagnosed(ARM.replace("</mujoco>", f"  {key}\n</mujoco>"))
+    assert [each.rule for each in found.causes] == ["keyframe-size"]
+    assert [each.rule for each in found.hints] == ["missing-file"]
+
+
+@pytest.mark.parametrize("ending", ["stl", "obj"])
+def test_a_pointer_of_git_is_told_as_one(diagnosed, ending):
+    with open(f"meshes/upper.{ending}", "w") as file:
+        file.write("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n")
+    lines = (line for line in ARM.splitlines() if "sky" not in line and "skin" not in line and "hills" not in line)
+    text = "\n".join(lines).replace('"lower.stl" scale="0.001 0.001 0.001"', '"lower" vertex="0 0 0 1 0 0 0 1 0 0 0 1"')
+    text = text.replace('mesh file="lower"', 'mesh name="lower"').replace("upper.stl", f"upper.{ending}")
+    found = diagnosed(text)
+    assert not found.causes, found.text()
+    assert "git lfs pull" in found.hints[0].says

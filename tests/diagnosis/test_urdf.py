@@ -69,3 +69,15 @@ def test_a_caster_ends_where_the_wheels_do(height: float, says: str) -> None:
     text = f'<mujoco><worldbody><body name="base" pos="0 0 0.1">{base}</body></worldbody></mujoco>'
     found = examine(NativeEngine(), {"rover.xml": text}, select=["wheels-off-the-ground"]).hints
     assert [says in each.says for each in found] == [True] * bool(says)
+
+
+@pytest.mark.parametrize("floating", [False, True], ids=["fixed to the world", "with a floating joint of its own"])
+def test_a_link_that_mujoco_fuses_is_weighed(floating: bool) -> None:
+    text = ROVER.format(i=0.001, parent="base").replace('link name="base"', 'link name="body"', 1)
+    root = '<link name="base"/><joint name="fixed" type="fixed"><parent link="base"/><child link="body"/></joint>'
+    if floating:
+        root += (
+            '<link name="world"/><joint name="free" type="floating"><parent link="world"/><child link="base"/></joint>'
+        )
+    (found,) = examine(NativeEngine(), {"rover.urdf": text.replace("</robot>", f"{root}</robot>")}).hints
+    assert (found.rule, found.elements) == ("inertia-unlike-geoms", ('body "body"',))

@@ -21,7 +21,9 @@ pytestmark = pytest.mark.xdist_group("parity")
 APART = {"memory-full"}  # after it the page's engine cannot be trusted, and the page begins a new one
 MOST = 120  # models for one engine: what it leaks of each would fill it up, and the page begins a new one for each
 WITHOUT_MESHES = """<mujoco>
-  <asset><mesh name="upper" file="upper.stl"/><mesh file="lower.obj"/><texture name="wood" type="2d" file="wood.png"/></asset>
+  <asset>
+    <mesh name="upper" file="upper.stl"/><mesh file="lower.obj"/><texture name="wood" type="2d" file="wood.png"/>
+  </asset>
   <worldbody>
     <body name="arm"><joint name="elbow" axis="0 1 0" range="-90 90"/><geom type="mesh" mesh="upper"/>
       <body name="hand" pos="0 0 0.3"><joint name="wrist" axis="0 1 0" range="0 0" limited="true"/>

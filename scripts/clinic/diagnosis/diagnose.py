@@ -54,6 +54,7 @@ def examine(
     wanted = [rule for name, rule in rules().items() if name not in ignore and (not select or name in select)]
     tried, error = [rule for rule in wanted if rule.of_errors == bool(model.error)], model.error
     families = (symptom,) if symptom else ()
+    fixed: Mapping[str, str]
     if error:
         found, left = mended(model, tried, tell)
         found, fixed = grouped(found), left.texts

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import difflib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -85,9 +86,21 @@ def apply(texts: Mapping[str, str], edits: Sequence[Edit]) -> dict[str, str]:
             if not any(other.start <= each.start < other.end and other is not each for other in gone)
         ]
         # `insert` of an outer element comes after what lies inside it: from the end of the text to its start
-        for each in sorted(dict.fromkeys(kept), key=lambda each: (_place(each), each.start), reverse=True):
+        for each in sorted(_together(kept), key=lambda each: (_place(each), each.start), reverse=True):
             made[file] = _changed(made[file], each)
     return {file: text.decode() for file, text in made.items()}
+
+
+def _together(edits: Sequence[Edit]) -> list[Edit]:
+    """The edits, each once, with those that insert into one element as one: the first makes its end another."""
+    inserts: dict[int, list[Edit]] = {}
+    for each in dict.fromkeys(edits):
+        if each.action == "insert":
+            inserts.setdefault(each.start, []).append(each)
+    others = [each for each in dict.fromkeys(edits) if each.action != "insert"]
+    return others + [
+        dataclasses.replace(some[0], value="\n".join(each.value for each in some)) for some in inserts.values()
+    ]
 
 
 def _place(each: Edit) -> int:
@@ -123,7 +136,7 @@ def _head(text: bytes, start: int) -> bytes:
 def _inserted(text: bytes, each: Edit) -> bytes:
     margin = text[_line_start(text, each.start) : each.start].lstrip(b"\n")
     margin = margin if not margin.strip() else b""
-    inner = b"\n" + margin + b"  " + each.value.encode()
+    inner = b"".join(b"\n" + margin + b"  " + line for line in each.value.encode().split(b"\n"))
     if each.head_end == each.end:
         head = _head(text, each.start)
         opened = head[:-2].rstrip() + b">"

@@ -117,7 +117,8 @@ def _together(alike: Sequence[Judged]) -> Sequence[Judged]:
         return alike
     worst = max(alike, key=lambda each: each.before)
     all_of_them = [worst, *(each for each in alike if each is not worst)]
-    elements = tuple(dict.fromkeys(name for each in all_of_them for name in each.suspect.elements))
+    firsts = [name for each in all_of_them for name in each.suspect.elements[:1]]
+    elements = tuple(dict.fromkeys(firsts + [name for each in all_of_them for name in each.suspect.elements]))
     edits = tuple(dict.fromkeys(edit for each in all_of_them for edit in each.suspect.edits))
     says = f"{worst.suspect.says} So it is with {len(alike) - 1} more."
     return [replace(worst, suspect=replace(worst.suspect, elements=elements, edits=edits, says=says))]

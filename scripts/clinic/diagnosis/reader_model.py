@@ -100,7 +100,8 @@ class ReaderModel:
         children = {each.get("link") for each in self.source.elements("child")}
         roots = [name for each in self.source.root.children if each.tag == "link" and (name := each.get("name"))]
         roots = [name for name in roots if name not in children and not set(name) & set('"&<')]
-        edits = [insert(self.source.root, AFLOAT.format(root=root)) for root in roots[:1]]
+        free = any(each.get("type") == "floating" for each in self.source.elements("joint"))
+        edits = [insert(self.source.root, AFLOAT.format(root=root)) for root in roots[: not free]]
         texts = apply(self.texts, [*edits, *self._unfused()])
         floating = ReaderModel(self.engine, texts, self.source, Start())
         return self if floating.error else floating

@@ -1,4 +1,4 @@
-"""Boxes in the place of meshes that are not there, and grey in that of pictures: the rest of a model can be looked at."""
+"""Boxes in the place of meshes that are not there, and grey in that of pictures, so that the rest can be looked at."""
 
 from __future__ import annotations
 
@@ -33,6 +33,7 @@ class StandIns:
         self.absent: set[str] = set()
 
     def compile(self, main: str, files: Mapping[str, str]) -> Compiled:
+        """Compiles a model as `Engine.compile` does, once something stands in for each file that it complains of."""
         while True:
             texts, source = {"": main, **files}, read_source({"": main, **files})
             elements = [each for each in source.root.walk() if _files(each)] if source else []

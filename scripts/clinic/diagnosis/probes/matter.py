@@ -26,6 +26,7 @@ from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 ABSURD = 6.0  # a radius of gyration as many times that of the geoms, or that in it
+BOUND = 2e-15  # kg m2: more than a link of a URDF has that is written without inertia (`reader_model.UNFUSED`)
 
 
 @dataclass(frozen=True)
@@ -178,7 +179,7 @@ def explicit(model: ReaderModel) -> list[tuple[int, Matter]]:
     of = model.simulation
     bodies = [body for body in of.moving_bodies if inertial(model, body) is not None and not _decorated(model, body)]
     found = [(body, matter(of, body)) for body in bodies]
-    return [(body, each) for body, each in found if each is not None and each.about[0] > 0]
+    return [(body, each) for body, each in found if each is not None and each.about[0] > BOUND]
 
 
 def _decorated(model: ReaderModel, body: int) -> bool:

@@ -59,7 +59,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Bodies with a radius of gyration beyond their geoms', those with equal inertia together."""
     groups: dict[tuple[float, ...], list[int]] = {}
     found = dict(explicit(model))
-    for body, each in found.items():
+    for body, each in sorted(found.items(), key=lambda one: -one[1].mass):
         if not USUAL[0] < each.radius < USUAL[1]:
             groups.setdefault(model.simulation.row("body_inertia", body, 3), []).append(body)
     unusual = sum(map(len, groups.values()))

@@ -60,6 +60,7 @@ AFLOAT = True
 LEVEL = "hint"
 
 SHARE, FEW = 0.75, 2
+NOTHING = 1e-6  # kg: a frame without mass
 MORE = 0.15  # of the link's mass
 
 
@@ -73,7 +74,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         others = len(jointed) - len(bare)
         if not bare or len(bare) > FEW or others < (2 if len(bare) == 1 else max(3, SHARE * len(jointed))):
             continue
-        for body in bare:
+        for body in (each for each in bare if of.model("body_mass")[each] > NOTHING):
             placed = [each for geom in of.geoms_of(body) if (each := model.element("geom", geom)) is not None]
             if not (placed or (model.source and model.source.urdf and of.geoms_of(body))) or any(
                 (each.get(name) or "0") != "0" for each in placed for name in ("mass", "density")

@@ -37,7 +37,8 @@ Good:
     +     <default class="head"><position kp="60" kv="3"/></default>
 
 The number: how many `<position>` have no `kp`, neither themselves nor by their class, where as many others and more
-have one. Where none has one, those that a kp of 1 lets swing at less than 3 rad/s: it takes seconds to get anywhere.
+have one. Where none has one, those that a kp of 1 lets swing at less than 3 rad/s: it takes seconds to get anywhere;
+or else all, where friction may hold one of them more than 5 % of its joint's range short of its target.
 
 When it is wrong: a servo for which 1 N m/rad is enough.
 """
@@ -59,6 +60,7 @@ LEVEL = "hint"
 UNPLANTED = "a gain that is as small as the default is planted as a weak servo"
 
 SLOW = 3.0  # rad/s
+SHORT = 0.05  # of the joint's range
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -87,6 +89,7 @@ def _none(model: ReaderModel, bare: list[int]) -> Iterator[Suspect]:
     of = model.simulation
     slow = [each for each in bare if 0 < _swing(of, each) < SLOW]
     if not slow:
+        yield from _held(model, bare)
         return
     worst = min(slow, key=lambda each: _swing(of, each))
     says = f"No kp is written for it, so that it is 1: {of.name('joint', of.driven_joint(worst) or 0)} swings at "
@@ -96,6 +99,30 @@ def _none(model: ReaderModel, bare: list[int]) -> Iterator[Suspect]:
     names = tuple(of.name("actuator", each) for each in slow)
     edits = model.set("actuator", slow, "kp", value)
     yield Suspect(names, "kp", "left out", value, edits, probe, 1 / SLOW, says, "a gain by its load", level="hint")
+
+
+def _held(model: ReaderModel, bare: list[int]) -> Iterator[Suspect]:
+    """The same where friction holds a joint far from its target."""
+    of = model.simulation
+    held = [each for each in bare if _stops(of, each) > SHORT]
+    if not held:
+        return
+    worst = max(held, key=lambda each: _stops(of, each))
+    joint = of.name("joint", of.driven_joint(worst) or 0)
+    says = f"No kp is written for it, so that it is 1: by its frictionloss {joint} may stop "
+    says += f"{100 * _stops(of, worst):.2g} % of its range short of its target."
+    value = rounded(10 * _stops(of, worst) / SHORT)
+    probe = Probe("how far short a servo may stop", "of the joint's range", _stops, (worst,), dynamic=False)
+    names, edits = tuple(of.name("actuator", each) for each in bare), model.set("actuator", bare, "kp", value)
+    yield Suspect(names, "kp", "left out", value, edits, probe, SHORT, says, "a gain by its load", level="hint")
+
+
+def _stops(of: Simulation, actuator: int) -> float:
+    """How far from its target a servo's joint may be held by its friction, as a share of its range."""
+    servo = next((each for each in servos(of) if each.actuator == actuator), None)
+    if servo is None or servo.range is None or servo.range[1] <= servo.range[0]:
+        return 0.0
+    return of.model("dof_frictionloss")[servo.dof] / servo.stiffness / (servo.range[1] - servo.range[0])
 
 
 def _swing(of: Simulation, actuator: int) -> float:

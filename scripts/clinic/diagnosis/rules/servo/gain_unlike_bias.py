@@ -23,8 +23,8 @@ Good:
     +     <general joint="elbow" gainprm="200" biastype="affine" biasprm="0 -200 -10" ctrlrange="-1 1"/>
 
 The number: where the servo rests over its control: `gainprm[0] / -biasprm[1]`, from 0.2 to 5 and off 1 by more than
-2 %. Farther off the control has another unit, such as 0 to 255; where its ends are led to those of the joint's range,
-and where half of the servos have it, it is meant.
+2 %. Farther off the control has another unit, such as 0 to 255, but where `ctrlrange` is the joint's own range. Where
+its ends are led to those of the joint's range, and where half of the servos have it, it is meant.
 
 When it is wrong: a control that is scaled on purpose.
 """
@@ -54,7 +54,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     scaled = {each.actuator for each in servos(of) if _spans(each)}
     found = [each for each, ratio in ratios.items() if abs(ratio - 1) > OFF and 1 / SCALED < ratio < SCALED]
     found = [each for each in found if each not in scaled]
-    if not found or (len(ratios) > 2 and 2 * len(found) >= len(ratios)):
+    if len(ratios) > 2 and 2 * len(found) >= len(ratios):
+        found = []
+    found += [each.actuator for each in servos(of) if meets(of, each) and each.actuator not in found]
+    if not found:
         return
     gain, bias = of.gain(found[0])[0], of.bias(found[0])
     says = f"It rests at {ratios[found[0]]:.3g} times its control: gainprm {gain:g}, biasprm {bias[1]:g}."
@@ -74,6 +77,14 @@ def _spans(servo: Servo) -> bool:
     if servo.targets is None or servo.range is None:
         return False
     (low, high), (least, most) = servo.targets, servo.range
+    return max(abs(low - least), abs(high - most)) < OFF * (most - least)
+
+
+def meets(of: Simulation, servo: Servo) -> bool:
+    """Whether the control's range is the joint's, so that the two have one unit, and the servo rests elsewhere."""
+    if servo.ctrl is None or servo.range is None or abs(_ratio(of, servo) - 1) <= OFF or _spans(servo):
+        return False
+    (low, high), (least, most) = servo.ctrl, servo.range
     return max(abs(low - least), abs(high - most)) < OFF * (most - least)
 
 

@@ -1,0 +1,90 @@
+"""A servo's gain is so high, and its force so small, that it only switches from one end of its force to the other.
+
+With `kp="1000000"` and `forcerange="-20 20"` a finger gives all of its force at an error of 0.02 mm. Within one
+timestep it goes farther than that, so that the force turns at every step.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 0.5">
+          <joint name="finger" type="slide" axis="0 1 0" range="0 0.04" damping="100"/>
+          <geom type="box" size="0.01 0.01 0.03" mass="0.1"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <position name="finger" joint="finger" kp="1000000" ctrlrange="0 0.04" forcerange="-20 20"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    -     <position name="finger" joint="finger" kp="1000000" ctrlrange="0 0.04" forcerange="-20 20"/>
+    +     <position name="finger" joint="finger" kp="1000" ctrlrange="0 0.04" forcerange="-20 20"/>
+
+The number: told in the middle of the joint's range without contacts, in how many of the last steps of 0.2 s the force
+is at an end of its range and turns; more than 0.3. h^2 kp / M is above 4 there, where the explicit integration of a
+spring ends.
+
+When it is wrong: a relay that is meant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+from clinic.diagnosis.probes.servo import Servo, alone, command, servos
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect, rounded
+
+TITLE = "A servo that switches from end to end of its force"
+FAMILIES = ("oscillates", "slips")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "a gain that high is planted as one that is too high for the inertia"
+
+STIFF, TURNS = 4.0, 0.3
+TIME = 0.2  # s
+WELL = 0.1  # of what the step bears
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Servos with a force range whose gain the timestep does not bear."""
+    of = model.simulation
+    for servo in servos(of):
+        stiff = of.timestep**2 * servo.stiffness / servo.inertia
+        if stiff <= STIFF or servo.force == float("inf"):
+            continue
+        kp = of.gain(servo.actuator)[0]
+        value = rounded(kp * WELL / stiff)
+        probe = Probe("steps in which the force turns from end to end", "of 0.2 s", _turns, (servo.actuator,))
+        edits = model.set("actuator", [servo.actuator], "kp", value)
+        says = f"Its {servo.force:.3g} {'N m' if servo.hinge else 'N'} are reached {servo.force / servo.stiffness:.2g} "
+        says += f"{servo.unit} off its target, and h^2 kp / M is {stiff:.3g}."
+        name = of.name("actuator", servo.actuator)
+        yield Suspect(
+            (name,), "kp", f"{kp:g}", value, edits, probe, TURNS, says, "h^2 kp / M < 4 (explicit integration)"
+        )
+
+
+def _turns(of: Simulation, actuator: int) -> float:
+    servo = next((each for each in servos(of) if each.actuator == actuator), None)
+    return _share(of, servo) if servo else 0.0
+
+
+def _share(of: Simulation, servo: Servo) -> float:
+    """In how many of the steps the force turns from one end of its range to the other, of those of half the time."""
+    of.begin()
+    low, high = servo.range or (of.position(servo.joint), of.position(servo.joint))
+    with alone(of):
+        command(of, servo, (low + high) / 2)
+        forces = []
+        for _ in range(int(TIME / of.timestep)):
+            of.engine.step()
+            forces.append(of.data("actuator_force")[servo.actuator])
+    last = forces[len(forces) // 2 :]
+    most = 0.9 * max(map(abs, last), default=0.0)
+    turned = sum(one * other < 0 and min(abs(one), abs(other)) >= most for one, other in pairwise(last))
+    return turned / max(len(last), 1)

@@ -20,7 +20,7 @@ from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import decoded, read_source, read_texts
 
 LIMIT = 20.0  # s for a start, after which no further rule is tried
-OF_SHAPES = ("contact", "mass")  # areas of rules whose findings boxes in the place of meshes make
+OF_SHAPES = {"contact", "mass", "parts-coincide"}  # rules, by area or id, that boxes in the place of meshes mislead
 
 
 def examine(
@@ -60,7 +60,7 @@ def examine(
         found, fixed = grouped(found), left.texts
         if not left.error and left.texts == model.texts:  # it is without files, and boxes stand in for them
             model = left
-            shapeless = [rule for rule in wanted if not rule.of_errors and rule.area not in OF_SHAPES]
+            shapeless = [rule for rule in wanted if not (rule.of_errors or {rule.area, rule.id} & OF_SHAPES)]
             behind, _, also = _found(model, shapeless, ignores, tell, limit)
             found += order(grouped(_without_shapes(behind, model)), families)
             tried += also

@@ -34,9 +34,9 @@ class StandIns:
 
     def compile(self, main: str, files: Mapping[str, str]) -> Compiled:
         """Compiles a model as `Engine.compile` does, once something stands in for each file that it complains of."""
+        texts, source = {"": main, **files}, read_source({"": main, **files})
+        elements = [each for each in source.root.walk() if _files(each)] if source else []
         while True:
-            texts, source = {"": main, **files}, read_source({"": main, **files})
-            elements = [each for each in source.root.walk() if _files(each)] if source else []
             edits = [edit for each in elements if self.absent & _files(each) for edit in _filled(each)]
             try:
                 filled = apply(texts, edits)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from clinic.diagnosis.diagnose import Diagnosis, examine
 from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.simulation import Start, StartError
 
 ARM = """<mujoco model="arm">
   <compiler angle="radian" meshdir="meshes"/>
@@ -53,8 +54,8 @@ def diagnosed(tmp_path, monkeypatch):
     (folder / "meshes").mkdir(parents=True)
     monkeypatch.chdir(folder)
 
-    def diagnosed(text: str) -> Diagnosis:
-        return examine(NativeEngine(), {"model": text})
+    def diagnosed(text: str, **options) -> Diagnosis:
+        return examine(NativeEngine(), {"model": text}, **options)
 
     return diagnosed
 
@@ -90,6 +91,69 @@ def test_what_else_keeps_it_from_compiling_is_told_too(diagnosed):
     found = diagnosed(ARM.replace("</mujoco>", f"  {key}\n</mujoco>"))
     assert [each.rule for each in found.causes] == ["keyframe-size"]
     assert [each.rule for each in found.hints] == ["missing-file"]
+
+
+QUADROTOR = """<mujoco>
+  <asset><mesh name="frame" file="frame.stl"/></asset>
+  <worldbody>
+    <light pos="0 0 5"/>
+    <geom type="plane" size="10 10 1"/>
+    <body name="quad" pos="0 0 1">
+      <freejoint/>
+      <geom type="mesh" mesh="frame" density="400"/>
+      <site name="m1" pos="0.15 0.15 0"/><site name="m2" pos="-0.15 -0.15 0"/><site name="gps" pos="0 0 0.6"/>
+    </body>
+  </worldbody>
+  <actuator>
+    <motor site="m1" gear="0 0 1 0 0 0.02" ctrlrange="0 20"/><motor site="m2" gear="0 0 1 0 0 -0.02" ctrlrange="0 20"/>
+  </actuator>
+  <keyframe><key name="hover" qpos="0 0 1 1 0 0 0" ctrl="9.4 9.4"/></keyframe>
+</mujoco>
+"""
+BOX = """<mujoco>
+  <asset><texture name="sky" type="cube" {files}/><material name="m" texture="sky"/></asset>
+  <worldbody>
+    <geom name="floor" type="plane" size="5 5 .1"/>
+    <body name="box" pos="0 0 0.02"><freejoint/><geom type="box" size="0.1 0.1 0.1" material="m" mass="1"/></body>
+  </worldbody>
+</mujoco>
+"""
+SIDES = ("right", "left", "up", "down", "front", "back")
+
+
+def test_nothing_is_told_that_the_size_of_a_box_decides(diagnosed):
+    found = diagnosed(QUADROTOR)
+    assert [each.rule for each in found.hints] == ["missing-file"], found.text()
+
+
+def test_without_its_pictures_a_model_is_diagnosed_as_with_them(diagnosed):
+    missing = diagnosed(BOX.format(files=" ".join(f'file{side}="{side}.png"' for side in SIDES)))
+    there = diagnosed(BOX.format(files='builtin="flat" width="8" height="48"'))
+    assert [each.rule for each in missing.causes] == [each.rule for each in there.causes] == ["overlap-at-start"]
+    assert missing.diff().count("\n+") == there.diff().count("\n+")
+    (file,) = (each for each in missing.hints if each.rule == "missing-file")
+    assert "5 more" in file.says
+    assert "mesh" not in file.says
+
+
+def test_the_file_that_is_there_is_not_the_one_of_that_name_that_is_not(diagnosed, monkeypatch):
+    with open("meshes/link.obj", "w") as file:
+        file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n")
+    meshes = '<mesh name="a" file="meshes/link.obj"/>\n<mesh name="b" file="collision/link.obj"/>'
+    (cause,) = diagnosed(f"<mujoco><asset>{meshes}</asset></mujoco>").causes
+    assert (cause.rule, cause.line, cause.value) == ("missing-file", 2, "meshes/link.obj")
+
+
+@pytest.mark.parametrize("options", [{"select": ["range-empty"]}, {"ignore": ["missing-file"]}])
+def test_where_the_missing_file_may_not_be_told_nothing_behind_it_is(diagnosed, options):
+    text = ARM.replace('elbow" axis="0 1 0" range="-1.5 1.5"', 'elbow" axis="0 1 0" range="0 0"')
+    found = diagnosed(text, **options)
+    assert "range-empty" not in {each.rule for each in (*found.causes, *found.hints)}
+
+
+def test_a_keyframe_that_is_not_there_is_told(diagnosed):
+    with pytest.raises(StartError):
+        diagnosed(ARM, start=Start(keyframe="home"))
 
 
 @pytest.mark.parametrize("ending", ["stl", "obj"])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,9 +18,12 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import Rule, rules
 from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import decoded, read_source, read_texts
+from clinic.diagnosis.stand_ins import StandIns
+from clinic.diagnosis.suspect import Suspect
 
 LIMIT = 20.0  # s for a start, after which no further rule is tried
 OF_SHAPES = {"contact", "mass", "parts-coincide"}  # rules, by area or id, that boxes in the place of meshes mislead
+OTHER = 3.0  # times the boxes' size: what is told is the same with these
 
 
 def examine(
@@ -58,19 +61,15 @@ def examine(
     if error:
         found, left = mended(model, tried, tell)
         found, fixed = grouped(found), left.texts
-        if not left.error and left.texts == model.texts:  # it is without files, and boxes stand in for them
-            model = left
-            shapeless = [rule for rule in wanted if not (rule.of_errors or {rule.area, rule.id} & OF_SHAPES)]
-            behind, _, also = _found(model, shapeless, ignores, tell, limit)
-            found += order(grouped(_without_shapes(behind, model)), families)
+        if isinstance(left.engine, StandIns) and not left.error and left.texts == model.texts:
+            model = ReaderModel(left.engine, left.texts, left.source, start or Start())
+            others = [rule for rule in wanted if not rule.of_errors]
+            behind, fixed, also = _behind(model, others, ignores, start, tell, limit)
+            found = [replace(each, suspect=_with(each.suspect, left.engine.told())) for each in found]
+            found += order(grouped(behind), families)
             tried += also
     else:
-        found, fixed, tried = _found(model, tried, ignores, tell, limit)
-        if start is None and model.simulation.count("key") and not any(each.proved for each in found):
-            model, before = ReaderModel(engine, texts, model.source, Start(key=0)), found
-            found, fixed, tried = _found(model, tried, ignores, tell, limit)
-            seen = {rule.id for rule in tried}  # a hint of the model's own start that is not one of the keyframe's
-            found += [each for each in before if each.rule.id not in seen]
+        found, fixed, tried, model = _from_starts(model, tried, ignores, start, tell, limit)
         found = order(grouped(found), families)
     named = {each.rule.id for each in found}
     findings = [*(finding_of(each, model) for each in found), *ignores.findings({rule.id for rule in tried}, named)]
@@ -116,11 +115,56 @@ def _found(
     return found, apply(model.texts, edits), tried
 
 
-def _without_shapes(found: Iterable[Judged], model: ReaderModel) -> list[Judged]:
-    """What was found in a model with boxes for meshes, as hints; nothing of a mesh."""
+def _from_starts(
+    model: ReaderModel,
+    wanted: Sequence[Rule],
+    ignores: Ignores,
+    start: Start | None,
+    tell: Callable[[str], None],
+    limit: float,
+) -> tuple[list[Judged], Mapping[str, str], list[Rule], ReaderModel]:
+    """The same from the model's start and, where no cause is found there, from its first keyframe; and that model."""
+    found, fixed, tried = _found(model, wanted, ignores, tell, limit)
+    if start is None and model.simulation.count("key") and not any(each.proved for each in found):
+        model, before = ReaderModel(model.engine, model.texts, model.source, Start(key=0)), found
+        found, fixed, tried = _found(model, tried, ignores, tell, limit)
+        seen = {rule.id for rule in tried}  # a hint of the model's own start that is not one of the keyframe's
+        found += [each for each in before if each.rule.id not in seen]
+    return found, fixed, tried, model
+
+
+def _behind(
+    model: ReaderModel,
+    wanted: Sequence[Rule],
+    ignores: Ignores,
+    start: Start | None,
+    tell: Callable[[str], None],
+    limit: float,
+) -> tuple[list[Judged], Mapping[str, str], list[Rule]]:
+    """The same of a model whose files are missing: all where they are pictures, else as hints what needs no shape."""
+    stand_ins = model.engine
+    assert isinstance(stand_ins, StandIns)
+    if not stand_ins.shapes:
+        found, fixed, tried, _ = _from_starts(model, wanted, ignores, start, tell, limit)
+        return found, fixed, tried
+    shapeless = [rule for rule in wanted if not {rule.area, rule.id} & OF_SHAPES]
+    found, _, tried, _ = _from_starts(model, shapeless, ignores, start, tell, limit)
+    others = StandIns(stand_ins.engine, OTHER * stand_ins.size, stand_ins.absent)
+    other = ReaderModel(others, model.texts, model.source, start or Start())
+    again = {rule.id: rule for rule in (each.rule for each in found)}
+    kept = {_said(each) for each in _from_starts(other, [*again.values()], ignores, start, tell, limit)[0]}
     simulation = model.simulation
     meshes = {simulation.name("geom", each) for each, of in enumerate(simulation.model("geom_type")) if of == MESH}
-    return [replace(each, level="hint") for each in found if not meshes & {*each.suspect.elements}]
+    found = [each for each in found if _said(each) in kept and not meshes & {*each.suspect.elements}]
+    return [replace(each, level="hint") for each in found], model.texts, tried
+
+
+def _said(each: Judged) -> tuple[str, tuple[str, ...], str]:
+    return each.rule.id, each.suspect.elements, each.suspect.says
+
+
+def _with(suspect: Suspect, sentence: str) -> Suspect:
+    return replace(suspect, says=f"{suspect.says} {sentence}")
 
 
 def diagnose_here(path: Path | str, **options: object) -> Diagnosis:

@@ -17,6 +17,7 @@ from clinic.diagnosis.stand_ins import StandIns
 from clinic.diagnosis.suspect import Suspect
 
 MOST, LIMIT = 60, 15.0  # messages, s
+OF_FILES = {"missing-file", "unusable-file"}
 LAST = "refused-element"  # what only takes an element out is tried where no other rule knows better
 
 Change = tuple[str, int, int, int]  # a file, where a change begins, and where it ended before and ends after it
@@ -37,10 +38,12 @@ def mended(model: ReaderModel, tried: Iterable[Rule], tell: Callable[[str], None
         if best is None:
             stand_ins = StandIns(model.engine)
             filled = ReaderModel(stand_ins, model.texts, model.source, Start())
-            if stand_ins.absent:
-                hints = [(rule, replace(each, says=f"{each.says} {stand_ins.told()}")) for rule, each in hints[:1]]
+            goes_on = bool(stand_ins.absent) and {rule.id for rule, _ in hints} <= OF_FILES and bool(hints)
+            if goes_on and len(stand_ins.absent) > 1:
+                more = f" So it is with {len(stand_ins.absent) - 1} more."
+                hints = [(rule, replace(each, says=each.says + more)) for rule, each in hints[:1]]
             found += [Judged(rule, _placed(each, changes, written), "hint", 1.0, None) for rule, each in hints]
-            if not stand_ins.absent:
+            if not goes_on:
                 break
             model = filled
             continue

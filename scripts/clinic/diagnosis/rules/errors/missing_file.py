@@ -41,6 +41,7 @@ from clinic.diagnosis.probes.compiled import COMPILES
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import folder_of, mends, sentence, told
 from clinic.diagnosis.source import Element
+from clinic.diagnosis.stand_ins import meant_by
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A file that is not there"
@@ -58,9 +59,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = MESSAGE.match(sentence(model))
     if not found or model.source is None:
         return
-    named = [each for each in model.source.root.walk() if "file" in each.attributes or "filename" in each.attributes]
+    named = [each for each in model.source.root.walk() if any(name.startswith("file") for name in each.attributes)]
     base = posixpath.basename(found.group(1))
-    ill = [each for each in named if posixpath.basename(_file(each)) == base]
+    written = {value: each for each in named for name, value in each.attributes.items() if name.startswith("file")}
+    ill = [written[each] for each in meant_by(found.group(1), written)]
     if not ill:
         return
     if (folder := _folder_of_all(model, ill[0])) is not None:

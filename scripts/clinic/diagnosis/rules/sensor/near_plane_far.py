@@ -9,6 +9,7 @@ Bad:
       <worldbody>
         <geom name="wall" type="box" size="0.1 30 2" pos="30 0 2"/>
         <geom name="far_wall" type="box" size="0.1 30 2" pos="-30 0 2"/>
+        <geom name="floor" type="plane" size="0 0 1"/>
         <body name="car" pos="0 0 0.1">
           <freejoint/>
           <geom type="box" size="0.2 0.1 0.05"/>
@@ -23,7 +24,7 @@ Good:
     +   <visual><map znear="0.0002"/></visual>
 
 The number: how far ahead of a camera that moves along the near plane is, over the size of what the camera is built on;
-more than 0.5.
+more than 0.5, where something else is that near to it at the start.
 
 When it is wrong: a camera that only looks at what is far away.
 """
@@ -35,9 +36,10 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import HFIELD, PLANE
-from clinic.diagnosis.probes.shape import geoms_of_tree, root_of
+from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.vector import Vector, dot, norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A near plane far before a robot's camera"
@@ -47,18 +49,21 @@ LEVEL = "hint"
 UNPLANTED = "no harm is measured in images"
 
 FAR, NEAR = 0.5, 0.02  # of the size of what the camera is built on
+NEARLY = 1.5  # times the plane's distance
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """The cameras of moving bodies before which the near plane is far, all together."""
+    """The cameras on board of something before which the near plane is far, all together."""
     of = model.simulation
-    found = [each for each in range(of.count("camera")) if _ahead(of, each) > FAR]
-    if not found:
-        return
-    worst = max(found, key=lambda each: _ahead(of, each))
+    of.begin()
     extent = of.model("stat.extent")[0]
     plane = extent * of.model("vis.map.znear")[0]
-    value = rounded(NEAR * plane / _ahead(of, worst) / extent)
+    ahead = {each: _ahead(of, each) for each in range(of.count("camera"))}
+    found = [each for each, share in ahead.items() if share > FAR and _meets(of, each, plane)]
+    if not found:
+        return
+    worst = max(found, key=lambda each: ahead[each])
+    value = rounded(NEAR * plane / ahead[worst] / extent)
     maps = list(model.source.elements("map")) if model.source else []
     edits = (set_attribute(maps[-1], "znear", value),) if maps else model.add("visual", f'<map znear="{value}"/>')
     now = f"{of.model('vis.map.znear')[0]:g}"
@@ -69,14 +74,40 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _ahead(of: Simulation, camera: int) -> float:
-    """How far ahead the near plane is, over the size of what the camera is built on; 0 for one that stands still."""
-    body = int(of.model("cam_bodyid")[camera])
-    root, kinds = root_of(of)[body], of.model("geom_type")
-    geoms = [each for each in geoms_of_tree(of, root) if int(kinds[each]) not in (PLANE, HFIELD)] if root else []
-    if not geoms or int(of.model("cam_mode")[camera]) != 0:
-        return 0.0
+    """How far ahead the near plane is, over the size of what the camera is on board of; 0 for one that is not."""
+    places, size = _mechanisms(of).get(root_of(of)[int(of.model("cam_bodyid")[camera])], ((), 0.0))
     of.begin()
-    places = [of.data_row("geom_xpos", each, 3) for each in geoms]
-    sides = [max(axis) - min(axis) for axis in zip(*places, strict=True)]
-    size = math.hypot(*sides) + 2 * max(of.model("geom_rbound")[each] for each in geoms)
-    return of.model("stat.extent")[0] * of.model("vis.map.znear")[0] / size
+    lens = of.data_row("cam_xpos", camera, 3)
+    on_board = int(of.model("cam_mode")[camera]) == 0 and any(math.dist(lens, place) < size for place in places)
+    return of.model("stat.extent")[0] * of.model("vis.map.znear")[0] / size if on_board else 0.0
+
+
+@kept
+def _mechanisms(of: Simulation) -> dict[int, tuple[list[Vector], float]]:
+    """Where the geoms of each mechanism are at the start, and how large it is in m, by its root."""
+    of.begin()
+    owners, bodies, kinds, radii = (root_of(of), *map(of.model, ("geom_bodyid", "geom_type", "geom_rbound")))
+    found: dict[int, list[int]] = {}
+    for geom, kind in enumerate(kinds):
+        if (root := owners[int(bodies[geom])]) and int(kind) not in (PLANE, HFIELD):
+            found.setdefault(root, []).append(geom)
+    made = {}
+    for root, geoms in found.items():
+        places = [of.data_row("geom_xpos", each, 3) for each in geoms]
+        sides = [max(axis) - min(axis) for axis in zip(*places, strict=True)]
+        made[root] = places, math.hypot(*sides) + 2 * max(radii[each] for each in geoms)
+    return made
+
+
+def _meets(of: Simulation, camera: int, plane: float) -> bool:
+    """Whether something that the camera is not built on is at the start as near as the near plane, or nearly."""
+    owners, bodies, radii = root_of(of), of.model("geom_bodyid"), of.model("geom_rbound")
+    own, lens = owners[int(of.model("cam_bodyid")[camera])], of.data_row("cam_xpos", camera, 3)
+    for geom, kind in enumerate(of.model("geom_type")):
+        if owners[int(bodies[geom])] == own:
+            continue
+        to = sub(lens, of.data_row("geom_xpos", geom, 3))
+        normal = of.data_row("geom_xmat", geom, 9)[2::3]
+        if (abs(dot(to, normal)) if int(kind) == PLANE else norm(to) - radii[geom]) < NEARLY * plane:
+            return True
+    return False

@@ -47,12 +47,12 @@ UNPLANTED = "what a sensor is meant to read stands in its name alone"
 
 SAID = {  # the words for what a sensor reads, and the kinds that read it; the first is what is meant
     r"gyro(?:scope)?|ang(?:ular)?_?vel(?:ocity)?": ("gyro", "frameangvel", "ballangvel", "subtreeangmom"),
-    r"acc|accel|accelero\w*|lin(?:ear)?_?acc\w*": ("accelerometer", "framelinacc"),
+    r"acc(?:el[a-z]*)?|lin(?:ear)?_?acc[a-z]*": ("accelerometer", "framelinacc"),
     r"velocimeter|lin(?:ear)?_?vel(?:ocity)?": ("velocimeter", "framelinvel", "subtreelinvel"),
-    r"magnetometer|compass": ("magnetometer",),
-    r"quat|quaternion": ("framequat", "ballquat"),
+    r"magnetometer": ("magnetometer",),
 }
 WORDS = {re.compile(rf"(?<![a-z])(?:{words})(?![a-z])", re.IGNORECASE): kinds for words, kinds in SAID.items()}
+OWN = {"frame": "pos|quat|ori|rot|att|vel|acc|axis", "subtree": "com|vel|mom|subtree", "ball": "quat|vel|ball"}
 SITED = ("gyro", "accelerometer", "velocimeter", "magnetometer")  # written alike
 KINDS = {kind for kinds in SAID.values() for kind in kinds}
 
@@ -63,7 +63,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = [(each, meant) for each in sensors if (meant := _meant(each))]
     for element, meant in found:
         attributes = "".join(f' {name}="{value}"' for name, value in element.attributes.items())
-        edits = (replace(element, f"<{meant}{attributes}/>"),) if element.get("site") and meant in SITED else ()
+        plain = element.get("site") and meant in SITED and not set(attributes) & set("&<")
+        edits = (replace(element, f"<{meant}{attributes}/>"),) if plain else ()
         says = f"It is called so, and is a <{element.tag}>."
         probe = counted("sensors of another kind than their name says", len(found))
         name = f'sensor "{element.get("name")}"'
@@ -72,5 +73,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _meant(sensor: Element) -> str:
     """The kind that a sensor's name says, where it is of another; empty where it says none, or several."""
-    said = [kinds for words, kinds in WORDS.items() if words.search(sensor.get("name"))]
+    name = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", sensor.get("name"))
+    own = next((words for kind, words in OWN.items() if sensor.tag.startswith(kind)), "")
+    if own and re.search(own, name, re.IGNORECASE):
+        return ""
+    said = [kinds for words, kinds in WORDS.items() if words.search(name)]
     return said[0][0] if len(said) == 1 and sensor.tag in KINDS and sensor.tag not in said[0] else ""

@@ -38,7 +38,8 @@ Good:
 
 The number: how many `<position>` have no `kp`, neither themselves nor by their class, where as many others and more
 have one. Where none has one, those that a kp of 1 lets swing at less than 3 rad/s: it takes seconds to get anywhere;
-or else all, where friction may hold one of them more than 5 % of its joint's range short of its target.
+or else
+those that friction may hold more than 5 % of their joint's range short of their target.
 
 When it is wrong: a servo for which 1 N m/rad is enough.
 """
@@ -113,7 +114,7 @@ def _held(model: ReaderModel, bare: list[int]) -> Iterator[Suspect]:
     says += f"{100 * _stops(of, worst):.2g} % of its range short of its target."
     value = rounded(10 * _stops(of, worst) / SHORT)
     probe = Probe("how far short a servo may stop", "of the joint's range", _stops, (worst,), dynamic=False)
-    names, edits = tuple(of.name("actuator", each) for each in bare), model.set("actuator", bare, "kp", value)
+    names, edits = tuple(of.name("actuator", each) for each in held), model.set("actuator", held, "kp", value)
     yield Suspect(names, "kp", "left out", value, edits, probe, SHORT, says, "a gain by its load", level="hint")
 
 

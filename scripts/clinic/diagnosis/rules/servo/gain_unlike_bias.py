@@ -84,6 +84,8 @@ def meets(of: Simulation, servo: Servo) -> bool:
     """Whether the control's range is the joint's, so that the two have one unit, and the servo rests elsewhere."""
     if servo.ctrl is None or servo.range is None or abs(_ratio(of, servo) - 1) <= OFF or _spans(servo):
         return False
+    if of.model("jnt_stiffness")[servo.joint]:
+        return False
     (low, high), (least, most) = servo.ctrl, servo.range
     return max(abs(low - least), abs(high - most)) < OFF * (most - least)
 

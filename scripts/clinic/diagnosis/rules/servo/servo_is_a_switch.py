@@ -60,7 +60,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         kp = of.gain(servo.actuator)[0]
         value = rounded(kp * WELL / stiff)
         probe = Probe("steps in which the force turns from end to end", "of 0.2 s", _turns, (servo.actuator,))
-        edits = model.set("actuator", [servo.actuator], "kp", value)
+        written = model.value("actuator", servo.actuator, "kp") is not None
+        edits = model.set("actuator", [servo.actuator], "kp", value) if written else ()
         says = f"Its {servo.force:.3g} {'N m' if servo.hinge else 'N'} are reached {servo.force / servo.stiffness:.2g} "
         says += f"{servo.unit} off its target, and h^2 kp / M is {stiff:.3g}."
         name = of.name("actuator", servo.actuator)

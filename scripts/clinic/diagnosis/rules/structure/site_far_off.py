@@ -23,7 +23,8 @@ Good:
     +       <site name="head" pos="0 0 0.75"/>
 
 The number: how far outside of the box around all geoms of its mechanism the site is at the start, as a share of that
-box's diagonal; more than 0.3. Sites that a tendon or an actuator uses are left out.
+box's diagonal; more than 0.3, and than 0.5 m. Sites that a tendon, an actuator or an equality uses, and those that are
+called a target, are left out.
 
 When it is wrong: a place that is meant to be outside, such as a target to look at.
 """
@@ -31,12 +32,13 @@ When it is wrong: a place that is meant to be outside, such as a target to look 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HFIELD, PLANE
-from clinic.diagnosis.probes.shape import geoms_of_tree, root_of
+from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A site far outside of its robot"
@@ -45,7 +47,9 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "where a site is meant to be stands nowhere"
 
-FAR = 0.3  # of the box's diagonal
+FAR, LEAST = 0.3, 0.5  # of the box's diagonal; m
+USES = ("site", "sidesite", "site1", "site2", "refsite", "cranksite", "slidersite")
+MEANT = re.compile("target|goal|tcp|grasp|label|camera|view|look|aim|point|marker", re.IGNORECASE)
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -53,32 +57,44 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     if model.source is None:
         return
-    bodies, users = of.model("site_bodyid"), [*model.source.elements("tendon", "actuator")]
-    used = {each.get(name) for user in users for each in user.walk() for name in ("site", "sidesite")}
+    users = [*model.source.elements("tendon", "actuator", "equality")]
+    used = {each.get(name) for user in users for each in user.walk() for name in USES}
+    boxes = _boxes(of)
     for site, name in enumerate(of.names("site")):
-        if name in used:
-            continue
-        probe = Probe(
-            "distance outside of the box of its mechanism", "of its diagonal", _outside, (site,), dynamic=False
-        )
-        if model.measured(probe) <= FAR or model.element("site", site) is None:
+        far, beyond = _outside(of, boxes, site)
+        if far <= FAR or beyond <= LEAST or name in used or MEANT.search(name) or model.element("site", site) is None:
             continue
         now = " ".join(f"{x:.4g}" for x in of.row("site_pos", site, 3))
-        says = f"It hangs on {of.name('body', int(bodies[site]))}, and is outside of all that hangs together with that."
+        body = of.name("body", int(of.model("site_bodyid")[site]))
+        says = f"It hangs on {body}, and is {beyond:.3g} m outside of all that hangs together with that."
+        probe = Probe("distance outside of the box of its mechanism", "of its diagonal", _far, (site,), dynamic=False)
         yield Suspect((of.name("site", site),), "pos", now, "told from its body", (), probe, FAR, says, "below 0.3")
 
 
-def _outside(of: Simulation, site: int) -> float:
-    """How far a site is outside of the box around its mechanism's geoms, as a share of the box's diagonal."""
-    root = root_of(of)[int(of.model("site_bodyid")[site])]
-    kinds, radii = of.model("geom_type"), of.model("geom_rbound")
-    geoms = [each for each in geoms_of_tree(of, root) if int(kinds[each]) not in (PLANE, HFIELD)] if root else []
-    if not geoms:
-        return 0.0
+def _far(of: Simulation, site: int) -> float:
+    return _outside(of, _boxes(of), site)[0]
+
+
+@kept
+def _boxes(of: Simulation) -> dict[int, tuple[list[float], list[float]]]:
+    """The ends of the box around all geoms of each mechanism at the start, by its root."""
     of.begin()
+    owners, bodies, kinds, radii = (root_of(of), *map(of.model, ("geom_bodyid", "geom_type", "geom_rbound")))
+    made: dict[int, tuple[list[float], list[float]]] = {}
+    for geom, kind in enumerate(kinds):
+        if (root := owners[int(bodies[geom])]) and int(kind) not in (PLANE, HFIELD):
+            low, high = made.setdefault(root, ([math.inf] * 3, [-math.inf] * 3))
+            for axis, x in enumerate(of.data_row("geom_xpos", geom, 3)):
+                low[axis], high[axis] = min(low[axis], x - radii[geom]), max(high[axis], x + radii[geom])
+    return made
+
+
+def _outside(of: Simulation, boxes: dict[int, tuple[list[float], list[float]]], site: int) -> tuple[float, float]:
+    """How far a site is outside of the box of its mechanism: as a share of its diagonal, and in m."""
+    root = root_of(of)[int(of.model("site_bodyid")[site])]
+    if root not in boxes:
+        return 0.0, 0.0
+    low, high = boxes[root]
     place = of.data_row("site_xpos", site, 3)
-    places = [(of.data_row("geom_xpos", each, 3), radii[each]) for each in geoms]
-    low, high = ([end(at[axis] + sign * radius for at, radius in places) for axis in range(3)]
-                 for end, sign in ((min, -1), (max, 1)))  # fmt: skip
-    beyond = [max(a - x, 0.0, x - b) for a, x, b in zip(low, place, high, strict=True)]
-    return math.hypot(*beyond) / math.dist(low, high)
+    beyond = math.hypot(*(max(a - x, 0.0, x - b) for a, x, b in zip(low, place, high, strict=True)))
+    return beyond / math.dist(low, high), beyond

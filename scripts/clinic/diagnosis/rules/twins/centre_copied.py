@@ -44,7 +44,7 @@ Good:
 The number: how far the centre of mass is from the mirror image of its twin's, in m; more than 2 mm, where the two have
 the same numbers in frames that are turned alike, and what hangs on them, or their geoms, are mirrored.
 
-When it is wrong: one part that is built in on both sides without being turned.
+When it is wrong: one part that is built in on both sides without being turned, where no geom shows it.
 """
 
 from __future__ import annotations
@@ -101,16 +101,16 @@ def _copied(found: Twins, left: int, right: int) -> bool:
 
 
 def _mirrored(found: Twins, left: int, right: int) -> bool:
-    """Whether a child, or a geom, of the two is aside of them, and mirrored."""
+    """Whether a child, or a geom, of the two is aside of them, and mirrored; a geom that was copied too is one part."""
     of, matrix = found.of, found.images[left].matrix
     parents, owners = of.model("body_parentid"), of.model("geom_bodyid")
-    pairs: list[tuple[Vector, Vector]] = []
+    pairs: list[tuple[str, Vector, Vector]] = []
     for kind, field, holders in (("body", "xpos", parents), ("geom", "geom_xpos", owners)):
         for pair in found.pairs[kind]:
             if (int(holders[pair[0]]), int(holders[pair[1]])) == (left, right):
                 here, there = (found.at(field, one) for one in pair)
-                pairs.append((sub(here, found.at("xpos", left)), sub(there, found.at("xpos", right))))
-    return any(
-        norm(sub(here, there)) > 2 * FAR and norm(sub(times(matrix, here), there)) < SAME * norm(here)
-        for here, there in pairs
-    )
+                pairs.append((kind, sub(here, found.at("xpos", left)), sub(there, found.at("xpos", right))))
+    aside = [each for each in pairs if norm(sub(times(matrix, each[1]), each[1])) > 2 * FAR]
+    if any(kind == "geom" and norm(sub(here, there)) < SAME * norm(here) for kind, here, there in aside):
+        return False
+    return any(norm(sub(times(matrix, here), there)) < SAME * norm(here) for _, here, there in aside)

@@ -20,7 +20,8 @@ Good:
 
 The number: the joint is put a tenth of its range beyond a limit; 1 where nothing pushes it back.
 
-A hinge whose range is a turn and more is left alone.
+A hinge whose range is a turn and more is left alone, and so are the joints of a body that goes about by a slide of ten
+times the model's extent.
 
 When it is wrong: a range that is kept for reference.
 """
@@ -40,21 +41,26 @@ FAMILIES = ("passes-limit",)
 SINCE = "0.1"
 
 TURN = 6.2  # rad
+ROOM = 10.0  # times the model's extent
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Hinges and slides with a range and without a limit, all together."""
     simulation = model.simulation
-    found = []
+    found, bodies, extent = [], simulation.model("jnt_bodyid"), simulation.model("stat.extent")[0]
+    roaming = set()  # the whole robot goes about by a slide that is far longer than it
     for joint, limited in enumerate(simulation.model("jnt_limited")):
         low, high = simulation.row("jnt_range", joint, 2)
         kind = simulation.joint_type(joint)
+        if kind == SLIDE and not limited and high - low > ROOM * extent:
+            roaming.add(bodies[joint])
         span = (high - low) * (
             model.angle_unit if kind == HINGE else 0.0
         )  # of an unused range the numbers stay as written
         turns = TURN <= high - low <= 2.1 * TURN  # one or two, in rad whatever the unit
         if not limited and low < high and span < TURN and not turns and kind in (HINGE, SLIDE):
             found.append(joint)
+    found = [joint for joint in found if bodies[joint] not in roaming]
     if not found:
         return
     low, high = simulation.row("jnt_range", found[0], 2)

@@ -42,7 +42,8 @@ Good:
     +         <inertial pos="0.02 -0.03 -0.02" mass="1" diaginertia="0.002 0.002 0.002"/>
 
 The number: how far the centre of mass is from the mirror image of its twin's, in m; more than 2 mm, where the two have
-the same numbers in frames that are turned alike, and what hangs on them, or their geoms, are mirrored.
+the same numbers in frames that are turned alike, and what hangs on them, their geoms, or their joints' ranges are
+mirrored.
 
 When it is wrong: one part that is built in on both sides without being turned, where no geom shows it.
 """
@@ -77,7 +78,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         if inertial(model, left) is None or not _copied(found, left, right) or not _mirrored(found, left, right):
             continue
-        says = f"Its centre of mass has the numbers of {of.name('body', left)}, and what hangs on the two is mirrored."
+        says = f"Its centre of mass has the numbers of {of.name('body', left)}, and what is beside it is mirrored."
         now = " ".join(f"{x:.4g}" for x in of.row("body_ipos", right, 3))
         probe = Probe("centre of mass off the mirror image of the twin's", "m", _aside, (left, right), dynamic=False)
         names = of.name("body", right), of.name("body", left)
@@ -101,7 +102,7 @@ def _copied(found: Twins, left: int, right: int) -> bool:
 
 
 def _mirrored(found: Twins, left: int, right: int) -> bool:
-    """Whether a child, or a geom, of the two is aside of them, and mirrored; a geom that was copied too is one part."""
+    """Whether a child, a geom or a joint's range of the two is mirrored, and no geom is copied as the mass is."""
     of, matrix = found.of, found.images[left].matrix
     parents, owners = of.model("body_parentid"), of.model("geom_bodyid")
     pairs: list[tuple[str, Vector, Vector]] = []
@@ -113,4 +114,6 @@ def _mirrored(found: Twins, left: int, right: int) -> bool:
     aside = [each for each in pairs if norm(sub(times(matrix, each[1]), each[1])) > 2 * FAR]
     if any(kind == "geom" and norm(sub(here, there)) < SAME * norm(here) for kind, here, there in aside):
         return False
-    return any(norm(sub(times(matrix, here), there)) < SAME * norm(here) for _, here, there in aside)
+    ranges = [[of.row("jnt_range", joint, 2) for joint in of.joints_of(body)] for body in (left, right)]
+    turned = any(a != b and norm(sub(a, (-b[1], -b[0]))) < SAME * norm(a) for a, b in zip(*ranges, strict=False))
+    return turned or any(norm(sub(times(matrix, here), there)) < SAME * norm(here) for _, here, there in aside)

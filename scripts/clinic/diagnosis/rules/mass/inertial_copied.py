@@ -1,0 +1,104 @@
+"""Two links that are not the same part have one `<inertial>`, to the last digit.
+
+It was copied with the link, or the script that wrote the model gave the part of one name to another: the sensor frame
+on a mast weighs what the mast does.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="mast" pos="0 0 1">
+          <inertial pos="0.0123 0 0.214" mass="2.9535" diaginertia="0.0514 0.0513 0.00271"/>
+          <joint name="turn" axis="0 0 1"/>
+          <geom type="capsule" fromto="0 0 0 0 0 0.5" size="0.04"/>
+          <body name="camera" pos="0 0 0.55">
+            <inertial pos="0.0123 0 0.214" mass="2.9535" diaginertia="0.0514 0.0513 0.00271"/>
+            <joint name="tilt" axis="0 1 0"/>
+            <geom type="box" size="0.02 0.04 0.02"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+            <body name="camera" pos="0 0 0.55">
+    -         <inertial pos="0.0123 0 0.214" mass="2.9535" diaginertia="0.0514 0.0513 0.00271"/>
+    +         <inertial pos="0 0 0" mass="0.11" diaginertia="0.00006 0.00002 0.00006"/>
+
+The number: the mass of the links that share mass and principal inertia with one before them that has other geoms and
+another name but for numbers and sides. A mass of fewer than four digits is a placeholder, and left alone.
+
+When it is wrong: one part under two names.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.inertia import inertial
+from clinic.diagnosis.probes.matter import mass_of
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.source import Element
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "An inertial copied from another link"
+FAMILIES = ("wrong-mass", "drifts", "sags")
+SINCE = "0.1"
+AFLOAT = True
+LEVEL = "hint"
+UNPLANTED = "which of two links an inertial is of stands nowhere"
+
+SIDE = re.compile(r"left|right|front|rear|back|upper|lower|(?<![a-z])(?:[lrfb]|[fhrblm][lrfhb])(?![a-z])|[\W\d_]+")
+DIGITS = 4
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Each group of links of one inertial that are not one part, but for its first."""
+    of = model.simulation
+    groups: dict[tuple[float, ...], list[int]] = {}
+    for body in of.moving_bodies:
+        element = inertial(model, body)
+        if element is not None and _digits(element) >= DIGITS:
+            moments = of.row("body_inertia", body, 3)
+            key = (of.model("body_mass")[body], *sorted(moments))
+            groups.setdefault(tuple(float(f"{number:.4g}") for number in key), []).append(body)
+    for bodies in groups.values():
+        parts: dict[tuple[object, ...], int] = {}
+        names: dict[str, int] = {}
+        for body in bodies:
+            parts.setdefault(_part(of, body), body)
+            names.setdefault(_plain(of.engine.name("body", body)), body)
+        copies = [body for body in bodies[1:] if body in parts.values() and body in names.values()]
+        if not copies or min(len(parts), len(names)) < 2:
+            continue
+        first, mass = of.name("body", bodies[0]), of.model("body_mass")[bodies[0]]
+        says = f"Mass and principal inertia are those of {first}, {mass:.4g} kg, to the last digit."
+        told = tuple(of.name("body", body) for body in copies)
+        at = model.element("body", copies[0])
+        healthy = "each link its own"
+        probe = mass_of(tuple(copies))
+        yield Suspect((*told, first), "inertial", f"{mass:.4g} kg", "its own", (), probe, 0.0, says, healthy, at=at)
+
+
+def _digits(element: Element) -> int:
+    """How many digits the mass is written with, noughts at its ends left out."""
+    inner = element.first("mass")
+    written = element.get("mass") or (inner.get("value") if inner else "")
+    return len(re.sub(r"\D", "", written.lower().partition("e")[0]).strip("0"))
+
+
+def _plain(name: str) -> str:
+    """A name without the numbers and sides in it."""
+    return SIDE.sub("", name.lower())
+
+
+def _part(of: Simulation, body: int) -> tuple[object, ...]:
+    """What a body's geoms are, by kind, size and mesh."""
+    geoms, kinds, meshes = of.geoms_of(body), of.model("geom_type"), of.model("geom_dataid")
+    sizes = (
+        (int(kinds[each]), int(meshes[each]), *(round(x, 5) for x in of.row("geom_size", each, 3))) for each in geoms
+    )
+    return tuple(sorted(sizes)) or (body,)

@@ -146,7 +146,9 @@ def test_a_folder_and_a_zip_bring_their_meshes(page: Page, served: str, tmp_path
 
     assert drop(page, tmp_path / "robot.zip").startswith("wedge.xml was run by MuJoCo")
     assert give(page, robot).startswith("wedge.xml was run by MuJoCo")
-    assert "wedge.obj is not there" in give(page, robot / "models" / "wedge.xml")
+    alone = give(page, robot / "models" / "wedge.xml")
+    assert "wedge.obj is not there" in alone
+    assert "Drop the model's folder" in alone
 
 
 def test_of_several_models_one_is_chosen(page: Page, served: str, tmp_path: Path) -> None:

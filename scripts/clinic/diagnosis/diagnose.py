@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import NamedTuple
 
 from clinic.diagnosis.edit import Edit, apply
 from clinic.diagnosis.engine import MESH, CompileError, Engine
@@ -19,11 +20,10 @@ from clinic.diagnosis.rules import Rule, rules
 from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import decoded, read_source, read_texts
 from clinic.diagnosis.stand_ins import StandIns
-from clinic.diagnosis.suspect import Suspect
 
 LIMIT = 20.0  # s for a start, after which no further rule is tried
 OF_SHAPES = {"contact", "mass", "parts-coincide"}  # rules, by area or id, that boxes in the place of meshes mislead
-OTHER = 3.0  # times the boxes' size: what is told is the same with these
+LARGER = 3.0  # times the boxes' size: what is told is the same with these
 
 
 def examine(
@@ -55,24 +55,24 @@ def examine(
     model = ReaderModel(engine, texts, read_source(texts), start or Start())
     ignores = Ignores(model)
     wanted = [rule for name, rule in rules().items() if name not in ignore and (not select or name in select)]
-    tried, error = [rule for rule in wanted if rule.of_errors == bool(model.error)], model.error
-    families = (symptom,) if symptom else ()
-    fixed: Mapping[str, str]
+    of_errors, others = ([rule for rule in wanted if rule.of_errors == ill] for ill in (True, False))
+    trial = _Trial(ignores, start, tell, limit)
+    error, families = model.error, (symptom,) if symptom else ()
     if error:
-        found, left = mended(model, tried, tell)
-        found, fixed = grouped(found), left.texts
+        found, left = mended(model, of_errors, tell)
+        made, found = _Made([], left.texts, [], model), grouped(found)
         if isinstance(left.engine, StandIns) and not left.error and left.texts == model.texts:
-            model = ReaderModel(left.engine, left.texts, left.source, start or Start())
-            others = [rule for rule in wanted if not rule.of_errors]
-            behind, fixed, also = _behind(model, others, ignores, start, tell, limit)
-            found = [replace(each, suspect=_with(each.suspect, left.engine.told())) for each in found]
-            found += order(grouped(behind), families)
-            tried += also
+            made = trial.behind(left, left.engine, others)
+            told = left.engine.told()
+            found = [replace(each, suspect=replace(each.suspect, says=f"{each.suspect.says} {told}")) for each in found]
     else:
-        found, fixed, tried, model = _from_starts(model, tried, ignores, start, tell, limit)
-        found = order(grouped(found), families)
-    named = {each.rule.id for each in found}
-    findings = [*(finding_of(each, model) for each in found), *ignores.findings({rule.id for rule in tried}, named)]
+        found, of_errors, made = [], [], trial.from_starts(model, others)
+    found += order(grouped(made.found), families)
+    tried, named = [*of_errors, *made.tried], {each.rule.id for each in found}
+    findings = [
+        *(finding_of(each, made.model) for each in found),
+        *ignores.findings({each.id for each in tried}, named),
+    ]
     kept = [each for each in findings if not each.silenced]
     return Diagnosis(
         engine.version,
@@ -83,88 +83,83 @@ def examine(
         tuple(rule.id for rule in tried if rule.id not in named),
         error,
         texts,
-        fixed,
+        made.fixed,
     )
 
 
-def _found(
-    model: ReaderModel, wanted: Iterable[Rule], ignores: Ignores, tell: Callable[[str], None], limit: float
-) -> tuple[list[Judged], Mapping[str, str], list[Rule]]:
-    """What is found in a model that compiles, its texts with the edits of causes that go together, and who looked."""
-    found: list[Judged] = []
-    tried: list[Rule] = []
-    afloat = model.afloat() if any(rule.afloat for rule in wanted) else model
-    until = time.monotonic() + limit
+class _Made(NamedTuple):
+    """What was found in a model, its texts with the edits of causes that go together, who looked, and the model."""
 
-    def asked(rule: Rule) -> ReaderModel:
-        return afloat if rule.afloat else model
-
-    for rule in wanted:
-        if time.monotonic() > until:
-            break
-        tell(rule.id)
-        tried.append(rule)
-        judged = (judge(asked(rule), rule, suspect) for suspect in suspects_of(asked(rule), rule, tell))
-        found += [each for each in judged if each is not None]
-    found = without_consequences(without_rivals(found), asked)
-    found = [replace(each, silenced=ignores.why(each, model)) for each in found]
-    edits: list[Edit] = []
-    for each in found:
-        if each.proved and not isinstance(model.with_edits([*edits, *each.suspect.edits]), CompileError):
-            edits += each.suspect.edits
-    return found, apply(model.texts, edits), tried
+    found: list[Judged]
+    fixed: Mapping[str, str]
+    tried: list[Rule]
+    model: ReaderModel
 
 
-def _from_starts(
-    model: ReaderModel,
-    wanted: Sequence[Rule],
-    ignores: Ignores,
-    start: Start | None,
-    tell: Callable[[str], None],
-    limit: float,
-) -> tuple[list[Judged], Mapping[str, str], list[Rule], ReaderModel]:
-    """The same from the model's start and, where no cause is found there, from its first keyframe; and that model."""
-    found, fixed, tried = _found(model, wanted, ignores, tell, limit)
-    if start is None and model.simulation.count("key") and not any(each.proved for each in found):
-        model, before = ReaderModel(model.engine, model.texts, model.source, Start(key=0)), found
-        found, fixed, tried = _found(model, tried, ignores, tell, limit)
-        seen = {rule.id for rule in tried}  # a hint of the model's own start that is not one of the keyframe's
-        found += [each for each in before if each.rule.id not in seen]
-    return found, fixed, tried, model
+@dataclass(frozen=True)
+class _Trial:
+    """How rules are tried on a model that compiles."""
 
+    ignores: Ignores
+    start: Start | None
+    tell: Callable[[str], None]
+    limit: float
 
-def _behind(
-    model: ReaderModel,
-    wanted: Sequence[Rule],
-    ignores: Ignores,
-    start: Start | None,
-    tell: Callable[[str], None],
-    limit: float,
-) -> tuple[list[Judged], Mapping[str, str], list[Rule]]:
-    """The same of a model whose files are missing: all where they are pictures, else as hints what needs no shape."""
-    stand_ins = model.engine
-    assert isinstance(stand_ins, StandIns)
-    if not stand_ins.shapes:
-        found, fixed, tried, _ = _from_starts(model, wanted, ignores, start, tell, limit)
-        return found, fixed, tried
-    shapeless = [rule for rule in wanted if not {rule.area, rule.id} & OF_SHAPES]
-    found, _, tried, _ = _from_starts(model, shapeless, ignores, start, tell, limit)
-    others = StandIns(stand_ins.engine, OTHER * stand_ins.size, stand_ins.absent)
-    other = ReaderModel(others, model.texts, model.source, start or Start())
-    again = {rule.id: rule for rule in (each.rule for each in found)}
-    kept = {_said(each) for each in _from_starts(other, [*again.values()], ignores, start, tell, limit)[0]}
-    simulation = model.simulation
-    meshes = {simulation.name("geom", each) for each, of in enumerate(simulation.model("geom_type")) if of == MESH}
-    found = [each for each in found if _said(each) in kept and not meshes & {*each.suspect.elements}]
-    return [replace(each, level="hint") for each in found], model.texts, tried
+    def once(self, model: ReaderModel, wanted: Iterable[Rule]) -> _Made:
+        """All rules, one after the other, until the time is over."""
+        found: list[Judged] = []
+        tried: list[Rule] = []
+        afloat = model.afloat() if any(rule.afloat for rule in wanted) else model
+        until = time.monotonic() + self.limit
 
+        def asked(rule: Rule) -> ReaderModel:
+            return afloat if rule.afloat else model
 
-def _said(each: Judged) -> tuple[str, tuple[str, ...], str]:
-    return each.rule.id, each.suspect.elements, each.suspect.says
+        for rule in wanted:
+            if time.monotonic() > until:
+                break
+            self.tell(rule.id)
+            tried.append(rule)
+            judged = (judge(asked(rule), rule, suspect) for suspect in suspects_of(asked(rule), rule, self.tell))
+            found += [each for each in judged if each is not None]
+        found = without_consequences(without_rivals(found), asked)
+        found = [replace(each, silenced=self.ignores.why(each, model)) for each in found]
+        edits: list[Edit] = []
+        for each in found:
+            if each.proved and not isinstance(model.with_edits([*edits, *each.suspect.edits]), CompileError):
+                edits += each.suspect.edits
+        return _Made(found, apply(model.texts, edits), tried, model)
 
+    def from_starts(self, model: ReaderModel, wanted: Sequence[Rule]) -> _Made:
+        """The same from the model's start and, where no cause is found there, from its first keyframe."""
+        made = self.once(model, wanted)
+        if self.start is None and model.simulation.count("key") and not any(each.proved for each in made.found):
+            again = self.once(ReaderModel(model.engine, model.texts, model.source, Start(key=0)), made.tried)
+            seen = {
+                rule.id for rule in again.tried
+            }  # a hint of the model's own start that is not one of the keyframe's
+            return again._replace(found=again.found + [each for each in made.found if each.rule.id not in seen])
+        return made
 
-def _with(suspect: Suspect, sentence: str) -> Suspect:
-    return replace(suspect, says=f"{suspect.says} {sentence}")
+    def behind(self, left: ReaderModel, stand_ins: StandIns, wanted: Sequence[Rule]) -> _Made:
+        """The same of a model without some files: all where they are pictures, else as hints what needs no shape."""
+        model = ReaderModel(stand_ins, left.texts, left.source, self.start or Start())
+        if not stand_ins.shapes:
+            return self.from_starts(model, wanted)
+        made = self.from_starts(model, [rule for rule in wanted if not {rule.area, rule.id} & OF_SHAPES])
+        larger = StandIns(stand_ins.engine, LARGER * stand_ins.size, stand_ins.absent)
+        other = ReaderModel(larger, left.texts, left.source, self.start or Start())
+        again = self.from_starts(other, [*{each.rule.id: each.rule for each in made.found}.values()])
+        kinds = model.simulation.model("geom_type")
+        meshes = {model.simulation.name("geom", each) for each, kind in enumerate(kinds) if kind == MESH}
+        same = {(each.rule.id, each.suspect.elements, each.suspect.says) for each in again.found}
+        kept = [
+            replace(each, level="hint")
+            for each in made.found
+            if (each.rule.id, each.suspect.elements, each.suspect.says) in same
+            and not meshes & {*each.suspect.elements}
+        ]
+        return made._replace(found=kept, fixed=left.texts)
 
 
 def diagnose_here(path: Path | str, **options: object) -> Diagnosis:

@@ -87,10 +87,15 @@ def test_what_is_wrong_besides_is_a_hint_at_its_line(diagnosed, text, written, w
 
 
 def test_what_else_keeps_it_from_compiling_is_told_too(diagnosed):
-    key = '<keyframe><key name="home" qpos="0 0 0"/></keyframe>'
-    found = diagnosed(ARM.replace("</mujoco>", f"  {key}\n</mujoco>"))
+    key = '<keyframe>\n<key name="home" qpos="0 0 0"/>\n</keyframe>'
+    text = ARM.replace("<asset>", f"{key}\n<asset>").replace(
+        'elbow" axis="0 1 0" range="-1.5 1.5"', 'elbow" range="0 0"'
+    )
+    found = diagnosed(text)
     assert [each.rule for each in found.causes] == ["keyframe-size"]
-    assert [each.rule for each in found.hints] == ["missing-file"]
+    assert [each.rule for each in found.hints] == ["missing-file", "range-empty"], found.text()
+    assert "What else" not in found.causes[0].says
+    assert found.hints[1].line == text.partition('elbow" range')[0].count("\n") + 1
 
 
 QUADROTOR = """<mujoco>

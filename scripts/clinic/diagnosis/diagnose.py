@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from clinic.diagnosis.edit import Edit, apply
 from clinic.diagnosis.engine import MESH, CompileError, Engine
-from clinic.diagnosis.errors import mended
+from clinic.diagnosis.errors import OF_FILES, mended
 from clinic.diagnosis.finding import Diagnosis, finding_of
 from clinic.diagnosis.ignores import Ignores
 from clinic.diagnosis.judge import Judged, grouped, judge, order, suspects_of, without_consequences, without_rivals
@@ -20,6 +20,7 @@ from clinic.diagnosis.rules import Rule, rules
 from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import decoded, read_source, read_texts
 from clinic.diagnosis.stand_ins import StandIns
+from clinic.diagnosis.suspect import Suspect
 
 LIMIT = 20.0  # s for a start, after which no further rule is tried
 OF_SHAPES = {"contact", "mass", "parts-coincide"}  # rules, by area or id, that boxes in the place of meshes mislead
@@ -59,12 +60,14 @@ def examine(
     trial = _Trial(ignores, start, tell, limit)
     error, families = model.error, (symptom,) if symptom else ()
     if error:
-        found, left = mended(model, of_errors, tell)
+        found, left, placed = mended(model, of_errors, tell)
         made, found = _Made([], left.texts, [], model), grouped(found)
-        if isinstance(left.engine, StandIns) and not left.error and left.texts == model.texts:
+        if isinstance(left.engine, StandIns) and not left.error:
             made = trial.behind(left, left.engine, others)
-            told = left.engine.told()
-            found = [replace(each, suspect=replace(each.suspect, says=f"{each.suspect.says} {told}")) for each in found]
+            suspects = (_located(each.suspect, made.model) for each in made.found)
+            behind = [replace(each, suspect=placed(one)) for each, one in zip(made.found, suspects, strict=True)]
+            made = made._replace(found=behind, model=model)
+            found = [_with(each, left.engine.told()) if each.rule.id in OF_FILES else each for each in found]
     else:
         found, of_errors, made = [], [], trial.from_starts(model, others)
     found += order(grouped(made.found), families)
@@ -85,6 +88,17 @@ def examine(
         texts,
         made.fixed,
     )
+
+
+def _with(each: Judged, sentence: str) -> Judged:
+    return replace(each, suspect=replace(each.suspect, says=f"{each.suspect.says} {sentence}"))
+
+
+def _located(suspect: Suspect, model: ReaderModel) -> Suspect:
+    """The suspect with the place of the first of its elements that has one, where no edit has."""
+    if suspect.edits or suspect.at:
+        return suspect
+    return replace(suspect, at=next((place for each in suspect.elements if (place := model.named(each))), None))
 
 
 class _Made(NamedTuple):

@@ -23,8 +23,12 @@ LAST = "refused-element"  # what only takes an element out is tried where no oth
 Change = tuple[str, int, int, int]  # a file, where a change begins, and where it ended before and ends after it
 
 
-def mended(model: ReaderModel, tried: Iterable[Rule], tell: Callable[[str], None]) -> tuple[list[Judged], ReaderModel]:
+def mended(
+    model: ReaderModel, tried: Iterable[Rule], tell: Callable[[str], None]
+) -> tuple[list[Judged], ReaderModel, Callable[[Suspect], Suspect]]:
     """The faults in the order in which MuJoCo names them, and the model as far as it could be mended.
+
+    The third gives what is suspected in that model its place in the reader's own text.
 
     Where files cannot be read, boxes stand in for them in all that follows (`stand_ins`).
     """
@@ -52,7 +56,7 @@ def mended(model: ReaderModel, tried: Iterable[Rule], tell: Callable[[str], None
         texts = apply(model.texts, suspect.edits)
         changes += _changes(model.texts, suspect.edits)
         model = ReaderModel(model.engine, texts, read_source(texts), Start())
-    return found, model
+    return found, model, lambda suspect: _placed(suspect, changes, written)
 
 
 def _best(

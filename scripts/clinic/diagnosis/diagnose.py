@@ -67,7 +67,10 @@ def examine(
             suspects = (_located(each.suspect, made.model) for each in made.found)
             behind = [replace(each, suspect=placed(one)) for each, one in zip(made.found, suspects, strict=True)]
             made = made._replace(found=behind, model=model)
-            found = [_with(each, left.engine.told()) if each.rule.id in OF_FILES else each for each in found]
+            found = [
+                _with(each, left.engine.told()) if each.rule.id in OF_FILES and each.level == "hint" else each
+                for each in found
+            ]
     else:
         found, of_errors, made = [], [], trial.from_starts(model, others)
     found += order(grouped(made.found), families)

@@ -82,7 +82,7 @@ def _share(of: Simulation, servo: Servo) -> float:
     with alone(of):
         command(of, servo, (low + high) / 2)
         forces = []
-        for _ in range(int(TIME / of.timestep)):
+        for _ in range(of.steps(TIME)):
             of.engine.step()
             forces.append(of.data("actuator_force")[servo.actuator])
     last = forces[len(forces) // 2 :]

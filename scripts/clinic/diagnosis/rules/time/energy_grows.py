@@ -25,8 +25,8 @@ Good:
     +   <option timestep="0.02" integrator="RK4"/>
 
 The number: without contacts, actuators and springs, the most by which kinetic and potential energy together exceed what
-there was at the start, over the most kinetic energy, in 2 s after letting go; more than 0.08, where a quarter of the
-timestep brings it below half of that.
+there was at the start, over the most kinetic energy, in 2 s after letting go (fewer for a large model, or a very short
+timestep); more than 0.08, where a quarter of the timestep brings it below half of that.
 
 When it is wrong: a start that is unstable for another reason.
 """
@@ -77,7 +77,7 @@ def _gained(of: Simulation) -> float:
         with alone(of, gravity=True, limp=True):
             of.engine.forward()
             begun, gained, moving = sum(of.data("energy")), 0.0, 1e-9
-            for _ in range(int(TIME / of.timestep)):
+            for _ in range(of.steps(TIME)):
                 of.engine.step()
                 potential, kinetic = of.data("energy")
                 gained, moving = max(gained, potential + kinetic - begun), max(moving, kinetic)

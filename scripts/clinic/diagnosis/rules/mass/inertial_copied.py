@@ -1,4 +1,4 @@
-"""Two links that are not the same part have one `<inertial>`, to the last digit.
+"""Two links that are not the same part have the mass and inertia of one.
 
 It was copied with the link, or the script that wrote the model gave the part of one name to another: the sensor frame
 on a mast weighs what the mast does.
@@ -26,8 +26,9 @@ Good:
     -         <inertial pos="0.0123 0 0.214" mass="2.9535" diaginertia="0.0514 0.0513 0.00271"/>
     +         <inertial pos="0 0 0" mass="0.11" diaginertia="0.00006 0.00002 0.00006"/>
 
-The number: the mass of the links that share mass and principal inertia with one before them that has other geoms and
-another name but for numbers and sides. A mass of fewer than four digits is a placeholder, and left alone.
+The number: the mass of the links that share mass and principal inertia, to four digits, with one before them that has
+other geoms and another name but for numbers and sides. A mass of fewer than four digits is a placeholder, and left
+alone.
 
 When it is wrong: one part under two names.
 """
@@ -75,7 +76,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if not copies or min(len(parts), len(names)) < 2:
             continue
         first, mass = of.name("body", bodies[0]), of.model("body_mass")[bodies[0]]
-        says = f"Mass and principal inertia are those of {first}, {mass:.4g} kg, to the last digit."
+        says = f"Mass and principal inertia are those of {first}, {mass:.4g} kg, to four digits."
         told = tuple(of.name("body", body) for body in copies)
         at = model.element("body", copies[0])
         healthy = "each link its own"

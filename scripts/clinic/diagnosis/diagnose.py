@@ -152,9 +152,8 @@ class _Trial:
         made = self.once(model, wanted)
         if self.start is None and model.simulation.count("key") and not any(each.proved for each in made.found):
             again = self.once(ReaderModel(model.engine, model.texts, model.source, Start(key=0)), made.tried)
-            seen = {
-                rule.id for rule in again.tried
-            }  # a hint of the model's own start that is not one of the keyframe's
+            seen = {rule.id for rule in again.tried}
+            # a hint of the model's own start that is not one of the keyframe's stays
             return again._replace(found=again.found + [each for each in made.found if each.rule.id not in seen])
         return made
 

@@ -134,7 +134,8 @@ def alone(simulation: Simulation, *, gravity: bool = False, limp: bool = False) 
         engine.write_model("opt.gravity", pull)
 
 
-def _of(simulation: Simulation, actuator: int) -> Servo | None:
+def servo_of(simulation: Simulation, actuator: int) -> Servo | None:
+    """The position servo that an actuator is; None for another kind."""
     return next((each for each in servos(simulation) if each.actuator == actuator), None)
 
 
@@ -144,7 +145,7 @@ def _overshoot(simulation: Simulation, actuators: Sequence[int]) -> float:
 
 @kept
 def _rings(simulation: Simulation, actuator: int) -> float:
-    servo = _of(simulation, actuator)
+    servo = servo_of(simulation, actuator)
     with alone(simulation):
         return _stepped(simulation, servo) if servo else 0.0
 
@@ -189,7 +190,7 @@ def _remaining(simulation: Simulation, actuators: Sequence[int]) -> float:
 @kept
 def _late(simulation: Simulation, actuator: int) -> float:
     """The share of a step that is left after 1 s."""
-    servo = _of(simulation, actuator)
+    servo = servo_of(simulation, actuator)
     if servo is None:
         return 0.0
     with alone(simulation):

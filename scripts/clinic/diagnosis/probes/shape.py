@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from clinic.diagnosis.engine import FREE, PLANE, SLIDE
+from clinic.diagnosis.engine import FREE, HFIELD, PLANE, SLIDE
 from clinic.diagnosis.probes.vector import Vector, add, at, dot, norm, sub, times
 from clinic.diagnosis.simulation import Simulation, kept
 
@@ -27,6 +27,16 @@ def geoms_of_tree(simulation: Simulation, root: int) -> list[int]:
     """The geoms of a root and of all that hangs on it; for 0 those that do not move."""
     owner = root_of(simulation)
     return [geom for geom, body in enumerate(simulation.model("geom_bodyid")) if owner[int(body)] == root]
+
+
+def mechanisms(simulation: Simulation) -> dict[int, list[int]]:
+    """The geoms that have an end of all that hangs together and moves, by its root."""
+    owners, bodies, kinds = root_of(simulation), simulation.model("geom_bodyid"), simulation.model("geom_type")
+    made: dict[int, list[int]] = {}
+    for geom, kind in enumerate(kinds):
+        if (root := owners[int(bodies[geom])]) and int(kind) not in (PLANE, HFIELD):
+            made.setdefault(root, []).append(geom)
+    return made
 
 
 def falling(simulation: Simulation) -> dict[int, int]:

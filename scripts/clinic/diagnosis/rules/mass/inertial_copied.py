@@ -73,7 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             parts.setdefault(_part(of, body), body)
             names.setdefault(_plain(of.engine.name("body", body)), body)
         copies = [body for body in bodies[1:] if body in parts.values() and body in names.values()]
-        if not copies or min(len(parts), len(names)) < 2:
+        if not copies:
             continue
         first, mass = of.name("body", bodies[0]), of.model("body_mass")[bodies[0]]
         says = f"Mass and principal inertia are those of {first}, {mass:.4g} kg, to four digits."

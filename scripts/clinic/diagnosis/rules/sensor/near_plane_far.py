@@ -35,8 +35,8 @@ import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.engine import HFIELD, PLANE
-from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.engine import PLANE
+from clinic.diagnosis.probes.shape import mechanisms, root_of
 from clinic.diagnosis.probes.vector import Vector, dot, norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
@@ -55,7 +55,6 @@ NEARLY = 1.5  # times the plane's distance
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The cameras on board of something before which the near plane is far, all together."""
     of = model.simulation
-    of.begin()
     extent = of.model("stat.extent")[0]
     plane = extent * of.model("vis.map.znear")[0]
     ahead = {each: _ahead(of, each) for each in range(of.count("camera"))}
@@ -86,13 +85,9 @@ def _ahead(of: Simulation, camera: int) -> float:
 def _mechanisms(of: Simulation) -> dict[int, tuple[list[Vector], float]]:
     """Where the geoms of each mechanism are at the start, and how large it is in m, by its root."""
     of.begin()
-    owners, bodies, kinds, radii = (root_of(of), *map(of.model, ("geom_bodyid", "geom_type", "geom_rbound")))
-    found: dict[int, list[int]] = {}
-    for geom, kind in enumerate(kinds):
-        if (root := owners[int(bodies[geom])]) and int(kind) not in (PLANE, HFIELD):
-            found.setdefault(root, []).append(geom)
+    radii = of.model("geom_rbound")
     made = {}
-    for root, geoms in found.items():
+    for root, geoms in mechanisms(of).items():
         places = [of.data_row("geom_xpos", each, 3) for each in geoms]
         sides = [max(axis) - min(axis) for axis in zip(*places, strict=True)]
         made[root] = places, math.hypot(*sides) + 2 * max(radii[each] for each in geoms)

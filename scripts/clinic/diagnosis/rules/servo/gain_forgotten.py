@@ -49,7 +49,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.servo import servos
+from clinic.diagnosis.probes.servo import servo_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, counted, rounded
@@ -120,7 +120,7 @@ def _held(model: ReaderModel, bare: list[int]) -> Iterator[Suspect]:
 
 def _stops(of: Simulation, actuator: int) -> float:
     """How far from its target a servo's joint may be held by its friction, as a share of its range."""
-    servo = next((each for each in servos(of) if each.actuator == actuator), None)
+    servo = servo_of(of, actuator)
     if servo is None or servo.range is None or servo.range[1] <= servo.range[0]:
         return 0.0
     return of.model("dof_frictionloss")[servo.dof] / servo.stiffness / (servo.range[1] - servo.range[0])
@@ -128,7 +128,8 @@ def _stops(of: Simulation, actuator: int) -> float:
 
 def _swing(of: Simulation, actuator: int) -> float:
     """The frequency in rad/s of a joint on its servo; 0 for an actuator of something else."""
-    return next((math.sqrt(each.stiffness / each.inertia) for each in servos(of) if each.actuator == actuator), 0.0)
+    servo = servo_of(of, actuator)
+    return math.sqrt(servo.stiffness / servo.inertia) if servo else 0.0
 
 
 def _seconds(of: Simulation, actuator: int) -> float:

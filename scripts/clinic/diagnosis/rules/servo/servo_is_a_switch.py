@@ -34,7 +34,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 
-from clinic.diagnosis.probes.servo import Servo, alone, command, servos
+from clinic.diagnosis.probes.servo import Servo, alone, command, servo_of, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
@@ -71,7 +71,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _turns(of: Simulation, actuator: int) -> float:
-    servo = next((each for each in servos(of) if each.actuator == actuator), None)
+    servo = servo_of(of, actuator)
     return _share(of, servo) if servo else 0.0
 
 

@@ -35,8 +35,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HFIELD, PLANE
-from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.shape import mechanisms
 from clinic.diagnosis.probes.vector import Vector
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -73,13 +72,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _places(of: Simulation) -> dict[int, dict[int, Vector]]:
     """Where the geoms are that have an end and may move, by the root of their mechanism."""
-    owners, bodies, kinds = root_of(of), of.model("geom_bodyid"), of.model("geom_type")
-    made: dict[int, dict[int, Vector]] = {}
-    for geom, kind in enumerate(kinds):
-        root = owners[int(bodies[geom])]
-        if root and int(kind) not in (PLANE, HFIELD):
-            made.setdefault(root, {})[geom] = of.data_row("geom_xpos", geom, 3)
-    return made
+    return {root: {geom: of.data_row("geom_xpos", geom, 3) for geom in geoms} for root, geoms in mechanisms(of).items()}
 
 
 def _far(of: Simulation, root: int, geom: int) -> float:

@@ -35,8 +35,7 @@ import math
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HFIELD, PLANE
-from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.shape import mechanisms, root_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -79,13 +78,12 @@ def _far(of: Simulation, site: int) -> float:
 def _boxes(of: Simulation) -> dict[int, tuple[list[float], list[float]]]:
     """The ends of the box around all geoms of each mechanism at the start, by its root."""
     of.begin()
-    owners, bodies, kinds, radii = (root_of(of), *map(of.model, ("geom_bodyid", "geom_type", "geom_rbound")))
+    radii = of.model("geom_rbound")
     made: dict[int, tuple[list[float], list[float]]] = {}
-    for geom, kind in enumerate(kinds):
-        if (root := owners[int(bodies[geom])]) and int(kind) not in (PLANE, HFIELD):
-            low, high = made.setdefault(root, ([math.inf] * 3, [-math.inf] * 3))
-            for axis, x in enumerate(of.data_row("geom_xpos", geom, 3)):
-                low[axis], high[axis] = min(low[axis], x - radii[geom]), max(high[axis], x + radii[geom])
+    for root, geoms in mechanisms(of).items():
+        places = [(of.data_row("geom_xpos", each, 3), radii[each]) for each in geoms]
+        low = [min(place[axis] - radius for place, radius in places) for axis in range(3)]
+        made[root] = low, [max(place[axis] + radius for place, radius in places) for axis in range(3)]
     return made
 
 

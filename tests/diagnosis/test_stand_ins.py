@@ -98,6 +98,17 @@ def test_what_else_keeps_it_from_compiling_is_told_too(diagnosed):
     assert found.hints[1].line == text.partition('elbow" range')[0].count("\n") + 1
 
 
+def test_behind_an_error_that_is_mended_the_rest_is_a_hint(diagnosed):
+    text = BOX.format(files='builtin="flat" width="8" height="48"')
+    text = text.replace('name="floor"', 'name="floor"\n colour="red"')
+    found = diagnosed(text)
+    assert [each.rule for each in found.causes] == ["unknown-attribute"], found.text()
+    assert "mended" in found.causes[-1].says
+    (hint,) = found.hints
+    assert (hint.rule, hint.line) == ("overlap-at-start", text.partition("<body")[0].count("\n") + 1)
+    assert "mended" not in diagnosed(text.replace("0 0 0.02", "0 0 0.2")).causes[-1].says
+
+
 QUADROTOR = """<mujoco>
   <asset><mesh name="frame" file="frame.stl"/></asset>
   <worldbody>

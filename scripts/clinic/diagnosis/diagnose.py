@@ -24,6 +24,7 @@ from clinic.diagnosis.suspect import Suspect
 
 LIMIT = 20.0  # s for a start, after which no further rule is tried
 OF_SHAPES = {"contact", "mass", "parts-coincide"}  # rules, by area or id, that boxes in the place of meshes mislead
+MENDED = "What else is told was measured with these mended."
 LARGER = 3.0  # times the boxes' size: what is told is the same with these
 
 
@@ -62,15 +63,12 @@ def examine(
     if error:
         found, left, placed = mended(model, of_errors, tell)
         made, found = _Made([], left.texts, [], model), grouped(found)
-        if isinstance(left.engine, StandIns) and not left.error:
-            made = trial.behind(left, left.engine, others)
+        if not left.error:
+            made = trial.behind(left, others, as_hints=any(each.level == "cause" for each in found))
             suspects = (_located(each.suspect, made.model) for each in made.found)
             behind = [replace(each, suspect=placed(one)) for each, one in zip(made.found, suspects, strict=True)]
             made = made._replace(found=behind, model=model)
-            found = [
-                _with(each, left.engine.told()) if each.rule.id in OF_FILES and each.level == "hint" else each
-                for each in found
-            ]
+            found = _measured_with(found, left.engine, bool(behind))
     else:
         found, of_errors, made = [], [], trial.from_starts(model, others)
     found += order(grouped(made.found), families)
@@ -93,8 +91,15 @@ def examine(
     )
 
 
-def _with(each: Judged, sentence: str) -> Judged:
-    return replace(each, suspect=replace(each.suspect, says=f"{each.suspect.says} {sentence}"))
+def _measured_with(found: Sequence[Judged], engine: Engine, more: bool) -> list[Judged]:
+    """Errors, the last of which says of what model all else is told."""
+
+    def told(each: Judged) -> str:
+        if isinstance(engine, StandIns):
+            return f" {engine.told()}" if each.rule.id in OF_FILES and each.level == "hint" else ""
+        return f" {MENDED}" if more and each is found[-1] else ""
+
+    return [replace(each, suspect=replace(each.suspect, says=each.suspect.says + told(each))) for each in found]
 
 
 def _located(suspect: Suspect, model: ReaderModel) -> Suspect:
@@ -157,11 +162,16 @@ class _Trial:
             return again._replace(found=again.found + [each for each in made.found if each.rule.id not in seen])
         return made
 
-    def behind(self, left: ReaderModel, stand_ins: StandIns, wanted: Sequence[Rule]) -> _Made:
-        """The same of a model without some files: all where they are pictures, else as hints what needs no shape."""
-        model = ReaderModel(stand_ins, left.texts, left.source, self.start or Start())
-        if not stand_ins.shapes:
-            return self.from_starts(model, wanted)
+    def behind(self, left: ReaderModel, wanted: Sequence[Rule], as_hints: bool) -> _Made:
+        """The same of a model that was mended: what needs no shape where boxes are in it."""
+        model = ReaderModel(left.engine, left.texts, left.source, self.start or Start())
+        stand_ins = left.engine
+        if not (isinstance(stand_ins, StandIns) and stand_ins.shapes):
+            made = self.from_starts(model, wanted)
+            if as_hints:
+                hints = [replace(each, level="hint") for each in made.found]
+                made = made._replace(found=hints, fixed=left.texts)
+            return made
         made = self.from_starts(model, [rule for rule in wanted if not {rule.area, rule.id} & OF_SHAPES])
         larger = StandIns(stand_ins.engine, LARGER * stand_ins.size, stand_ins.absent)
         other = ReaderModel(larger, left.texts, left.source, self.start or Start())

@@ -107,6 +107,15 @@ def test_a_link_that_grazes_the_base_it_turns_on_jams(gap, told):
     assert [each.elements[0] for each in found] == ['joint "turn"'] * told
 
 
+@pytest.mark.parametrize(("body", "told"), [("head", True), ("hand", False)])
+@pytest.mark.parametrize("axes", ["0 0 1 0 1 0", "0 -1 0 0 0 -1"], ids=["on its side", "upside down"])
+def test_the_image_of_a_head_is_level_and_that_of_a_hand_as_it_likes(body, told, axes):
+    camera = f'<body name="{body}" pos="0 0 1">{ARM}<camera name="eye" xyaxes="{axes}"/></body>'
+    text = f"<mujoco><worldbody>{FLOOR}{camera}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["camera-upside-down"]).hints
+    assert [each.elements for each in found] == [('camera "eye"',)] * told
+
+
 def test_all_joints_that_jam_are_told_together():
     leg = (
         '<body name="hip{0}" pos="{1} 0 0"><joint axis="0 1 0" range="-20 20"/><geom size="0.02"/>'

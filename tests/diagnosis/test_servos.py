@@ -176,3 +176,30 @@ def test_a_light_foot_without_armature_is_not_the_timesteps_fault():
     assert "no-armature" in causes(found)
     assert "timestep-too-long" not in causes(found)
     assert "no-armature" not in causes(diagnosed(text.replace('range="-30 30"', 'range="-30 30" armature="0.01"')))
+
+
+FOREARM = """
+<mujoco>
+  <option integrator="{integrator}"/>
+  <worldbody>
+    <body pos="0 0 1">
+      <joint name="forearm" axis="0 0 1" damping="0.4"/>
+      <geom type="capsule" fromto="0 0 0 0 0 0.2" size="0.03" mass="0.3"/>
+    </body>
+  </worldbody>
+  <actuator>
+    <position name="forearm" joint="forearm" kp="80" kv="{kv}" {force}/>
+  </actuator>
+</mujoco>
+"""
+
+
+@pytest.mark.parametrize(
+    ("kv", "force", "told"),
+    [(5, 'forcerange="-15 15"', True), (5, "", False), (0.05, 'forcerange="-15 15"', False)],
+    ids=["clamped", "not clamped", "as much as the inertia bears"],
+)
+@pytest.mark.parametrize("integrator", ["implicit", "implicitfast"])
+def test_a_clamped_force_has_no_implicit_damping(integrator, kv, force, told):
+    found = diagnosed(FOREARM.format(integrator=integrator, kv=kv, force=force))
+    assert ("servo-is-a-switch" in [each.rule for each in found.hints]) is told, found.text()

@@ -23,7 +23,7 @@ Good:
 
 The number: the angle between the image's up and the world's, at most 100 degrees, for a camera that is fixed to the
 world or follows a robot, and does not look straight up or down. A hint tells of an image that lies on its side by more
-than 45 degrees, of a body with a free joint too; an upside-down one there is a hint as well.
+than 45 degrees, of a body with a free joint or a head too; an upside-down one there is a hint as well.
 
 When it is wrong: a camera that is mounted upside down on purpose. Cameras on arms are left alone.
 """
@@ -31,6 +31,7 @@ When it is wrong: a camera that is mounted upside down on purpose. Cameras on ar
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.view import FIXED, axes, onlookers, turned
@@ -43,6 +44,7 @@ FAMILIES = ("camera",)
 SINCE = "0.1"
 CASE = "camera-upside-down"
 
+HEAD = re.compile("(?i)head|neck|skull")
 MOST, ASIDE, UPSIDE = 100.0, 45.0, 0.9  # degrees, degrees; of the view's direction along the vertical
 
 
@@ -72,14 +74,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _aboard(simulation: Simulation) -> list[int]:
-    """The cameras that are fixed to a body with a free joint."""
+    """The cameras that are fixed to a body with a free joint, or to a head."""
     bodies, modes = simulation.model("cam_bodyid"), simulation.model("cam_mode")
+    heads = [body for body in range(1, simulation.count("body")) if HEAD.search(simulation.name("body", body))]
+    carriers = {*simulation.free_bodies, *heads}
     pairs = enumerate(zip(bodies, modes, strict=True))
-    return [camera for camera, (body, mode) in pairs if int(mode) == FIXED and int(body) in simulation.free_bodies]
+    return [camera for camera, (body, mode) in pairs if int(mode) == FIXED and int(body) in carriers]
 
 
 def _aside(simulation: Simulation) -> Iterator[Suspect]:
-    """Each camera of the world or of a body with a free joint whose image lies on its side."""
+    """Each camera of the world, of a body with a free joint or of a head whose image lies on its side."""
     modes, aboard = simulation.model("cam_mode"), _aboard(simulation)
     for camera in range(simulation.count("camera")):
         if int(modes[camera]) != FIXED or not (camera in onlookers(simulation) or camera in aboard):

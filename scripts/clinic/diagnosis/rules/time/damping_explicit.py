@@ -1,0 +1,77 @@
+"""A joint's damping is more than an explicit integrator can follow.
+
+`Euler` and `implicitfast` take a joint's damping implicitly: it may be as high as one likes. `RK4` does not, nor does
+`Euler` with `eulerdamp="disable"`: a damper that stops a light wheel within one step throws it back instead, farther
+each time.
+
+Bad:
+
+    <mujoco>
+      <option integrator="RK4"/>
+      <worldbody>
+        <body pos="0 0 0.5">
+          <joint name="wheel" axis="0 1 0" damping="4"/>
+          <geom type="cylinder" size="0.05 0.01" mass="0.2" quat="0.7071068 0.7071068 0 0"/>
+        </body>
+      </worldbody>
+      <actuator>
+        <motor joint="wheel" ctrlrange="-1 1"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    -   <option integrator="RK4"/>
+    +   <option integrator="implicitfast"/>
+
+The number: with the timestep h, the damping d and the inertia M, h d / M is at most 2.79 with RK4 and 2 with an
+explicit Euler (stability of a damper); and whether a joint becomes faster than 100 rad/s, or rattles, when the model
+is let go, nudged or driven.
+
+When it is wrong: an inertia or a damping that is itself the mistake.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.drive import commanded
+from clinic.diagnosis.probes.run import fastest
+from clinic.diagnosis.probes.shake import SHAKES, shake
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.suspect import Suspect
+
+TITLE = "Damping that the integrator cannot follow"
+FAMILIES = ("explodes", "oscillates")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "few healthy models are integrated by RK4 and strongly damped"
+
+BEARS = {0: 2.0, 1: 2.79}  # h d / M, by mjtIntegrator: Euler, RK4
+EULERDAMP_OFF = 1 << 15  # mjtDisableBit
+FAST, TENTH = 100.0, 0.1  # rad/s; of the symptom is left
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The integrator, where it takes damping explicitly that the timestep does not bear."""
+    of, inertia = model.simulation, model.simulation.mass_diagonal
+    integrator = int(of.model("opt.integrator")[0])
+    if integrator not in BEARS or (not integrator and not int(of.model("opt.disableflags")[0]) & EULERDAMP_OFF):
+        return
+    damping = of.model("dof_damping")
+    ratios = {dof: of.timestep * damping[dof] / max(inertia[dof], 1e-12) for dof in range(of.count("dof"))}
+    dof, ratio = max(ratios.items(), key=lambda each: each[1], default=(0, 0.0))
+    edits = model.option("integrator", "implicitfast")
+    if ratio <= BEARS[integrator] or not edits:
+        return
+    for probe, limit in ((fastest(), FAST), (shake(), SHAKES), (commanded(), FAST)):
+        before = model.measured(probe)
+        if before > limit and model.measured(probe, edits) <= max(limit, TENTH * before):
+            name = of.name("joint", of.dof_joints[dof])
+            says = f"At {name}: damping {damping[dof]:.3g} on an inertia of {inertia[dof]:.2g}, h d / M is {ratio:.3g}."
+            well = f"h d / M < {BEARS[integrator]:g}"
+            now = "RK4" if integrator else "Euler without eulerdamp"
+            yield Suspect(
+                ("the integrator", name), "integrator", now, "implicitfast", edits, probe, limit, says, well, TENTH
+            )
+            return

@@ -49,6 +49,7 @@ def found(text: str, rule: str) -> list[str]:
         (("0.425 -0.131 0", "0.435 -0.131 0"), "mm; of ur5e it is 425 mm"),
         (("0 0 -0.0997", "0 0 -0.0946"), "is 94.6 mm; of ur5e it is 99.7 mm"),
         (('name="wrist_2" axis="0 0 -1"', 'name="wrist_2" axis="0 0 1"'), "turns about z as the arm stands at 0"),
+        (('mass="8.058"', 'mass="7.358"'), "It is what those of ur5 weigh."),
     ],
 )
 def test_a_length_or_an_axis_of_an_arm_that_is_sold_is_told(change, says):

@@ -41,6 +41,7 @@ FAMILIES = ("stuck", "explodes")
 SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "only URDF has efforts, and the healthy models are MJCF"
+MINOR = True
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -44,9 +44,9 @@ The number: how far a distance between two axes in a row, or the offset between 
 from the data sheet's; more than 2 mm and 1 %, where at most two of an arm's are, and half of those that are not 0. Or
 the axes that point against the ones in the maker's description while all the others point along them, at most two. Or
 how far the shoulder is from where it is above the base; or how many times the links together weigh what they do there,
-from 2 on; or by how many degrees a range goes beyond theirs, from 3 to 45. Lengths and axes are those of Denavit and
-Hartenberg, so that they do not depend on where the frames of the bodies are. They are from the makers' own
-descriptions, for the arms in `probes/arms.toml`.
+from 2 on, or from 1.02 where it is to 0.3 % what those of a sister model weigh; or by how many degrees a range goes
+beyond theirs, from 3 to 45. Lengths and axes are those of Denavit and Hartenberg, so that they do not depend on where
+the frames of the bodies are. They are from the makers' own descriptions, for the arms in `probes/arms.toml`.
 
 When it is wrong: an arm that was measured itself, or one of another series of the same name.
 """
@@ -67,6 +67,7 @@ from clinic.diagnosis.probes.arms import (
     called,
     differs,
     direction,
+    known_arms,
     longest_row,
     measured,
     rows_of_hinges,
@@ -85,7 +86,7 @@ UNPLANTED = "one of the 81 models of the bench is an arm that is sold"
 
 BASE = re.compile(r"(?<![a-z])base(?![a-z])|link_?0(?![0-9])", re.IGNORECASE)
 FARTHER, ANOTHER, ROUND = math.radians(3), math.radians(45), 2 * math.pi - 0.1
-HEAVY = 2.0  # times the mass of the data sheet
+HEAVY, SISTER, SAME = 2.0, 1.02, 0.003  # times the mass of the data sheet; with a sister's mass; how near to it
 LEAST = 5  # hinges in a row: no arm of the table has fewer
 FEW = 2  # lengths, or axes, that may be wrong in an arm that is still the one of the data sheet
 
@@ -210,16 +211,27 @@ def _sunk(of: Simulation, joints: tuple[int, ...], height: float) -> float:
 
 
 def _mass(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
-    """An arm many times as heavy, or as light, as its links are."""
-    of = model.simulation
-    if arm.mass is None or 1 / HEAVY <= (times_it := _weight(of, row.joints) / arm.mass) <= HEAVY:
+    """An arm many times as heavy, or as light, as its links are, or one with the mass of a sister model."""
+    of, weight = model.simulation, _weight(model.simulation, row.joints)
+    if arm.mass is None:
+        return
+    off = max(weight / arm.mass, arm.mass / max(weight, 1e-9))
+    sister = next((name for name, mass in _sisters(arm) if abs(weight / mass - 1) < SAME), "")
+    if off <= (SISTER if sister else HEAVY):
         return
     names = tuple(of.name("body", body) for body in _links(of, row.joints))
-    says = f"The links weigh {_weight(of, row.joints):.3g} kg together; those of {arm.names[0]} {arm.mass:.3g} kg."
-    off = max(times_it, 1 / max(times_it, 1e-9))
+    says = f"The links weigh {weight:.3g} kg together; those of {arm.names[0]} {arm.mass:.3g} kg."
+    says += f" It is what those of {sister} weigh." if sister else ""
     probe = Probe("mass over the data sheet's", "", _heavy, (row.joints, arm.mass), dynamic=False)
-    now, value = f"{_weight(of, row.joints):.3g} kg", f"{arm.mass:.3g} kg"
-    yield Suspect(names, "mass", now, value, (), probe, HEAVY, says, value, excess=off, level="hint")
+    now, value, most = f"{weight:.3g} kg", f"{arm.mass:.3g} kg", SISTER if sister else HEAVY
+    yield Suspect(names, "mass", now, value, (), probe, most, says, value, excess=off, level="hint")
+
+
+def _sisters(arm: Arm) -> list[tuple[str, float]]:
+    """Name and mass of the arms of as many axes whose name begins with the same letters: those of one maker."""
+    stem = re.compile(re.sub("[^a-z].*", "", arm.names[0]) + "(?![a-z])")
+    others = (each for each in known_arms() if len(each.axes) == len(arm.axes) and each != arm)
+    return [(each.names[0], each.mass) for each in others if each.mass and stem.match(each.names[0])]
 
 
 def _ranges(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:

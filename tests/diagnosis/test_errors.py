@@ -91,6 +91,7 @@ ARM = """<mujoco>{0}
 WRITTEN = [  # what is written at the top, in the body and at the end; the rule, its attribute and value
     ("", "<inertial pos='0 0 0' mass='1'/><inertial pos='0 0 0' mass='2'/>", "", "given-twice", "", "removed"),
     ("", "<geom size='10cm'/>", "", "malformed-number", "size", "0.1"),
+    ("", "<geom size='.1' pos='0.13/2 0 -0.25'/>", "", "malformed-number", "pos", "0.065 0 -0.25"),
     ("", "<geom size='0,1'/>", "", "malformed-number", "size", "0.1"),
     ("", "<geom size='0.1' pos='0 0 \u22120.1'/>", "", "malformed-number", "pos", "0 0 -0.1"),
     ("", "<site name='s' type='plane'/>", "", "invalid-value", "type", "box"),

@@ -112,7 +112,7 @@ def _about(suspect: Suspect) -> str:
 
 
 def _together(alike: Sequence[Judged]) -> Sequence[Judged]:
-    written = {(each.suspect.now, each.suspect.value) for each in alike}
+    written = {(each.suspect.now, each.suspect.value) for each in alike if each.suspect.attribute}
     if len(alike) == 1 or (alike[0].level == "cause" and len(alike) == len(written) == 2):
         return alike
     worst = max(alike, key=lambda each: each.before)

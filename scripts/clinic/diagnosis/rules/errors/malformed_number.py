@@ -77,7 +77,8 @@ def _guesses(attribute: str, now: str, short: bool) -> Iterator[str]:
     """What may have been meant: the likeliest first."""
     plain = now.replace("\u2212", "-").replace("\u2013", "-")
     words = plain.replace(";", " ").split()
-    if (read := [_read(word) for word in words]) and None not in read:
+    read = [_read(word) for word in words]
+    if None not in read and not all(map(NUMBER.fullmatch, words)):
         yield " ".join(f"{number:.6g}" for number in read)
     if len(words) == 1 and (letter := words[0].lower().lstrip("+-")) in AXES:
         yield AXES[letter].replace("1", "-1" if words[0][0] == "-" else "1")
@@ -112,9 +113,9 @@ def _size(word: str) -> float:
 
 
 def _read(word: str) -> float | None:
-    """A number with a unit, or a part of pi: `10cm`, `-pi/2`."""
+    """A number, one with a unit or a divisor, or a part of pi: `10cm`, `0.13/2`, `-pi/2`."""
     found = WORD.fullmatch(word)
-    if not found or not (found[2] or found[3]) or word == found[1] + found[2]:
+    if not found or not (found[2] or found[3]):
         return None
     value = float(found[2] or 1) * (math.pi if found[3] else 1.0) / float(found[4] or 1)
     return (-value if found[1] == "-" else value) * UNITS.get(found[5] or "", 1.0)

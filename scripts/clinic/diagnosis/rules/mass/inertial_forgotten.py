@@ -94,19 +94,21 @@ def _fixed(model: ReaderModel) -> Iterator[Suspect]:
         return
     of = model.simulation
     parents, masses = of.model("body_parentid"), of.model("body_mass")
-    found = []
+    found: dict[int, int] = {}
     for body in of.moving_bodies:
         link, geoms = int(parents[body]), of.geoms_of(body)
+        while link and not (of.joints_of(link) or of.geoms_of(link) or inertial(model, link)):
+            link = int(parents[link])  # a frame between the two
         if of.joints_of(body) or not geoms or inertial(model, body) is not None or inertial(model, link) is None:
             continue
         if not model.source.urdf and any(model.element("geom", geom) is None for geom in geoms):
             continue
         written = any(model.value("geom", geom, name) for geom in geoms for name in ("mass", "density"))
         if not written and masses[body] > MORE * masses[link]:
-            found.append(body)
+            found[body] = link
     if found:
-        mass = sum(masses[body] for body in found)
-        holder = of.name("body", int(parents[found[0]]))
+        mass, first = sum(masses[body] for body in found), next(iter(found.values()))
+        holder = of.name("body", first)
         yield Suspect(
             tuple(of.name("body", body) for body in found),
             "density",
@@ -114,7 +116,7 @@ def _fixed(model: ReaderModel) -> Iterator[Suspect]:
             "0",
             tuple(edit for body in found for edit in model.set("geom", of.geoms_of(body), "density", "0")),
             mass_of(tuple(found)),
-            MORE * masses[int(parents[found[0]])],
+            MORE * masses[first],
             f"{holder} states its mass; what is fixed to it adds {mass:.3g} kg by the default density of its geoms.",
             'density="0", where the link\'s <inertial> has all of its mass',
             level="hint",

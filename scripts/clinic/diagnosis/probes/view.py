@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Sequence
 from itertools import product
 
@@ -17,6 +18,7 @@ ASPECT = 1.0  # of the image's sides, where the model does not say
 VISIBLE = 3  # groups from this one on are hidden by default
 TURNS = ("xyaxes", "euler", "axisangle", "zaxis", "quat")
 FIXED, TRACK, TRACKCOM = range(3)  # mjtCamLight
+HEAD = re.compile("(?i)head|neck|skull")
 
 
 def axes(simulation: Simulation, camera: int) -> tuple[Vector, Vector, Vector]:

@@ -26,17 +26,17 @@ is in the image; 1 is nothing in sight. By geometry, for a square image where `r
 the start.
 
 When it is wrong: things come into view later, or the camera is meant for the floor. Cameras on moving bodies are left
-alone.
+alone, and of one that is called a head's there is a hint.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.view import aimed, onlookers, sees, things
+from clinic.diagnosis.probes.view import HEAD, aimed, onlookers, sees, things
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Level, Probe, Suspect
 
 TITLE = "A camera that looks past everything"
 FAMILIES = ("camera",)
@@ -59,4 +59,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             probe = Probe("out of sight", "of all geoms but floors", _unseen, (camera,), dynamic=False)
             value = edits[-1].value if edits else "towards the things"
             says = "Nothing but floors is in its image."
-            yield Suspect((simulation.name("camera", camera),), "xyaxes", "", value, edits, probe, MOST, says)
+            name = simulation.name("camera", camera)
+            level: Level = "hint" if HEAD.search(name) else "cause"
+            yield Suspect((name,), "xyaxes", "", value, edits, probe, MOST, says, level=level)

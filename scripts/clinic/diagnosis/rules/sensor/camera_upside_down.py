@@ -31,10 +31,9 @@ When it is wrong: a camera that is mounted upside down on purpose. Cameras on ar
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.view import FIXED, axes, onlookers, turned
+from clinic.diagnosis.probes.view import FIXED, HEAD, axes, onlookers, turned
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Level, Probe, Suspect
@@ -44,7 +43,6 @@ FAMILIES = ("camera",)
 SINCE = "0.1"
 CASE = "camera-upside-down"
 
-HEAD = re.compile("(?i)head|neck|skull")
 MOST, ASIDE, UPSIDE = 100.0, 45.0, 0.9  # degrees, degrees; of the view's direction along the vertical
 
 

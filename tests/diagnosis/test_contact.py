@@ -116,6 +116,16 @@ def test_the_image_of_a_head_is_level_and_that_of_a_hand_as_it_likes(body, told,
     assert [each.elements for each in found] == [('camera "eye"',)] * told
 
 
+@pytest.mark.parametrize(("chest", "told"), [("0.1 0 0.1", True), ("-0.3 0 -0.1", False)])
+def test_a_head_that_sees_its_own_chest_alone_is_told(chest, told):
+    eye = '<camera name="eye" xyaxes="0 -1 0 0.6 0 0.8" fovy="20"/><geom type="sphere" size="0.03"/>'
+    head = f'<body name="head" pos="0 0 0.25">{ARM}{eye}</body>'
+    trunk = f'<geom type="box" size="0.3 0.2 0.05" pos="{chest}"/>'
+    text = f'<mujoco><worldbody>{FLOOR}<body name="torso" pos="0 0 1">{trunk}{head}</body></worldbody></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text}, select=["camera-blocked"]).hints
+    assert [each.elements for each in found] == [('camera "eye"',)] * told
+
+
 def test_all_joints_that_jam_are_told_together():
     leg = (
         '<body name="hip{0}" pos="{1} 0 0"><joint axis="0 1 0" range="-20 20"/><geom size="0.02"/>'

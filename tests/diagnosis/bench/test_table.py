@@ -78,7 +78,8 @@ def test_the_table_is_plain_data(sampled):
 def test_a_text_fault_is_found_where_it_was_planted(legs):
     made = plant_one([legs], "number-malformed", 3, 0)
     assert made["harm"] == "does not compile"
-    assert [each["right"] for each in made["told"]["findings"]] == [True]
+    first = made["told"]["findings"][0]
+    assert (first["rule"], first["right"]) == ("malformed-number", True)
 
 
 def test_a_plant_that_does_no_harm_is_not_diagnosed(legs, monkeypatch):

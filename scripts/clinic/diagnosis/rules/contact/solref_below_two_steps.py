@@ -52,9 +52,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     now = " ".join(f"{x:g}" for x in of.row("geom_solref", short[0], 2))
     says = f"Two timesteps are {2 * of.timestep:g} s, and MuJoCo computes with no less."
     probe = Probe("two timesteps over the time constant", "", _ratio, short, dynamic=False)
-    edits = model.set("geom", short, "solref", "0.02 1")
+    value = f"{max(0.02, 2 * of.timestep):g} 1"
+    edits = model.set("geom", short, "solref", value)
     names = tuple(of.name("geom", geom) for geom in short)
-    yield Suspect(names, "solref", now, "0.02 1", edits, probe, MOST, says, "0.02 1, MuJoCo's default")
+    yield Suspect(names, "solref", now, value, edits, probe, MOST, says, "0.02 1, MuJoCo's default")
 
 
 def _ratio(of: Simulation, *geoms: int) -> float:

@@ -142,9 +142,11 @@ def _of_characters(text: str, line: int) -> Iterator[str]:
     yield CONTROL.sub("", text)
     yield with_line(re.sub(r"(\s[\w:.-]+\s*=\s*)([^\s\"'<>/=][^\"'<>=]*\")", r'\1"\2', here))
     yield with_line(BARE.sub(r'\1"\2"', here))
-    yield with_line(UNCLOSED.sub(r'\1"\2', here))
-    yield with_line(re.sub(r"(=\s*\"[^\"]*)$", r'\1"', here))
-    yield with_line(re.sub(r"(=\s*\"[^\"<>=]*?)(\s*/?>)", r'\1"\2', here))
+    for at in range(line, max(line - 4, 0), -1):  # expat stumbles over the `<` of a later line
+        if (row := "".join(lines[at - 1 : at])).count('"') % 2:
+            yield with_line(UNCLOSED.sub(r'\1"\2', row), at)
+            yield with_line(re.sub(r"(=\s*\"[^\"<>=]*?)(\s*/?>)", r'\1"\2', row), at)
+            yield with_line(re.sub(r"(=\s*\"[^\"]*)$", r'\1"', row), at)
     yield _once(text, line)
     for at in range(line, max(line - 4, 0), -1):
         row, below = lines[at - 1].rstrip() if at <= len(lines) else "", "".join(lines[at : at + 2]).lstrip()

@@ -22,7 +22,8 @@ Good:
 
 The number: the angle between gravity and the way down to the floor (-z where there is no horizontal plane), at most
 45 degrees; and the time in which something falls as far as the model is wide: 0.45 s for 1 m, told where it is under
-0.025 s or over 5 s. A hint tells of more than 15 m/s2 or less than 1, but for 981 and 9810: a model in cm or mm.
+0.025 s or over 5 s. A hint tells of more than 15 m/s2 or less than 1, but for 981 and 9810 in a model in cm or mm,
+where water has a density of 1 and not of 1,000.
 
 When it is wrong: a slope or a wall that is made by tilting gravity. Gravity 0 where free bodies are above a floor is a
 hint, for it is often meant.
@@ -35,6 +36,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import PLANE
+from clinic.diagnosis.probes.matter import matter
 from clinic.diagnosis.probes.shape import falling
 from clinic.diagnosis.probes.vector import dot
 from clinic.diagnosis.reader_model import ReaderModel
@@ -49,6 +51,7 @@ ANGLE, SHORT, LONG = 45.0, 0.025, 5.0  # degrees, s, s
 OFF = 128  # mjtDisableBit
 USUAL = "0 0 -9.81"
 EARTH = 1.0, 15.0  # m/s2
+LIGHT = 50.0  # of water's density as it is in kg and m, that is 1,000
 
 
 def _up(simulation: Simulation) -> tuple[float, float, float]:
@@ -78,8 +81,12 @@ def _pull(simulation: Simulation) -> float:
     return abs(math.hypot(*simulation.model("opt.gravity")) / 9.81 - 1)
 
 
-def _metres(size: float) -> bool:
-    return not any(abs(size / each - 1) < 0.02 for each in (981, 9810))
+def _metres(of: Simulation, size: float) -> bool:
+    """Whether lengths are in m: gravity is not that in cm or mm, or water would be one as heavy as in kg and m."""
+    if not any(abs(size / each - 1) < 0.02 for each in (981, 9810)):
+        return True
+    heaviest = matter(of, max(of.moving_bodies, key=lambda body: of.model("body_mass")[body]))
+    return heaviest is not None and heaviest.density > LIGHT
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -107,7 +114,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     ratio = Probe("time of a fall over the model's extent, beyond 0.025 to 5 s by", "times", _ratio, dynamic=False)
     scaled = " ".join(f"{9.81 * each / size + 0.0:.4g}" for each in g)
     yield Suspect(name, "gravity", now, scaled, model.option("gravity", scaled), ratio, 1.0, says, USUAL)
-    if _ratio(simulation) <= 1 and not EARTH[0] < size < EARTH[1] and _metres(size):
+    if _ratio(simulation) <= 1 and not EARTH[0] < size < EARTH[1] and _metres(simulation, size):
         pull = Probe("share by which gravity differs from that of the earth", "", _pull, dynamic=False)
         says = f"Gravity is {size:.3g} m/s2, {size / 9.81:.2g} times that of the earth."
         edits = model.option("gravity", scaled)

@@ -53,7 +53,8 @@ def _strange(model: ReaderModel, each: Comparison, side: int) -> float:
             "" if joint is None else simulation.engine.name("joint", joint),
         )
         return len(set(_pieces(names[0])) ^ set(_pieces(names[1])))
-    values = Counter(_value(model, each, index) for index in range(simulation.count(each.kind)))
+    alike = (one for one in twins(simulation).comparisons if (one.kind, one.quantity) == (each.kind, each.quantity))
+    values = Counter(_value(model, each, index) for one in alike for index in (one.left, one.right))
     return -values[_value(model, each, side)]
 
 

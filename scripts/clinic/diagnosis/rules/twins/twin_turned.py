@@ -57,6 +57,7 @@ from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.probes.twins import Twins, twins
 from clinic.diagnosis.probes.vector import Vector, written
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.twins._pair import EITHER
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
@@ -78,14 +79,19 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     for left, right in _turned(of)[:FEW]:
         before = _astray(of, left)
-        for body, twin in ((right, left), (left, right)):
-            for turn in _mirrored(of, twin):
-                if _differs(turn, of.row("body_quat", body, 4)) and _with(of, body, turn, left) <= LEFT * before:
-                    yield _suspect(model, body, twin, turn, left)
-                    return
+        found = [
+            (body, twin, turn)
+            for body, twin in ((right, left), (left, right))
+            for turn in _mirrored(of, twin)
+            if _differs(turn, of.row("body_quat", body, 4)) and _with(of, body, turn, left) <= LEFT * before
+        ]
+        if found:
+            either = len({body for body, *_ in found}) > 1
+            yield _suspect(model, *found[0], left, EITHER * either)
+            return
 
 
-def _suspect(model: ReaderModel, body: int, twin: int, turn: Vector, left: int) -> Suspect:
+def _suspect(model: ReaderModel, body: int, twin: int, turn: Vector, left: int, either: str) -> Suspect:
     of, element = model.simulation, model.element("body", body)
     before = _astray(of, left)
     edits: tuple[Edit, ...] = ()
@@ -96,7 +102,7 @@ def _suspect(model: ReaderModel, body: int, twin: int, turn: Vector, left: int) 
     says = (
         f"{before:.0f} bodies, centres of mass and joints are not where the image of the other side has them; with the "
     )
-    says += f"turn of {names[1]} mirrored nearly all are."
+    says += f"turn of {names[1]} mirrored nearly all are.{either}"
     probe = Probe("bodies, centres of mass and joints unlike their twins", "", _astray, (left,), dynamic=False)
     now, value = written(of.row("body_quat", body, 4)), written(turn)
     return Suspect(names, "quat", now, value, edits, probe, LEFT * before, says, "two sides alike")

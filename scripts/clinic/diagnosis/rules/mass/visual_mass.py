@@ -35,6 +35,7 @@ from clinic.diagnosis.engine import MESH, CompileError
 from clinic.diagnosis.probes.inertia import inertial
 from clinic.diagnosis.probes.matter import mass_of
 from clinic.diagnosis.probes.shape import solid
+from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect
@@ -59,7 +60,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         mine = [
             geom
             for geom in of.geoms_of(body)
-            if not solid(of, geom) and (not _written(model, geom) or _copies(model, geom, others))
+            if not (solid(of, geom) or _meant_to_touch(of, geom))
+            and (not _written(model, geom) or _copies(model, geom, others))
         ]
         if others:
             seen += [geom for geom in mine if _is_skin(of, geom, others)]
@@ -84,6 +86,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             share=0.95,
             excess=now / rest,
         )
+
+
+def _meant_to_touch(of: Simulation, geom: int) -> bool:
+    """Whether its twin on the other side collides."""
+    twin = twins(of).partner("geom", geom)
+    return twin is not None and solid(of, twin)
 
 
 def _copies(model: ReaderModel, geom: int, others: list[int]) -> bool:

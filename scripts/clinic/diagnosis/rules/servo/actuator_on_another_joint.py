@@ -50,7 +50,7 @@ WORDS = ("actuator", "act", "motor", "servo", "joint", "ctrl", "pos", "position"
 
 def _key(name: str) -> tuple[str, ...]:
     """The words of a name without those that only say what it is."""
-    words = name.lower().replace("-", "_").replace("/", "_").replace(".", "_").split("_")
+    words = name.lower().replace("-", "_").replace("/", "_").replace(".", "_").replace(":", "_").split("_")
     return tuple(each for each in words if each and each not in WORDS)
 
 

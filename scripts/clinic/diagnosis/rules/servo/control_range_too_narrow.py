@@ -36,6 +36,7 @@ from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.servo.control_range_too_wide import inherit, inherited
+from clinic.diagnosis.rules.servo.driven_twice import twice
 from clinic.diagnosis.rules.servo.gain_unlike_bias import meets
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -64,7 +65,9 @@ def _missed(simulation: Simulation, actuators: Sequence[int]) -> float:
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Servos that miss most of the range; those whose gear divides the target apart."""
     simulation = model.simulation
+    shared = {actuator for each in twice(simulation).values() for actuator in each}  # meant for another joint
     found = [each for each in servos(simulation) if missed(each) > MISSED and not meets(simulation, each)]
+    found = [each for each in found if each.actuator not in shared]
     gears = {each.actuator: simulation.model("actuator_gear")[6 * each.actuator] for each in found}
     for geared in (True, False):
         some = [each for each in found if (abs(gears[each.actuator]) > GEARED) == geared]

@@ -1,0 +1,89 @@
+"""Two actuators of one kind drive one joint.
+
+A line was copied and its `joint` left as it was: two servos pull the joint to two targets, and the joint that the
+second was meant for hangs.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="hip" axis="0 1 0"/>
+          <geom type="capsule" size="0.03" fromto="0 0 0 0 0 -0.3"/>
+          <body pos="0 0 -0.3">
+            <joint name="knee" axis="0 1 0"/>
+            <geom type="capsule" size="0.03" fromto="0 0 0 0 0 -0.3"/>
+          </body>
+        </body>
+      </worldbody>
+      <actuator>
+        <position name="upper" joint="hip" kp="200" dampratio="1"/>
+        <position name="lower" joint="hip" kp="200" dampratio="1"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    -     <position name="lower" joint="hip" kp="200" dampratio="1"/>
+    +     <position name="lower" joint="knee" kp="200" dampratio="1"/>
+
+The number: how many other actuators of the same gain, bias and dynamics drive the joint, where a joint of its mechanism
+is driven by none.
+
+When it is wrong: two motors on one axle, or a pair of muscles that a joint stands for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "Two actuators on one joint"
+FAMILIES = ("stuck", "sags", "drifts")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "an actuator on another joint is planted for actuator-on-another-joint"
+
+MUSCLE = 3  # mjtDyn
+KINDS = ("gaintype", "biastype", "dyntype")
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Each joint that is driven twice, beside one that is not driven."""
+    of = model.simulation
+    for joint, driving in twice(of).items():
+        names = tuple(of.name("actuator", each) for each in driving)
+        probe = Probe("actuators of one kind on one joint, beyond one", "", _more, (joint,), dynamic=False)
+        idle = ", ".join(of.name("joint", each) for each in _idle(of, joint)[:3])
+        says = f"{' and '.join(names)} drive {of.name('joint', joint)}, and nothing drives {idle}."
+        at = model.element("actuator", driving[-1])
+        yield Suspect((*names, of.name("joint", joint)), "joint", "", idle, (), probe, 0.0, says, "one each", at=at)
+
+
+def twice(of: Simulation) -> dict[int, list[int]]:
+    """The joints that two or more actuators of one kind drive while one of the same mechanism has none."""
+    driving: dict[tuple[int, ...], list[int]] = {}
+    for actuator in range(of.count("actuator")):
+        joint = of.driven_joint(actuator)
+        kinds = [int(of.model(f"actuator_{kind}")[actuator]) for kind in KINDS]
+        spring = of.bias(actuator)[1] != 0
+        if joint is not None and kinds[2] != MUSCLE:
+            driving.setdefault((joint, spring, *kinds), []).append(actuator)
+    return {key[0]: each for key, each in driving.items() if len(each) > 1 and _idle(of, key[0])}
+
+
+def _idle(of: Simulation, joint: int) -> list[int]:
+    """The hinges and slides of a joint's mechanism that no actuator drives."""
+    owner, bodies = root_of(of), of.model("jnt_bodyid")
+    driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
+    beside = (each for each in range(of.count("joint")) if owner[int(bodies[each])] == owner[int(bodies[joint])])
+    return [each for each in beside if each not in driven and of.joint_type(each) in (HINGE, SLIDE)]
+
+
+def _more(of: Simulation, joint: int) -> float:
+    return float(len(twice(of).get(joint, [0])) - 1)

@@ -93,3 +93,43 @@ def test_a_weld_that_is_off_is_told_where_its_parts_stand_as_if_it_held():
 )
 def test_a_door_that_a_push_does_not_open_is_told(resists, told):
     assert len(found(DOOR.format(resists=resists), "joint-frozen")) == told
+
+
+PLANAR = """
+<mujoco>
+  <worldbody>
+    <geom name="floor" type="plane" size="5 5 1"/>
+    <body name="torso" pos="0 0 1">
+      <joint name="forth" type="slide" axis="1 0 0"/><joint name="up" type="slide" axis="0 0 1"/>
+      <joint name="pitch" axis="0 1 0"/>
+      <geom type="capsule" size="0.05" fromto="0 0 0 0 0 -0.4"/>
+      <body name="thigh" pos="0 0 -0.4">
+        <joint name="hip" axis="0 1 0" range="-45 45" stiffness="1" springref="{hip}"/>
+        <geom type="capsule" size="0.04" fromto="0 0 0 0 0 -0.25"/>
+        <body name="shin" pos="0 0 -0.25">
+          <joint name="knee" axis="0 1 0" range="-45 45" stiffness="1"/>
+          <geom type="capsule" size="0.04" fromto="0 0 0 0 0 -0.25"/>
+          <body name="foot" pos="0 0 -0.25">
+            <joint name="ankle" axis="0 1 0" range="-45 45" stiffness="1" springref="{ankle}"/>
+            <geom type="capsule" size="0.05" fromto="-0.05 0 -0.05 0.15 0 -0.05"/>
+          </body>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+  <contact><exclude body1="{one}" body2="{other}"/></contact>
+</mujoco>
+"""
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "told"), [("world", "foot", True), ("foot", "world", True), ("world", "shin", False)]
+)
+def test_the_foot_of_a_planar_robot_must_touch_the_floor(one, other, told):
+    assert bool(found(PLANAR.format(hip=0, ankle=0, one=one, other=other), "excluded-pair")) is told
+
+
+@pytest.mark.parametrize(("hip", "ankle", "told"), [(0, 90, True), (90, 90, False), (0, 60, False)])
+def test_the_one_spring_that_rests_beyond_its_range_is_told(hip, ankle, told):
+    text = PLANAR.format(hip=hip, ankle=ankle, one="thigh", other="torso")
+    assert bool(found(text, "spring-far-off")) is told

@@ -246,6 +246,9 @@ class Twins(Pairs):
             yield pair(quantity, 100 * (field[left] != field[right]), 1)
         frictions = [of.row("geom_friction", each, 3) for each in (left, right)]
         yield pair("friction", apart(frictions[0][0], frictions[1][0]), 5)
+        for quantity, width in (("solref", 2), ("solimp", 5)):
+            rows = (of.row(f"geom_{quantity}", each, width) for each in (left, right))
+            yield pair(quantity, max(apart(abs(a), abs(b)) for a, b in zip(*rows, strict=True)), 30)
         if kinds[0] == kinds[1] != MESH:
             boxes = [of.row("geom_aabb", each, 6)[3:] for each in (left, right)]
             yield pair("size", max(apart(a, b) for a, b in zip(*map(sorted, boxes), strict=True)), 10)

@@ -21,7 +21,8 @@ Good:
     +       <joint name="elbow" axis="0 1 0" range="-1 1" stiffness="1" springref="0.785" damping="0.1"/>
 
 The number: how far the rest of the spring is beyond the range, or from the start where there is none; more than 2.5 rad
-(6.3 rad without a range). Springs that preload a mechanism are up to 1.8 rad beyond.
+(6.3 rad without a range). Springs that preload a mechanism are up to 1.8 rad beyond. Of one joint alone more than
+0.5 rad, where the springs of at least two others are at rest within 0.1 rad of their ranges.
 
 When it is wrong: a preload by a long soft spring.
 """
@@ -42,13 +43,18 @@ SINCE = "0.1"
 LEVEL = "hint"
 
 FAR = 2.5  # rad
+ODD, NEAR, OTHERS = 0.5, 0.1, 2  # rad of one joint, rad of so many others
 TURN = 6.3
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Hinges whose springs are wound up, all together."""
     simulation = model.simulation
-    found = [joint for joint, off in _off(simulation).items() if off > FAR]
+    far = _off(simulation)
+    found = [joint for joint, off in far.items() if off > FAR]
+    odd = [joint for joint, off in far.items() if off > ODD]
+    if not found and len(odd) == 1 and sum(off < NEAR for off in far.values()) >= OTHERS:
+        found = odd
     if not found:
         return
     edits: tuple[Edit, ...] = ()
@@ -62,7 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         next((each.value for each in edits), ""),
         edits,
         Probe("how far a spring's rest is beyond the range", "rad", _farthest, dynamic=False),
-        FAR,
+        FAR if found != odd else ODD,
         f"The spring of {simulation.name('joint', found[0])} is at rest at {rest:.3g} rad.",
         "a rest that the joint can reach",
     )

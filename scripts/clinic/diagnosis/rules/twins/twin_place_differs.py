@@ -76,7 +76,20 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "site",
             "camera",
         ),
-        ("type", "size", "pos", "quat", "contype", "conaffinity", "condim", "friction", "direction", "fovy"),
+        (
+            "type",
+            "size",
+            "pos",
+            "quat",
+            "contype",
+            "conaffinity",
+            "condim",
+            "friction",
+            "solref",
+            "solimp",
+            "direction",
+            "fovy",
+        ),
     ):
         yield suspect(model, found, clear)
     yield from siblings(model, "geom")

@@ -38,7 +38,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import delete
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.fall import below, fallen, limit
-from clinic.diagnosis.probes.shape import box, geoms_of_tree, root_of, solid
+from clinic.diagnosis.probes.shape import box, falling, geoms_of_tree, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
@@ -96,13 +96,13 @@ def _feet(model: ReaderModel, written: list[Element]) -> Iterator[Suspect]:
 
 
 def _lowest(of: Simulation) -> set[int]:
-    """The bodies with a solid geom about as low as the lowest of their tree, which floats freely."""
+    """The bodies with a solid geom about as low as the lowest of their tree, which can fall."""
     made: set[int] = set()
     for key in range(-1, min(1, of.count("key"))):
         of.engine.reset(key)
         of.engine.forward()
         places, axes = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat"))
-        for root in of.free_bodies:
+        for root in falling(of):
             boxes = {geom: box(of, places, axes, geom) for geom in geoms_of_tree(of, root) if solid(of, geom)}
             lows = {geom: centre[2] - half[2] for geom, (centre, half) in boxes.items()}
             tops = [centre[2] + half[2] for centre, half in boxes.values()]

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import pytest
+from clinic.diagnosis.judge import suspects_of
 from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules import rules
 from clinic.diagnosis.simulation import Simulation, Start
+from clinic.diagnosis.source import read_source
 
 ARM = """<mujoco>
   <worldbody>
@@ -48,3 +52,41 @@ def test_large_models_are_stepped_less():
     large = Simulation(NativeEngine().compile(f"<mujoco><worldbody>{many}</worldbody></mujoco>", {}), Start())
     small = Simulation(NativeEngine().compile(ARM, {}), Start())
     assert large.steps(10) * 20 < small.steps(10)
+
+
+SUNK = """<mujoco>
+  <worldbody>
+    <geom name="floor" type="plane" size="5 5 1"/>
+    <body name="torso" pos="0 0 0.3">
+      <freejoint/>
+      <geom type="box" size="0.2 0.1 0.05"/>
+      <body name="left_leg" pos="0 0.1 0"><joint name="left" axis="0 1 0" range="-60 60" damping="1"/>
+        <geom type="capsule" size="0.03" fromto="0 0 0 0 0 -0.35"/></body>
+      <body name="right_leg" pos="0 -0.1 0"><joint name="right" axis="0 1 0" range="-60 30" damping="2"/>
+        <geom type="capsule" size="0.03" fromto="0 0 0 0 0 -0.35"/></body>
+    </body>
+  </worldbody>
+  <actuator><position name="left" joint="left" kp="5"/><position name="right" joint="right" kp="5"/></actuator>
+  <keyframe><key name="sunk" qpos="0 0 0.3 1 0 0 0 0 0"/></keyframe>
+</mujoco>
+"""
+
+
+@pytest.mark.parametrize("key", [-1, 0])
+def test_what_a_rule_says_does_not_depend_on_where_another_left_the_model(key):
+    def said(*, moved: bool) -> dict[str, list[object]]:
+        model, made = ReaderModel(NativeEngine(), {"": SUNK}, read_source({"": SUNK}), Start(key=key)), {}
+        engine = model.simulation.engine
+        for rule in (each for each in rules().values() if not each.of_errors):
+            model.simulation.begin()
+            if moved:
+                engine.write("qpos", [1.0, -0.5, 2.0, 0.8, 0.6, 0.0, 0.0, 0.4, -0.3], 0)
+                engine.write("qvel", [3.0] * model.simulation.count("dof"), 0)
+                engine.forward()
+            found = suspects_of(model, rule, lambda _: None)
+            made[rule.id] = [(each.elements, each.says, model.measured(each.probe)) for each in found]
+        return made
+
+    at_the_start = said(moved=False)
+    assert any(at_the_start.values())
+    assert said(moved=True) == at_the_start

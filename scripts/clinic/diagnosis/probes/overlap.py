@@ -92,8 +92,8 @@ def of_relatives() -> Probe:
 
 def extent(simulation: Simulation, root: int) -> float:
     """How far a tree reaches from its root's place at the start in m."""
-    now, place = beginning(simulation), tuple(simulation.data_row("xpos", root, 3))
-    radii = simulation.model("geom_rbound")
+    now = beginning(simulation)
+    place, radii = at(now.xpos, root), simulation.model("geom_rbound")
     far = [math.dist(at(now.geom_xpos, geom), place) + radii[geom] for geom in geoms_of_tree(simulation, root)]
     return max(far, default=0.0)
 

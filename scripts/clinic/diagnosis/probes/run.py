@@ -15,6 +15,7 @@ class State:
 
     qpos: tuple[float, ...]
     qvel: tuple[float, ...]
+    xpos: tuple[float, ...]
     xipos: tuple[float, ...]
     geom_xpos: tuple[float, ...]
     geom_xmat: tuple[float, ...]
@@ -24,8 +25,10 @@ class State:
 def state(simulation: Simulation) -> State:
     """The state as it is now; contacts of flexes, which have no geom, are left out."""
     contacts = tuple(each for each in simulation.engine.contacts() if min(each.geoms) >= 0)
-    qpos, qvel, xipos = (tuple(simulation.data(name)) for name in ("qpos", "qvel", "xipos"))
-    return State(qpos, qvel, xipos, tuple(simulation.data("geom_xpos")), tuple(simulation.data("geom_xmat")), contacts)
+    qpos, qvel, xpos, xipos = (tuple(simulation.data(name)) for name in ("qpos", "qvel", "xpos", "xipos"))
+    return State(
+        qpos, qvel, xpos, xipos, tuple(simulation.data("geom_xpos")), tuple(simulation.data("geom_xmat")), contacts
+    )
 
 
 @dataclass

@@ -230,7 +230,7 @@ def gear_of_a_servo(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((set_attribute(element, "gear", text_of(factor)),), _names(model, i), "gear", factor)
 
 
-@kind("gear-of-a-motor", "twin-actuator-differs", harms=("strays", *GOES))
+@kind("strength-unlike-others", "twin-actuator-differs", harms=("strays", *GOES))
 def gear_of_a_motor(model: ReaderModel, random: Random) -> Fault | None:
     """A motor's gear 0.02 to 50 times what it was, or of the other sign."""
     simulation = model.simulation

@@ -36,21 +36,22 @@ Good:
     -     <motor name="knee" joint="knee" gear="0.9" ctrlrange="-1 1"/>
     +     <motor name="knee" joint="knee" gear="90" ctrlrange="-1 1"/>
 
-The number: a motor's force at full control, or a position servo's stiffness, over the greatest of the others, or the
-least of them over it; more than 8, where three others or more drive joints of the same type. Of 234 models of others
-the most is 5.
+The number: a motor's force at full control, a position servo's stiffness, or the end of a force range over the greatest
+of the others, or the least of them over it; more than 8, where three others or more drive joints of the same type. Of
+234 models of others the most is 5.
 
 When it is wrong: a gripper's motor beside those of an arm, or a neck's beside those of legs.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.servo import servos
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An actuator far stronger or weaker than all others"
@@ -59,54 +60,60 @@ SINCE = "0.1"
 LEVEL = "hint"
 
 MOST, LEAST = 8.0, 4  # times; actuators of one kind
-INSIDE = {"motor": "gear", "position": "kp"}
+MUSCLE = 3  # mjtDyn
+FORCE, STIFFNESS, LIMIT = "force at full control", "stiffness", "greatest force"
+INSIDE = {("motor", FORCE): "gear", ("position", STIFFNESS): "kp"}
+
+Key = tuple[str, int, int]  # what is compared, a mechanism, and a type of joint
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The strongest and the weakest of each mechanism, where they stand apart."""
     of = model.simulation
-    for (servo, _, _), strengths in _groups(of).items():
+    for key, strengths in _groups(of).items():
         ranked = sorted(strengths, key=lambda each: strengths[each])
         for odd, next_to in ((ranked[-1], ranked[-2]), (ranked[0], ranked[1])):
-            if _times(of, odd, next_to) <= MOST:
+            if _times(of, key, odd, next_to) <= MOST or math.isinf(strengths[odd]):
                 continue
-            what = "Its stiffness is" if servo else "At full control it gives"
             which = "most" if odd == ranked[-1] else "least"
-            says = f"{what} {strengths[odd]:.3g}; of the {len(ranked) - 1} others {of.name('actuator', next_to)} "
-            says += f"has {which}, {strengths[next_to]:.3g}."
-            probe = Probe(
-                "strength unlike that of the next actuator by", "times", _times, (odd, next_to), dynamic=False
-            )
+            says = f"Its {key[0]} is {strengths[odd]:.3g}; "
+            has = f"{of.name('actuator', next_to)} has {which}, {strengths[next_to]:.3g}."
+            others = f"{len(ranked) - 1} others"
+            says += f"of the {others} {has}" if math.isfinite(strengths[next_to]) else f"the {others} have no limit."
+            probe = Probe(f"{key[0]} unlike that of the next by", "times", _times, (key, odd, next_to), dynamic=False)
             element = model.element("actuator", odd)
-            attribute = INSIDE.get(element.tag if element else "", "")
+            attribute = "forcerange" if key[0] == LIMIT else INSIDE.get((element.tag if element else "", key[0]), "")
             now, value = (model.value("actuator", each, attribute) or "" for each in (odd, next_to))
-            edits = model.set("actuator", [odd], attribute, value) if attribute and now and value else ()
+            edits = model.set("actuator", [odd], attribute, value) if now and value else ()
             name = of.name("actuator", odd)
             yield Suspect((name,), attribute, now, value, edits, probe, MOST, says, f"up to {MOST:g} times", at=element)
 
 
-def _times(of: Simulation, one: int, other: int) -> float:
-    strengths = [strength for group in _groups(of).values() for each, strength in group.items() if each in (one, other)]
-    return max(strengths) / max(min(strengths), 1e-12) if len(strengths) > 1 else 1.0
+def _times(of: Simulation, key: Key, one: int, other: int) -> float:
+    group = _groups(of).get(key, {})
+    strengths = sorted(group.get(each, 1.0) for each in (one, other))
+    return strengths[1] / max(strengths[0], 1e-12)
 
 
-def _groups(of: Simulation) -> dict[tuple[bool, int, int], dict[int, float]]:
-    """The stiffness of servos, and the force of motors at full control, by mechanism and type of joint."""
-    made: dict[tuple[bool, int, int], dict[int, float]] = {}
-    owner, bodies = root_of(of), of.model("jnt_bodyid")
-    for servo in servos(of):
-        key = (True, owner[int(bodies[servo.joint])], of.joint_type(servo.joint))
-        made.setdefault(key, {})[servo.actuator] = servo.stiffness
+@kept
+def _groups(of: Simulation) -> dict[Key, dict[int, float]]:
+    """The stiffness of servos, the force of motors at full control, and what limits either, by actuator."""
+    made: dict[Key, dict[int, float]] = {}
+    owner, bodies, stiff = root_of(of), of.model("jnt_bodyid"), {each.actuator: each.stiffness for each in servos(of)}
     for actuator in range(of.count("actuator")):
-        joint = of.driven_joint(actuator)
-        plain = not int(of.model("actuator_biastype")[actuator]) and not int(of.model("actuator_dyntype")[actuator])
-        if (
-            joint is None
-            or not plain
-            or not (gain := abs(of.gain(actuator)[0] * of.model("actuator_gear")[6 * actuator]))
-        ):
+        joint, gear = of.driven_joint(actuator), abs(of.model("actuator_gear")[6 * actuator])
+        dynamic = int(of.model("actuator_dyntype")[actuator])
+        if joint is None or not gear or dynamic == MUSCLE:
             continue
+        among = owner[int(bodies[joint])], of.joint_type(joint)
+        limited = of.model("actuator_forcelimited")[actuator]
+        most = gear * max(map(abs, of.row("actuator_forcerange", actuator, 2))) if limited else math.inf
+        made.setdefault((LIMIT, *among), {})[actuator] = most
         low, high = of.row("actuator_ctrlrange", actuator, 2)
         full = max(abs(low), abs(high)) if of.model("actuator_ctrllimited")[actuator] else 1.0
-        made.setdefault((False, owner[int(bodies[joint])], of.joint_type(joint)), {})[actuator] = gain * full
+        force = abs(of.gain(actuator)[0]) * gear * full
+        if actuator in stiff:
+            made.setdefault((STIFFNESS, *among), {})[actuator] = stiff[actuator]
+        elif force and not dynamic and not int(of.model("actuator_biastype")[actuator]):
+            made.setdefault((FORCE, *among), {})[actuator] = force
     return {key: each for key, each in made.items() if len(each) >= LEAST}

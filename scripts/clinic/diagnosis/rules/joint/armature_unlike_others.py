@@ -28,7 +28,7 @@ Good:
     +         <joint name="knee" axis="0 1 0" armature="0.1"/>
 
 The number: the armature over the largest of the other joints of the same type; more than 20, where at least two others
-have some. Of 234 models of others the most is 10.
+have some. Of the bench's healthy models the most is 10.
 
 When it is wrong: a flywheel.
 """

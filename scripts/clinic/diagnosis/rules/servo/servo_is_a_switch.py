@@ -26,7 +26,7 @@ The number: told in the middle of the joint's range without contacts, in how man
 is at an end of its range and turns; more than 0.3. h^2 kp / M is above 4 there, where the explicit integration of a
 spring ends. A velocity gain does the same above h kv / M = 2 once the joint is so fast that its force is at an end:
 `implicit` and `implicitfast` too are explicit in a force that is clamped. There the joint begins with 1.2 times that
-speed, and what lacks is `armature`; told from 5 on, for arms that are sold as models have up to 3 and rest there.
+speed, and what lacks is `armature`. It is told from 5 on: the wrist of a Panda has 2.8.
 
 When it is wrong: a relay that is meant.
 """

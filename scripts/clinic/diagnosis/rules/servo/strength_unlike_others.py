@@ -38,7 +38,7 @@ Good:
 
 The number: a motor's force at full control, a position servo's stiffness, or the end of a force range over the greatest
 of the others, or the least of them over it; more than 8, where three others or more drive joints of the same type. Of
-234 models of others the most is 5.
+the bench's healthy models the most is 5.
 
 When it is wrong: a gripper's motor beside those of an arm, or a neck's beside those of legs.
 """

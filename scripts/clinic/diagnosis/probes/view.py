@@ -131,7 +131,7 @@ def turned(model: ReaderModel, camera: int, right: Sequence[float], up: Sequence
         m = m if any(m) else IDENTITY
     local = [sum(m[3 * row + column] * axis[row] for row in range(3)) for axis in (right, up) for column in range(3)]
     gone = tuple(remove_attribute(element, name) for name in TURNS[1:] if name in element.attributes)
-    return (*gone, set_attribute(element, "xyaxes", " ".join(f"{each + 0.0:.4g}" for each in local)))
+    return (*gone, set_attribute(element, "xyaxes", " ".join(f"{round(each, 6) + 0.0:.4g}" for each in local)))
 
 
 def aimed(model: ReaderModel, camera: int) -> tuple[Edit, ...]:

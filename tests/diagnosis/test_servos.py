@@ -203,3 +203,15 @@ FOREARM = """
 def test_a_clamped_force_has_no_implicit_damping(integrator, kv, force, told):
     found = diagnosed(FOREARM.format(integrator=integrator, kv=kv, force=force))
     assert ("servo-is-a-switch" in [each.rule for each in found.hints]) is told, found.text()
+
+
+@pytest.mark.parametrize(("kind", "told"), [("muscle", False), ("motor", True)])
+def test_two_muscles_pull_one_joint_and_two_motors_do_not(kind, told):
+    links = ""
+    for name in ("wrist", "elbow", "shoulder"):
+        joint = f'<joint name="{name}" axis="0 1 0" damping="1" range="-60 60"/>'
+        links = f'<body pos="0.2 0 0">{joint}<geom type="capsule" size="0.02" fromto="0 0 0 0.2 0 0"/>{links}</body>'
+    lengths = ' lengthrange="-1 1"' if kind == "muscle" else ""
+    both = (f'<{kind} joint="{joint}" gear="{gear}"{lengths}/>' for joint in ("shoulder", "elbow") for gear in (5, -5))
+    text = f"<mujoco><worldbody>{links}</worldbody><actuator>{''.join(both)}</actuator></mujoco>"
+    assert ("driven-twice" in [each.rule for each in diagnosed(text).hints]) is told

@@ -163,29 +163,32 @@ class _Trial:
         return made
 
     def behind(self, left: ReaderModel, wanted: Sequence[Rule], as_hints: bool) -> _Made:
-        """The same of a model that was mended: what needs no shape where boxes are in it."""
+        """The same of a model that was mended: what needs no shape where boxes are in it, and that as hints."""
         model = ReaderModel(left.engine, left.texts, left.source, self.start or Start())
-        stand_ins = left.engine
-        if not (isinstance(stand_ins, StandIns) and stand_ins.shapes):
+        if isinstance(left.engine, StandIns) and left.engine.shapes:
+            made, as_hints = self._of_any_size(model, left.engine, wanted), True
+        else:
             made = self.from_starts(model, wanted)
-            if as_hints:
-                hints = [replace(each, level="hint") for each in made.found]
-                made = made._replace(found=hints, fixed=left.texts)
+        if not as_hints:
             return made
+        return made._replace(found=[replace(each, level="hint") for each in made.found], fixed=left.texts)
+
+    def _of_any_size(self, model: ReaderModel, stand_ins: StandIns, wanted: Sequence[Rule]) -> _Made:
+        """What is found with boxes in the place of meshes, and with larger ones too."""
         made = self.from_starts(model, [rule for rule in wanted if not {rule.area, rule.id} & OF_SHAPES])
         larger = StandIns(stand_ins.engine, LARGER * stand_ins.size, stand_ins.absent)
-        other = ReaderModel(larger, left.texts, left.source, self.start or Start())
+        other = ReaderModel(larger, model.texts, model.source, self.start or Start())
         again = self.from_starts(other, [*{each.rule.id: each.rule for each in made.found}.values()])
         kinds = model.simulation.model("geom_type")
         meshes = {model.simulation.name("geom", each) for each, kind in enumerate(kinds) if kind == MESH}
         same = {(each.rule.id, each.suspect.elements, each.suspect.says) for each in again.found}
         kept = [
-            replace(each, level="hint")
+            each
             for each in made.found
             if (each.rule.id, each.suspect.elements, each.suspect.says) in same
             and not meshes & {*each.suspect.elements}
         ]
-        return made._replace(found=kept, fixed=left.texts)
+        return made._replace(found=kept)
 
 
 def diagnose_here(path: Path | str, **options: object) -> Diagnosis:

@@ -12,7 +12,7 @@ from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 FIXED, AFFINE = 0, 1  # mjtGain; mjtBias: none, affine
-INTEGRATOR, USER = 1, 4  # first mjtDyn that integrates its control
+INTEGRATOR, MUSCLE = 1, 4  # mjtDyn
 CONTACTS_OFF, SPRINGS_OFF, ACTUATORS_OFF = 1 << 4, 1 << 5, 1 << 11  # mjtDisableBit
 STEP = {True: 0.1, False: 0.01}  # of a hinge in rad, of a slide in m
 
@@ -72,7 +72,7 @@ def servos(simulation: Simulation) -> list[Servo]:
 def _servo(simulation: Simulation, actuator: int) -> Servo | None:
     joint = simulation.driven_joint(actuator)
     kinds = [int(simulation.model(f"actuator_{kind}")[actuator]) for kind in ("gaintype", "biastype", "dyntype")]
-    if joint is None or kinds[0] != FIXED or kinds[1] != AFFINE or kinds[2] in (INTEGRATOR, USER):
+    if joint is None or kinds[0] != FIXED or kinds[1] != AFFINE or kinds[2] in (INTEGRATOR, MUSCLE):
         return None
     gain, bias = simulation.gain(actuator)[0], simulation.bias(actuator)
     gear = simulation.row("actuator_gear", actuator, 6)[0]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.equalities import COUPLED
-from clinic.diagnosis.probes.servo import AFFINE, FIXED, INTEGRATOR, USER
+from clinic.diagnosis.probes.servo import AFFINE, FIXED, INTEGRATOR, MUSCLE
 from clinic.diagnosis.simulation import Simulation, kept
 
 TENDON, JOINT_WRAP = 3, 1  # mjtTrn; mjtWrap
@@ -60,7 +60,7 @@ def servo(of: Simulation, actuator: int) -> tuple[float, float] | None:
     """Of a position servo on a tendon: the length it asks for at control 0, and what a unit adds; else None."""
     kinds = [int(of.model(f"actuator_{kind}type")[actuator]) for kind in ("trn", "gain", "bias", "dyn")]
     gain, bias, gear = of.gain(actuator)[0], of.bias(actuator), of.row("actuator_gear", actuator, 6)[0]
-    if kinds[:3] != [TENDON, FIXED, AFFINE] or kinds[3] in (INTEGRATOR, USER) or bias[1] >= 0 or not gain * gear:
+    if kinds[:3] != [TENDON, FIXED, AFFINE] or kinds[3] in (INTEGRATOR, MUSCLE) or bias[1] >= 0 or not gain * gear:
         return None
     return bias[0] / (-bias[1] * gear), gain / (-bias[1] * gear)
 

@@ -51,10 +51,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Hinges whose springs are wound up, all together."""
     simulation = model.simulation
     far = _off(simulation)
-    found = [joint for joint, off in far.items() if off > FAR]
+    found, limit = [joint for joint, off in far.items() if off > FAR], FAR
     odd = [joint for joint, off in far.items() if off > ODD]
     if not found and len(odd) == 1 and sum(off < NEAR for off in far.values()) >= OTHERS:
-        found = odd
+        found, limit = odd, ODD
     if not found:
         return
     edits: tuple[Edit, ...] = ()
@@ -68,7 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         next((each.value for each in edits), ""),
         edits,
         Probe("how far a spring's rest is beyond the range", "rad", _farthest, dynamic=False),
-        FAR if found != odd else ODD,
+        limit,
         f"The spring of {simulation.name('joint', found[0])} is at rest at {rest:.3g} rad.",
         "a rest that the joint can reach",
     )

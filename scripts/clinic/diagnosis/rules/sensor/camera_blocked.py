@@ -61,8 +61,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             edits: tuple[Edit, ...] = turned(model, camera, sub((0.0, 0.0, 0.0), right), up)
             probe = Probe("rays of nine that meet the camera's own mount", "", _blocked, (camera,), dynamic=False)
             carrier = of.name("body", int(body))
-            says = f"All of its image is the robot of {carrier}." if HEAD.search(carrier) else ""
-            says = says or f"All of its image is {carrier}, which carries it."
+            seen = f"the robot of {carrier}" if HEAD.search(carrier) else f"{carrier}, which carries it"
+            says = f"All of its image is {seen}."
             value = edits[-1].value if edits else "away from its mount"
             names = (of.name("camera", camera),)
             yield Suspect(names, "xyaxes", "", value, edits, probe, MOST, says, "a view past its mount", level="hint")

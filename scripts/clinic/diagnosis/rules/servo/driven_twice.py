@@ -38,6 +38,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.probes.servo import MUSCLE
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -49,7 +50,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "an actuator on another joint is planted for actuator-on-another-joint"
 
-MUSCLE = 3  # mjtDyn
 KINDS = ("gaintype", "biastype", "dyntype")
 
 

@@ -46,6 +46,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.servo import MUSCLE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -57,7 +58,6 @@ LEVEL = "hint"
 MINOR = True
 UNPLANTED = "no healthy model has muscles with a range of their own"
 
-MUSCLE = 4  # mjtDyn
 IDLE = 0.05
 
 

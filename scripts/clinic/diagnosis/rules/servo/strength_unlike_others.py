@@ -48,7 +48,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.servo import servos
+from clinic.diagnosis.probes.servo import MUSCLE, servos
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
@@ -60,7 +60,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 
 MOST, LEAST = 8.0, 4  # times; actuators of one kind
-MUSCLE = 3  # mjtDyn
 FORCE, STIFFNESS, LIMIT = "force at full control", "stiffness", "greatest force"
 INSIDE = {("motor", FORCE): "gear", ("position", STIFFNESS): "kp"}
 

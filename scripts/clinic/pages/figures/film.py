@@ -130,7 +130,10 @@ def beside(broken: tuple[Image, str], repaired: tuple[Image, str]) -> Image:
 
 
 def encode(pictures: list[Image]) -> bytes:
-    """The images as H.264 in MP4; the same images give the same bytes."""
+    """The images as H.264 in MP4; the same images give the same bytes where their width is a multiple of 128.
+
+    Of other widths the encoder reads what lies in memory beyond the end of a row.
+    """
     with tempfile.TemporaryDirectory(prefix="clinic-") as folder:
         path = Path(folder, "film.mp4")
         with av.open(str(path), "w", options={"movflags": "faststart", "fflags": "+bitexact"}) as container:

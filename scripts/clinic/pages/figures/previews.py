@@ -13,7 +13,7 @@ from PIL import ImageDraw, ImageFont
 from clinic.engine.render import Image
 
 THUMB = (192, 144)
-CLIP, CLIP_FRAMES, HELD = (240, 180), 40, 6  # two seconds at 20 images a second; the last image stays
+CLIP, CLIP_FRAMES, HELD = (256, 192), 40, 6  # two seconds at 20 images a second; the last image stays
 CARD, SHOWN = (1200, 630), (840, 630)
 GREEN, WHITE, PALE = (20, 83, 45), (255, 255, 255), (187, 222, 199)
 

@@ -66,3 +66,19 @@ def test_in_a_urdf_every_place_of_the_mesh_is_scaled(tmp_path):
     found = diagnose(tmp_path / "model.urdf", select=["mesh-in-another-unit"])
     assert [each.rule for each in found.causes] == ["mesh-in-another-unit"]
     assert next(iter(found.fixed.values())).count('scale="0.001 0.001 0.001"') == 2
+
+
+@pytest.mark.parametrize(("scale", "told"), [("0.001 0.001 0.001", ['mesh "lid"']), ("0.03 0.03 0.03", [])])
+def test_one_mesh_among_others_is_a_speck_or_a_screw(scale, told):
+    metres = " ".join(f"{float(each) / 1000:g}" for each in MM.split())
+    meshes = "".join(
+        f'<mesh name="{name}" vertex="{metres}" scale="{size}"/>' for name, size in (("mug", "1 1 1"), ("lid", scale))
+    )
+    bodies = "".join(
+        f'<body pos="{x} 0 1"><joint axis="0 1 0"/><geom type="mesh" mesh="{name}" mass="1"/>'
+        f'<body pos="0 0 0.1"><joint/><geom size="0.02"/></body></body>'
+        for x, name in enumerate(("mug", "lid"))
+    )
+    text = f"<mujoco><asset>{meshes}</asset><worldbody>{bodies}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["mesh-in-another-unit"])
+    assert [each for finding in (*found.causes, *found.hints) for each in finding.elements] == told

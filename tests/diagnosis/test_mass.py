@@ -69,3 +69,14 @@ def test_a_keyframe_with_one_servo_that_opens_a_gripper_is_meant():
     model = "<mujoco><worldbody>{}</worldbody><actuator>{}</actuator><keyframe>{}</keyframe></mujoco>"
     assert not causes(model.format(joints, servos, '<key qpos="1 1 0" ctrl="1 1 0.5"/>'))
     assert causes(model.format(joints, servos, '<key qpos="1 0 0.5" ctrl="0 0.5 1"/>')) == ["key-targets-elsewhere"]
+
+
+def test_a_density_of_a_default_class_is_mended_there():
+    links = "".join(
+        f'<body pos="{x} 0 1"><joint axis="0 1 0"/><geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03"/></body>'
+        for x in range(3)
+    )
+    text = '<mujoco><default><geom density="1e5"/></default><worldbody><geom type="plane" size="9 9 1"/>'
+    found = examine(NativeEngine(), {"model.xml": f"{text}{links}</worldbody></mujoco>"}).causes
+    assert [(each.rule, each.attribute, each.value) for each in found] == [("denser-than-metal", "density", "1000")]
+    assert len(found[0].edit) == 1

@@ -229,3 +229,38 @@ def test_what_moves_nothing_is_told_last():
     told = [each.rule for each in diagnosed(noisy).hints]
     assert "twin-inertia-differs" in told[:-1]
     assert told[-1] == "noise-not-added"
+
+
+LEG = (
+    '<body name="{side}_thigh" pos="{x} {y} -0.3"><joint name="{side}_hip" axis="0 -1 0" range="-20 100"/>'
+    '<geom type="capsule" size="0.05" fromto="0 0 0 0 0 -0.4"/>'
+    '<body name="{side}_shin" pos="0 0 -0.4"><joint name="{side}_knee" axis="0 -1 0" range="-150 0"/>'
+    '<geom type="capsule" size="0.04" fromto="0 0 0 0 0 -0.4"/>'
+    '<body name="{side}_foot" pos="0.06 0 -0.4"><joint name="{side}_ankle" axis="0 -1 0" range="-45 45"/>'
+    '<geom name="{side}_right_foot" type="capsule" size="0.03" fromto="-0.1 -0.03 0 0.1 -0.02 0"/>'
+    '<geom name="{side}_left_foot" type="capsule" size="0.03" fromto="-0.1 0.03 0 0.1 0.02 0" {of_the_foot}/>'
+    "</body></body></body>"
+)
+
+
+def planar(right_x: float = 0, of_the_left_foot: str = "") -> str:
+    legs = LEG.format(side="right", x=right_x, y=-0.05, of_the_foot="")
+    legs += LEG.format(side="left", x=0, y=0.05, of_the_foot=of_the_left_foot)
+    return (
+        '<mujoco><worldbody><geom name="floor" type="plane" size="5 5 1"/><body name="torso" pos="0 0 1.3">'
+        '<joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/><joint axis="0 1 0"/>'
+        f'<geom type="capsule" size="0.07" fromto="0 0 -0.3 0 0 0.3"/>{legs}</body></worldbody></mujoco>'
+    )
+
+
+def test_a_leg_that_was_put_elsewhere_is_told_though_all_of_it_hangs_straight_down():
+    assert unlike(planar()) == []
+    (found,) = unlike(planar(0.27))
+    assert found.attribute == "pos"
+    assert set(found.elements) == {'body "left_thigh"', 'body "right_thigh"'}
+
+
+def test_the_left_geom_of_the_right_foot_is_the_twin_of_the_right_geom_of_the_left_one():
+    (found,) = unlike(planar(of_the_left_foot='contype="0" conaffinity="0"'))
+    assert found.elements == ('geom "left_left_foot"',)
+    assert 'geom "right_right_foot"' in found.says

@@ -37,6 +37,8 @@ def right_of(name: str) -> Iterator[str]:
     if slash:
         yield from (right + slash + rest for right in right_of(prefix))
     for left, right in WORDS:
+        if left in name and right in name:  # the left geom of the right foot
+            yield right.join(part.replace(right, left) for part in name.split(left))
         if left in name:
             yield name.replace(left, right)
     both = [found for found in TOKEN.finditer(name) if found.group() in EXCHANGED]
@@ -166,6 +168,8 @@ class Pairs:
             through = replace(image, offset=sub(fixed[1], times(image.matrix, fixed[0])))
             if (fits := self._fit(pairs, through, FITS * size)) >= SYMMETRIC:
                 image, share = through, fits
+            if (mirror := self._displaced(common, pairs, FITS * size)) is not None:
+                image, share = mirror, self._fit(pairs, mirror, FITS * size)
             for left, _ in pairs:
                 self.images[left], self.share[left], self.size[left], self.common[left] = image, share, size, common
         self._through_origins()
@@ -219,6 +223,25 @@ class Pairs:
             if int(self.of.model("jnt_bodyid")[left]) in inside:
                 made.append((self.at("xanchor", left), self.at("xanchor", right)))
         return made
+
+    def _displaced(self, common: int, pairs: list[tuple[int, int]], near: float) -> Image | None:
+        """The mirror through the body that both sides hang on, where all fits it but one coordinate of the first pair.
+
+        A shift or an oblique mirror fits all, that pair as well, where what hangs on it is flat.
+        """
+        frame, parents = self.at("xmat", common, 9), self.of.model("body_parentid")
+        tops = [pair for pair in pairs if {int(parents[each]) for each in pair} == {common}]
+        if len(tops) != 1:
+            return None
+        left, right = (times(transpose(frame), sub(self.at("xpos", each), self.at("xpos", common))) for each in tops[0])
+        same = [abs(a - b) <= near / 20 for a, b in zip(left, right, strict=True)]
+        mirrored = [abs(a + b) <= near / 20 and abs(a) > near for a, b in zip(left, right, strict=True)]
+        if sum(same) != 1 or sum(mirrored) != 1 or math.dist(left, right) < 3 * near:
+            return None
+        axis = tuple(frame[3 * row + mirrored.index(True)] for row in range(3))
+        matrix = _reflection(axis)
+        image = Image(matrix, sub(self.at("xpos", common), times(matrix, self.at("xpos", common))), -1)
+        return image if self._fit(pairs, image, near) == 1 else None
 
     def _copied(self, pairs: list[tuple[int, int]]) -> Image | None:
         """The turn of one side into the other, where it is the same chain set up in another direction; else None."""

@@ -22,8 +22,8 @@ Good:
     +       <geom name="box" type="box" size="0.05 0.05 0.05" margin="0.0005"/>
 
 The number: the widest gap of a contact that carries something, 2 s after letting go, as a share of the thinner geom's
-thickness; below 0.2 is well, and below 0.5 % of how far the thing itself reaches. MuJoCo's manual, Computation, Margin
-and gap.
+thickness; below 0.2 is well, and below 0.5 % of how far the thing itself reaches. Where nothing rests, a margin of more
+than 5 cm and a fifth of the largest thing is a hint. MuJoCo's manual, Computation, Margin and gap.
 
 When it is wrong: an air bearing.
 """
@@ -35,7 +35,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.engine import Contact
 from clinic.diagnosis.probes.overlap import extent
 from clinic.diagnosis.probes.run import let_go
-from clinic.diagnosis.probes.shape import falling, root_of, thickness
+from clinic.diagnosis.probes.shape import falling, root_of, roots, solid, thickness
 from clinic.diagnosis.probes.touch import resting
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -47,6 +47,7 @@ SINCE = "0.1"
 
 MOST = 0.2  # of the thinner geom's thickness
 SEEN = 0.005  # of how far the thing reaches
+THICK, PART = 0.05, 0.2  # m, and of how far the largest thing reaches
 
 
 def _hovers(simulation: Simulation) -> float:
@@ -72,11 +73,31 @@ def _floating(simulation: Simulation) -> list[Contact]:
     return [each for each in apart if any(owner[int(bodies[geom])] in falls for geom in each.geoms)]
 
 
+def _thick(model: ReaderModel) -> Iterator[Suspect]:
+    """The margins that are thick where nothing rests on them, so that they only keep things away."""
+    of, margins = model.simulation, model.simulation.model("geom_margin")
+    reach = max((extent(of, root) for root in roots(of)), default=0.0)
+    wide = [geom for geom, margin in enumerate(margins) if margin > max(THICK, PART * reach) and solid(of, geom)]
+    if wide and reach > 0:
+        most, names = max(margins[geom] for geom in wide), tuple(of.name("geom", geom) for geom in wide)
+        probe = Probe("widest margin", "m", _widest, dynamic=False)
+        says = f"It pushes what is {most:g} m away; the largest thing here reaches {reach:.2g} m."
+        edits, limit = model.set("geom", wide, "margin", "0"), max(THICK, PART * reach)
+        healthy = "0, MuJoCo's default"
+        yield Suspect(names, "margin", f"{most:g}", "0", edits, probe, limit, says, healthy, level="hint")
+
+
+def _widest(of: Simulation) -> float:
+    return max(of.model("geom_margin"))
+
+
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The margins of the geoms that hover."""
     simulation = model.simulation
     margins = simulation.model("geom_margin")
     geoms = {geom for contact in _floating(simulation) for geom in contact.geoms}
+    if not geoms:
+        yield from _thick(model)
     least = 0.5 * max((margins[geom] for geom in geoms), default=0.0)
     wide = [g for g in range(len(margins)) if margins[g] > 0 and (g in geoms or margins[g] >= least > 0)]
     pairs = [i for i, each in enumerate(simulation.model("pair_margin")) if each > 0]

@@ -28,7 +28,8 @@ When it is wrong: a body of which a small part is drawn. One that slides by itse
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import SLIDE
@@ -42,7 +43,7 @@ FAMILIES = ("sags", "wrong-mass", "explodes", "stuck")
 SINCE = "0.1"
 AFLOAT = True
 
-METAL, LIGHT = 24000.0, 0.05
+METAL, LIGHT, WATER = 24000.0, 0.05, 1000.0
 STEEL, USUAL, MANY, MOST_OF = 5000.0, 1200.0, 4, 0.6
 SHOWN = 0.7, 1.4  # the radius of gyration over that of geoms that show the body
 
@@ -60,14 +61,15 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     slides = all(of.joint_type(joint) == SLIDE for joint in range(of.count("joint")))
     if not dense or (slides and len(of.moving_bodies) == 1):  # a point mass may be as small as one likes
         return
-    factor = 1000.0
-    edits = tuple(edit for body, found in dense for edit in _lighter(model, body, found, factor))
     worst = max(dense, key=lambda each: each[1].density)[1]
+    factor = 10.0 ** round(math.log10(worst.density / WATER))
+    edits = _lighter(model, dense, factor)
+    by_density = bool(edits) and all(edit.attribute == "density" for edit in edits)
     yield Suspect(
         tuple(of.name("body", body) for body, _ in dense),
-        "mass",
-        f"{worst.mass:.3g} kg",
-        f"{worst.mass / factor:.3g} kg",
+        "density" if by_density else "mass",
+        f"{float(edits[0].value) * factor:g}" if by_density else f"{worst.mass:.3g} kg",
+        edits[0].value if by_density else f"{worst.mass / factor:.3g} kg",
         edits,
         density(tuple(body for body, _ in dense)),
         METAL,
@@ -101,12 +103,22 @@ def _steel(model: ReaderModel) -> Iterator[Suspect]:
     )
 
 
-def _lighter(model: ReaderModel, body: int, found: Matter, factor: float) -> tuple[Edit, ...]:
-    if inertial(model, body) is not None:
-        return set_inertial(model, body, found.mass / factor, found.centre, tuple(x / factor for x in found.about))
+def _lighter(model: ReaderModel, dense: Sequence[tuple[int, Matter]], factor: float) -> tuple[Edit, ...]:
+    """The edits that make bodies lighter: in a default class where all of its geoms are meant."""
     made: tuple[Edit, ...] = ()
-    for geom in model.simulation.geoms_of(body):
-        for name in ("mass", "density"):
-            if text := model.value("geom", geom, name):
-                made += model.set("geom", [geom], name, f"{float(text) / factor:.6g}")
+    written: dict[tuple[str, str], list[int]] = {}
+    for body, found in dense:
+        if inertial(model, body) is not None:
+            made += set_inertial(model, body, found.mass / factor, found.centre, tuple(x / factor for x in found.about))
+            continue
+        for geom in model.simulation.geoms_of(body):
+            for name in ("mass", "density"):
+                if text := model.value("geom", geom, name):
+                    written.setdefault((name, text), []).append(geom)
+    of = model.simulation
+    fixed = [geom for geom, body in enumerate(of.model("geom_bodyid")) if not of.model("body_weldid")[int(body)]]
+    for (name, text), geoms in written.items():
+        without_weight = [geom for geom in fixed if model.value("geom", geom, name) == text]
+        meant = model.set("geom", geoms + without_weight, name, f"{float(text) / factor:.6g}")
+        made += meant if len(meant) == 1 else model.set("geom", geoms, name, f"{float(text) / factor:.6g}")
     return made

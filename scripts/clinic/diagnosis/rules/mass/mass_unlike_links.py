@@ -45,7 +45,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.mass import mass_unlike_inertia
+from clinic.diagnosis.rules.mass import denser_than_metal, mass_unlike_inertia
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
@@ -56,14 +56,15 @@ AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "what a link should weigh, only its maker knows"
 
-DENSE, SHARE, MANY, GRAM, METAL = 4.0, 0.06, 4, 0.001, 24000.0
+DENSE, SHARE, MANY, GRAM = 4.0, 0.06, 4, 0.001
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The links whose density is away from that of their robot, robot by robot, where they are two at the most."""
     of = model.simulation
     owner, links = root_of(of), _links(of)
-    told = {name for each in mass_unlike_inertia.suspects(model) for name in each.elements} if links else set()
+    others = (mass_unlike_inertia, denser_than_metal) if links else ()
+    told = {name for rule in others for each in rule.suspects(model) for name in each.elements}
     for root in sorted({owner[body] for body in links}):
         robot = {body: each for body, each in links.items() if owner[body] == root}
         found = [body for body in _unlike(robot) if body not in of.free_bodies]
@@ -115,8 +116,4 @@ def _unlike(robot: dict[int, tuple[float, float]]) -> list[int]:
     if len(robot) < MANY:
         return []
     middle, total = _middle(robot), sum(mass for mass, _ in robot.values())
-    return [
-        body
-        for body, (mass, volume) in robot.items()
-        if DENSE * middle < mass / volume < METAL and mass > SHARE * total
-    ]
+    return [body for body, (mass, volume) in robot.items() if mass / volume > DENSE * middle and mass > SHARE * total]

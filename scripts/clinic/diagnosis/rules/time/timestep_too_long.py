@@ -26,7 +26,8 @@ Good:
 The number: the fastest joint within 2 s after letting go (100 rad/s are 16 turns a second), or, where that is calm, how
 much a joint's speed jumps to and fro from step to step after a nudge, how fast it is under command, and how deep
 contacts are. Of the steps that are tried (a half, a quarter, and so on) the longest that brings it to a tenth is told,
-of a depth under command to a third.
+of a depth under command to a third. Beyond 0.04 s it is told as a hint, however calm: of 290 healthy models none has
+more than 0.03 s.
 
 When it is wrong: something that is meant to spin fast. A gain or a spring that shakes at 2 ms too is the fault itself.
 """
@@ -41,7 +42,8 @@ from clinic.diagnosis.probes.run import fastest, sunk
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.probes.solver import patient
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "The timestep is too long"
 FAMILIES = ("explodes", "oscillates", "falls-through")
@@ -50,6 +52,7 @@ SINCE = "0.1"
 FAST = 100.0  # rad/s
 SECONDS, WHOLE = 2.0, 0.9  # what is run, and the share of it that a run with a shorter step has to last
 SUNK, PRESSED = 0.05, 0.035  # of the model's extent
+UNUSUAL = 0.04  # s
 TENTH, THIRD, HALF = 0.1, 1 / 3, 0.5  # what is left of a symptom that is gone; contacts are never without depth
 
 
@@ -78,3 +81,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 now, value = f"{step:g}", f"{step / divisor:g}"
                 yield Suspect(("the timestep",), "timestep", now, value, edits, probe, limit, says, share=share)
                 return
+    if step > UNUSUAL:
+        edits = model.option("timestep", "0.002")
+        says = f"What moves at 1 m/s gets {1000 * step:.0f} mm on in a step of {step:g} s before anything can meet it."
+        probe = Probe("timestep", "s", _timestep, dynamic=False)
+        healthy = "0.0001 to 0.03 s in 290 healthy models"
+        elements = ("the timestep",)
+        yield Suspect(elements, "timestep", f"{step:g}", "0.002", edits, probe, UNUSUAL, says, healthy, level="hint")
+
+
+def _timestep(of: Simulation) -> float:
+    return of.timestep

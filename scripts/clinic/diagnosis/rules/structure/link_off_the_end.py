@@ -1,0 +1,136 @@
+"""A link does not hang on the end of the one before it.
+
+A rod ends 0.6 m from its joint, and the next one hangs 6 m away in the same direction, or at the other end, or both
+begin in one place: a `pos` that was forgotten, a sign, a decimal point in one of two numbers that say the same length.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="upper" pos="0 0 1">
+          <joint axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
+          <body name="lower">
+            <joint axis="0 1 0"/>
+            <geom type="capsule" fromto="0 0 0 0.25 0 0" size="0.02"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    -       <body name="lower">
+    +       <body name="lower" pos="0.3 0 0">
+
+The number: where the next link with a joint begins, in lengths of a capsule or cylinder that begins at its own body's
+origin: 10, 100 or 1000 times as far or a part of that, or at the other side, where no other geom is; or at its
+beginning, where the next one's is a rod in the same direction.
+
+When it is wrong: a telescope that is drawn pushed in.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from clinic.diagnosis.engine import CAPSULE, CYLINDER
+from clinic.diagnosis.probes.vector import Vector, add, dot, norm, of_quaternion, sub, times, unit, written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A link off the end of the one before"
+FAMILIES = ("drifts", "stuck", "jumps-at-start", "wrong-numbers")
+SINCE = "0.1"
+AFLOAT = True
+LEVEL = "hint"
+UNPLANTED = "where a link belongs, only a drawing tells"
+
+WITHIN, PARALLEL, SLENDER, OFF = 0.15, 0.985, 1.5, 0.5
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Each link that is in one line with the rod before it, and not at its end."""
+    of = model.simulation
+    for body in of.moving_bodies:
+        parent, share = int(of.model("body_parentid")[body]), _share(of, body)
+        if not parent or not of.joints_of(body) or share == 1:
+            continue
+        geom, rod = _rods(of, parent)[-1]
+        place, above = of.row("body_pos", body, 3), of.name("body", parent)
+        length = f"The rod of {above} ends {norm(rod):.3g} m from where that begins, and {of.name('body', body)}"
+        says = f"{length} hangs {norm(place):.3g} m away in the same direction."
+        if share == 0:
+            says = f"{length}, a rod in the same direction, begins where {above} does."
+        if share < 0:
+            says = f"{length} hangs on the other side, {norm(place):.3g} m away."
+        probe = Probe("a link from the end of the rod before it", "of the rod's length", _off, (body,), dynamic=False)
+        names, text = [of.name("body", body), above], model.value("geom", geom, "fromto")
+        if share not in (0, -1) and text and _odd_rod(of, geom, rod, place):
+            names, attribute, now = [of.name("geom", geom), *names], "fromto", text
+            value = written([share * float(each) for each in text.split()])
+            edits = model.set("geom", [geom], "fromto", value)
+        else:
+            attribute, now = "pos", written(place)
+            value = written(rod if share == 0 else [x / share for x in place])
+            edits = model.placed(body, [float(each) for each in value.split()])
+        yield Suspect(
+            tuple(names), attribute, now, value, edits, probe, OFF, says, "at the end of a rod, or on its way"
+        )
+
+
+def _odd_rod(of: Simulation, geom: int, rod: Vector, place: Vector) -> bool:
+    """Whether it is the rod's length, and not the next link's place, that is unlike the other rods of the model."""
+    others = [norm(end) for body in of.moving_bodies for other, end in _rods(of, body) if other != geom]
+    if not others:
+        return False
+    usual = sorted(others)[len(others) // 2]
+    return abs(math.log(norm(rod) / usual)) > abs(math.log(norm(place) / usual))
+
+
+def _off(of: Simulation, body: int) -> float:
+    """How far a link begins from the end of the rod before it, in lengths of the rod; 0 where that is no mistake's."""
+    if _share(of, body) == 1:
+        return 0.0
+    rod = _rods(of, int(of.model("body_parentid")[body]))[-1][1]
+    return norm(sub(of.row("body_pos", body, 3), rod)) / norm(rod)
+
+
+def _share(of: Simulation, body: int) -> float:
+    """Where a link is along the rod before it, where that is a mistake's number: 0, -1, or a power of ten; else 1."""
+    parent, place = int(of.model("body_parentid")[body]), of.row("body_pos", body, 3)
+    rods = _rods(of, parent)
+    if not rods:
+        return 1.0
+    rod = rods[-1][1]
+    if norm(place) < 0.02 * norm(rod):
+        own = [times(of_quaternion(of.row("body_quat", body, 4)), end) for _, end in _rods(of, body)[-1:]]
+        beside = any(dot(unit(end), unit(rod)) > PARALLEL and norm(end) > 0.4 * norm(rod) for end in own)
+        return 0.0 if beside else 1.0
+    along, power = dot(unit(place), unit(rod)), round(math.log10(norm(place) / norm(rod)))
+    near = [geom for geom in of.geoms_of(parent) if norm(sub(of.row("geom_pos", geom, 3), place)) < _radius(of, geom)]
+    if abs(along) < PARALLEL or len(near) > (power < 0 < along):  # the rod itself
+        return 1.0
+    if abs(math.log10(norm(place) / norm(rod)) - power) > math.log10(1 + WITHIN):
+        return 1.0
+    return math.copysign(10.0**power, along)
+
+
+def _radius(of: Simulation, geom: int) -> float:
+    return of.model("geom_rbound")[geom]
+
+
+def _rods(of: Simulation, body: int) -> list[tuple[int, Vector]]:
+    """The rods of a body that begin at its origin, with where they end; the longest last."""
+    made = []
+    for geom in of.geoms_of(body):
+        radius, half, _ = of.row("geom_size", geom, 3)
+        middle, turn = of.row("geom_pos", geom, 3), of_quaternion(of.row("geom_quat", geom, 4))
+        axis = times(turn, (0.0, 0.0, half))
+        near, far = sorted((add(middle, axis), sub(middle, axis)), key=norm)
+        rod = int(of.model("geom_type")[geom]) in (CAPSULE, CYLINDER) and half > SLENDER * radius
+        if rod and norm(near) < max(radius, 0.1 * half):
+            made.append((geom, far))
+    return sorted(made, key=lambda each: norm(each[1]))

@@ -22,7 +22,8 @@ Good:
     +       <geom type="sphere" size="0.05" contype="0" conaffinity="0" mass="0"/>
 
 The number: the body's mass, and without that of geoms for which no mass and no density is written, or the very mass of
-a colliding geom of the same type. Half as much again tells a cause.
+a colliding geom of the same type, or the density of those that collide in another group, as where the compiler's
+`inertiagrouprange` was lost. Half as much again tells a cause.
 
 When it is wrong: where the visible geoms are meant to be the mass; a mass or density that is written says so.
 """
@@ -95,10 +96,14 @@ def _meant_to_touch(of: Simulation, geom: int) -> bool:
 
 
 def _copies(model: ReaderModel, geom: int, others: list[int]) -> bool:
-    """Whether a geom has the mass and the type of one that collides, so that the mass counts twice."""
+    """Whether a geom has what one that collides has, so that it counts twice: mass and type, or density in a group."""
     types, mass = model.simulation.model("geom_type"), model.value("geom", geom, "mass")
     like = [other for other in others if types[other] == types[geom]]
-    return mass is not None and any(model.value("geom", other, "mass") == mass for other in like)
+    if mass is not None:
+        return any(model.value("geom", other, "mass") == mass for other in like)
+    groups, density = model.simulation.model("geom_group"), model.value("geom", geom, "density")
+    apart = others and all(groups[other] != groups[geom] for other in others)
+    return bool(apart) and all(model.value("geom", other, "density") == density for other in others)
 
 
 def _is_skin(of: Simulation, geom: int, others: list[int]) -> bool:

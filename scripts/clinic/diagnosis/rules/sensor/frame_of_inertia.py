@@ -8,7 +8,7 @@ Bad:
     <mujoco>
       <worldbody>
         <body name="torso" pos="0 0 1">
-          <freejoint/>
+          <joint type="ball"/>
           <geom type="box" size="0.3 0.2 0.1" mass="5"/>
         </body>
       </worldbody>

@@ -8,8 +8,13 @@ Bad:
     <mujoco>
       <worldbody>
         <body name="torso" pos="0 0 1">
-          <joint type="ball"/>
-          <geom type="box" size="0.3 0.2 0.1" mass="5"/>
+          <freejoint/>
+          <geom type="box" size="0.1 0.15 0.2" mass="5"/>
+          <geom type="box" pos="-0.15 0 0.1" size="0.05 0.1 0.1" mass="2"/>
+          <body pos="0 0 0.25">
+            <joint axis="0 1 0"/>
+            <geom size="0.05" mass="0.5"/>
+          </body>
         </body>
       </worldbody>
       <sensor>

@@ -13,6 +13,7 @@ from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect
 
 SECTIONS = {"sensor", "actuator", "tendon", "equality"}
+SPOKEN = re.compile(r"([A-Za-z]+)_?(\d+)")
 PLACE = re.compile(r"(?:Element|Object)(?: name =?)? ?'?([^',]*)'?(?:, id =? ?(-?\d+))?(?:, line =? ?(\d+))?")
 
 
@@ -96,7 +97,16 @@ def nearest(word: str, known: Iterable[str]) -> list[str]:
     alike = {each.lower(): each for each in words}
     if word.lower() in alike:
         return [alike[word.lower()]]
-    return difflib.get_close_matches(word, words, 3, 0.6)
+    return difflib.get_close_matches(word, words, 3, 0.6) or _abbreviated(word, words)
+
+
+def _abbreviated(word: str, known: Iterable[str]) -> list[str]:
+    """The known word that this one abbreviates, or is abbreviated by, where it is one: j3 is joint3."""
+    parts = SPOKEN.fullmatch(word)
+    found = [(each, other) for each in known if (other := SPOKEN.fullmatch(each))]
+    alike = [each for each, other in found if parts and other[2] == parts[2] and 1 in (len(other[1]), len(parts[1]))
+             and other[1][0].lower() == parts[1][0].lower()]  # fmt: skip
+    return alike if len(alike) == 1 else []
 
 
 def folder_of(model: ReaderModel, element: Element) -> str:

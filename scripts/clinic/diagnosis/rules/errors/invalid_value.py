@@ -131,7 +131,7 @@ def _advice(said: str, element: Element, edit: Edit) -> str:
         return f"{edit.attribute} of <{element.tag}> takes none that is like it; without it the default holds."
     if re.search(r"size \d+ must be positive", said):
         return SIZES.get(element.get("type", "sphere"), "")
-    if "range" in said and edit.action == "remove" and edit.attribute == "limited":
+    if "range" in said and edit.attribute == "limited":
         return "What is limited needs a range."
     return next((says for part, says in ADVICE.items() if re.search(part, said)), "")
 
@@ -197,7 +197,9 @@ def _numbers(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
         points = [float(number) for number in element.get("fromto").split()]
         yield put("fromto", " ".join(f"{number:g}" for number in [*points[:5], points[2] + 0.1]))
     elif "range[1] in joint" in said and "range" not in element.attributes:
-        yield remove_attribute(element, "limited"), element.get("limited")
+        if "limited" in element.attributes:
+            yield remove_attribute(element, "limited"), element.get("limited")
+        yield put("limited", "false")  # where a default class says otherwise
     elif "optional suffix" in said:
         yield put("memory", "".join(re.findall(r"^\d+|(?<=\d)[KMGTPE]", element.get("memory").upper())[:2]) or "10M")
     elif RANGE.search(said):

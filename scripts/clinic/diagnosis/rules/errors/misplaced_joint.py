@@ -38,8 +38,10 @@ When it is wrong: where the body is meant to move: move it below the world inste
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
-from clinic.diagnosis.edit import delete, replace, set_attribute
+from clinic.diagnosis.edit import delete, remove_attribute, set_attribute
+from clinic.diagnosis.edit import replace as written_anew
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence, told
 from clinic.diagnosis.source import Element
@@ -70,6 +72,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             joints = [each for each in element.walk() if each.tag in ("joint", "freejoint") and _own(each, element)]
             if said.startswith("World"):
                 yield from _moved(model, joints, said)
+            for joint in (each for each in joints if each.get("type") == "free" and model.source):
+                plain = replace(joint, attributes={k: v for k, v in joint.attributes.items() if k != "type"})
+                if model.source and (kind := model.source.value(plain, "type")):
+                    says = f"{said}. Its class has {kind}."
+                    taken = (remove_attribute(joint, "type"),)
+                    yield mends(joint, taken, says, attribute="type", now="free", value=kind)
             for joint in [each for each in joints if _free(each)] + joints[::-1]:
                 yield mends(joint, (delete(joint),), f"{said}. {SAYS[said.split()[0]]}", value="removed")
         elif said.startswith("plane only allowed"):
@@ -93,7 +101,7 @@ def _moved(model: ReaderModel, joints: list[Element], said: str) -> Iterator[Sus
         text = model.texts[joint.file].encode()
         own, its = (text[each.start : each.end].decode() for each in (joint, first))
         margin = text[text.rfind(b"\n", 0, first.start) + 1 : first.start].decode()
-        edits = (delete(joint), replace(first, f"{own}\n{margin if not margin.strip() else ''}{its}"))
+        edits = (delete(joint), written_anew(first, f"{own}\n{margin if not margin.strip() else ''}{its}"))
         says = f"{said}. It stands right before {told(body)}, which has none: it is put in there."
         yield mends(joint, edits, says, value=f"moved into {told(body)}")
 

@@ -19,7 +19,8 @@ Good:
 
 The number: none; the text compiles with the edit.
 
-When it is wrong: what refers to the name now means the first of both.
+When it is wrong: what refers to the name now means the first of both. Where something refers to a name that nothing
+has, that is the one that was meant.
 """
 
 from __future__ import annotations
@@ -28,11 +29,12 @@ import posixpath
 import re
 from collections import Counter
 from collections.abc import Iterator
+from difflib import SequenceMatcher
 
 from clinic.diagnosis.edit import Edit, delete, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import mends, sentence
-from clinic.diagnosis.source import Element
+from clinic.diagnosis.source import Element, Source
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A name that is used twice"
@@ -60,6 +62,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         says = f"The same stands there before, with all that is in it: {name!r} is taken out where it comes again."
         yield mends(again, (delete(again),), says, attribute=attribute, now=name, value="removed")
         return
+    if missing := _missing(model.source, kind, {*names.values()}):
+        several = Counter(names.values())
+        twice = [each for each in every if names[id(each)] and several[names[id(each)]] > 1]
+        element = max(twice[::-1], key=lambda each: _like(each, missing))
+        says = f"{len(twice)} elements are called {names[id(element)]!r}, and none {missing!r}, which is referred to."
+        edits = [set_attribute(element, attribute, missing)]
+        yield mends(element, edits, says, attribute=attribute, now=names[id(element)], value=missing)
     used, edits, first = Counter[str](["world"] if kind == "body" else []), list[Edit](), None
     for element in every:
         name = names[id(element)]
@@ -73,6 +82,30 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         says = f"{used[name]} elements are called {name!r}."
         says = "The world is a body, and called 'world'." if (kind, name) == ("body", "world") else says
         yield mends(first, edits, says, attribute=attribute, now=name, value=edits[0].value)
+
+
+def _missing(source: Source, kind: str, names: set[str]) -> str:
+    """The one name that is referred to and that no element of the kind has; empty where there is none, or several."""
+    said = {
+        value
+        for each in source.root.walk()
+        for attribute, value in each.attributes.items()
+        if each.tag not in ("body", "default")
+        and (
+            attribute.rstrip("12") == kind
+            or (attribute == "objname" and each.get("objtype") == kind)
+            or (attribute == "refname" and each.get("reftype") == kind)
+        )
+    }
+    left = {value for value in said - names if value and "/" not in value and value != "world"}
+    return left.pop() if kind and len(left) == 1 else ""
+
+
+def _like(element: Element, name: str) -> float:
+    """How like a name those of the elements around are: `rf` beside body "rfinger"."""
+    around = [each.get("name") for each in element.around() if each.get("name")][:1]
+    around += [each.get("name") for each in element.children if each.get("name")]
+    return max((SequenceMatcher(None, name, each).ratio() for each in around), default=0.0)
 
 
 def _again(elements: list[Element], names: dict[int, str]) -> Element | None:

@@ -12,6 +12,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import WIDTH, Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
+AGREE = 0.05  # rad or m
 UNIT = 0.02  # how far from 1 the length of a quaternion may be
 MOST_PARTS = 5  # of a keyframe that are tried in every order
 
@@ -84,6 +85,23 @@ def beyond(simulation: Simulation, key: int) -> dict[int, float]:
             off = min(0.0, simulation.position(joint) - low) + max(0.0, simulation.position(joint) - high)
             if off:
                 made[joint] = off
+    return made
+
+
+@kept
+def against_range(simulation: Simulation, key: int) -> dict[int, tuple[float, float]]:
+    """Of joints outside of their ranges at a keyframe whose servo is told to hold them there: what it may be told.
+
+    Keyframe and control agree, so that it is the range that is wrong.
+    """
+    made = {}
+    off = beyond(simulation, key)
+    for each in servo.servos(simulation):
+        if each.joint in off and each.targets and each.scale > 0:
+            at = simulation.position(each.joint)
+            target = each.offset + each.scale * simulation.data("ctrl")[each.actuator]
+            if abs(target - at) < AGREE and each.targets[0] - AGREE < at < each.targets[1] + AGREE:
+                made[each.joint] = each.targets
     return made
 
 

@@ -26,20 +26,24 @@ Good:
     -     <key name="home" qpos="0.2 -1.2"/>
     +     <key name="home" qpos="0.2 1.2"/>
 
-The number: how far the worst joint is outside, in rad or m: 0.1 and more.
+The number: how far the worst joint is outside, in rad or m: 0.1 and more. Where the joint's servo is told to hold it
+there, and may be, the joint's range is what is told.
 
 When it is wrong: a limit that is soft on purpose.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Mapping
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.probes.key import beyond, outside, reordered
+from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.probes.key import against_range, beyond, outside, reordered, start_at
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A keyframe is outside of the joints' ranges"
 FAMILIES = ("jumps-at-start", "explodes")
@@ -47,10 +51,11 @@ SINCE = "0.1"
 CASE = "arm-jumps-at-reset"
 
 LIMIT = 0.1  # rad or m
+TURNED = 0.25  # of the range: farther outside, and inside with the other sign
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Keyframes with joints beyond their limits."""
+    """Keyframes with joints beyond their limits; the limits where the control agrees with the keyframe."""
     of = model.simulation
     for key in range(of.count("key")):
         if reordered(model, key):
@@ -59,11 +64,20 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         element = model.element("key", key)
         if not off or element is None:
             continue
+        held = {joint: reach for joint, reach in against_range(of, key).items() if joint in off}
+        yield from _ranges(model, key, held)
+        off = {joint: each for joint, each in off.items() if joint not in held}
+        if not off:
+            continue
+        start_at(of, key)
         qpos = list(of.data("qpos"))
+        farther = any(abs(of.position(joint)) > 2 * math.pi for joint in off)
+        in_degrees = farther and all(_inside(of, joint, math.radians(of.position(joint))) for joint in off)
         for joint, each in off.items():
-            qpos[int(of.model("jnt_qposadr")[joint])] -= each
+            qpos[int(of.model("jnt_qposadr")[joint])] = _meant(of, joint, each, in_degrees)
         worst = max(off, key=lambda joint: abs(off[joint]))
         low, high = of.row("jnt_range", worst, 2)
+        says = f"{of.name('joint', worst)} stands {abs(off[worst]):.3g} outside of {low:.3g} to {high:.3g}."
         yield Suspect(
             (of.name("key", key), *(of.name("joint", joint) for joint in off)),
             "qpos",
@@ -72,7 +86,49 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             (set_attribute(element, "qpos", written(qpos)),),
             outside(key),
             LIMIT,
-            f"{of.name('joint', worst)} stands {abs(off[worst]):.3g} outside of {low:.3g} to {high:.3g}.",
+            says + " As degrees it would be inside." * in_degrees,
             "inside of the ranges",
             excess=abs(off[worst]) / LIMIT,
         )
+
+
+def _ranges(model: ReaderModel, key: int, held: Mapping[int, tuple[float, float]]) -> Iterator[Suspect]:
+    """The ranges of joints that keyframe and control are outside of, with the other sign or those of the control."""
+    of = model.simulation
+    for joint, reach in held.items():
+        start_at(of, key)
+        at, (low, high) = of.position(joint), of.row("jnt_range", joint, 2)
+        wanted = (-high, -low) if -high <= at <= -low else reach
+        unit = model.angle_unit if of.joint_type(joint) == HINGE else 1.0
+        value = written([x / unit for x in wanted])
+        says = f"{of.name('key', key)} puts {of.name('joint', joint)} at {at:.3g}, and its servo is to hold it there; "
+        says += f"the range ends at {low if at < low else high:.3g}."
+        yield Suspect(
+            (of.name("joint", joint), of.name("key", key)),
+            "range",
+            model.value("joint", joint, "range") or written([x / unit for x in (low, high)]),
+            value,
+            model.set("joint", [joint], "range", value),
+            Probe("joint outside of its range at the keyframe", "rad", _beyond, (key, joint), dynamic=False),
+            LIMIT,
+            says,
+            "keyframe, control and range agree",
+        )
+
+
+def _beyond(of: Simulation, key: int, joint: int) -> float:
+    return abs(beyond(of, key).get(joint, 0.0))
+
+
+def _inside(of: Simulation, joint: int, at: float) -> bool:
+    low, high = of.row("jnt_range", joint, 2)
+    return of.joint_type(joint) == HINGE and low <= at <= high
+
+
+def _meant(of: Simulation, joint: int, beyond: float, in_degrees: bool) -> float:
+    """Where a joint was meant to be: in degrees, with the other sign, or at the end of its range."""
+    at, (low, high) = of.position(joint), of.row("jnt_range", joint, 2)
+    if in_degrees:
+        return math.radians(at)
+    turned = low <= -at <= high and abs(beyond) > TURNED * (high - low)
+    return -at if turned else at - beyond

@@ -109,7 +109,9 @@ def _lighter(model: ReaderModel, dense: Sequence[tuple[int, Matter]], factor: fl
     written: dict[tuple[str, str], list[int]] = {}
     for body, found in dense:
         if inertial(model, body) is not None:
-            made += set_inertial(model, body, found.mass / factor, found.centre, tuple(x / factor for x in found.about))
+            kept = abs(math.log(found.radius * math.sqrt(factor))) < abs(math.log(found.radius))  # of the right mass
+            about = found.about if kept else tuple(x / factor for x in found.about)
+            made += set_inertial(model, body, found.mass / factor, found.centre, about)
             continue
         for geom in model.simulation.geoms_of(body):
             for name in ("mass", "density"):

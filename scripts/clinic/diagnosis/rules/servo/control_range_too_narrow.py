@@ -33,6 +33,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.key import against_range
 from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.servo.control_range_too_wide import inherit, inherited
@@ -67,7 +68,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     simulation = model.simulation
     shared = {actuator for each in twice(simulation).values() for actuator in each}  # meant for another joint
     found = [each for each in servos(simulation) if missed(each) > MISSED and not meets(simulation, each)]
-    found = [each for each in found if each.actuator not in shared]
+    held = {joint for key in range(simulation.count("key")) for joint in against_range(simulation, key)}
+    found = [each for each in found if each.actuator not in shared and each.joint not in held]
     gears = {each.actuator: simulation.model("actuator_gear")[6 * each.actuator] for each in found}
     for geared in (True, False):
         some = [each for each in found if (abs(gears[each.actuator]) > GEARED) == geared]
@@ -101,8 +103,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def ungeared(model: ReaderModel, servo: Servo) -> tuple[Edit, ...]:
-    """A gear of 1 in place of the gear, and gains that leave the joint as stiff and as damped as it was."""
-    one, gear = [servo.actuator], model.simulation.model("actuator_gear")[6 * servo.actuator]
+    """A gear of 1 in place of the gear, and gains that leave the joint as stiff and as damped as it was.
+
+    Gains that another servo without a gear has as well were meant without one.
+    """
+    of, one = model.simulation, [servo.actuator]
+    gears = [of.model("actuator_gear")[6 * each] for each in range(of.count("actuator"))]
+    gear = gears[servo.actuator]
     written = {gain: model.value("actuator", servo.actuator, gain) for gain in ("kp", "kv")}
-    gains = ((gain, f"{float(value) * gear**2:g}") for gain, value in written.items() if value)
+    others = [each for each, other in enumerate(gears) if other == 1]
+    shared = any(all(model.value("actuator", each, gain) == value for gain, value in written.items())
+                 for each in others)  # fmt: skip
+    gains = ((gain, f"{float(value) * gear**2:g}") for gain, value in written.items() if value and not shared)
     return sum((model.set("actuator", one, *each) for each in gains), model.set("actuator", one, "gear", "1"))

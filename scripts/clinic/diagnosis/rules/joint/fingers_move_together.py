@@ -43,7 +43,7 @@ from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import SLIDE
-from clinic.diagnosis.probes.couplings import couplings, lost
+from clinic.diagnosis.probes.couplings import Coupling, couplings, lost
 from clinic.diagnosis.probes.vector import add, dot, norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -95,6 +95,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"{of.name('joint', follower)} goes where {of.name('joint', leader)} goes: the gap never changes.",
             "fingers that close",
         )
+
+
+def sign_lost(of: Simulation, equality: int, coupling: Coupling) -> bool:
+    """Whether two fingers go together, one of them out of its range, and with the other sign neither does."""
+    follower, leader, factors = coupling
+    slides = all(of.joint_type(joint) == SLIDE for joint in (follower, leader))
+    turned = (follower, leader, (factors[0], *(-x for x in factors[1:])))
+    return slides and _together(of, equality) > MOST and lost(of, (turned,)) < ALIKE
 
 
 def _uncoupled(model: ReaderModel) -> Iterator[Suspect]:

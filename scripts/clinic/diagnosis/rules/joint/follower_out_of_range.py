@@ -40,6 +40,7 @@ from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.couplings import couplings, led_over, lost
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.joint.fingers_move_together import sign_lost
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
@@ -55,7 +56,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Followers whose range leaves out most of what they are led to, all together."""
     simulation = model.simulation
     yield from _constant(model)
-    found = [each for _, each in couplings(simulation) if lost(simulation, (each,)) > LOST and any(each[2][1:])]
+    every = couplings(simulation)
+    found = [each for number, each in every if lost(simulation, (each,)) > LOST and any(each[2][1:])
+             and not sign_lost(simulation, number, each)]  # fmt: skip
     if not found:
         return
     edits: tuple[Edit, ...] = ()

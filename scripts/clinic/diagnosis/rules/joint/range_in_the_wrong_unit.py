@@ -78,6 +78,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if not meant:
             continue
         most = len(meant) == len(few) and (2 * len(few) > len(spans) or len(spans) == 1)
+        most = most and not (unit == "radian" and _in_degrees(model))
         in_degrees = model.angle_unit != 1.0
         if most and unit == ("degree" if in_degrees else "radian"):
             continue  # it is in that unit already
@@ -104,6 +105,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "0.3 to 6.5 rad",
             level="hint" if most and not simulation.geoms_of(0) else "cause",
         )
+
+
+def _in_degrees(model: ReaderModel) -> bool:
+    """Whether an orientation is written whose angles are no radians."""
+    texts = [each.get("euler") for each in model.source.root.walk()] if model.source else []
+    return any(abs(float(number)) > 2 * math.pi for text in texts for number in text.split() if _number(number))
+
+
+def _number(text: str) -> bool:
+    return text.lstrip("-").replace(".", "", 1).isdigit()
 
 
 def _round(model: ReaderModel, joint: int) -> bool:

@@ -38,6 +38,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.key import start_at
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
@@ -54,14 +55,17 @@ OUTSIDE = 0.8
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each tendon whose start its limit does not allow."""
     of = model.simulation
-    if of.begin_with.key < 0 and of.count("key"):
-        return  # a model that has keyframes begins with one
+    keys = range(min(1, of.count("key"))) if of.begin_with.key < 0 else ()  # a model that has keyframes begins with one
     for tendon in range(of.count("tendon")):
+        if any(_outside_at(of, tendon, key) <= OUTSIDE for key in keys):
+            continue
         if _outside(of, tendon) <= OUTSIDE:
             continue
         (low, high), length = of.row("tendon_range", tendon, 2), of.data("ten_length")[tendon]
         least, most = min(low, 0.98 * length), max(high, 1.02 * length)
         value = f"{rounded(least)} {rounded(1.01 * most)}"
+        if low / 1000 <= length <= high / 1000:
+            value = f"{low / 1000:g} {high / 1000:g}"  # in m
         probe = Probe(
             "how far a tendon starts outside of its range", "of its length", _outside, (tendon,), dynamic=False
         )
@@ -72,8 +76,24 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _outside(simulation: Simulation, tendon: int) -> float:
+    simulation.begin()
+    return _beyond(simulation, tendon)
+
+
+def _outside_at(simulation: Simulation, tendon: int, key: int) -> float:
+    start_at(simulation, key)
+    return _beyond(simulation, tendon)
+
+
+def _beyond(simulation: Simulation, tendon: int) -> float:
+    """How far a tendon is outside of its range now."""
     if not simulation.model("tendon_limited")[tendon]:
         return 0.0
-    simulation.begin()
     (low, high), length = simulation.row("tendon_range", tendon, 2), simulation.data("ten_length")[tendon]
-    return max(low - length, length - high) / max(abs(length), high - low, 1e-9)
+    wide = high - low if low <= 10 * length else 0.0
+    return max(low - length, length - high) / max(abs(length), abs(low) if low > length else 0.0, wide, 1e-9)
+
+
+def far_outside(simulation: Simulation) -> bool:
+    """Whether some tendon begins where its limit does not allow."""
+    return any(_outside(simulation, tendon) > OUTSIDE for tendon in range(simulation.count("tendon")))

@@ -34,6 +34,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
 from clinic.diagnosis.probes.matter import matter
+from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.world.lengths_in_another_unit import unit_of_lengths
 from clinic.diagnosis.simulation import Simulation
@@ -43,7 +44,7 @@ TITLE = "Lighter than air"
 FAMILIES = ("falls-through", "explodes", "stuck")
 SINCE = "0.1"
 
-AIR, LIMIT, LIGHT = 1.2, 300.0, 1.0
+AIR, LIMIT, LIGHT, FEW = 1.2, 300.0, 1.0, 2
 METRES = 5.0, 20.0  # m/s2
 
 
@@ -66,6 +67,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     groups = list(trees.items())
     if len(light) <= 2:  # a link of a tree that is heavy enough
         groups += [(body, [body]) for body in light if trees.get(body) != [body]]
+    yield from _links(model, most)
     for root, bodies in groups:
         geoms = [geom for body in bodies for geom in of.geoms_of(body)]
         if not any(of.model("geom_contype")[geom] or of.model("geom_conaffinity")[geom] for geom in geoms):
@@ -93,6 +95,36 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"All that moves with it weighs {mass:.3g} kg: 1 mN accelerates it by {1e-3 / max(mass, 1e-30):.3g} m/s2.",
             "wood has 500 kg/m3, air 1.2",
             level="cause" if times > LIMIT else "hint",
+        )
+
+
+def _links(model: ReaderModel, most: float) -> Iterator[Suspect]:
+    """The links whose density is written, or that of their class, in g/cm3, where what they hang on is heavier."""
+    of = model.simulation
+    found: dict[str, list[int]] = {}
+    for body in of.moving_bodies if most == LIGHT else ():
+        texts = {model.value("geom", geom, "density") or "" for geom in of.geoms_of(body)}
+        if len(texts) == 1 and of.joints_of(body) and inertial(model, body) is None and _air(of, body) > LIGHT:
+            found.setdefault(texts.pop(), []).append(body)
+    owner = root_of(of)
+    for text, bodies in found.items():
+        roots = {owner[body] for body in bodies}
+        whole = tuple(body for body in of.moving_bodies if owner[body] in roots)
+        if not text or len(bodies) < FEW or _air(of, *whole) > LIGHT:  # else it is told of the whole
+            continue
+        every = [geom for geom in range(of.count("geom")) if model.value("geom", geom, "density") == text]
+        value = f"{1000 * float(text):g}"
+        yield Suspect(
+            tuple(of.name("body", body) for body in bodies),
+            "density",
+            text,
+            value,
+            model.set("geom", every, "density", value),
+            Probe("mass of the air in its place over its own", "", _air, tuple(bodies), dynamic=False),
+            LIGHT,
+            f"{len(bodies)} links are lighter than air; {text} is their density in g/cm3, and MuJoCo takes kg/m3.",
+            "wood has 500 kg/m3, air 1.2",
+            level="hint",
         )
 
 

@@ -45,7 +45,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.mass import denser_than_metal, mass_unlike_inertia
+from clinic.diagnosis.rules.mass import denser_than_metal, lighter_than_air, mass_unlike_inertia
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
@@ -65,6 +65,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     owner, links = root_of(of), _links(of)
     others = (mass_unlike_inertia, denser_than_metal) if links else ()
     told = {name for rule in others for each in rule.suspects(model) for name in each.elements}
+    if links and any(lighter_than_air.suspects(model)):
+        return
     for root in sorted({owner[body] for body in links}):
         robot = {body: each for body, each in links.items() if owner[body] == root}
         found = [body for body in _unlike(robot) if body not in of.free_bodies]

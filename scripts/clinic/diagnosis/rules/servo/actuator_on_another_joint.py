@@ -34,7 +34,7 @@ When it is wrong: an actuator that drives another joint than the one of its name
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.reader_model import ReaderModel
@@ -45,6 +45,7 @@ TITLE = "An actuator drives another joint than its name says"
 FAMILIES = ("stuck", "drifts", "sags")
 SINCE = "0.1"
 
+LONG = 4  # letters
 WORDS = ("actuator", "act", "motor", "servo", "joint", "ctrl", "pos", "position", "torque", "a", "m", "j", "t")
 
 
@@ -68,11 +69,17 @@ def _meant(simulation: Simulation) -> dict[int, tuple[int, int]]:
     for actuator, name in enumerate(simulation.names("actuator")):
         key, driven = _key(name), drives[actuator]
         within = [each for words, some in joints.items() if set(key) <= set(words) for each in some]
-        found = joints.get(key) or [each for each in within if each not in undriven]
+        found = joints.get(key) or [each for each in within if each not in undriven] or _longer(joints, key)
         if key and len(found) == 1 and driven not in (None, found[0]):
             made[actuator] = (driven, found[0])
     wrong = {meant: driven for driven, meant in made.values()}
     return {each: pair for each, pair in made.items() if pair[1] in undriven or wrong.get(pair[0]) == pair[1]}
+
+
+def _longer(joints: Mapping[tuple[str, ...], list[int]], key: tuple[str, ...]) -> list[int]:
+    """The joints whose one word begins with that of an actuator: `slide` drives `slider`."""
+    return [each for words, some in joints.items() if len(words) == len(key) == 1 and len(key[0]) >= LONG
+            and words[0].startswith(key[0]) for each in some]  # fmt: skip
 
 
 def _undriven(simulation: Simulation) -> float:

@@ -35,6 +35,7 @@ When it is wrong: two motors on one axle, or a pair of muscles that a joint stan
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE, SLIDE
@@ -78,10 +79,15 @@ def twice(of: Simulation) -> dict[int, list[int]]:
 
 
 def _idle(of: Simulation, joint: int) -> list[int]:
-    """The hinges and slides of a joint's mechanism that no actuator drives."""
+    """The hinges and slides of a joint's mechanism, or called like it but for a number, that no actuator drives."""
     owner, bodies = root_of(of), of.model("jnt_bodyid")
     driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
-    beside = (each for each in range(of.count("joint")) if owner[int(bodies[each])] == owner[int(bodies[joint])])
+    names = [re.sub(r"\d+", "", name) or str(each) for each, name in enumerate(of.names("joint"))]
+    beside = (
+        each
+        for each in range(of.count("joint"))
+        if owner[int(bodies[each])] == owner[int(bodies[joint])] or names[each] == names[joint]
+    )
     return [each for each in beside if each not in driven and of.joint_type(each) in (HINGE, SLIDE)]
 
 

@@ -14,6 +14,9 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.twins._edits import COPIED
 from clinic.diagnosis.simulation import Simulation
 
+INERTIAL = ("mass", "center of mass", "inertia")
+TIE = 0.01  # of what is counted
+
 
 def odd_side(model: ReaderModel, each: Comparison) -> tuple[int, bool]:
     """Which of a pair is the odd one, the left one where nothing tells; and whether something does."""
@@ -28,7 +31,7 @@ def odd_side(model: ReaderModel, each: Comparison) -> tuple[int, bool]:
 def _strange(model: ReaderModel, each: Comparison, side: int) -> float:
     """How far a side is from what else the model has, to be compared with its twin's alone."""
     simulation = model.simulation
-    if each.kind == "body" and inertial(model, each.left) is not None:
+    if each.kind == "body" and each.quantity in INERTIAL and inertial(model, each.left) is not None:
         found = matter(simulation, side)
         if each.quantity == "inertia":
             return round(abs(math.log(found.radius)), 1) if found else 0.0
@@ -54,8 +57,27 @@ def _strange(model: ReaderModel, each: Comparison, side: int) -> float:
         )
         return len(set(_pieces(names[0])) ^ set(_pieces(names[1])))
     alike = (one for one in twins(simulation).comparisons if (one.kind, one.quantity) == (each.kind, each.quantity))
-    values = Counter(_value(model, each, index) for one in alike for index in (one.left, one.right))
+    both = [index for one in alike for index in (one.left, one.right)]
+    values = Counter(_value(model, each, index) for index in both)
+    if each.quantity == "pos" and each.kind == "body":
+        signed = Counter(_signed(simulation, index) for index in both)
+        return -values[_value(model, each, side)] - TIE * signed[_signed(simulation, side)]
+    if each.quantity in ("gear", "gain"):
+        others = sorted(size for index in both if index not in (each.left, each.right)
+                        and (size := _strength(simulation, index)))  # fmt: skip
+        own = _strength(simulation, side)
+        if others and own:
+            return -values[_value(model, each, side)] + TIE * round(abs(math.log10(own / others[len(others) // 2])))
     return -values[_value(model, each, side)]
+
+
+def _signed(simulation: Simulation, body: int) -> tuple[float, ...]:
+    return tuple(round(x, 6) + 0.0 for x in simulation.row("body_pos", body, 3))
+
+
+def _strength(simulation: Simulation, actuator: int) -> float:
+    """What an actuator gives at a control of 1."""
+    return abs(simulation.gain(actuator)[0] * simulation.model("actuator_gear")[6 * actuator])
 
 
 def _value(model: ReaderModel, each: Comparison, index: int) -> tuple[object, ...]:

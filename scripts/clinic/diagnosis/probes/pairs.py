@@ -93,11 +93,16 @@ class Pairs:
         self.share: dict[int, float] = {}
         self.size: dict[int, float] = {}
         self.common: dict[int, int] = {}
+        self._moved: set[int] = set()
         self._find_images()
 
     def at(self, field: str, index: int, width: int = 3) -> Vector:
         """A row of a field of mjData at the zero pose."""
         return tuple(self._data[field][width * index : width * (index + 1)])
+
+    def displaced(self, left: int) -> bool:
+        """Whether a pair is mirrored but for one coordinate of its place."""
+        return left in self._moved
 
     def partner(self, kind: str, index: int) -> int | None:
         """The twin of an element; None for one without."""
@@ -170,6 +175,7 @@ class Pairs:
                 image, share = through, fits
             if (mirror := self._displaced(common, pairs, FITS * size)) is not None:
                 image, share = mirror, self._fit(pairs, mirror, FITS * size)
+                self._moved |= {left for left, _ in pairs}
             for left, _ in pairs:
                 self.images[left], self.share[left], self.size[left], self.common[left] = image, share, size, common
         self._through_origins()

@@ -31,6 +31,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.shape import solid
+from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -42,6 +43,7 @@ LEVEL = "hint"
 UNPLANTED = "what it does is planted as friction-too-high"
 
 MOST = 20.0
+ARM = 0.05  # m
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -49,6 +51,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     rough = tuple(geom for geom in range(of.count("geom")) if solid(of, geom) and _most(of, geom) > MOST)
     if not rough:
+        yield from _rolling(model)
         return
     now = " ".join(f"{x:g}" for x in of.row("geom_friction", rough[0], 3))
     probe = Probe("coefficient of friction", "", _most, rough, dynamic=False)
@@ -56,6 +59,26 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = "Rubber on concrete has about 1."
     names = tuple(of.name("geom", geom) for geom in rough)
     yield Suspect(names, "friction", now, "1 0.005 0.0001", edits, probe, MOST, says, "1, MuJoCo's default")
+
+
+def _rolling(model: ReaderModel) -> Iterator[Suspect]:
+    """The geoms that a contact holds against rolling as a hook would: the third coefficient is an arm, in m."""
+    of = model.simulation
+    stuck = tuple(geom for geom in range(of.count("geom")) if solid(of, geom) and _arm(of, geom) > ARM)
+    if stuck:
+        row = of.row("geom_friction", stuck[0], 3)
+        value = written((*row[:2], 0.0001))
+        probe = Probe("arm of the rolling friction", "m", _arm, stuck, dynamic=False)
+        says = (
+            f"The third coefficient of friction is an arm in m: each newton of the contact brakes with {row[2]:g} N m."
+        )
+        names, edits = tuple(of.name("geom", geom) for geom in stuck), model.set("geom", stuck, "friction", value)
+        yield Suspect(names, "friction", written(row), value, edits, probe, ARM, says, "0.0001 m, MuJoCo's default")
+
+
+def _arm(of: Simulation, *geoms: int) -> float:
+    """The coefficient against rolling in m, of geoms whose contacts have it."""
+    return max(of.model("geom_friction")[3 * geom + 2] * (of.model("geom_condim")[geom] > 4) for geom in geoms)
 
 
 def _most(of: Simulation, *geoms: int) -> float:

@@ -31,8 +31,8 @@ Good:
 
 The number: the distance between target and joint that three quarters of the position servos keep, in rad or m; 0.1 and
 more tells a cause, for keyframes in which at least two servos and half of them are off. Where there is no `ctrl`, two
-servos that go 0.5 away are told in a hint. So is a servo on a tendon, a gripper's, that goes more than half of the
-tendon's way.
+servos that go 0.5 away are told in a hint. Two that are each told the other's place are told as such. So is a servo on
+a tendon, a gripper's, that goes more than half of the tendon's way.
 
 When it is wrong: a keyframe that is meant to start a motion.
 Whether `ctrl` is left out on purpose, only its author knows: all zero and no `ctrl` is a hint.
@@ -40,7 +40,7 @@ Whether `ctrl` is left out on purpose, only its author knows: all zero and no `c
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.probes import tendons
@@ -48,6 +48,7 @@ from clinic.diagnosis.probes.key import farthest_target, off_target, reordered, 
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A keyframe's targets are not its pose"
@@ -70,6 +71,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         off = [actuator for actuator, (target, at) in found.items() if abs(target - at) > LIMIT]
         element = model.element("key", key)
         left_out = element is not None and "ctrl" not in element.attributes
+        if element is not None and len(off) == 2 and _exchanged(found, *off):
+            yield _swap(model, key, element, off)
+            continue
         far = [actuator for actuator in off if abs(found[actuator][0] - found[actuator][1]) > FAR]
         if (
             not (len(off) >= max(2, 0.5 * len(found)) or (left_out and len(far) > 1))
@@ -96,6 +100,24 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "the targets of a pose are its joints' positions",
             level="hint" if left_out else "cause",
         )
+
+
+def _exchanged(found: Mapping[int, tuple[float, float]], one: int, other: int) -> bool:
+    """Whether each of two servos is told to go where the other one's joint is."""
+    return all(abs(found[a][0] - found[b][1]) < LIMIT / 2 for a, b in ((one, other), (other, one)))
+
+
+def _swap(model: ReaderModel, key: int, element: Element, off: Sequence[int]) -> Suspect:
+    """The two targets that stand in each other's place."""
+    of = model.simulation
+    start_at(of, key)
+    ctrl = list(of.data("ctrl"))
+    ctrl[off[0]], ctrl[off[1]] = ctrl[off[1]], ctrl[off[0]]
+    edits, names = (set_attribute(element, "ctrl", written(ctrl)),), tuple(of.name("actuator", each) for each in off)
+    says = f"{names[0]} and {names[1]} are told to go where the other one's joint is."
+    healthy = "the targets of a pose are its joints' positions"
+    now, value = element.get("ctrl"), written(ctrl)
+    return Suspect((of.name("key", key), *names), "ctrl", now, value, edits, farthest_target(key), LIMIT, says, healthy)
 
 
 def _tendons(model: ReaderModel, key: int) -> Iterator[Suspect]:

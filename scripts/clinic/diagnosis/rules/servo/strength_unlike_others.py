@@ -46,6 +46,7 @@ When it is wrong: a gripper's motor beside those of an arm, or a neck's beside t
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.servo import MUSCLE, servos
@@ -60,8 +61,8 @@ SINCE = "0.1"
 LEVEL = "hint"
 
 MOST, LEAST = 8.0, 4  # times; actuators of one kind
-FORCE, STIFFNESS, LIMIT = "force at full control", "stiffness", "greatest force"
-INSIDE = {("motor", FORCE): "gear", ("position", STIFFNESS): "kp"}
+FORCE, STIFFNESS, LIMIT, SPEED = "force at full control", "stiffness", "greatest force", "gain of the speed"
+INSIDE = {("motor", FORCE): "gear", ("position", STIFFNESS): "kp", ("velocity", SPEED): "kv"}
 
 Key = tuple[str, int, int]  # what is compared, a mechanism, and a type of joint
 
@@ -99,12 +100,17 @@ def _groups(of: Simulation) -> dict[Key, dict[int, float]]:
     """The stiffness of servos, the force of motors at full control, and what limits either, by actuator."""
     made: dict[Key, dict[int, float]] = {}
     owner, bodies, stiff = root_of(of), of.model("jnt_bodyid"), {each.actuator: each.stiffness for each in servos(of)}
+    owners = [owner[int(body)] for body in bodies]
+    names = [re.sub(r"\d+", "", name) for name in of.names("joint")]
+    for joint, name in enumerate(names):  # rollers of a belt, each by itself
+        if name and owners.count(owners[joint]) == 1:
+            owners[joint] = -1 - names.index(name)
     for actuator in range(of.count("actuator")):
-        joint, gear = of.driven_joint(actuator), abs(of.model("actuator_gear")[6 * actuator])
+        driven, gear = of.driven_joint(actuator), abs(of.model("actuator_gear")[6 * actuator])
         dynamic = int(of.model("actuator_dyntype")[actuator])
-        if joint is None or not gear or dynamic == MUSCLE:
+        if driven is None or not gear or dynamic == MUSCLE:
             continue
-        among = owner[int(bodies[joint])], of.joint_type(joint)
+        among = owners[driven], of.joint_type(driven)
         limited = of.model("actuator_forcelimited")[actuator]
         most = gear * max(map(abs, of.row("actuator_forcerange", actuator, 2))) if limited else math.inf
         made.setdefault((LIMIT, *among), {})[actuator] = most
@@ -113,6 +119,8 @@ def _groups(of: Simulation) -> dict[Key, dict[int, float]]:
         force = abs(of.gain(actuator)[0]) * gear * full
         if actuator in stiff:
             made.setdefault((STIFFNESS, *among), {})[actuator] = stiff[actuator]
+        elif of.bias(actuator)[1] == 0 > of.bias(actuator)[2]:
+            made.setdefault((SPEED, *among), {})[actuator] = -of.bias(actuator)[2] * gear**2
         elif force and not dynamic and not int(of.model("actuator_biastype")[actuator]):
             made.setdefault((FORCE, *among), {})[actuator] = force
     return {key: each for key, each in made.items() if len(each) >= LEAST}

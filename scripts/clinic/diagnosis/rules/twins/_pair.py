@@ -20,6 +20,7 @@ FEW = 0.2  # of the comparisons of one quantity
 SWAPPED = " It has the same digits in another order."
 EITHER = " Nothing here tells which of the two is wrong."
 PLACES = ("axis", "axis sign", "pos", "quat", "center of mass", "direction")
+FAR = 4.0  # times the limit
 ENOUGH = 12  # comparisons that make a model one of pairs
 
 
@@ -45,18 +46,20 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
             agree = len(same) - len(few)
             close = sum(each.unlike <= each.limit / 5 for each in same)
             most = max(1, FEW * len(same), 2 if agree >= 3 else 0)
-            known = agree >= 2 or quantity in ("joint", "target") or (len(few) == 1 and _only(found, trusted, few[0]))
-            if not few or len(few) > most or not known or close < 0.6 * agree:
-                continue
             bodies = {found.bodies(each) for each in few}
             alone = len(trusted) >= 30 and not any(each.odd and found.bodies(each) not in bodies for each in trusted)
+            far = alone and len(few) == 1 and few[0].unlike > FAR * few[0].limit
+            known = agree >= (1 if far else 2) or quantity in ("joint", "target")
+            known = known or (len(few) == 1 and _only(found, trusted, few[0]))
+            if not few or len(few) > most or not known or close < 0.6 * agree:
+                continue
             enough = 6 if kind in ("geom", "site", "camera") and quantity in ("pos", "quat") else 3
             clear = (
                 agree >= (2 if alone and len(few) == 1 and enough == 3 else enough)
                 and len(few) <= 3
                 and all(each.unlike > each.clear for each in few)
             )
-            if clear or (kind in ("body", "joint", "actuator", "sensor") and len(few) <= 2):
+            if clear or far or (kind in ("body", "joint", "actuator", "sensor") and len(few) <= 2):
                 pairs = tuple((each.left, each.right) for each in few)
                 before, was_clear = told.get((kind, *pairs), ([], False))
                 told[kind, *pairs] = ([*before, *few], clear or was_clear)
@@ -65,11 +68,11 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
 
 def _only(found: Twins, trusted: Sequence[Comparison], odd: Comparison) -> bool:
     """Whether it is the one difference of a pair that is alike in all else, such as two fingers."""
-    group = found.group(odd)
+    group, placed = found.group(odd), odd.quantity in PLACES
+    if (odd.kind, odd.quantity) == ("body", "pos") and found.displaced(odd.left):
+        placed = False
     beside = [each for each in trusted if found.group(each) == group and each is not odd]
-    return (
-        odd.quantity not in PLACES and len(beside) >= ENOUGH and all(each.unlike <= each.limit / 5 for each in beside)
-    )
+    return not placed and len(beside) >= ENOUGH and all(each.unlike <= each.limit / 5 for each in beside)
 
 
 def siblings(model: ReaderModel, kind: str, attributes: Collection[str] = ()) -> Iterator[Suspect]:

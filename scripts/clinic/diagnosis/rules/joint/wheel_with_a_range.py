@@ -24,7 +24,8 @@ Good:
     +         <joint axis="0 1 0"/>
 
 The number: how many turns the range lets a wheel make, at most 4; a wheel is a body or joint that is called so, with a
-level hinge through the middle of its geoms.
+level hinge through the middle of its geoms. So is a crank that a velocity servo turns, where its range has less than
+0.5 rad and the servo's speed crosses it in a tenth of a second.
 
 When it is wrong: a steering wheel, or a wheel that is to turn but a little.
 """
@@ -49,18 +50,19 @@ LEVEL = "hint"
 UNPLANTED = "nearly no healthy model stands on wheels"
 
 TURNS, LEVEL_ENOUGH = 4.0, 0.3
+SHORT, AT_ONCE = 0.5, 0.1  # rad, s
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """All wheels whose hinge has a range of a few turns."""
     of = model.simulation
     of.begin()
-    found = [joint for joint in range(of.count("joint")) if _wheel(of, joint)]
+    found = [joint for joint in range(of.count("joint")) if _wheel(of, joint) or _sped(of, joint)]
     if not found:
         return
     low, high = of.row("jnt_range", found[0], 2)
     names = tuple(of.name("joint", joint) for joint in found)
-    says = f"{names[0]} lets its wheel turn from {low:.3g} to {high:.3g} rad and no farther."
+    says = f"{names[0]} turns from {low:.3g} to {high:.3g} rad and no farther."
     edits = model.set("joint", found, "limited", "false")
     if model.source is not None and model.source.urdf:
         placed = [each for joint in found if (each := model.element("joint", joint)) is not None]
@@ -68,6 +70,21 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     probe = counted("wheels that a range stops", len(found))
     now = f"{low / model.angle_unit:.3g} {high / model.angle_unit:.3g}"
     yield Suspect(names, "range", now, "none", edits, probe, 0.5, says, "a wheel without a range")
+
+
+def _sped(of: Simulation, joint: int) -> bool:
+    """Whether a velocity servo is to keep a hinge turning whose range it would cross in no time."""
+    if of.joint_type(joint) != HINGE or not of.model("jnt_limited")[joint]:
+        return False
+    low, high = of.row("jnt_range", joint, 2)
+    for actuator in range(of.count("actuator")):
+        own = of.driven_joint(actuator) == joint and of.bias(actuator)[1] == 0 > of.bias(actuator)[2]
+        if own and of.model("actuator_ctrllimited")[actuator]:
+            fastest = max(map(abs, of.row("actuator_ctrlrange", actuator, 2))) / abs(
+                of.model("actuator_gear")[6 * actuator] or 1.0
+            )
+            return high - low < SHORT and high - low < AT_ONCE * fastest
+    return False
 
 
 def _wheel(of: Simulation, joint: int) -> bool:

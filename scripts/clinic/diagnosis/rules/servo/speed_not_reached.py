@@ -46,6 +46,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -79,19 +80,27 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     damping = of.model("dof_damping")[of.dof(wheels[0].joint)]
     joints, actuators = [each.joint for each in wheels], [each.actuator for each in wheels]
-    if damping > wheels[0].gain:
-        attribute, now, value = "damping", damping, rounded(wheels[0].gain / MORE)
-        edits = model.set("joint", joints, attribute, value)
-    else:
-        attribute, now, value = "kv", wheels[0].gain, rounded(MORE * wheels[0].gain)
-        edits = model.set("actuator", actuators, attribute, value)
+    most = of.row("actuator_forcerange", actuators[0], 2)[1]
+    limited = bool(of.model("actuator_forcelimited")[actuators[0]])
     names = tuple(
         name for each in wheels for name in (of.name("joint", each.joint), of.name("actuator", each.actuator))
     )
     says = f"Told {HALF * wheels[0].fastest:.3g} rad/s, the fastest wheel misses {100 * _missing(of):.0f} % after 2 s: "
-    says += f"kv is {wheels[0].gain:.3g}, damping {damping:.3g}."
+    says += f"kv is {wheels[0].gain:.3g}, damping {damping:.3g}" + f", the greatest force {most:.3g}" * limited + "."
     probe = Probe("share of the speed that is missing", "", _missing)
-    yield Suspect(names, attribute, f"{now:.3g}", value, edits, probe, MISSING, says, "next to nothing")
+    for attribute, now, value, edits in (
+        ("damping", damping, text := rounded(wheels[0].gain / MORE), model.set("joint", joints, "damping", text)),
+        ("kv", wheels[0].gain, text := rounded(MORE * wheels[0].gain), model.set("actuator", actuators, "kv", text)),
+        ("forcerange", most, text := rounded(MORE * most), _forces(model, actuators, text) if limited else ()),
+    ):
+        helps = edits and (attribute != "damping" or damping > wheels[0].gain)
+        if helps and model.measured(probe, edits) <= MISSING:  # else something else holds it
+            yield Suspect(names, attribute, f"{now:.3g}", value, edits, probe, MISSING, says, "next to nothing")
+            return
+
+
+def _forces(model: ReaderModel, actuators: list[int], most: str) -> tuple[Edit, ...]:
+    return model.set("actuator", actuators, "forcerange", f"-{most} {most}")
 
 
 def _wheels(of: Simulation) -> list[Wheel]:

@@ -47,10 +47,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from clinic.diagnosis.engine import BALL, FREE
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import BALL, FREE, HINGE
 from clinic.diagnosis.probes import tendons
 from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, WELD, by_mocap, ends, frames, kind_of, off_course
-from clinic.diagnosis.probes.vector import dot, sub, transpose
+from clinic.diagnosis.probes.vector import dot, sub, times, transpose, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import WIDTH, Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -62,8 +63,9 @@ LEVEL = "hint"
 UNPLANTED = "the healthy models have few loops"
 
 MOST, SMALL = 0.1, 1e-3  # shares of how fast a joint tears at the connections
+PARALLEL, ACROSS = 0.999, 0.9  # cosines of the angles between hinges
 STEP = 1e-5  # rad, m
-LARGE = 80  # degrees of freedom
+LARGE, FEW = 80, 12  # degrees of freedom; equalities that are tried
 Column = tuple[float, ...]
 
 
@@ -77,18 +79,55 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     worst = max(held, key=lambda joint: held[joint])
     names = [of.name("joint", joint) for joint in sorted(held, key=lambda joint: -held[joint])]
+    probe = Probe("what no other joint takes away of a joint's pull at the connections", "", _most, tuple(held))
+    active = [each for each, on in enumerate(of.model("eq_active0")) if on][:FEW]
+    holds = [
+        each
+        for each in active
+        if (edits := model.set("equality", [each], "active", "false")) and model.measured(probe, edits) <= MOST
+    ]
+    says = f"{names[0]} is driven, and no motion of the other joints lets it turn: of its pull at the equalities "
+    says += f"{100 * held[worst]:.0f} % is left."
+    if holds:
+        says += f" Without {' or '.join(of.name('equality', each) for each in holds[:3])} it would."
+    odd, edits = _across(model), tuple[Edit, ...]()
+    if odd is not None:
+        says += f" {of.name('joint', odd)} turns about another axis than all other hinges."
+        edits = model.set("joint", [odd], "axis", written(_others_axis(of, odd)))
     yield Suspect(
-        tuple(names),
-        "equality",
-        "",
-        "the bodies, anchors and axes of its loop",
-        (),
-        Probe("what no other joint takes away of a joint's pull at the connections", "", _most, tuple(held)),
+        (*names, *(of.name("equality", each) for each in holds), *([] if odd is None else [of.name("joint", odd)])),
+        "equality" if odd is None else "axis",
+        "" if odd is None else model.value("joint", odd, "axis") or "",
+        "the bodies, anchors and axes of its loop" if not edits else edits[0].value,
+        edits,
+        probe,
         MOST,
-        f"{names[0]} is driven, and no motion of the other joints lets it turn: of its pull at the equalities "
-        f"{100 * held[worst]:.0f} % is left.",
+        says,
         "a loop that moves",
+        at=model.element("equality", holds[0]) if holds else None,
     )
+
+
+def _across(model: ReaderModel) -> int | None:
+    """The one hinge that is not parallel to the others, of which there are two at least; else None."""
+    of = model.simulation
+    of.begin()
+    hinges = [joint for joint in range(of.count("joint")) if of.joint_type(joint) == HINGE]
+    axes = {joint: of.data_row("xaxis", joint, 3) for joint in hinges}
+    for odd in hinges:
+        others = [axes[joint] for joint in hinges if joint != odd]
+        if len(others) > 1 and all(abs(dot(others[0], each)) > PARALLEL for each in others):
+            return odd if abs(dot(axes[odd], others[0])) < ACROSS else None
+    return None
+
+
+def _others_axis(of: Simulation, odd: int) -> Column:
+    """The axis of the other hinges in the frame of a joint's body."""
+    of.begin()
+    other = next(each for each in range(of.count("joint")) if each != odd and of.joint_type(each) == HINGE)
+    body = int(of.model("jnt_bodyid")[odd])
+    axis = times(transpose(of.data_row("xmat", body, 9)), of.data_row("xaxis", other, 3))
+    return tuple(round(x, 6) + 0.0 for x in axis)
 
 
 def _driven(of: Simulation) -> list[int]:

@@ -383,3 +383,58 @@ def test_a_long_value_is_shortened_for_a_terminal_alone(tmp_path, monkeypatch):
     found = diagnosed(ARM.format("", f"<site pos='{'x' * 10_000}'/>", ""), tmp_path, monkeypatch)
     assert len(found.text()) < 2000
     assert found.causes[0].now == "x" * 10_000
+
+
+GRIPPER = """<mujoco>
+  <compiler angle="degree"/>
+  <default>
+    <default class="finger">
+      <joint type="slide" axis="0 1 0" range="0 0.04"/>
+      <geom type="box" size="0.01 0.01 0.03"/>
+    </default>
+    <default class="cable"><joint type="ball"/></default>
+  </default>
+  <worldbody>
+    <body name="hand" pos="0 0 1">
+      <geom size="0.03"/>
+      <body name="lfinger" pos="0 0.03 0.05" childclass="finger"><joint name="lf"/><geom name="l"/></body>
+      <body name="rfinger" pos="0 -0.03 0.05" childclass="finger">
+        <joint name="rf" axis="0 -1 0"/>
+        <geom name="r"/>
+      </body>
+    </body>
+    <body name="rope" pos="1 0 1" childclass="cable"><joint name="j2"/><geom size="0.01"/></body>
+  </worldbody>
+  <equality><joint joint1="lf" joint2="rf"/></equality>
+  <actuator><position joint="rf" kp="10"/><motor joint="j2"/></actuator>
+</mujoco>
+"""
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        pytest.param('pos="0 0.03 0.05" childclass="finger"', 'pos="0 0.03 0.05"', id="childclass-of-the-twin"),
+        pytest.param('<joint name="rf"', '<joint name="lf"', id="name-that-is-missed"),
+        pytest.param('<motor joint="j2"', '<motor joint="joint2"', id="abbreviation"),
+    ],
+)
+def test_what_the_rest_of_the_text_tells_is_put_back(right, wrong, tmp_path, monkeypatch):
+    assert not diagnosed(GRIPPER, tmp_path, monkeypatch).error
+    assert GRIPPER.count(right) == 1
+    found = diagnosed(GRIPPER.replace(right, wrong), tmp_path, monkeypatch)
+    (mended,) = found.fixed.values()
+    assert sorted(mended.split()) == sorted(GRIPPER.split())
+
+
+def test_a_free_joint_inside_is_what_its_class_says(tmp_path, monkeypatch):
+    inner = '<geom size="0.01"/><body><joint name="j3" type="free"/><geom size="0.01"/></body>'
+    text = GRIPPER.replace('<geom size="0.01"/>', inner)
+    (cause,) = diagnosed(text, tmp_path, monkeypatch).causes
+    assert (cause.attribute, cause.value) == ("type", "ball")
+
+
+def test_a_joint_that_a_class_limits_without_a_range_is_kept(tmp_path, monkeypatch):
+    text = ARM.format("<default><joint limited='true'/></default>", "", "")
+    (cause, *_) = diagnosed(text, tmp_path, monkeypatch).causes
+    assert (cause.attribute, cause.value) == ("limited", "false")

@@ -80,3 +80,21 @@ def test_a_density_of_a_default_class_is_mended_there():
     found = examine(NativeEngine(), {"model.xml": f"{text}{links}</worldbody></mujoco>"}).causes
     assert [(each.rule, each.attribute, each.value) for each in found] == [("denser-than-metal", "density", "1000")]
     assert len(found[0].edit) == 1
+
+
+def test_a_mass_in_grams_is_mended_without_the_inertia_that_is_right():
+    text = link('<inertial pos="0 0 0.2" mass="500" diaginertia="0.0072 0.0072 0.0001"/>')
+    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["denser-than-metal"]).causes
+    assert 'mass="0.5" fullinertia="0.0072 0.0072 0.0001' in next(iter(found.edit)).value
+
+
+def test_links_in_grams_for_each_cubic_centimetre_are_told_beside_a_heavy_trunk():
+    shins = "".join(
+        f'<body pos="0 {y} 0"><joint axis="0 1 0"/><geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03"/></body>'
+        for y in (-0.1, 0.1)
+    )
+    trunk = '<freejoint/><geom type="box" size="0.1 0.1 0.2" mass="8"/>'
+    text = '<mujoco><default><geom density="0.9"/></default><worldbody><geom type="plane" size="5 5 1"/>'
+    text += f'<body name="trunk" pos="0 0 1">{trunk}{shins}</body></worldbody></mujoco>'
+    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["lighter-than-air", "mass-unlike-links"]).hints
+    assert (found.rule, found.attribute, found.value, len(found.edit)) == ("lighter-than-air", "density", "900", 1)

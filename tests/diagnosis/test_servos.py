@@ -5,7 +5,12 @@ from __future__ import annotations
 import pytest
 from clinic.diagnosis.diagnose import Diagnosis, examine
 from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.probes.servo import servos
+from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import rules
+from clinic.diagnosis.rules.servo.control_range_too_narrow import ungeared
+from clinic.diagnosis.simulation import Start
+from clinic.diagnosis.source import read_source
 
 ARM = """
 <mujoco>
@@ -215,3 +220,73 @@ def test_two_muscles_pull_one_joint_and_two_motors_do_not(kind, told):
     both = (f'<{kind} joint="{joint}" gear="{gear}"{lengths}/>' for joint in ("shoulder", "elbow") for gear in (5, -5))
     text = f"<mujoco><worldbody>{links}</worldbody><actuator>{''.join(both)}</actuator></mujoco>"
     assert ("driven-twice" in [each.rule for each in diagnosed(text).hints]) is told
+
+
+ROLLERS = """
+<mujoco>
+  <worldbody>
+    {bodies}
+  </worldbody>
+  <actuator>
+    {motors}
+  </actuator>
+</mujoco>
+"""
+
+
+def rollers(**change: str) -> list[tuple[str, tuple[str, ...]]]:
+    """What is found of five rollers, each by itself; `m3` is the line of a motor in place of its own."""
+    numbers = range(5)
+    bodies = "".join(
+        f'<body pos="{0.2 * each} 0 1"><joint name="r{each}" axis="0 1 0" damping="0.01" armature="0.01"/>'
+        '<geom type="cylinder" size="0.05 0.2" zaxis="0 1 0"/></body>'
+        for each in numbers
+    )
+    motors = {f"m{each}": f'joint="r{each}" kv="1" ctrlrange="-5 5"' for each in numbers} | change
+    lines = "".join(f'<velocity name="{name}" {rest}/>' for name, rest in motors.items())
+    found = diagnosed(ROLLERS.format(bodies=bodies, motors=lines))
+    return [(each.rule, each.elements) for each in (*found.causes, *found.hints)]
+
+
+def test_rollers_that_stand_by_themselves_are_compared():
+    assert rollers() == []
+    assert rollers(m3='joint="r3" kv="0.001" ctrlrange="-5 5"')[0] == ("strength-unlike-others", ('actuator "m3"',))
+    ((rule, elements), *_) = rollers(m3='joint="r2" kv="1" ctrlrange="-5 5"')
+    assert (rule, elements) == ("driven-twice", ('actuator "m2"', 'actuator "m3"', 'joint "r2"'))
+
+
+def test_an_actuator_that_is_called_like_the_beginning_of_an_idle_joint_was_meant_for_it():
+    pole = '<body><joint name="hinge" axis="0 1 0"/><geom type="capsule" fromto="0 0 0 0 0 0.5" size="0.02"/></body>'
+    cart = f'<body pos="0 0 1"><joint name="slider" type="slide" axis="1 0 0"/><geom size="0.1"/>{pole}</body>'
+    text = f'<mujoco><worldbody>{cart}</worldbody><actuator><motor name="slide" joint="{{}}"/></actuator></mujoco>'
+    found = {joint: causes(diagnosed(text.format(joint))) for joint in ("hinge", "slider")}
+    assert found == {"hinge": ["actuator-on-another-joint"], "slider": []}
+
+
+def test_a_gear_goes_without_the_gains_that_the_others_have_as_well():
+    actuators = '<position joint="shoulder" kp="200" kv="9" gear="50" ctrlrange="-1.5 1.5"/>'
+    actuators += '<position joint="shoulder" kp="{kp}" kv="9" ctrlrange="-1.5 1.5"/>'
+    edits = {}
+    for kp in ("200", "100"):
+        text = ARM.format(above="", joint='range="-90 90"', actuator=actuators.format(kp=kp))
+        model = ReaderModel(NativeEngine(), {"model.xml": text}, read_source({"model.xml": text}), Start())
+        edits[kp] = {edit.attribute: edit.value for edit in ungeared(model, servos(model.simulation)[0])}
+    assert edits["200"] == {"gear": "1"}
+    assert edits["100"]["kp"] == "500000"
+
+
+@pytest.mark.parametrize(
+    ("wheel", "told"),
+    [
+        pytest.param('kv="0.1" forcerange="-5 5"', ("kv", "2"), id="gain"),
+        pytest.param('kv="20" forcerange="-0.3 0.3"', ("forcerange", "6"), id="force"),
+    ],
+)
+def test_a_wheel_below_its_speed_is_told_by_what_helps(wheel, told):
+    actuator = f'<velocity joint="shoulder" {wheel} ctrlrange="-6 6"/>'
+    found = examine(
+        NativeEngine(),
+        {"model.xml": ARM.format(above='<option gravity="0 0 0"/>', joint='frictionloss="0.4"', actuator=actuator)},
+        select=["speed-not-reached"],
+    )
+    assert [(each.attribute, each.value) for each in found.hints] == [told]

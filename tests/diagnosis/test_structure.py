@@ -133,3 +133,17 @@ def test_the_foot_of_a_planar_robot_must_touch_the_floor(one, other, told):
 def test_the_one_spring_that_rests_beyond_its_range_is_told(hip, ankle, told):
     text = PLANAR.format(hip=hip, ankle=ankle, one="thigh", other="torso")
     assert bool(found(text, "spring-far-off")) is told
+
+
+FOURBAR = rules()["loop-left-open"].example("Good")
+
+
+def test_the_hinge_across_all_others_is_named_where_a_loop_locks():
+    driven = '<actuator><velocity joint="crank" kv="1" ctrlrange="-3 3"/></actuator></mujoco>'
+    text = FOURBAR.replace("</mujoco>", driven)
+    across = text.replace('name="rocker" axis="0 1 0"', 'name="rocker" axis="0 0 1"')
+    assert across != text
+    locked = [each for each in examine(NativeEngine(), {"model.xml": across}).hints if each.rule == "loop-locked"]
+    assert [(each.attribute, each.value) for each in locked] == [("axis", "0 1 0")]
+    assert locked[0].elements == ('joint "crank"', 'equality "loop"', 'joint "rocker"')
+    assert "loop-locked" not in [each.rule for each in examine(NativeEngine(), {"model.xml": text}).hints]

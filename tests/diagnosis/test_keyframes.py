@@ -1,0 +1,70 @@
+"""Keyframes: which of the numbers that disagree is the wrong one, and how it is mended."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.finding import Finding
+from clinic.diagnosis.native import NativeEngine
+
+ARM = """
+<mujoco>
+  <compiler angle="degree"/>
+  <worldbody>
+    <body pos="0 0 1" gravcomp="1">
+      <joint name="shoulder" axis="0 1 0" range="-90 90" damping="2"/>
+      <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="1"/>
+      <body pos="0.3 0 0" gravcomp="1">
+        <joint name="elbow" axis="0 1 0" range="{range}" damping="2"/>
+        <geom type="capsule" fromto="0.05 0 0 0.3 0 0" size="0.03" mass="1"/>
+        <body pos="0.35 0 0" gravcomp="1">
+          <joint name="wrist" axis="0 1 0" range="-90 90" damping="2"/>
+          <geom type="capsule" fromto="0.05 0 0 0.1 0 0" size="0.03" mass="0.5"/>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+  <actuator>
+    <position joint="shoulder" kp="100" ctrlrange="-1.57 1.57"/>
+    <position joint="elbow" kp="100" ctrlrange="-0.1 2.5"/>
+    <position joint="wrist" kp="100" ctrlrange="-1.57 1.57"/>
+  </actuator>
+  <keyframe>
+    <key name="home" qpos="{qpos}" ctrl="{ctrl}"/>
+  </keyframe>
+</mujoco>
+"""
+
+
+def told(qpos: str, ctrl: str, elbow: str = "-5.73 143.2") -> list[Finding]:
+    return list(examine(NativeEngine(), {"model.xml": ARM.format(range=elbow, qpos=qpos, ctrl=ctrl)}).causes)
+
+
+def test_a_keyframe_within_all_ranges_is_well():
+    assert told("0.3 1.2 0.4", "0.3 1.2 0.4") == []
+
+
+@pytest.mark.parametrize(
+    ("qpos", "meant"),
+    [
+        pytest.param("20 70 0", "0.349066 1.22173 0", id="degrees"),
+        pytest.param("0.3 -1.2 0.4", "0.3 1.2 0.4", id="sign"),
+        pytest.param("1.75 1.2 0.4", "1.5708 1.2 0.4", id="a-little-too-far"),
+    ],
+)
+def test_a_pose_outside_of_its_ranges_is_mended_by_what_was_meant(qpos, meant):
+    (found,) = (each for each in told(qpos, meant) if each.rule == "key-outside-range")
+    assert (found.attribute, found.value) == ("qpos", meant)
+
+
+def test_where_keyframe_and_control_agree_the_range_is_the_wrong_one():
+    found = told("0.3 1.2 0.4", "0.3 1.2 0.4", elbow="-143.2 5.73")
+    assert [(each.rule, each.attribute, each.value) for each in found] == [
+        ("key-outside-range", "range", "-5.73 143.2")
+    ]
+    assert found[0].elements[0] == 'joint "elbow"'
+
+
+def test_two_targets_in_each_others_place_are_exchanged():
+    (found,) = told("0.3 1.2 0.4", "0.3 0.4 1.2")
+    assert (found.rule, found.value) == ("key-targets-elsewhere", "0.3 1.2 0.4")

@@ -7,8 +7,8 @@ from clinic.diagnosis.diagnose import Diagnosis, examine
 from clinic.diagnosis.edit import apply
 from clinic.diagnosis.finding import Finding
 from clinic.diagnosis.native import NativeEngine
-from clinic.diagnosis.probes.pairs import right_of
 from clinic.diagnosis.probes.siblings import odd_ones
+from clinic.diagnosis.probes.sides import right_of
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.simulation import Simulation, Start
 

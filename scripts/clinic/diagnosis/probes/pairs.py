@@ -1,6 +1,6 @@
 """Pairs of elements, left and right, and what makes one side the image of the other.
 
-Pairs are found by name (`left_knee`, `knee_L`, `FL_hip`, `foot_left` beside `foot`), then by place in the tree.
+Pairs are found by name (`sides`), then by place in the tree.
 Mirrored are they across the plane that fits most of what hangs on both sides, or turned by half a turn, or shifted,
 whatever fits best.
 """
@@ -8,52 +8,17 @@ whatever fits best.
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from clinic.diagnosis.engine import SLIDE
+from clinic.diagnosis.probes.sides import by_name
 from clinic.diagnosis.probes.vector import IDENTITY, Vector, add, dot, norm, sub, times, transpose, unit
 from clinic.diagnosis.simulation import Simulation
 
-SIDES = {"l": "r", "fl": "fr", "hl": "hr", "bl": "br", "ml": "mr", "rl": "rr"} | {
-    "lf": "rf", "lh": "rh", "lr": "rr", "lb": "rb", "lm": "rm"
-}  # fmt: skip
-WORDS = (("left", "right"), ("Left", "Right"), ("LEFT", "RIGHT"))
-EXCHANGED = {"l": "r", "r": "l", "L": "R", "R": "L"}
-TOKEN = re.compile(r"[A-Z](?=[A-Z][a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
-FIRST_LETTER = re.compile(r"(?<![A-Za-z])[lL](?=[a-z]{3})")  # lfemur beside rfemur
-FIRST_FINGER = re.compile(r"(?<![a-z])ff(?![a-z])", re.IGNORECASE)  # beside it lf and rf are the little and ring finger
-LITTLE_FINGER, RING_FINGER = (re.compile(rf"(?<![a-z]){name}(?![a-z])", re.IGNORECASE) for name in ("lf", "rf"))
 KINDS = ("body", "joint", "geom", "site", "camera", "actuator", "sensor")
 SYMMETRIC = 0.85  # of the points fit their image: the parts are meant to be mirrored
 SAME, UNTURNED = 1e-3, 2.9  # m or quaternion's length that tells a copy; trace of a turn by 18 degrees
 FITS = 0.02  # of the size of what hangs on both sides: as far may a point be from its image
-
-
-def right_of(name: str) -> Iterator[str]:
-    """What the right twin of a left element may be called; in what is attached, the prefix alone says the side."""
-    prefix, slash, rest = name.partition("/")
-    if slash:
-        yield from (right + slash + rest for right in right_of(prefix))
-    for left, right in WORDS:
-        if left in name and right in name:  # the left geom of the right foot
-            yield right.join(part.replace(right, left) for part in name.split(left))
-        if left in name:
-            yield name.replace(left, right)
-    both = [found for found in TOKEN.finditer(name) if found.group() in EXCHANGED]
-    if len({found.group().lower() for found in both}) > 1:  # the right finger of the left hand
-        yield "".join(EXCHANGED.get(part, part) for part in re.split(f"({TOKEN.pattern})", name))
-    tokens = [found for found in TOKEN.finditer(name) if found.group().lower() in SIDES]
-    for found in tokens:
-        side = found.group()
-        other = SIDES[side.lower()]
-        other = other.upper() if side.isupper() else other.title() if side[0].isupper() else other
-        yield name[: found.start()] + other + name[found.end() :]
-    if (letter := FIRST_LETTER.sub(lambda found: EXCHANGED[found.group()], name)) != name:
-        yield letter
-    if (bare := re.sub(r"_left(?![a-z])|(?<![a-z])left_", "", name)) != name:
-        yield bare
 
 
 @dataclass(frozen=True)
@@ -87,7 +52,7 @@ class Pairs:
         simulation.engine.forward()
         fields = ("xpos", "xmat", "xipos", "ximat", "xanchor", "xaxis", "geom_xpos", "geom_xmat", "site_xpos")
         self._data = {name: simulation.data(name) for name in (*fields, "cam_xpos", "cam_xmat")}
-        self.pairs: dict[str, list[tuple[int, int]]] = {kind: _by_name(simulation, kind) for kind in KINDS}
+        self.pairs: dict[str, list[tuple[int, int]]] = {kind: by_name(simulation, kind) for kind in KINDS}
         self._by_place()
         self.images: dict[int, Image] = {}
         self.share: dict[int, float] = {}
@@ -292,21 +257,3 @@ def _reflection(axis: Vector) -> Vector:
 
 def _half_turn(axis: Vector) -> Vector:
     return tuple(2 * axis[i] * axis[j] - (i == j) for i in range(3) for j in range(3))
-
-
-def _by_name(simulation: Simulation, kind: str) -> list[tuple[int, int]]:
-    names = simulation.names(kind)
-    places = {name: index for index, name in enumerate(names) if name}
-    made: list[tuple[int, int]] = []
-    used: set[int] = set()
-    hand = any(FIRST_FINGER.search(name) for name in names)
-    for index, name in enumerate(names):
-        right = next((places[other] for other in right_of(name) if other in places), None) if name else None
-        if FIRST_LETTER.sub("m", name) != name and FIRST_LETTER.sub("m", name) in places:  # lf, rf and mf are fingers
-            continue
-        if right is not None and hand and RING_FINGER.search(names[right]) and LITTLE_FINGER.search(name):
-            continue
-        if right is not None and not used & {index, right}:
-            made.append((index, right))
-            used |= {index, right}
-    return made

@@ -35,8 +35,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE
-from clinic.diagnosis.probes.pairs import right_of
 from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.sides import right_of
 from clinic.diagnosis.probes.vector import Vector, at, dot, norm, sub
 from clinic.diagnosis.probes.view import axes
 from clinic.diagnosis.reader_model import ReaderModel

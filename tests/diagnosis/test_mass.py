@@ -91,7 +91,7 @@ def test_a_mass_in_grams_is_mended_without_the_inertia_that_is_right():
 def test_links_in_grams_for_each_cubic_centimetre_are_told_beside_a_heavy_trunk():
     shins = "".join(
         f'<body pos="0 {y} 0"><joint axis="0 1 0"/><geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03"/></body>'
-        for y in (-0.1, 0.1)
+        for y in (-0.1, 0, 0.1)
     )
     trunk = '<freejoint/><geom type="box" size="0.1 0.1 0.2" mass="8"/>'
     text = '<mujoco><default><geom density="0.9"/></default><worldbody><geom type="plane" size="5 5 1"/>'

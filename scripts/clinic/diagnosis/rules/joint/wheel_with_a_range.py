@@ -24,8 +24,8 @@ Good:
     +         <joint axis="0 1 0"/>
 
 The number: how many turns the range lets a wheel make, at most 4; a wheel is a body or joint that is called so, with a
-level hinge through the middle of its geoms. So is a crank that a velocity servo turns, where its range has less than
-0.5 rad and the servo's speed crosses it in a tenth of a second.
+level hinge through the middle of its geoms. So is a crank, a shaft or a roller that a velocity servo turns, where its
+range has less than 0.5 rad and the servo's speed crosses it in a tenth of a second.
 
 When it is wrong: a steering wheel, or a wheel that is to turn but a little.
 """
@@ -33,6 +33,7 @@ When it is wrong: a steering wheel, or a wheel that is to turn but a little.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
@@ -51,6 +52,7 @@ UNPLANTED = "nearly no healthy model stands on wheels"
 
 TURNS, LEVEL_ENOUGH = 4.0, 0.3
 SHORT, AT_ONCE = 0.5, 0.1  # rad, s
+TURNED = re.compile(r"(?i)crank|shaft|spindle|roller|drum|rotor|propeller")
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -73,8 +75,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _sped(of: Simulation, joint: int) -> bool:
-    """Whether a velocity servo is to keep a hinge turning whose range it would cross in no time."""
-    if of.joint_type(joint) != HINGE or not of.model("jnt_limited")[joint]:
+    """Whether a velocity servo is to keep a crank turning whose range it would cross in no time."""
+    if (
+        of.joint_type(joint) != HINGE
+        or not of.model("jnt_limited")[joint]
+        or not TURNED.search(of.names("joint")[joint])
+    ):
         return False
     low, high = of.row("jnt_range", joint, 2)
     for actuator in range(of.count("actuator")):

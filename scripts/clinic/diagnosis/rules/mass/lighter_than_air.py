@@ -44,7 +44,7 @@ TITLE = "Lighter than air"
 FAMILIES = ("falls-through", "explodes", "stuck")
 SINCE = "0.1"
 
-AIR, LIMIT, LIGHT, FEW = 1.2, 300.0, 1.0, 2
+AIR, LIMIT, LIGHT, FEW = 1.2, 300.0, 1.0, 3
 METRES = 5.0, 20.0  # m/s2
 
 

@@ -438,3 +438,12 @@ def test_a_joint_that_a_class_limits_without_a_range_is_kept(tmp_path, monkeypat
     text = ARM.format("<default><joint limited='true'/></default>", "", "")
     (cause, *_) = diagnosed(text, tmp_path, monkeypatch).causes
     assert (cause.attribute, cause.value) == ("limited", "false")
+
+
+def test_seven_numbers_more_that_begin_with_a_pose_are_those_of_a_lost_free_joint(tmp_path, monkeypatch):
+    leg = '<body pos="0 0 -0.1"><joint name="knee" axis="0 1 0"/><geom size="0.05"/></body>'
+    text = '<mujoco><worldbody><body name="trunk" pos="0 0 1">{}<geom size="0.1"/>' + leg + "</body></worldbody>"
+    text += '<keyframe><key name="home" qpos="0 0 0.4 1 0 0 0 0.3"/></keyframe></mujoco>'
+    (cause,) = diagnosed(text.format(""), tmp_path, monkeypatch).causes
+    assert (cause.attribute, cause.elements) == ("freejoint", ('<body name="trunk">',))
+    assert not diagnosed(text.format("<freejoint/>"), tmp_path, monkeypatch).causes

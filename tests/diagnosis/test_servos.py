@@ -290,3 +290,36 @@ def test_a_wheel_below_its_speed_is_told_by_what_helps(wheel, told):
         select=["speed-not-reached"],
     )
     assert [(each.attribute, each.value) for each in found.hints] == [told]
+
+
+@pytest.mark.parametrize(("driven", "told"), [("wrist", []), ("f1", ['actuator "A_f1"'])])
+def test_a_wrist_may_be_stronger_than_the_fingers_that_it_carries(driven, told):
+    fingers = "".join(
+        f'<body pos="0.1 {0.03 * each} 0"><joint name="f{each}" axis="0 1 0" damping="0.1" armature="0.002"/>'
+        '<geom type="capsule" fromto="0 0 0 0.06 0 0" size="0.008" mass="0.02"/></body>'
+        for each in range(4)
+    )
+    names = ("wrist", *(f"f{each}" for each in range(4)))
+    servos = "".join(
+        f'<position name="A_{name}" joint="{name}" kp="{20 if name == driven else 2}" kv="0.1"/>' for name in names
+    )
+    text = '<mujoco><option gravity="0 0 0"/><worldbody><body pos="0 0 1"><joint name="wrist" axis="0 1 0" damping="1" '
+    text += f'armature="0.01"/><geom type="box" size="0.05 0.05 0.01" pos="0.05 0 0" mass="0.1"/>{fingers}</body>'
+    found = examine(
+        NativeEngine(),
+        {"model.xml": f"{text}</worldbody><actuator>{servos}</actuator></mujoco>"},
+        select=["strength-unlike-others"],
+    )
+    assert [name for each in found.hints for name in each.elements] == told
+
+
+@pytest.mark.parametrize(("rest", "told"), [("-75", False), ("160", True)])
+def test_a_spring_that_holds_a_door_shut_is_well(rest, told):
+    doors = "".join(
+        f'<body pos="{x} 0 1"><joint name="d{x}" axis="0 1 0" range="0 85" stiffness="5" damping="1" springref="{{}}"/>'
+        '<geom type="box" size="0.2 0.3 0.01" pos="0.2 0 0" mass="1"/></body>'
+        for x in range(3)
+    )
+    text = f"<mujoco><worldbody>{doors.format('0', '0', rest)}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["spring-far-off"])
+    assert bool(found.hints or found.causes) == told

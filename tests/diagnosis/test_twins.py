@@ -204,6 +204,7 @@ def test_where_nothing_tells_which_side_is_wrong_both_are_named():
     (odd_one,) = unlike(robot(change, right="-60 30"))
     assert odd_one.elements == ('joint "left_rear"', 'joint "right_rear"')
     assert odd_one.says.endswith("Nothing here tells which of the two is wrong.")
+    assert odd_one.edit == (), "it might spoil the healthy side"
 
 
 def test_a_hip_out_of_place_does_not_move_the_mirror():
@@ -264,3 +265,18 @@ def test_the_left_geom_of_the_right_foot_is_the_twin_of_the_right_geom_of_the_le
     (found,) = unlike(planar(of_the_left_foot='contype="0" conaffinity="0"'))
     assert found.elements == ('geom "left_left_foot"',)
     assert 'geom "right_right_foot"' in found.says
+
+
+def test_an_axis_that_points_the_other_way_is_told_where_the_ranges_have_the_same_numbers():
+    text = planar()
+    wrong = text.replace('name="left_hip" axis="0 -1 0"', 'name="left_hip" axis="0 1 0"')
+    assert wrong != text
+    (found,) = unlike(wrong)
+    assert found.attribute == "axis"
+    assert {'joint "left_hip"', 'joint "right_hip"'} == set(found.elements)
+
+
+@pytest.mark.parametrize(("x", "told"), [(0.1, []), (-0.1, ["pos"])])
+def test_one_geom_of_many_that_is_on_the_other_side_is_told_and_the_same_part_on_both_is_not(x, told):
+    change = {'left_rear:pos="0.0 0.05 0"': f'pos="{x} 0.05 0"', 'right_rear:pos="0.0 -0.05 0"': 'pos="0.1 -0.05 0"'}
+    assert [each.attribute for each in unlike(robot(change, right="-60 30"))] == told

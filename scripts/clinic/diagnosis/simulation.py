@@ -49,6 +49,7 @@ class Simulation:
         self.engine, self.begin_with = compiled, start
         self._fields: dict[str, Sequence[float]] = {}
         self._counts: dict[str, int] = {}
+        self._names: dict[str, list[str]] = {}
         self.kept: dict[object, object] = {}  # what probes share: a run that several of them look at
 
     def count(self, kind: str) -> int:
@@ -59,7 +60,9 @@ class Simulation:
 
     def names(self, kind: str) -> list[str]:
         """The names of a kind's elements, empty for unnamed ones."""
-        return [self.engine.name(kind, i) for i in range(self.count(kind))]
+        if kind not in self._names:
+            self._names[kind] = [self.engine.name(kind, i) for i in range(self.count(kind))]
+        return self._names[kind]
 
     def name(self, kind: str, index: int) -> str:
         """`joint "wrist"`, or `joint 3 of body "hand"` for one without a name."""

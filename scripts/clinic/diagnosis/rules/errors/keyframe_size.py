@@ -22,7 +22,8 @@ Good:
     -     <key name="home" qpos="0.5 0 0"/>
     +     <key name="home" qpos="0.5"/>
 
-The number: MuJoCo's message has both counts. The numbers that are left over are cut.
+The number: MuJoCo's message has both counts. The numbers that are left over are cut; where they are
+the seven of a free joint that no body has, the joint is put in.
 
 When it is wrong: which numbers are superfluous only the author knows; look at what was removed from the model.
 """
@@ -32,15 +33,17 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.edit import Edit, insert, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import mends, sentence
+from clinic.diagnosis.source import Element, Source
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A keyframe of the wrong size"
 FAMILIES = ("will-not-compile",)
 SINCE = "0.1"
 
+FREE, UNIT = 7, 0.02  # numbers of a free joint; how far from 1 the quaternion's length may be
 MESSAGE = re.compile(r"key(?:frame)? '?([^':]*)'?: invalid (\w+) size, expected (?:length )?(\d+)")
 
 
@@ -55,6 +58,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     named = [key for key in keys if key.get("name") == which] or keys
     if not named:
         return
+    if attribute == "qpos":
+        yield from _free(model.source, named[0], int(size))
     edits: list[Edit] = []
     for key in keys:
         numbers = key.get(attribute).split()
@@ -65,3 +70,18 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     edits.sort(key=lambda each: each.line != named[0].line)
     wanted = f"{size} number{'s' * (size != '1')}"
     yield mends(named[0], edits, says, attribute=attribute, now=f"{count} numbers", value=wanted)
+
+
+def _free(source: Source, key: Element, size: int) -> Iterator[Suspect]:
+    """The root's free joint, where a key begins with its seven numbers and no body has one."""
+    numbers = key.get("qpos").split()
+    bodies = [each for world in source.elements("worldbody") for each in world.children if each.tag == "body"]
+    trees = [each for each in bodies if any(one.tag == "joint" for one in each.walk())]
+    free = any(each.tag == "freejoint" or each.get("type") == "free" for body in bodies for each in body.walk())
+    if len(numbers) - size != FREE or len(trees) != 1 or free or source.direct(trees[0], "joint"):
+        return
+    turn = [float(each) for each in numbers[3:FREE]]
+    if abs(sum(each * each for each in turn) - 1) < UNIT:
+        says = f"The key has {FREE} numbers more than the model, and begins with a place and a quaternion of length 1."
+        edits = (insert(trees[0], "<freejoint/>"),)
+        yield mends(trees[0], edits, says, attribute="freejoint", now="left out", value="<freejoint/>")

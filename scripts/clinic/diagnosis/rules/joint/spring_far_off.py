@@ -87,7 +87,8 @@ def _off(simulation: Simulation) -> dict[int, float]:
             low, high = begin - TURN + FAR, begin + TURN - FAR
             if simulation.model("jnt_limited")[joint]:
                 low, high = simulation.row("jnt_range", joint, 2)
-            made[joint] = max(low - rest, rest - high, 0.0)
+            shut = rest < low >= begin - NEAR or rest > high <= begin + NEAR  # a door that its spring holds shut
+            made[joint] = 0.0 if shut and abs(rest - begin) < FAR else max(low - rest, rest - high, 0.0)
     return made
 
 

@@ -59,7 +59,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """All wheels whose hinge has a range of a few turns."""
     of = model.simulation
     of.begin()
-    found = [joint for joint in range(of.count("joint")) if _wheel(of, joint) or _sped(of, joint)]
+    sped = _sped(of)
+    found = [joint for joint in range(of.count("joint")) if joint in sped or _wheel(of, joint)]
     if not found:
         return
     low, high = of.row("jnt_range", found[0], 2)
@@ -74,23 +75,20 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield Suspect(names, "range", now, "none", edits, probe, 0.5, says, "a wheel without a range")
 
 
-def _sped(of: Simulation, joint: int) -> bool:
-    """Whether a velocity servo is to keep a crank turning whose range it would cross in no time."""
-    if (
-        of.joint_type(joint) != HINGE
-        or not of.model("jnt_limited")[joint]
-        or not TURNED.search(of.names("joint")[joint])
-    ):
-        return False
-    low, high = of.row("jnt_range", joint, 2)
+def _sped(of: Simulation) -> set[int]:
+    """The cranks that a velocity servo is to keep turning, and whose range it would cross in no time."""
+    made = set()
     for actuator in range(of.count("actuator")):
-        own = of.driven_joint(actuator) == joint and of.bias(actuator)[1] == 0 > of.bias(actuator)[2]
-        if own and of.model("actuator_ctrllimited")[actuator]:
-            fastest = max(map(abs, of.row("actuator_ctrlrange", actuator, 2))) / abs(
-                of.model("actuator_gear")[6 * actuator] or 1.0
-            )
-            return high - low < SHORT and high - low < AT_ONCE * fastest
-    return False
+        joint, bias = of.driven_joint(actuator), of.bias(actuator)
+        if joint is None or bias[1] != 0 or bias[2] >= 0 or not of.model("actuator_ctrllimited")[actuator]:
+            continue
+        fastest = max(map(abs, of.row("actuator_ctrlrange", actuator, 2)))
+        fastest /= abs(of.model("actuator_gear")[6 * actuator]) or 1.0
+        low, high = of.row("jnt_range", joint, 2)
+        hinge = of.joint_type(joint) == HINGE and of.model("jnt_limited")[joint]
+        if hinge and TURNED.search(of.names("joint")[joint]) and high - low < min(SHORT, AT_ONCE * fastest):
+            made.add(joint)
+    return made
 
 
 def _wheel(of: Simulation, joint: int) -> bool:

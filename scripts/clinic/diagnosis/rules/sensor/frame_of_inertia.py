@@ -64,8 +64,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         for side, name in SIDES.items():
             if element.tag in ORIENTATIONS and element.get(side) == "body":
                 found.setdefault(element.get(name), []).append((element, side))
+    known = {*of.names("body")} if found else set()
     for name, sensors in found.items():
-        if name not in of.names("body") or (turned := _turned(of, name)) <= TURNED:
+        if name not in known or (turned := _turned(of, name)) <= TURNED:
             continue
         names = tuple(f'sensor "{each.get("name")}"' if each.get("name") else f"<{each.tag}>" for each, _ in sensors)
         side = sensors[0][1]

@@ -92,4 +92,6 @@ def _holder(of: Simulation, sensor: int) -> str:
 
 def _within(part: str, sensor: str) -> bool:
     """Whether a sensor's name has that of a part in it, as whole words."""
-    return bool(re.search(rf"(?<![a-z0-9]){re.escape(part.lower())}(?![a-z0-9])", sensor.lower()))
+    return part.lower() in sensor.lower() and bool(
+        re.search(rf"(?<![a-z0-9]){re.escape(part.lower())}(?![a-z0-9])", sensor.lower())
+    )

@@ -68,12 +68,18 @@ def _meant(simulation: Simulation) -> dict[int, tuple[int, int]]:
     made, undriven = {}, set(range(simulation.count("joint"))) - set(drives.values())
     for actuator, name in enumerate(simulation.names("actuator")):
         key, driven = _key(name), drives[actuator]
-        within = [each for words, some in joints.items() if set(key) <= set(words) for each in some]
-        found = joints.get(key) or [each for each in within if each not in undriven] or _longer(joints, key)
+        found = joints.get(key) or _within(joints, key, undriven) or _longer(joints, key)
         if key and len(found) == 1 and driven not in (None, found[0]):
             made[actuator] = (driven, found[0])
     wrong = {meant: driven for driven, meant in made.values()}
     return {each: pair for each, pair in made.items() if pair[1] in undriven or wrong.get(pair[0]) == pair[1]}
+
+
+def _within(joints: Mapping[tuple[str, ...], list[int]], key: tuple[str, ...], undriven: set[int]) -> list[int]:
+    """The driven joints that have all words of an actuator's name, and more."""
+    words = set(key)
+    within = [each for others, some in joints.items() if words.issubset(others) for each in some]
+    return [each for each in within if each not in undriven]
 
 
 def _longer(joints: Mapping[tuple[str, ...], list[int]], key: tuple[str, ...]) -> list[int]:

@@ -61,6 +61,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 
 MOST, LEAST = 8.0, 4  # times; actuators of one kind
+WRIST = 30.0  # times that what carries all others, in two branches or more, may be stronger
 FORCE, STIFFNESS, LIMIT, SPEED = "force at full control", "stiffness", "greatest force", "gain of the speed"
 INSIDE = {("motor", FORCE): "gear", ("position", STIFFNESS): "kp", ("velocity", SPEED): "kv"}
 
@@ -73,7 +74,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for key, strengths in _groups(of).items():
         ranked = sorted(strengths, key=lambda each: strengths[each])
         for odd, next_to in ((ranked[-1], ranked[-2]), (ranked[0], ranked[1])):
-            if _times(of, key, odd, next_to) <= MOST or math.isinf(strengths[odd]):
+            times = _times(of, key, odd, next_to)
+            carries = odd == ranked[-1] and times < WRIST and _above(of, odd, ranked)
+            if times <= MOST or math.isinf(strengths[odd]) or carries:
                 continue
             which = "most" if odd == ranked[-1] else "least"
             says = f"Its {key[0]} is {strengths[odd]:.3g}; "
@@ -87,6 +90,18 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             edits = model.set("actuator", [odd], attribute, value) if now and value else ()
             name = of.name("actuator", odd)
             yield Suspect((name,), attribute, now, value, edits, probe, MOST, says, f"up to {MOST:g} times", at=element)
+
+
+def _above(of: Simulation, odd: int, all_of_them: list[int]) -> bool:
+    """Whether all other joints hang on that of an actuator, as fingers on a wrist."""
+    bodies = of.model("jnt_bodyid")
+    own, *others = (
+        int(bodies[joint])
+        for each in [odd, *(each for each in all_of_them if each != odd)]
+        if (joint := of.driven_joint(each)) is not None
+    )
+    branches = {lines[lines.index(own) - 1] for body in others if own in (lines := of.ancestors(body)) and body != own}
+    return len(branches) > 1 and all(own in of.ancestors(body) for body in others)
 
 
 def _times(of: Simulation, key: Key, one: int, other: int) -> float:

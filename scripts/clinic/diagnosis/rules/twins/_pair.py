@@ -9,9 +9,10 @@ from clinic.diagnosis.probes.inertia import inertial
 from clinic.diagnosis.probes.siblings import FIELDS, LIKE, SOME, Odd, odd_ones, swapped
 from clinic.diagnosis.probes.siblings import unlike as alike
 from clinic.diagnosis.probes.twins import Comparison, Twins, twins
+from clinic.diagnosis.probes.vector import dot
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.twins._edits import COPIED, copied, edits_of
-from clinic.diagnosis.rules.twins._side import odd_side
+from clinic.diagnosis.rules.twins._side import INERTIAL, odd_side
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Level, Probe, Suspect
 
@@ -19,7 +20,10 @@ ODD_SHARE = 0.12  # of all comparisons: more of them, and the model is not meant
 FEW = 0.2  # of the comparisons of one quantity
 SWAPPED = " It has the same digits in another order."
 EITHER = " Nothing here tells which of the two is wrong."
+TURNED = " The numbers are the same, and the axes are not each other's image as those of the other pairs are."
 PLACES = ("axis", "axis sign", "pos", "quat", "center of mass", "direction")
+PARTS = ("geom", "site", "camera")
+ALONG = 0.9  # cosine of the angle between axes that count as one direction
 FAR = 4.0  # times the limit
 ENOUGH = 12  # comparisons that make a model one of pairs
 
@@ -49,6 +53,7 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
             bodies = {found.bodies(each) for each in few}
             alone = len(trusted) >= 30 and not any(each.odd and found.bodies(each) not in bodies for each in trusted)
             far = alone and len(few) == 1 and few[0].unlike > FAR * few[0].limit
+            far = far and kind in PARTS and not (quantity == "pos" and _same_part(model.simulation, few[0]))
             known = agree >= (1 if far else 2) or quantity in ("joint", "target")
             known = known or (len(few) == 1 and _only(found, trusted, few[0]))
             if not few or len(few) > most or not known or close < 0.6 * agree:
@@ -64,6 +69,30 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
                 before, was_clear = told.get((kind, *pairs), ([], False))
                 told[kind, *pairs] = ([*before, *few], clear or was_clear)
     yield from told.values()
+
+
+def _axis_turned(model: ReaderModel, each: Comparison) -> bool:
+    """Whether a range differs because an axis points the other way: the same numbers, as in the pairs that agree."""
+    of, found = model.simulation, twins(model.simulation)
+    if (each.kind, each.quantity) != ("joint", "range"):
+        return False
+    axis = found.at("xaxis", each.left)
+    others = [
+        one
+        for one in found.comparisons
+        if (one.kind, one.quantity, one.odd) == ("joint", "range", False)
+        and abs(dot(axis, found.at("xaxis", one.left))) > ALONG
+    ]
+    same = [of.row("jnt_range", one.left, 2) == of.row("jnt_range", one.right, 2) for one in (each, *others)]
+    signs = [found.interval_sign(one) for one in others]
+    return all(same) and len(others) > 1 and found.interval_sign(each) < 0 < min(signs, default=-1)
+
+
+def _same_part(of: Simulation, each: Comparison) -> bool:
+    """Whether both sides have the very numbers: the same part, mounted on both."""
+    if each.kind == "camera":
+        return False
+    return of.row(f"{each.kind}_pos", each.left, 3) == of.row(f"{each.kind}_pos", each.right, 3)
 
 
 def _only(found: Twins, trusted: Sequence[Comparison], odd: Comparison) -> bool:
@@ -135,12 +164,17 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
     if any(each.quantity == "axis sign" for each in found):  # the axis turned, a range that differs is mirrored too
         turned_axes = [(each, side) for each, side in zip(found, sides, strict=True) if each.quantity == "axis sign"]
         edits = _together(edit for each, side in turned_axes for edit in edits_of(model, each, side))
+    turned = len(alone) == len(found) == 1 and _axis_turned(model, first)
+    edits = model.turned_axis(sides[0]) if turned else edits
     digits = len(alone) == 1 and swapped(
         *(model.value(first.kind, side, first.quantity) or "" for side in (first.left, first.right))
     )
     clear = (clear or digits or _outvoted(model, first, sides[0])) and not (_absent(model, found) or _led(model, first))
     if edits and not model.measured(probe, edits) <= limit:
         edits = ()
+    level: Level = "cause" if clear and edits else "hint"
+    if not sure and not (level == "cause" and first.quantity in INERTIAL):
+        edits, level = (), "hint"  # the one that an edit would spoil may be the healthy one
     quantities = " and ".join(dict.fromkeys(each.quantity for each in found))
     names = [simulation.name(first.kind, side) for side in sides]
     others = [
@@ -153,18 +187,18 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
     )
     says = f"It differs from its twin, {others[0]}" + f", in a model where {alike} other pairs agree" * (alike > 0)
     says += f" in their {quantities}." if alike else f", in its {quantities}."
-    says += SWAPPED * digits + EITHER * (not sure)
+    says += SWAPPED * digits + TURNED * turned + EITHER * (not sure)
     return Suspect(
         tuple(dict.fromkeys(names if sure else names + others)),
-        first.quantity,
-        _told(model, first, sides[0]),
+        "axis" if turned else first.quantity,
+        (model.value("joint", sides[0], "axis") or "") if turned else _told(model, first, sides[0]),
         edits[0].value if edits else f"that of {others[0]}",
         edits,
         probe,
         limit,
         says,
         f"at most {limit:.3g} {first.unit}: of the models of 14 robots all but a few pairs agree to less",
-        level="cause" if clear and edits else "hint",
+        level=level,
     )
 
 

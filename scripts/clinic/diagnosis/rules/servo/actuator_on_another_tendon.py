@@ -1,0 +1,103 @@
+"""An actuator pulls another tendon than its name says.
+
+A line was copied from finger to finger, or from muscle to muscle, and one keeps the tendon of the one before. That
+tendon is pulled twice, and its own hangs loose.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body pos="0 0 1">
+          <joint name="index" axis="0 1 0" range="0 90" damping="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.1 0 0" size="0.01"/>
+        </body>
+        <body pos="0 0.05 1">
+          <joint name="ring" axis="0 1 0" range="0 90" damping="0.1"/>
+          <geom type="capsule" fromto="0 0 0 0.1 0 0" size="0.01"/>
+        </body>
+      </worldbody>
+      <tendon>
+        <fixed name="index_pull">
+          <joint joint="index" coef="1"/>
+        </fixed>
+        <fixed name="ring_pull">
+          <joint joint="ring" coef="1"/>
+        </fixed>
+      </tendon>
+      <actuator>
+        <motor name="index_curl" tendon="index_pull" ctrlrange="0 1"/>
+        <motor name="ring_curl" tendon="index_pull" ctrlrange="0 1"/>
+      </actuator>
+    </mujoco>
+
+Good:
+
+    -     <motor name="ring_curl" tendon="index_pull" ctrlrange="0 1"/>
+    +     <motor name="ring_curl" tendon="ring_pull" ctrlrange="0 1"/>
+
+The number: actuators on a tendon that another one pulls as well, where one tendon is pulled by none and has a word of
+the actuator's name that its own has not.
+
+When it is wrong: two actuators on one tendon, beside a tendon that only limits.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator
+
+from clinic.diagnosis.probes.tendons import TENDON
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "An actuator pulls another tendon than its name says"
+FAMILIES = ("stuck", "drifts", "sags")
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "few healthy models have actuators on tendons"
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Each actuator that leaves the tendon of its name alone."""
+    of = model.simulation
+    for actuator, (pulled, meant) in _misled(of).items():
+        now, value = (of.names("tendon")[each] for each in (pulled, meant))
+        edits = model.set("actuator", [actuator], "tendon", value)
+        name = of.name("actuator", actuator)
+        says = f"{name} pulls {of.name('tendon', pulled)}, as another one does, and {of.name('tendon', meant)} is "
+        says += "pulled by none."
+        probe = Probe("actuators that pull another tendon than that of their name", "", _count, dynamic=False)
+        yield Suspect((name,), "tendon", now, value, edits, probe, 0, says, "the tendon of its name")
+
+
+def _misled(of: Simulation) -> dict[int, tuple[int, int]]:
+    """By actuator: the tendon that it pulls, and the one that it is called like."""
+    pulls = {
+        each: int(of.model("actuator_trnid")[2 * each])
+        for each, kind in enumerate(of.model("actuator_trntype"))
+        if int(kind) == TENDON
+    }
+    times, words = Counter(pulls.values()), [_words(name) for name in of.names("tendon")]
+    idle = [tendon for tendon in range(of.count("tendon")) if tendon not in times]
+    made = {}
+    for actuator, pulled in pulls.items():
+        own = _words(of.names("actuator")[actuator]) - words[pulled]
+        meant = [tendon for tendon in idle if any(_called(word, own) for word in words[tendon])]
+        if times[pulled] > 1 and len(meant) == 1:
+            made[actuator] = (pulled, meant[0])
+    return made
+
+
+def _called(word: str, own: set[str]) -> bool:
+    """Whether a tendon's word is one of an actuator's, or begins with one: `ext` pulls `extensor`."""
+    return word in own or any(len(each) > 2 and word.startswith(each) for each in own)
+
+
+def _words(name: str) -> set[str]:
+    return set(re.findall(r"[a-z]+\d*|\d+", re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()))
+
+
+def _count(of: Simulation) -> float:
+    return float(len(_misled(of)))

@@ -280,3 +280,38 @@ def test_an_axis_that_points_the_other_way_is_told_where_the_ranges_have_the_sam
 def test_one_geom_of_many_that_is_on_the_other_side_is_told_and_the_same_part_on_both_is_not(x, told):
     change = {'left_rear:pos="0.0 0.05 0"': f'pos="{x} 0.05 0"', 'right_rear:pos="0.0 -0.05 0"': 'pos="0.1 -0.05 0"'}
     assert [each.attribute for each in unlike(robot(change, right="-60 30"))] == told
+
+
+CAMERAS = {
+    f'{side}_rear:<geom size="0.04"': f'<camera name="{side}_eye" pos="0 0 0.1" euler="{{}} 0 0"/><geom size="0.04"'
+    for side in ("left", "right")
+}
+
+
+@pytest.mark.parametrize(("turn", "told"), [("-80", []), ("30", ["direction"])])
+def test_of_two_cameras_the_one_that_looks_elsewhere_is_told(turn, told):
+    turns = dict(zip(CAMERAS, ("80", turn), strict=True))
+    change = {place: text.format(turns[place]) for place, text in CAMERAS.items()}
+    assert [each.attribute for each in unlike(robot(change, right="-60 30"))] == told
+
+
+def test_either_of_two_fingers_that_follow_each_other_may_be_driven():
+    hands = "".join(
+        f'<body name="{hand}_hand" pos="0 {y} 0"><geom size="0.03"/>'
+        + "".join(
+            f'<body pos="0.05 {z} 0"><joint name="{hand}_{finger}_finger" type="slide" axis="0 {-z} 0" range="0 0.03"/>'
+            '<geom type="box" size="0.02 0.005 0.01"/></body>'
+            for finger, z in (("left", 0.02), ("right", -0.02))
+        )
+        + "</body>"
+        for hand, y in (("left", 0.3), ("right", -0.3))
+    )
+    coupled = "".join(
+        f'<joint joint1="{hand}_right_finger" joint2="{hand}_left_finger"/>' for hand in ("left", "right")
+    )
+    driven = "".join(
+        f'<motor name="{hand}_grip" joint="{hand}_left_finger" ctrlrange="-1 1"/>' for hand in ("left", "right")
+    )
+    text = robot(right="-60 30").replace("</body></worldbody>", f"{hands}</body></worldbody>")
+    text = text.replace("</mujoco>", f"<equality>{coupled}</equality><actuator>{driven}</actuator></mujoco>")
+    assert [each for each in unlike(text) if each.attribute == "joint"] == []

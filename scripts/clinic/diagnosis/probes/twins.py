@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from clinic.diagnosis.engine import BALL, FREE, HINGE, MESH, SLIDE
+from clinic.diagnosis.probes.couplings import couplings
 from clinic.diagnosis.probes.pairs import FITS, SYMMETRIC, Pairs
 from clinic.diagnosis.probes.vector import Vector, add, apart, diagonal, dot, norm, sub, times, turned
 from clinic.diagnosis.simulation import Simulation, kept
@@ -284,7 +285,9 @@ class Twins(Pairs):
             return
         paired = self.partner("joint", joints[0])
         if paired is not None or joints[0] == joints[1] or self.partner("joint", joints[1]) is not None:
-            yield pair("joint", 100 * (paired != joints[1]), 1)
+            led = {frozenset((follower, leader)) for _, (follower, leader, _) in couplings(of)}
+            either = frozenset((paired, joints[1])) in led  # of the two fingers of a gripper
+            yield pair("joint", 100 * (paired != joints[1] and not either), 1)
         if paired != joints[1] or int(of.model("jnt_bodyid")[joints[0]]) not in self.images:
             return
         for quantity in ("ctrl", "force"):

@@ -1,7 +1,7 @@
-"""Slides whose axes are exchanged: the one called x goes along y.
+"""Slides whose axes are exchanged: the one called x goes along y. Or a lift that goes sideways.
 
 A planar base, a table, a crane of three slides: two names or two axes were exchanged. The command to go forward goes
-sideways.
+sideways. A base that is to yaw rolls over.
 
 Bad:
 
@@ -36,13 +36,13 @@ import math
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import SLIDE
-from clinic.diagnosis.probes.vector import written
+from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.probes.vector import times, transpose, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
-TITLE = "A slide along another axis than its name says"
+TITLE = "A joint along another axis than its name says"
 FAMILIES = ("drifts", "stuck", "wrong-numbers")
 SINCE = "0.1"
 LEVEL = "hint"
@@ -51,12 +51,15 @@ UNPLANTED = "which way a name points, only names tell, and most healthy slides s
 AXES = {"x": 0, "forward": 0, "y": 1, "side": 1, "lateral": 1, "z": 2, "vertical": 2}
 ENDING = re.compile(r"(?:root|base|trans|slider?|[^a-z][tr])([xyz])$")
 FAR = 60.0  # degrees
+TRUNK = "base|torso|waist|chest|head|neck|chassis|pelvis"
+UPRIGHT = {HINGE: re.compile(rf"(?i)(?:{TRUNK})_?yaw"), SLIDE: re.compile("(?i)lift|elevat")}
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The slides of a model that go along another axis than they are called after, all together."""
     of = model.simulation
     of.begin()
+    yield from _lying(model)
     slides = [joint for joint in range(of.count("joint")) if of.joint_type(joint) == SLIDE]
     said = {joint: axis for joint in slides if (axis := _said(of.engine.name("joint", joint))) is not None}
     upright = abs(of.model("opt.gravity")[1]) <= abs(of.model("opt.gravity")[2])
@@ -77,6 +80,29 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         f"{other[0]} goes along {'xyz'[_along(of, found[0])]}.",
         "the axis that the name says",
     )
+
+
+def _lying(model: ReaderModel) -> Iterator[Suspect]:
+    """Lifts that go sideways, and a base, a waist or a head that yaws about a level axis."""
+    of = model.simulation
+    if abs(of.model("opt.gravity")[2]) <= math.hypot(*of.model("opt.gravity")[:2]):
+        return
+    for joint, name in enumerate(of.names("joint")):
+        kind = of.joint_type(joint)
+        body = int(of.model("jnt_bodyid")[joint])
+        alone = sum(of.joint_type(each) == kind for each in of.joints_of(body)) == 1  # no ball of three hinges
+        if kind in UPRIGHT and alone and UPRIGHT[kind].search(name) and _tilt(of, joint) > FAR:
+            up = tuple(round(x, 6) + 0.0 for x in times(transpose(of.data_row("xmat", body, 9)), (0.0, 0.0, 1.0)))
+            value, edits = written(up), model.set("joint", [joint], "axis", written(up))
+            says = f"{of.name('joint', joint)} is level at the start."
+            probe = Probe("angle of the axis to the vertical", "degrees", _tilt, (joint,), dynamic=False)
+            now = written(of.row("jnt_axis", joint, 3))
+            yield Suspect((of.name("joint", joint),), "axis", now, value, edits, probe, FAR, says, "upright")
+
+
+def _tilt(of: Simulation, joint: int) -> float:
+    of.begin()
+    return math.degrees(math.acos(min(1.0, abs(of.data_row("xaxis", joint, 3)[2]))))
 
 
 def _said(name: str) -> int | None:

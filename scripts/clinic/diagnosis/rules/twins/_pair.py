@@ -54,7 +54,7 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
             alone = len(trusted) >= 30 and not any(each.odd and found.bodies(each) not in bodies for each in trusted)
             far = alone and len(few) == 1 and few[0].unlike > FAR * few[0].limit
             far = far and kind in PARTS and not (quantity == "pos" and _same_part(model.simulation, few[0]))
-            known = agree >= (1 if far else 2) or quantity in ("joint", "target")
+            known = agree >= (2 if not far else kind != "camera") or quantity in ("joint", "target")
             known = known or (len(few) == 1 and _only(found, trusted, few[0]))
             if not few or len(few) > most or not known or close < 0.6 * agree:
                 continue

@@ -1,0 +1,71 @@
+"""A joint of a URDF is fixed, and has a range to move in.
+
+The joint was fixed for a test, or a program wrote it so, and kept its axis, its limits and its friction. What hangs on
+it does not move, and nothing in MuJoCo says why.
+
+Bad:
+
+    <robot name="arm">
+      <link name="base"/>
+      <link name="fore">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/>
+        </inertial>
+      </link>
+      <joint name="elbow" type="fixed">
+        <parent link="base"/>
+        <child link="fore"/>
+        <axis xyz="0 1 0"/>
+        <limit lower="-1" upper="1" effort="20" velocity="2"/>
+      </joint>
+    </robot>
+
+Good:
+
+    -   <joint name="elbow" type="fixed">
+    +   <joint name="elbow" type="revolute">
+
+The number: fixed joints with a range that is not a point and an effort above 0. One is told; more of them were made by
+the program that wrote the file.
+
+When it is wrong: a joint that is locked on purpose and may be freed again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.source import Element
+from clinic.diagnosis.suspect import Suspect, counted
+
+TITLE = "A fixed joint with a range"
+FAMILIES = ("stuck",)
+SINCE = "0.1"
+LEVEL = "hint"
+UNPLANTED = "the healthy models that faults are planted in are MJCF"
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """The joint of a URDF that is alone so."""
+    if model.source is None or not model.source.urdf:
+        return
+    found = [each for each in model.source.elements("joint") if each.get("type") == "fixed" and _range(each)]
+    if len(found) == 1:
+        low, high = _range(found[0]) or (0.0, 0.0)
+        names, edits = (f'joint "{found[0].get("name")}"',), (set_attribute(found[0], "type", "revolute"),)
+        says = f"It is fixed, and its limit is {low:g} to {high:g}."
+        probe = counted("fixed joints with a range", 1)
+        yield Suspect(names, "type", "fixed", "revolute", edits, probe, 0.5, says, "none", at=found[0])
+
+
+def _range(joint: Element) -> tuple[float, float] | None:
+    """The range that is written for a joint whose effort is not 0; None without."""
+    limit = joint.first("limit")
+    try:
+        low, high, effort = (float(limit.get(name) or "0") if limit else 0.0 for name in ("lower", "upper", "effort"))
+    except ValueError:
+        return None
+    return (low, high) if high - low > 1e-3 and effort > 0 and joint.first("axis") else None

@@ -323,3 +323,9 @@ def test_a_spring_that_holds_a_door_shut_is_well(rest, told):
     text = f"<mujoco><worldbody>{doors.format('0', '0', rest)}</worldbody></mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["spring-far-off"])
     assert bool(found.hints or found.causes) == told
+
+
+@pytest.mark.parametrize(("beside", "told"), [("", True), ('<motor joint="shoulder"/>', False)])
+def test_a_servo_beside_a_motor_need_not_carry_the_weight(beside, told):
+    found = arm(f'<position joint="shoulder" kp="1" kv="0.1"/>{beside}', joint='damping="0.2"')
+    assert ("weak-servo" in causes(found)) == told

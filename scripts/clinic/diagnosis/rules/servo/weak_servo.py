@@ -64,9 +64,9 @@ GOOD = {True: (0.02, 0.08, 0.2), False: (0.002, 0.008, 0.02)}  # rad or m that m
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Servos that sag, hinges and slides apart; those that are late."""
     simulation, found = model.simulation, sags(model.simulation)
-    much = {each.actuator for each in servos(simulation) if found[each.actuator] > _most(simulation, each)}
+    much = {each.actuator for each in _alone(simulation) if found[each.actuator] > _most(simulation, each)}
     for hinge in (True, False):
-        weak = [each for each in servos(simulation) if each.hinge == hinge and each.actuator in much]
+        weak = [each for each in _alone(simulation) if each.hinge == hinge and each.actuator in much]
         weak.sort(key=lambda each: -found[each.actuator])
         if not weak:
             continue
@@ -90,6 +90,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield from _bends(model, much)
     yield from _late(model, much)
     yield from _little(model, {each: far for each, far in found.items() if each not in much})
+
+
+def _alone(of: Simulation) -> list[Servo]:
+    """The servos of joints that no motor drives as well, through which code may carry the weight."""
+    kinds = zip(*(of.model(f"actuator_{kind}type") for kind in ("gain", "bias", "dyn")), strict=True)
+    motors = {of.driven_joint(each) for each, kind in enumerate(kinds) if not any(kind)}
+    return [each for each in servos(of) if each.joint not in motors]
 
 
 def _bends(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
@@ -125,7 +132,7 @@ def _little(model: ReaderModel, found: dict[int, float]) -> Iterator[Suspect]:
     """Hinges that sag visibly, and slides that sag by a good part of their range: hints."""
     of = model.simulation
     for hinge in (True, False):
-        weak = [each for each in servos(of) if each.hinge == hinge and each.actuator in found and not _free(of, each)]
+        weak = [each for each in _alone(of) if each.hinge == hinge and each.actuator in found and not _free(of, each)]
         weak = [each for each in weak if found[each.actuator] > _allowed(each)]
         if not weak:
             continue
@@ -157,7 +164,7 @@ def _allowed(servo: Servo) -> float:
 def _late(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
     """Servos that take far longer than a second for a small step, but for those that sag or are held back."""
     simulation, late = model.simulation, []
-    for each in servos(simulation):
+    for each in _alone(simulation):
         slow = each.hinge and each.stiffness < SLOW**2 * each.inertia
         slow |= each.damping > (LATE if each.hinge else CRAWLS) * each.stiffness
         slow = slow and each.actuator not in sagging and holds_back(simulation, each) != "damping"

@@ -21,7 +21,8 @@ Good:
     +       <geom name="box" type="box" size="0.1 0.1 0.1"/>
 
 The number: the largest coefficient of sliding friction; rubber on concrete has about 1, and none of 208 files of robots
-has more than 10. Told are those from 20 on.
+has more than 10. Told are those from 20 on. Where `condim` is 6, so is the third coefficient from 0.05 m on: it is the
+arm with which a contact brakes what rolls.
 
 When it is wrong: something that stands for glue.
 """

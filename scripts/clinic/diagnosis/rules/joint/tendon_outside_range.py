@@ -29,7 +29,8 @@ Good:
     +     <spatial name="rope" limited="true" range="0 0.16">
 
 The number: how far its length at the start lies outside of the range, as a share of that length or of the range, the
-larger of the two; more than 80 %.
+larger of the two, or of the range's beginning where that is ten times the length; more than 80 %. In a model with
+keyframes it is so in the first of them as well.
 
 When it is wrong: a rope that is to be pulled tight at the start.
 """

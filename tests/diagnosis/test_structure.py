@@ -135,7 +135,35 @@ def test_the_one_spring_that_rests_beyond_its_range_is_told(hip, ankle, told):
     assert bool(found(text, "spring-far-off")) is told
 
 
-FOURBAR = rules()["loop-left-open"].example("Good")
+FOURBAR = """
+<mujoco>
+  <worldbody>
+    <body name="crank" pos="0 0 1">
+      <joint name="crank" axis="0 1 0"/>
+      <geom type="capsule" fromto="0 0 0 0 0 0.1" size="0.01"/>
+      <body name="coupler" pos="0 0 0.1">
+        <joint name="coupler" axis="0 1 0"/>
+        <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.01"/>
+      </body>
+    </body>
+    <body name="rocker" pos="0.3 0 1">
+      <joint name="rocker" axis="0 1 0"/>
+      <geom type="capsule" fromto="0 0 0 0 0 0.1" size="0.01"/>
+    </body>
+  </worldbody>
+  <equality>
+    <connect name="loop" body1="coupler" body2="rocker" anchor="0.3 0 0"/>
+  </equality>
+</mujoco>
+"""
+
+
+@pytest.mark.parametrize(("free", "told"), [("", ['equality "loop"']), ("<freejoint/>", [])])
+def test_a_loop_between_two_links_of_the_world_that_is_off_is_told_and_a_latch_is_not(free, told):
+    off = FOURBAR.replace('anchor="0.3 0 0"', 'anchor="0.3 0 0" active="false"')
+    off = off.replace('<joint name="rocker" axis="0 1 0"/>', free or '<joint name="rocker" axis="0 1 0"/>')
+    found = examine(NativeEngine(), {"model.xml": off}, select=["switched-off"])
+    assert [each.elements[0] for each in found.hints] == told
 
 
 def test_the_hinge_across_all_others_is_named_where_a_loop_locks():

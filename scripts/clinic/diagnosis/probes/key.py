@@ -95,8 +95,9 @@ def against_range(simulation: Simulation, key: int) -> dict[int, tuple[float, fl
     Keyframe and control agree, so that it is the range that is wrong.
     """
     made = {}
+    found = servo.servos(simulation)
     off = beyond(simulation, key)
-    for each in servo.servos(simulation):
+    for each in found:
         if each.joint in off and each.targets and each.scale > 0:
             at = simulation.position(each.joint)
             target = each.offset + each.scale * simulation.data("ctrl")[each.actuator]

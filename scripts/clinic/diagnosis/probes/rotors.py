@@ -36,6 +36,8 @@ class Rotor:
 
 def rotors(of: Simulation, body: int) -> list[Rotor]:
     """The rotors of a free body and of all that hangs on it, at the start."""
+    if SITE not in map(int, of.model("actuator_trntype")):
+        return []
     owner, bodies, sites = root_of(of), of.model("site_bodyid"), of.model("actuator_trnid")
     of.begin()
     turn, centre = transpose(of.data_row("xmat", body, 9)), of.data_row("subtree_com", body, 3)

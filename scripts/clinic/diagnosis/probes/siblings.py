@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from clinic.diagnosis.probes.vector import apart
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 WHICH = re.compile(
@@ -163,3 +163,16 @@ def unlike(odd: Odd) -> Probe:
     """How unlike an element is to its first sibling, in %."""
     of = (odd.kind, odd.attribute, odd.index, odd.siblings[0])
     return Probe(f"{odd.attribute} of {odd.kind} and siblings, unlike by", "%", _unlike, of, dynamic=False)
+
+
+@kept
+def of_a_row(simulation: Simulation) -> list[int]:
+    """For each joint the first that is called like it but for numbers, and moves a body of the same mass: rollers."""
+    first: dict[tuple[str, int, float], int] = {}
+    bodies, masses = simulation.model("jnt_bodyid"), simulation.model("body_mass")
+    made = []
+    for joint, name in enumerate(simulation.names("joint")):
+        mass = round(masses[int(bodies[joint])], 6)
+        key = (re.sub(r"\d+", "", name) or str(joint), simulation.joint_type(joint), mass)
+        made.append(first.setdefault(key, joint))
+    return made

@@ -66,9 +66,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         several = Counter(names.values())
         twice = [each for each in every if names[id(each)] and several[names[id(each)]] > 1]
         element = max(twice[::-1], key=lambda each: _like(each, missing))
-        says = f"{len(twice)} elements are called {names[id(element)]!r}, and none {missing!r}, which is referred to."
+        name = names[id(element)]
+        says = f"{several[name]} elements are called {name!r}, and none {missing!r}, which is referred to."
         edits = [set_attribute(element, attribute, missing)]
-        yield mends(element, edits, says, attribute=attribute, now=names[id(element)], value=missing)
+        yield mends(element, edits, says, attribute=attribute, now=name, value=missing)
     used, edits, first = Counter[str](["world"] if kind == "body" else []), list[Edit](), None
     for element in every:
         name = names[id(element)]

@@ -25,7 +25,8 @@ Good:
 
 The number: the angle in degrees between a slide and the axis that its name says: x, forward; y, side, lateral; z,
 vertical. More than 60, both in the world and as it is written, where two slides and more are called so; of 289 healthy
-models none has such a slide. Models whose y is up are left alone.
+models none has such a slide. Models whose y is up are left alone. A slide called a lift or an elevator, and the one
+hinge that yaws a rolling base, a waist, a chest or a head, are told as far from the vertical, each by itself.
 
 When it is wrong: a frame whose x is not forward.
 """
@@ -51,8 +52,9 @@ UNPLANTED = "which way a name points, only names tell, and most healthy slides s
 AXES = {"x": 0, "forward": 0, "y": 1, "side": 1, "lateral": 1, "z": 2, "vertical": 2}
 ENDING = re.compile(r"(?:root|base|trans|slider?|[^a-z][tr])([xyz])$")
 FAR = 60.0  # degrees
-TRUNK = "base|torso|waist|chest|head|neck|chassis|pelvis"
-UPRIGHT = {HINGE: re.compile(rf"(?i)(?:{TRUNK})_?yaw"), SLIDE: re.compile("(?i)lift|elevat")}
+TRUNK = "torso|waist|chest|head|neck|pelvis"
+UPRIGHT = {HINGE: re.compile(rf"(?i)(?:{TRUNK})_?yaw"), SLIDE: re.compile("(?i)(?:lift|elevator)(?!_?door)")}
+BASE = re.compile("(?i)(?:base|chassis)_?yaw")  # of what rolls: an arm's base may hang on a wall
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -91,17 +93,26 @@ def _lying(model: ReaderModel) -> Iterator[Suspect]:
         kind = of.joint_type(joint)
         body = int(of.model("jnt_bodyid")[joint])
         alone = sum(of.joint_type(each) == kind for each in of.joints_of(body)) == 1  # no ball of three hinges
-        if kind in UPRIGHT and alone and UPRIGHT[kind].search(name) and _tilt(of, joint) > FAR:
+        rolls = BASE.search(name) and any(of.joint_type(each) == SLIDE for each in _of_root(of, body))
+        said = rolls or (kind in UPRIGHT and UPRIGHT[kind].search(name))
+        if alone and said and _tilt(of, joint) > FAR:
             up = tuple(round(x, 6) + 0.0 for x in times(transpose(of.data_row("xmat", body, 9)), (0.0, 0.0, 1.0)))
             value, edits = written(up), model.set("joint", [joint], "axis", written(up))
-            says = f"{of.name('joint', joint)} is level at the start."
+            says = f"{of.name('joint', joint)} is level at the zero pose."
             probe = Probe("angle of the axis to the vertical", "degrees", _tilt, (joint,), dynamic=False)
             now = written(of.row("jnt_axis", joint, 3))
             yield Suspect((of.name("joint", joint),), "axis", now, value, edits, probe, FAR, says, "upright")
 
 
+def _of_root(of: Simulation, body: int) -> list[int]:
+    """The joints above a body."""
+    return [joint for each in of.ancestors(body) for joint in of.joints_of(each)]
+
+
 def _tilt(of: Simulation, joint: int) -> float:
-    of.begin()
+    """The angle of a joint's axis to the vertical in degrees, at the zero pose."""
+    of.engine.reset(-1)
+    of.engine.forward()
     return math.degrees(math.acos(min(1.0, abs(of.data_row("xaxis", joint, 3)[2]))))
 
 

@@ -29,8 +29,8 @@ Good:
     +     <spatial name="rope" limited="true" range="0 0.16">
 
 The number: how far its length at the start lies outside of the range, as a share of that length or of the range, the
-larger of the two, or of the range's beginning where that is ten times the length; more than 80 %. In a model with
-keyframes it is so in the first of them as well.
+larger of the two; more than 80 %. Where the range begins at ten times the length, that beginning takes the place of
+its width. In a model with keyframes it is so in the first of them as well.
 
 When it is wrong: a rope that is to be pulled tight at the start.
 """
@@ -91,7 +91,7 @@ def _beyond(simulation: Simulation, tendon: int) -> float:
     if not simulation.model("tendon_limited")[tendon]:
         return 0.0
     (low, high), length = simulation.row("tendon_range", tendon, 2), simulation.data("ten_length")[tendon]
-    wide = high - low if low <= 10 * length else 0.0
+    wide = 0.0 if 0 < 10 * length < low else high - low
     return max(low - length, length - high) / max(abs(length), abs(low) if low > length else 0.0, wide, 1e-9)
 
 

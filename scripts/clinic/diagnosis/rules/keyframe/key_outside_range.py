@@ -27,7 +27,8 @@ Good:
     +     <key name="home" qpos="0.2 1.2"/>
 
 The number: how far the worst joint is outside, in rad or m: 0.1 and more. Where the joint's servo is told to hold it
-there, and may be, the joint's range is what is told.
+there, and may be, the joint's range is what is told. What would be inside in degrees, or far inside with the other
+sign, is written so; else it is put to the end of the range.
 
 When it is wrong: a limit that is soft on purpose.
 """
@@ -73,8 +74,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         qpos = list(of.data("qpos"))
         farther = any(abs(of.position(joint)) > 2 * math.pi for joint in off)
         in_degrees = farther and all(_inside(of, joint, math.radians(of.position(joint))) for joint in off)
-        for joint, each in off.items():
-            qpos[int(of.model("jnt_qposadr")[joint])] = _meant(of, joint, each, in_degrees)
+        for joint in range(of.count("joint")):
+            if in_degrees and of.joint_type(joint) == HINGE:  # all of them were written alike
+                qpos[int(of.model("jnt_qposadr")[joint])] = math.radians(of.position(joint))
+            elif joint in off:
+                qpos[int(of.model("jnt_qposadr")[joint])] = _meant(of, joint, off[joint])
         worst = max(off, key=lambda joint: abs(off[joint]))
         low, high = of.row("jnt_range", worst, 2)
         says = f"{of.name('joint', worst)} stands {abs(off[worst]):.3g} outside of {low:.3g} to {high:.3g}."
@@ -125,10 +129,8 @@ def _inside(of: Simulation, joint: int, at: float) -> bool:
     return of.joint_type(joint) == HINGE and low <= at <= high
 
 
-def _meant(of: Simulation, joint: int, beyond: float, in_degrees: bool) -> float:
-    """Where a joint was meant to be: in degrees, with the other sign, or at the end of its range."""
+def _meant(of: Simulation, joint: int, beyond: float) -> float:
+    """Where a joint was meant to be: with the other sign, or at the end of its range."""
     at, (low, high) = of.position(joint), of.row("jnt_range", joint, 2)
-    if in_degrees:
-        return math.radians(at)
     turned = low <= -at <= high and abs(beyond) > TURNED * (high - low)
     return -at if turned else at - beyond

@@ -72,7 +72,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         element = model.element("key", key)
         left_out = element is not None and "ctrl" not in element.attributes
         if element is not None and len(off) == 2 and _exchanged(found, *off):
-            yield _swap(model, key, element, off)
+            yield _swap(model, key, element, found, off)
             continue
         far = [actuator for actuator in off if abs(found[actuator][0] - found[actuator][1]) > FAR]
         if (
@@ -84,8 +84,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         most = len(off) >= max(2, 0.5 * len(found))
         ctrl = list(of.data("ctrl"))
         for actuator, (_, at) in found.items():
-            gear = of.row("actuator_gear", actuator, 6)[0]
-            ctrl[actuator] = at * gear * -of.bias(actuator)[1] / of.gain(actuator)[0]
+            ctrl[actuator] = _holding(of, actuator, at)
         worst = max(off, key=lambda actuator: abs(found[actuator][0] - found[actuator][1]))
         target, at = found[worst]
         yield Suspect(
@@ -107,12 +106,20 @@ def _exchanged(found: Mapping[int, tuple[float, float]], one: int, other: int) -
     return all(abs(found[a][0] - found[b][1]) < LIMIT / 2 for a, b in ((one, other), (other, one)))
 
 
-def _swap(model: ReaderModel, key: int, element: Element, off: Sequence[int]) -> Suspect:
+def _holding(of: Simulation, actuator: int, at: float) -> float:
+    """The control with which a servo stays where its joint is."""
+    return at * of.row("actuator_gear", actuator, 6)[0] * -of.bias(actuator)[1] / of.gain(actuator)[0]
+
+
+def _swap(
+    model: ReaderModel, key: int, element: Element, found: Mapping[int, tuple[float, float]], off: Sequence[int]
+) -> Suspect:
     """The two targets that stand in each other's place."""
     of = model.simulation
     start_at(of, key)
     ctrl = list(of.data("ctrl"))
-    ctrl[off[0]], ctrl[off[1]] = ctrl[off[1]], ctrl[off[0]]
+    for actuator in off:
+        ctrl[actuator] = _holding(of, actuator, found[actuator][1])
     edits, names = (set_attribute(element, "ctrl", written(ctrl)),), tuple(of.name("actuator", each) for each in off)
     says = f"{names[0]} and {names[1]} are told to go where the other one's joint is."
     healthy = "the targets of a pose are its joints' positions"

@@ -62,8 +62,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not dense or (slides and len(of.moving_bodies) == 1):  # a point mass may be as small as one likes
         return
     worst = max(dense, key=lambda each: each[1].density)[1]
-    factor = 10.0 ** round(math.log10(worst.density / WATER))
-    edits = _lighter(model, dense, factor)
+    factor = _factor(worst)
+    edits = _lighter(model, dense)
     by_density = bool(edits) and all(edit.attribute == "density" for edit in edits)
     yield Suspect(
         tuple(of.name("body", body) for body, _ in dense),
@@ -103,11 +103,17 @@ def _steel(model: ReaderModel) -> Iterator[Suspect]:
     )
 
 
-def _lighter(model: ReaderModel, dense: Sequence[tuple[int, Matter]], factor: float) -> tuple[Edit, ...]:
+def _factor(found: Matter) -> float:
+    """The power of ten that a body is denser than water."""
+    return float(10.0 ** round(math.log10(found.density / WATER)))
+
+
+def _lighter(model: ReaderModel, dense: Sequence[tuple[int, Matter]]) -> tuple[Edit, ...]:
     """The edits that make bodies lighter: in a default class where all of its geoms are meant."""
     made: tuple[Edit, ...] = ()
-    written: dict[tuple[str, str], list[int]] = {}
+    written: dict[tuple[str, str, float], list[int]] = {}
     for body, found in dense:
+        factor = _factor(found)
         if inertial(model, body) is not None:
             kept = abs(math.log(found.radius * math.sqrt(factor))) < abs(math.log(found.radius))  # of the right mass
             about = found.about if kept else tuple(x / factor for x in found.about)
@@ -116,10 +122,10 @@ def _lighter(model: ReaderModel, dense: Sequence[tuple[int, Matter]], factor: fl
         for geom in model.simulation.geoms_of(body):
             for name in ("mass", "density"):
                 if text := model.value("geom", geom, name):
-                    written.setdefault((name, text), []).append(geom)
+                    written.setdefault((name, text, factor), []).append(geom)
     of = model.simulation
     fixed = [geom for geom, body in enumerate(of.model("geom_bodyid")) if not of.model("body_weldid")[int(body)]]
-    for (name, text), geoms in written.items():
+    for (name, text, factor), geoms in written.items():
         without_weight = [geom for geom in fixed if model.value("geom", geom, name) == text]
         meant = model.set("geom", geoms + without_weight, name, f"{float(text) / factor:.6g}")
         made += meant if len(meant) == 1 else model.set("geom", geoms, name, f"{float(text) / factor:.6g}")

@@ -22,8 +22,8 @@ Good:
     +       <geom type="sphere" size="0.05" contype="0" conaffinity="0" mass="0"/>
 
 The number: the body's mass, and without that of geoms for which no mass and no density is written, or the very mass of
-a colliding geom of the same type, or the density of those that collide in another group, as where the compiler's
-`inertiagrouprange` was lost. Half as much again tells a cause.
+a colliding geom of the same type, or of a mesh the density of those that collide in another group, as where the
+compiler's `inertiagrouprange` was lost. Half as much again tells a cause.
 
 When it is wrong: where the visible geoms are meant to be the mass; a mass or density that is written says so.
 """
@@ -102,7 +102,7 @@ def _copies(model: ReaderModel, geom: int, others: list[int]) -> bool:
     if mass is not None:
         return any(model.value("geom", other, "mass") == mass for other in like)
     groups, density = model.simulation.model("geom_group"), model.value("geom", geom, "density")
-    apart = others and all(groups[other] != groups[geom] for other in others)
+    apart = others and types[geom] == MESH and all(groups[other] != groups[geom] for other in others)
     return bool(apart) and all(model.value("geom", other, "density") == density for other in others)
 
 

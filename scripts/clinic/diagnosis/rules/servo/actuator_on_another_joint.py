@@ -37,6 +37,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -65,10 +66,13 @@ def _meant(simulation: Simulation) -> dict[int, tuple[int, int]]:
         if name and simulation.joint_type(joint) in (HINGE, SLIDE):
             joints.setdefault(_key(name), []).append(joint)
     drives = {each: simulation.driven_joint(each) for each in range(simulation.count("actuator"))}
+    owner, bodies = root_of(simulation), simulation.model("jnt_bodyid")
     made, undriven = {}, set(range(simulation.count("joint"))) - set(drives.values())
     for actuator, name in enumerate(simulation.names("actuator")):
         key, driven = _key(name), drives[actuator]
-        found = joints.get(key) or _within(joints, key, undriven) or _longer(joints, key)
+        found = joints.get(key) or _within(joints, key, undriven)
+        if not found and driven is not None:
+            found = [each for each in _longer(joints, key) if owner[int(bodies[each])] == owner[int(bodies[driven])]]
         if key and len(found) == 1 and driven not in (None, found[0]):
             made[actuator] = (driven, found[0])
     wrong = {meant: driven for driven, meant in made.values()}

@@ -35,12 +35,12 @@ When it is wrong: two motors on one axle, or a pair of muscles that a joint stan
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.servo import MUSCLE
 from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.siblings import of_a_row
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -82,11 +82,11 @@ def _idle(of: Simulation, joint: int) -> list[int]:
     """The hinges and slides of a joint's mechanism, or called like it but for a number, that no actuator drives."""
     owner, bodies = root_of(of), of.model("jnt_bodyid")
     driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
-    names = [re.sub(r"\d+", "", name) or str(each) for each, name in enumerate(of.names("joint"))]
+    row = of_a_row(of)
     beside = (
         each
         for each in range(of.count("joint"))
-        if owner[int(bodies[each])] == owner[int(bodies[joint])] or names[each] == names[joint]
+        if owner[int(bodies[each])] == owner[int(bodies[joint])] or row[each] == row[joint]
     )
     return [each for each in beside if each not in driven and of.joint_type(each) in (HINGE, SLIDE)]
 

@@ -1,7 +1,8 @@
 """An actuator's force range leaves nothing of its force: it pulls, and may only push.
 
-A tendon that can only pull has `forcerange="-20 0"`, or a negative gain. With the sign of one and not of the other
-every force is clipped to zero, and the control changes nothing.
+What can only pull has `forcerange="-20 0"`, and controls that ask for such a force. With the sign of one and not of the
+other every force is clipped to zero, and the control changes nothing. The force range is that of the actuator, before
+the gear.
 
 Bad:
 
@@ -13,14 +14,14 @@ Bad:
         </body>
       </worldbody>
       <actuator>
-        <motor name="flexor" joint="knuckle" gear="-1" ctrlrange="-1 0" forcerange="0 20"/>
+        <motor name="flexor" joint="knuckle" ctrlrange="-1 0" forcerange="0 20"/>
       </actuator>
     </mujoco>
 
 Good:
 
-    -     <motor name="flexor" joint="knuckle" gear="-1" ctrlrange="-1 0" forcerange="0 20"/>
-    +     <motor name="flexor" joint="knuckle" gear="-1" ctrlrange="-1 0" forcerange="-20 0"/>
+    -     <motor name="flexor" joint="knuckle" ctrlrange="-1 0" forcerange="0 20"/>
+    +     <motor name="flexor" joint="knuckle" ctrlrange="-1 0" forcerange="-20 0"/>
 
 The number: actuators without a spring or damper of their own whose forces at both ends of their control range are
 clipped to the same.
@@ -32,6 +33,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.servo import MUSCLE
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
@@ -54,8 +56,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         low, high = of.row("actuator_forcerange", actuator, 2)
         forces = sorted(_forces(of, actuator))
         says = f"Its controls ask for {forces[0]:.3g} to {forces[1]:.3g}, and it may give {low:.3g} to {high:.3g}."
-        value = written((-high, -low))
-        edits = model.set("actuator", [actuator], "forcerange", value)
+        value, edits = "one that the force is in", tuple[Edit, ...]()
+        if forces[0] < -low and forces[1] > -high:
+            value = written((-high, -low))
+            edits = model.set("actuator", [actuator], "forcerange", value)
         probe = Probe("actuators whose force is clipped to one number", "", _nothing, (actuator,), dynamic=False)
         name, now, healthy = of.name("actuator", actuator), written((low, high)), "a range that the force is in"
         yield Suspect((name,), "forcerange", now, value, edits, probe, 0.5, says, healthy, level="hint")

@@ -10,27 +10,27 @@ Bad:
         <body name="drone" pos="0 0 1">
           <freejoint/>
           <geom type="box" size="0.1 0.1 0.02" mass="0.5"/>
-          <site name="one" pos="-0.1 -0.1 0"/>
-          <site name="two" pos="-0.1 0.1 0"/>
-          <site name="three" pos="0.1 0.1 0"/>
-          <site name="four" pos="0.1 -0.1 0"/>
+          <site name="rotor1" pos="-0.1 -0.1 0"/>
+          <site name="rotor2" pos="-0.1 0.1 0"/>
+          <site name="rotor3" pos="0.1 0.1 0"/>
+          <site name="rotor4" pos="0.1 -0.1 0"/>
         </body>
       </worldbody>
       <actuator>
-        <motor name="one" site="one" gear="0 0 1 0 0 -0.02"/>
-        <motor name="two" site="two" gear="0 0 1 0 0 0.02"/>
-        <motor name="three" site="three" gear="0 0 1 0 0 -0.02"/>
-        <motor name="four" site="three" gear="0 0 1 0 0 0.02"/>
+        <motor name="one" site="rotor1" gear="0 0 1 0 0 -0.02"/>
+        <motor name="two" site="rotor2" gear="0 0 1 0 0 0.02"/>
+        <motor name="three" site="rotor3" gear="0 0 1 0 0 -0.02"/>
+        <motor name="four" site="rotor3" gear="0 0 1 0 0 0.02"/>
       </actuator>
     </mujoco>
 
 Good:
 
-    -     <motor name="four" site="three" gear="0 0 1 0 0 0.02"/>
-    +     <motor name="four" site="four" gear="0 0 1 0 0 0.02"/>
+    -     <motor name="four" site="rotor3" gear="0 0 1 0 0 0.02"/>
+    +     <motor name="four" site="rotor4" gear="0 0 1 0 0 0.02"/>
 
-The number: rotors of one drone, three at least: those that push from the place of another one in the same direction,
-and the one whose push is more than 45 degrees from that of all others.
+The number: rotors of one drone: of three and more those that push from the place of another one in the same direction,
+of four and more the one whose push is more than 45 degrees from that of all others.
 
 When it is wrong: two rotors above each other, or a pusher behind.
 """
@@ -70,7 +70,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             edits: tuple[Edit, ...] = model.set("actuator", [other.actuator], "site", free) if free else ()
             sites = tuple(of.name("site", _site(of, each)) for each in (one, other))
             names = names if attribute == "site" else (*names, *sites)
-            now, at = of.names("site")[site], None if attribute == "site" else model.element("site", site)
+            at = None if attribute == "site" else model.element("site", site)
+            now = of.names("site")[site] if attribute == "site" else model.value("site", site, "pos") or ""
             yield Suspect(names, attribute, now, free or "a place of its own", edits, probe, 0, says, "none", at=at)
         if (odd := _aside(found)) is not None:
             name = of.name("actuator", odd.actuator)
@@ -93,9 +94,9 @@ def _unused(of: Simulation, found: list[Rotor]) -> str:
     used = {_site(of, each) for each in found}
     bodies = {int(owners[site]) for site in used}
     alike = {names[site].rstrip("0123456789")[:2] for site in used}
-    left = [name for site, name in enumerate(names) if site not in used and int(owners[site]) in bodies]
-    found_names = [name for name in left if name and (name[:2] in alike or len(left) == 1)]
-    return found_names[0] if len(found_names) == 1 else ""
+    idle = (name for site, name in enumerate(names) if site not in used and int(owners[site]) in bodies)
+    left = [name for name in idle if name.rstrip("0123456789")[:2] in alike]
+    return left[0] if len(left) == 1 else ""
 
 
 def _together(found: list[Rotor]) -> list[tuple[Rotor, Rotor]]:

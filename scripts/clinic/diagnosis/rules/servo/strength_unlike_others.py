@@ -46,11 +46,11 @@ When it is wrong: a gripper's motor beside those of an arm, or a neck's beside t
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.servo import MUSCLE, servos
 from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.siblings import of_a_row
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -116,10 +116,9 @@ def _groups(of: Simulation) -> dict[Key, dict[int, float]]:
     made: dict[Key, dict[int, float]] = {}
     owner, bodies, stiff = root_of(of), of.model("jnt_bodyid"), {each.actuator: each.stiffness for each in servos(of)}
     owners = [owner[int(body)] for body in bodies]
-    names = [re.sub(r"\d+", "", name) for name in of.names("joint")]
-    for joint, name in enumerate(names):  # rollers of a belt, each by itself
-        if name and owners.count(owners[joint]) == 1:
-            owners[joint] = -1 - names.index(name)
+    for joint, like in enumerate(of_a_row(of)):  # rollers of a belt, each by itself
+        if owners.count(owners[joint]) == 1:
+            owners[joint] = -1 - like
     for actuator in range(of.count("actuator")):
         driven, gear = of.driven_joint(actuator), abs(of.model("actuator_gear")[6 * actuator])
         dynamic = int(of.model("actuator_dyntype")[actuator])

@@ -96,7 +96,7 @@ def _twice(of: Simulation) -> dict[int, int]:
     made = {}
     for each in range(of.count("equality")):
         pair = frozenset(held(of, each))
-        if kind_of(of, each) == COUPLED and -1 not in pair and len(pair) > 1:
+        if kind_of(of, each) == COUPLED and -1 not in pair and len(pair) > 1 and of.model("eq_active0")[each]:
             if pair in seen:
                 made[each] = seen[pair]
             seen.setdefault(pair, each)
@@ -108,7 +108,8 @@ def _across(of: Simulation) -> dict[int, tuple[int, int]]:
     sides = {kind: _sides(of, kind) for kind in ("body", "site", "joint")}
     kept, crossing = set(), {}
     for each in range(of.count("equality")):
-        if kind_of(of, each) not in (CONNECT, WELD, COUPLED) or min(held(of, each)) < 0:
+        known = kind_of(of, each) in (CONNECT, WELD, COUPLED) and of.model("eq_active0")[each]
+        if not known or min(held(of, each)) < 0:
             continue
         twin, (one, two) = sides[_kind(of, each)], held(of, each)
         if one not in twin or two not in twin or twin[one][1] == two:

@@ -65,7 +65,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of.begin()
     for geoms in mechanisms(of).values():
         geom = max(geoms, key=lambda each: thickness(of, each))
-        if len(geoms) <= ENOUGH or (times := _times(of, geom)) <= LARGE or int(of.model("geom_type")[geom]) == MESH:
+        if (
+            len(geoms) <= ENOUGH
+            or int(of.model("geom_type")[geom]) == MESH
+            or (times := _beside(of, geom, geoms)) <= LARGE
+        ):
             continue
         others = sorted(thickness(of, each) for each in geoms if each != geom)
         scale = 10.0 ** -round(math.log10(thickness(of, geom) / others[len(others) // 2]))
@@ -80,7 +84,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _times(of: Simulation, geom: int) -> float:
     """The smallest extent of a geom over the size of the box around the others of its mechanism."""
     of.begin()
-    geoms = next(geoms for geoms in mechanisms(of).values() if geom in geoms)
+    return _beside(of, geom, next(geoms for geoms in mechanisms(of).values() if geom in geoms))
+
+
+def _beside(of: Simulation, geom: int, geoms: list[int]) -> float:
     others = [(of.data_row("geom_xpos", each, 3), of.model("geom_rbound")[each]) for each in geoms if each != geom]
     sides = [
         max(place[axis] + radius for place, radius in others) - min(place[axis] - radius for place, radius in others)

@@ -1,7 +1,7 @@
 """A link does not hang on the end of the one before it.
 
-A rod ends 0.6 m from its joint, and the next one hangs 6 m away in the same direction, or at the other end, or both
-begin in one place: a `pos` that was forgotten, a sign, a decimal point in one of two numbers that say the same length.
+A rod ends 0.6 m from its joint, and the next one hangs 6 m away in the same direction, or both begin in one place: a
+`pos` that was forgotten, a decimal point in one of two numbers that say the same length.
 
 Bad:
 
@@ -24,8 +24,8 @@ Good:
     +       <body name="lower" pos="0.3 0 0">
 
 The number: where the next link with a joint begins, in lengths of a capsule or cylinder that begins at its own body's
-origin: 10, 100 or 1000 times as far or a part of that, or at the other side, where no other geom is; or at its
-beginning, where the next one's is a rod in the same direction.
+origin: 10, 100 or 1000 times as far, where no other geom is; a tenth, where the rod is the one that is unlike the
+others; or at its beginning, where the next one's is a rod in the same direction.
 
 When it is wrong: a telescope that is drawn pushed in.
 """
@@ -64,11 +64,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         says = f"{length} hangs {norm(place):.3g} m away in the same direction."
         if share == 0:
             says = f"{length}, a rod in the same direction, begins where {above} does."
-        if share < 0:
-            says = f"{length} hangs on the other side, {norm(place):.3g} m away."
         probe = Probe("a link from the end of the rod before it", "of the rod's length", _off, (body,), dynamic=False)
         names, text = [of.name("body", body), above], model.value("geom", geom, "fromto")
-        if share not in (0, -1) and text and _odd_rod(of, geom, rod, place):
+        if share and text and _odd_rod(of, geom, rod, place):
             names, attribute, now = [of.name("geom", geom), *names], "fromto", text
             value = written([share * float(each) for each in text.split()])
             edits = model.set("geom", [geom], "fromto", value)
@@ -99,7 +97,7 @@ def _off(of: Simulation, body: int) -> float:
 
 
 def _share(of: Simulation, body: int) -> float:
-    """Where a link is along the rod before it, where that is a mistake's number: 0, -1, or a power of ten; else 1."""
+    """Where a link is along the rod before it, where that is a mistake's number: 0 or a power of ten; else 1."""
     parent, place = int(of.model("body_parentid")[body]), of.row("body_pos", body, 3)
     rods = _rods(of, parent)
     if not rods:
@@ -111,11 +109,13 @@ def _share(of: Simulation, body: int) -> float:
         return 0.0 if beside else 1.0
     along, power = dot(unit(place), unit(rod)), round(math.log10(norm(place) / norm(rod)))
     near = [geom for geom in of.geoms_of(parent) if norm(sub(of.row("geom_pos", geom, 3), place)) < _radius(of, geom)]
-    if abs(along) < PARALLEL or len(near) > (power < 0 < along):  # the rod itself
+    if along < PARALLEL or len(near) > (power < 0):  # the rod itself
         return 1.0
     if abs(math.log10(norm(place) / norm(rod)) - power) > math.log10(1 + WITHIN):
         return 1.0
-    return math.copysign(10.0**power, along)
+    if power < 0 and not _odd_rod(of, rods[-1][0], rod, place):  # what hangs on its way
+        return 1.0
+    return float(10.0**power)
 
 
 def _radius(of: Simulation, geom: int) -> float:

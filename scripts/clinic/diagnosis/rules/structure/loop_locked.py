@@ -92,8 +92,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         says += f" Without {' or '.join(of.name('equality', each) for each in holds[:3])} it would."
     odd, edits = _across(model), tuple[Edit, ...]()
     if odd is not None:
-        says += f" {of.name('joint', odd)} turns about another axis than all other hinges."
         edits = model.set("joint", [odd], "axis", written(_others_axis(of, odd)))
+        if edits and model.measured(probe, edits) <= MOST:
+            says += f" {of.name('joint', odd)} turns about another axis than all other hinges."
+        else:
+            odd, edits = None, ()
     yield Suspect(
         (*names, *(of.name("equality", each) for each in holds), *([] if odd is None else [of.name("joint", odd)])),
         "equality" if odd is None else "axis",

@@ -34,6 +34,7 @@ When it is wrong: a joint that is locked on purpose and may be freed again.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
@@ -47,6 +48,8 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "the healthy models that faults are planted in are MJCF"
 
+SLIDES = re.compile("(?i)slid|prism|lift|finger")
+
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The joint of a URDF that is alone so."""
@@ -55,10 +58,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = [each for each in model.source.elements("joint") if each.get("type") == "fixed" and _range(each)]
     if len(found) == 1:
         low, high = _range(found[0]) or (0.0, 0.0)
-        names, edits = (f'joint "{found[0].get("name")}"',), (set_attribute(found[0], "type", "revolute"),)
+        value = "prismatic" if SLIDES.search(found[0].get("name")) else "revolute"
+        names, edits = (f'joint "{found[0].get("name")}"',), (set_attribute(found[0], "type", value),)
         says = f"It is fixed, and its limit is {low:g} to {high:g}."
         probe = counted("fixed joints with a range", 1)
-        yield Suspect(names, "type", "fixed", "revolute", edits, probe, 0.5, says, "none", at=found[0])
+        yield Suspect(names, "type", "fixed", value, edits, probe, 0.5, says, "none", at=found[0])
 
 
 def _range(joint: Element) -> tuple[float, float] | None:

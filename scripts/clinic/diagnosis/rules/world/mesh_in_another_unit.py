@@ -29,8 +29,9 @@ Good:
 
 The number: half of the mesh's length over the usual size of the rest: the median of the distances between bodies and
 their parents, and of half the lengths of shapes other than meshes. In 215 healthy models with meshes it is 43 at most,
-and that of the mesh in the middle 0.07 at least. More than 100 times is told, and so is a model whose meshes are all a
-hundredth and under 2 mm, or one under 0.6 mm. Where there is nothing else, a mesh of 20 m.
+and that of the mesh in the middle 0.07 at least. More than 100 times is told. So is less than a hundredth: of all
+meshes where they are under 2 mm, of a single one where it is under 0.6 mm. Where there is nothing else, a mesh of 20 m
+is told.
 
 When it is wrong: a planet beside a satellite.
 """

@@ -30,7 +30,8 @@ Good:
 
 The number: how many actuators, limits, loops or pairs the model has of what is switched off. Of equality constraints
 those whose parts stand at the start as if they held, to 1 mm or mrad, and of connections and welds of two bodies
-without `relpose`, which MuJoCo takes from the start, those within one mechanism.
+without `relpose`, which MuJoCo takes from the start, those within one mechanism; of connections those of two chains
+that are fixed to the world as well.
 
 When it is wrong: a model in which the code switches things on, or an actuator group that is chosen at run time.
 """
@@ -40,7 +41,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import remove_attribute
-from clinic.diagnosis.probes.equalities import COUPLED, by_mocap, gap, held, kind_of, sited
+from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, by_mocap, gap, held, kind_of, sited
 from clinic.diagnosis.probes.shape import collides, root_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -99,7 +100,8 @@ def _placed(model: ReaderModel, each: int) -> bool:
     if kind_of(of, each) == COUPLED or sited(of, each) or model.value("equality", each, "relpose"):
         return True
     one, other = (root_of(of)[body] for body in held(of, each))
-    return one == other
+    linkage = kind_of(of, each) == CONNECT and one and other and not {one, other} & set(of.free_bodies)
+    return one == other or bool(linkage)
 
 
 def _suspect(element: Element, attribute: str, now: str, number: int, says: str, value: str) -> Suspect:

@@ -103,6 +103,12 @@ def _servo(simulation: Simulation, actuator: int) -> Servo | None:
     )
 
 
+def speed_gain(simulation: Simulation, actuator: int) -> float:
+    """The gain of a velocity servo, before its gear; 0 of another actuator."""
+    bias = simulation.bias(actuator)
+    return -bias[2] if bias[1] == 0 > bias[2] else 0.0
+
+
 def hold(simulation: Simulation) -> None:
     """Tells every position servo to stay where its joint is."""
     for servo in servos(simulation):

@@ -76,6 +76,8 @@ def _floating(simulation: Simulation) -> list[Contact]:
 def _thick(model: ReaderModel) -> Iterator[Suspect]:
     """The margins that are thick where nothing rests on them, so that they only keep things away."""
     of, margins = model.simulation, model.simulation.model("geom_margin")
+    if max(margins, default=0.0) <= THICK:
+        return
     reach = max((extent(of, root) for root in roots(of)), default=0.0)
     wide = [geom for geom, margin in enumerate(margins) if margin > max(THICK, PART * reach) and solid(of, geom)]
     if wide and reach > 0:

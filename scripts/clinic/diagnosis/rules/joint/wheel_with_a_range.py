@@ -38,6 +38,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.probes.servo import speed_gain
 from clinic.diagnosis.probes.shape import round_about
 from clinic.diagnosis.probes.wheels import is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
@@ -79,8 +80,8 @@ def _sped(of: Simulation) -> set[int]:
     """The cranks that a velocity servo is to keep turning, and whose range it would cross in no time."""
     made = set()
     for actuator in range(of.count("actuator")):
-        joint, bias = of.driven_joint(actuator), of.bias(actuator)
-        if joint is None or bias[1] != 0 or bias[2] >= 0 or not of.model("actuator_ctrllimited")[actuator]:
+        joint = of.driven_joint(actuator)
+        if joint is None or not speed_gain(of, actuator) or not of.model("actuator_ctrllimited")[actuator]:
             continue
         fastest = max(map(abs, of.row("actuator_ctrlrange", actuator, 2)))
         fastest /= abs(of.model("actuator_gear")[6 * actuator]) or 1.0

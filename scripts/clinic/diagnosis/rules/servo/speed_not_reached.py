@@ -48,6 +48,7 @@ from dataclasses import dataclass
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.probes.servo import speed_gain
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
@@ -110,12 +111,12 @@ def _wheels(of: Simulation) -> list[Wheel]:
         limited = of.model("actuator_ctrllimited")[actuator]
         if joint is None or not limited or int(of.model("actuator_biastype")[actuator]) != AFFINE:
             continue
-        bias = of.bias(actuator)
+        gain = speed_gain(of, actuator)
         gear = of.model("actuator_gear")[6 * actuator]
         turns = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
         fastest = of.row("actuator_ctrlrange", actuator, 2)[1]
-        if turns and bias[1] == 0 > bias[2] and gear and fastest > 0:
-            made.append(Wheel(actuator, joint, -bias[2] * gear**2, fastest / abs(gear)))
+        if turns and gain and gear and fastest > 0:
+            made.append(Wheel(actuator, joint, gain * gear**2, fastest / abs(gear)))
     return made
 
 

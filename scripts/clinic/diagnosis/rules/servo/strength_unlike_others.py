@@ -48,7 +48,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.servo import MUSCLE, servos
+from clinic.diagnosis.probes.servo import MUSCLE, servos, speed_gain
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.siblings import of_a_row
 from clinic.diagnosis.reader_model import ReaderModel
@@ -133,8 +133,8 @@ def _groups(of: Simulation) -> dict[Key, dict[int, float]]:
         force = abs(of.gain(actuator)[0]) * gear * full
         if actuator in stiff:
             made.setdefault((STIFFNESS, *among), {})[actuator] = stiff[actuator]
-        elif of.bias(actuator)[1] == 0 > of.bias(actuator)[2]:
-            made.setdefault((SPEED, *among), {})[actuator] = -of.bias(actuator)[2] * gear**2
+        elif gain := speed_gain(of, actuator):
+            made.setdefault((SPEED, *among), {})[actuator] = gain * gear**2
         elif force and not dynamic and not int(of.model("actuator_biastype")[actuator]):
             made.setdefault((FORCE, *among), {})[actuator] = force
     return {key: each for key, each in made.items() if len(each) >= LEAST}

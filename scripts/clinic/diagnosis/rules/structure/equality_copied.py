@@ -46,7 +46,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, WELD, held, kind_of, sited
-from clinic.diagnosis.probes.sides import right_of
+from clinic.diagnosis.probes.sides import by_name
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -125,11 +125,5 @@ def _across(of: Simulation) -> dict[int, tuple[int, int]]:
 
 def _sides(of: Simulation, kind: str) -> dict[int, tuple[str, int]]:
     """By element of a pair: its side, and its twin."""
-    names = of.names(kind)
-    places = {name: index for index, name in enumerate(names) if name}
-    made: dict[int, tuple[str, int]] = {}
-    for index, name in enumerate(names):
-        right = next((places[other] for other in right_of(name) if other in places), None) if name else None
-        if right is not None and not {index, right} & made.keys():
-            made[index], made[right] = ("left", right), ("right", index)
-    return made
+    pairs = by_name(of, kind)
+    return {left: ("left", right) for left, right in pairs} | {right: ("right", left) for left, right in pairs}

@@ -140,6 +140,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             yield mends(
                 each, (set_attribute(each, size[1], "-1"),), says, attribute=size[1], now=each.get(size[1]), value="-1"
             )
+    elif "out of memory" in said:
+        for each in [one for one in model.source.elements("size") if {"memory", "nstack"} & {*one.attributes}]:
+            old = [name for name in ("memory", "nstack", "njmax", "nconmax") if name in each.attributes]
+            says = f"{said}. Without it MuJoCo takes as much as the model needs."
+            edits = [remove_attribute(each, name) for name in old]
+            yield mends(each, edits, says, attribute=old[0], now=each.get(old[0]), value="nothing")
     elif "no flex vertices" in said:
         for flex in list(model.source.elements("flexcomp")):
             says = f"{said}. A flex below a body that moves hangs on it by a <pin>; its first point is pinned."

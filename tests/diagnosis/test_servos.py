@@ -210,6 +210,12 @@ def test_a_clamped_force_has_no_implicit_damping(integrator, kv, force, told):
     assert ("servo-is-a-switch" in [each.rule for each in found.hints]) is told, found.text()
 
 
+@pytest.mark.parametrize(("integrator", "told"), [("Euler", True), ("implicitfast", False)])
+def test_damping_of_a_servo_is_explicit_but_for_the_implicit_integrators(integrator, told):
+    found = diagnosed(FOREARM.format(integrator=integrator, kv=5, force=""))
+    assert ("damping-explicit" in [each.rule for each in found.hints]) is told, found.text()
+
+
 @pytest.mark.parametrize(("kind", "told"), [("muscle", False), ("motor", True)])
 def test_two_muscles_pull_one_joint_and_two_motors_do_not(kind, told):
     links = ""

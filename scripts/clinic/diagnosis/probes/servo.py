@@ -69,6 +69,20 @@ def servos(simulation: Simulation) -> list[Servo]:
     return [each for each in found if each is not None]
 
 
+@kept
+def feedback(simulation: Simulation) -> dict[int, tuple[float, float]]:
+    """What all actuators of a joint together answer to its position and to its speed: kp and kv, by joint."""
+    made: dict[int, tuple[float, float]] = {}
+    for actuator in range(simulation.count("actuator")):
+        joint = simulation.driven_joint(actuator)
+        if joint is None or int(simulation.model("actuator_biastype")[actuator]) != AFFINE:
+            continue
+        bias, gear = simulation.bias(actuator), simulation.model("actuator_gear")[6 * actuator]
+        kp, kv = made.get(joint, (0.0, 0.0))
+        made[joint] = kp + max(0.0, -bias[1] * gear**2), kv + max(0.0, -bias[2] * gear**2)
+    return made
+
+
 def _servo(simulation: Simulation, actuator: int) -> Servo | None:
     joint = simulation.driven_joint(actuator)
     kinds = [int(simulation.model(f"actuator_{kind}")[actuator]) for kind in ("gaintype", "biastype", "dyntype")]

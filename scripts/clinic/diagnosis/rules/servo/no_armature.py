@@ -40,6 +40,7 @@ from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.probes.matter import explicit
 from clinic.diagnosis.probes.run import fastest
+from clinic.diagnosis.probes.servo import feedback
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -132,15 +133,9 @@ def _gains(simulation: Simulation) -> dict[int, tuple[float, float, float, float
     """Position gain, velocity gain where it is explicit, inertia, and velocity gain where it is implicit, by joint."""
     made: dict[int, tuple[float, float, float, float]] = {}
     implicit = int(simulation.model("opt.integrator")[0]) in IMPLICIT
-    for actuator in range(simulation.count("actuator")):
-        joint = simulation.driven_joint(actuator)
-        if joint is None or int(simulation.model("actuator_biastype")[actuator]) != 1:
-            continue
-        bias, gear = simulation.bias(actuator), simulation.model("actuator_gear")[6 * actuator]
-        kp, kv = max(0.0, -bias[1] * gear**2), max(0.0, -bias[2] * gear**2)
-        old = made.get(joint, (0.0, 0.0, 0.0, 0.0))
+    for joint, (kp, kv) in feedback(simulation).items():
         inertia = max(simulation.mass_diagonal[simulation.dof(joint)], 1e-12)
-        made[joint] = (kp + old[0], kv * (not implicit) + old[1], inertia, kv * implicit + old[3])
+        made[joint] = (kp, kv * (not implicit), inertia, kv * implicit)
     return made
 
 

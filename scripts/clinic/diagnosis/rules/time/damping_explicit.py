@@ -1,8 +1,8 @@
-"""A joint's damping is more than an explicit integrator can follow.
+"""A joint's damping, or its servo's, is more than an explicit integrator can follow.
 
 `Euler` and `implicitfast` take a joint's damping implicitly: it may be as high as one likes. `RK4` does not, nor does
-`Euler` with `eulerdamp="disable"`: a damper that stops a light wheel within one step throws it back instead, farther
-each time.
+`Euler` with `eulerdamp="disable"`; and the `kv` of a servo is implicit with `implicitfast` alone. A damper that stops a
+light wheel within one step throws it back instead, farther each time.
 
 Bad:
 
@@ -37,6 +37,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.probes.run import fastest
+from clinic.diagnosis.probes.servo import feedback
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -56,9 +57,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The integrator, where it takes damping explicitly that the timestep does not bear."""
     of, inertia = model.simulation, model.simulation.mass_diagonal
     integrator = int(of.model("opt.integrator")[0])
-    if integrator not in BEARS or (not integrator and not int(of.model("opt.disableflags")[0]) & EULERDAMP_OFF):
+    if integrator not in BEARS:
         return
-    damping = of.model("dof_damping")
+    implicit = not integrator and not int(of.model("opt.disableflags")[0]) & EULERDAMP_OFF
+    damping = [0.0 if implicit else each for each in of.model("dof_damping")]
+    for joint, (_, kv) in feedback(of).items():
+        damping[of.dof(joint)] += kv
     ratios = {dof: of.timestep * damping[dof] / max(inertia[dof], 1e-12) for dof in range(of.count("dof"))}
     dof, ratio = max(ratios.items(), key=lambda each: each[1], default=(0, 0.0))
     edits = model.option("integrator", "implicitfast")
@@ -70,7 +74,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             name = of.name("joint", of.dof_joints[dof])
             says = f"At {name}: damping {damping[dof]:.3g} on an inertia of {inertia[dof]:.2g}, h d / M is {ratio:.3g}."
             well = f"h d / M < {BEARS[integrator]:g}"
-            now = "RK4" if integrator else "Euler without eulerdamp"
+            now = "RK4" if integrator else "Euler" if implicit else "Euler without eulerdamp"
             yield Suspect(
                 ("the integrator", name), "integrator", now, "implicitfast", edits, probe, limit, says, well, TENTH
             )

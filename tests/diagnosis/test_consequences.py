@@ -82,3 +82,25 @@ def test_one_mesh_among_others_is_a_speck_or_a_screw(scale, told):
     text = f"<mujoco><asset>{meshes}</asset><worldbody>{bodies}</worldbody></mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["mesh-in-another-unit"])
     assert [each for finding in (*found.causes, *found.hints) for each in finding.elements] == told
+
+
+ARM = """<mujoco>
+  <worldbody>
+    <body name="arm" pos="0 0 1">
+      <joint name="shoulder" axis="0 1 0" damping="3"/>
+      <inertial pos="{centre} 0 0" mass="1" diaginertia="0.01 0.01 0.01"/>
+      <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
+    </body>
+  </worldbody>
+  <actuator><position joint="shoulder" kp="{kp}" forcerange="-30 30" ctrlrange="-1 1"/></actuator>
+</mujoco>
+"""
+
+
+@pytest.mark.parametrize(
+    ("centre", "kp", "causes"),
+    [("150", "40", ["centre-of-mass-outside"]), ("0.15", "2", ["weak-servo"]), ("0.15", "40", [])],
+)
+def test_a_servo_is_not_too_weak_for_a_centre_of_mass_in_millimetres(centre, kp, causes):
+    found = examine(NativeEngine(), {"model.xml": ARM.format(centre=centre, kp=kp)})
+    assert [each.rule for each in found.causes] == causes, found.text()

@@ -13,6 +13,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import Rule
 from clinic.diagnosis.suspect import Level, Suspect
 
+MASS = "mass"
 AS_GOOD = 1.5  # a rival whose number is within this factor helps as much
 
 
@@ -82,15 +83,24 @@ def without_rivals(found: Sequence[Judged]) -> list[Judged]:
 
 
 def without_consequences(found: Sequence[Judged], model_of: Callable[[Rule], ReaderModel]) -> list[Judged]:
-    """The causes but for those whose symptom goes away with another's edit, and not the other way round."""
+    """The causes but for those whose symptom goes away with another's edit, and not the other way round.
+
+    A mass that is only hinted at is a cause too where it is the reason of one.
+    """
 
     def ends(one: Judged, other: Judged) -> bool:
         suspect = other.suspect
         return model_of(other.rule).measured(suspect.probe, one.suspect.edits) <= suspect.limit
 
+    def explains(one: Judged, other: Judged) -> bool:
+        return ends(one, other) and not ends(other, one)
+
     causes = [each for each in found if each.level == "cause"]
-    follows = [each for each in causes if any(ends(one, each) and not ends(each, one) for one in causes)]
-    return [replace(each, level="hint") if each in follows else each for each in found]
+    of_mass = [each for each in found if each.level == "hint" and each.after is not None and each.rule.area == MASS]
+    reasons = [each for each in of_mass if any(other.rule.area != MASS and explains(each, other) for other in causes)]
+    follows = [each for each in causes if any(explains(one, each) for one in (*causes, *reasons))]
+    levels: dict[int, Level] = {id(each): "hint" for each in follows} | {id(each): "cause" for each in reasons}
+    return [replace(each, level=levels.get(id(each), each.level)) for each in found]
 
 
 def grouped(found: Sequence[Judged]) -> list[Judged]:

@@ -8,6 +8,7 @@ from clinic.diagnosis.probes.servo import AFFINE, FIXED, INTEGRATOR, MUSCLE
 from clinic.diagnosis.simulation import Simulation, kept
 
 TENDON, JOINT_WRAP = 3, 1  # mjtTrn; mjtWrap
+WRAPS = {1: "joint", 3: "site", 4: "geom", 5: "geom"}  # mjtWrap: joint, site, sphere, cylinder
 POSES, GOLDEN = 64, 0.6180339887
 
 
@@ -17,6 +18,15 @@ def joints_of(of: Simulation, tendon: int) -> list[tuple[int, float]]:
     if int(of.model("wrap_type")[first]) != JOINT_WRAP:
         return []
     return [(int(of.model("wrap_objid")[each]), of.model("wrap_prm")[each]) for each in range(first, first + number)]
+
+
+def path(of: Simulation, tendon: int) -> list[tuple[str, int]]:
+    """What a tendon goes through, in order: sites and geoms, or the joints of a fixed one; by kind and number."""
+    first, number = int(of.model("tendon_adr")[tendon]), int(of.model("tendon_num")[tendon])
+    parts = [
+        (int(of.model("wrap_type")[each]), int(of.model("wrap_objid")[each])) for each in range(first, first + number)
+    ]
+    return [(WRAPS[kind], each) for kind, each in parts if kind in WRAPS]
 
 
 def reach(of: Simulation, tendon: int) -> tuple[float, float] | None:

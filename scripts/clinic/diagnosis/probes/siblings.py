@@ -11,7 +11,7 @@ from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 WHICH = re.compile(
-    r"\d+|(?i:(?:front|rear|hind)_?(?:left|right))|(?:FF|MF|RF|LF)(?=J|[a-z_])|"
+    r"\d+|(?i:(?:front|rear|hind)_?(?P<side>left|right))|(?:FF|MF|RF|LF)(?=J|[a-z_])|"
     r"(?<![a-z])(?:ff|mf|rf|lf)(?=j\d|[a-z_])|(?i:index|middle|ring|little|pinky)|"
     r"(?<![A-Za-z])(?:[fr][lr]|[FR][LR]|[hH][lrLR])(?![a-z])|(?i:front|rear|hind)"
 )
@@ -80,7 +80,7 @@ def groups(simulation: Simulation, kind: str) -> list[list[int]]:
     for index, name in enumerate(simulation.names(kind)):
         if kind == "body":
             for found in WHICH.finditer(name):
-                key = (name[: found.start()], name[found.end() :], int(simulation.model("body_jntnum")[index]))
+                key = (*_called(name, found), int(simulation.model("body_jntnum")[index]))
                 made.setdefault(key, []).append((index, len(simulation.ancestors(index))))
             continue
         joint = index if kind == "joint" else simulation.driven_joint(index)
@@ -88,13 +88,18 @@ def groups(simulation: Simulation, kind: str) -> list[list[int]]:
             continue
         depth = len(simulation.ancestors(int(simulation.model("jnt_bodyid")[joint])))
         for found in WHICH.finditer(name):
-            key = (name[: found.start()], name[found.end() :], simulation.joint_type(joint))
+            key = (*_called(name, found), simulation.joint_type(joint))
             made.setdefault(key, []).append((index, depth))
     return [
         [index for index, _ in some]
         for some in made.values()
         if len(some) >= 3 and max(depth for _, depth in some) - min(depth for _, depth in some) <= 1
     ]
+
+
+def _called(name: str, found: re.Match[str]) -> tuple[str, str, bool]:
+    """What is left of a name; `rear_wheel` alone is none of `front_left_wheel` and `front_right_wheel`."""
+    return name[: found.start()], name[found.end() :], found["side"] is not None
 
 
 def odd_ones(simulation: Simulation, kind: str, more: float = UNLIKE) -> Iterator[Odd]:

@@ -109,11 +109,14 @@ def _in_urdf(link: Element, said: str) -> Iterator[Suspect]:
 def possible(moments: list[float]) -> list[float]:
     """Three moments that a body can have, with as few changed as may be.
 
-    A negative one loses its sign, one of zero is the mean of the others, and one above the sum of the others loses
-    decimal places until it fits, or becomes that sum, or the larger of them where that is too little.
+    A negative one loses its sign, one of zero, or a negative one that does not fit so, is the mean of the others, and
+    one above the sum of the others loses decimal places until it fits, or becomes that sum, or the larger of them where
+    that is too little.
     """
     least = max(ZERO, PART * max(map(abs, moments)))
     made = [abs(each) if abs(each) > least else 0.0 for each in moments]
+    if 2 * max(made) > sum(made):
+        made = [0.0 if each < 0 else size for each, size in zip(moments, made, strict=True)]
     for index, each in enumerate(made):
         rest = [other for k, other in enumerate(made) if k != index]
         if each == 0:

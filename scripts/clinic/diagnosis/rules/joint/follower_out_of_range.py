@@ -1,7 +1,9 @@
 """A joint that follows another may not go where it is led.
 
 `<equality><joint joint1=".." joint2=".."/>` (in URDF `<mimic>`) makes joint1 follow joint2. Where the follower's range
-leaves out what the leader's range asks for, limit and equality fight, and the leader is held.
+leaves out what the leader's range asks for, limit and equality fight, and the leader is held. The sign in `polycoef` is
+wrong where the follower has the range of its leader, or of its twin on the other side, and with the other sign keeps to
+it; else the range is.
 
 Bad:
 
@@ -23,8 +25,8 @@ Bad:
 
 Good:
 
-    -       <joint name="tip" axis="0 1 0" range="0 50"/>
-    +       <joint name="tip" axis="0 1 0" range="-50 0"/>
+    -     <joint joint1="tip" joint2="knuckle" polycoef="0 -1 0 0 0"/>
+    +     <joint joint1="tip" joint2="knuckle" polycoef="0 1 0 0 0"/>
 
 The number: the share of the leader's range that leads the follower out of its own; more than a half. A `polycoef` of a
 constant alone, such as `1 0 0 0 0` for `0 1 0 0 0`, leads the follower nowhere: 1 where that is so.
@@ -38,7 +40,9 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
-from clinic.diagnosis.probes.couplings import couplings, led_over, lost
+from clinic.diagnosis.probes.couplings import Coupling, couplings, led_over, lost
+from clinic.diagnosis.probes.sides import by_name
+from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.joint.fingers_move_together import sign_lost
 from clinic.diagnosis.simulation import Simulation
@@ -49,16 +53,19 @@ FAMILIES = ("stuck", "jumps-at-start")
 SINCE = "0.1"
 UNPLANTED = "one healthy model has a joint that follows another"
 
-LOST = 0.5
+LOST, WITHIN = 0.5, 0.05
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Followers whose range leaves out most of what they are led to, all together."""
     simulation = model.simulation
     yield from _constant(model)
-    every = couplings(simulation)
-    found = [each for number, each in every if lost(simulation, (each,)) > LOST and any(each[2][1:])
-             and not sign_lost(simulation, number, each)]  # fmt: skip
+    astray = {number: each for number, each in couplings(simulation) if lost(simulation, (each,)) > LOST
+              and any(each[2][1:]) and not sign_lost(simulation, number, each)}  # fmt: skip
+    signs = {number: factors for number, each in astray.items() if (factors := _turned(simulation, each))}
+    for number, factors in signs.items():
+        yield _of_sign(model, number, astray[number], factors)
+    found = [each for number, each in astray.items() if number not in signs]
     if not found:
         return
     edits: tuple[Edit, ...] = ()
@@ -66,7 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         scale = 1 / model.angle_unit if simulation.joint_type(each[0]) == HINGE else 1.0
         led = led_over(simulation, each)
         edits += model.set("joint", [each[0]], "range", f"{min(led) * scale:.4g} {max(led) * scale:.4g}")
-    follower, leader, _ = found[0]
+    follower = found[0][0]
     low, high = simulation.row("jnt_range", follower, 2)
     led = led_over(simulation, found[0])
     yield Suspect(
@@ -77,10 +84,44 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         edits,
         Probe("share of a leader's range that leads a joint out of its own", "", lost, (tuple(found),), dynamic=False),
         LOST,
-        f"{simulation.name('joint', leader)} leads {simulation.name('joint', follower)} to {min(led):.3g} to "
-        f"{max(led):.3g}, and its range is {low:.3g} to {high:.3g}.",
+        _astray(simulation, found[0]),
         "a range that holds all that the leader asks for",
     )
+
+
+def _astray(of: Simulation, coupling: Coupling) -> str:
+    follower, leader, _ = coupling
+    (low, high), led = of.row("jnt_range", follower, 2), led_over(of, coupling)
+    return (
+        f"{of.name('joint', leader)} leads {of.name('joint', follower)} to {min(led):.3g} to {max(led):.3g}, and its "
+        f"range is {low:.3g} to {high:.3g}."
+    )
+
+
+def _turned(of: Simulation, coupling: Coupling) -> tuple[float, ...]:
+    """The factors with the other sign, where these lead a joint of its leader's or its twin's range within that."""
+    follower, leader, factors = coupling
+    twins = (left + right - follower for left, right in by_name(of, "joint") if follower in (left, right))
+    own = of.row("jnt_range", follower, 2)
+    if not any(of.row("jnt_range", other, 2) == own for other in (leader, *twins)):
+        return ()
+    turned = tuple(-each for each in factors)
+    ways = (factors[0], *turned[1:]), turned
+    return next((each for each in ways if lost(of, ((follower, leader, each),)) < WITHIN), ())
+
+
+def _of_sign(model: ReaderModel, number: int, coupling: Coupling, factors: tuple[float, ...]) -> Suspect:
+    of = model.simulation
+    names = tuple(of.name("joint", joint) for joint in coupling[:2])
+    value = written(factors)
+    edits = model.set("equality", [number], "polycoef", value)
+    probe = Probe("share of a leader's range that leads a joint out of its own", "", _lost_by, (number,), dynamic=False)
+    says = f"{_astray(of, coupling)} With the other sign it keeps to that."
+    return Suspect(names, "polycoef", written(coupling[2]), value, edits, probe, LOST, says, "within its range")
+
+
+def _lost_by(of: Simulation, number: int) -> float:
+    return lost(of, tuple(each for equality, each in couplings(of) if equality == number))
 
 
 def _constant(model: ReaderModel) -> Iterator[Suspect]:

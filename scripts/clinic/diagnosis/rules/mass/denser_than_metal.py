@@ -56,7 +56,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     dense = [
         (body, found)
         for body in of.moving_bodies
-        if (found := matter(of, body)) and found.density > METAL and found.mass > LIGHT * all_mass
+        if (found := matter(of, body)) and _dense(found) and found.mass > LIGHT * all_mass
     ]
     slides = all(of.joint_type(joint) == SLIDE for joint in range(of.count("joint")))
     if not dense or (slides and len(of.moving_bodies) == 1):  # a point mass may be as small as one likes
@@ -77,6 +77,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         "22,600 kg/m3 is the densest metal, osmium",
         excess=worst.density / METAL,
     )
+
+
+def _dense(found: Matter) -> bool:
+    """Whether a body is denser than metal, and its geoms are not too small to show it."""
+    return found.density > METAL and found.radius < SHOWN[1]
 
 
 def _steel(model: ReaderModel) -> Iterator[Suspect]:

@@ -32,6 +32,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import delete
 from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.probes.matter import mass_of
+from clinic.diagnosis.probes.tendons import path
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect
@@ -75,7 +76,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _copies(of: Simulation, body: int) -> Iterator[tuple[int, int]]:
     """Geoms of a body that are like one before them, and that one."""
     first: dict[tuple[float, ...], int] = {}
+    wraps = {index for tendon in range(of.count("tendon")) for kind, index in path(of, tendon) if kind == "geom"}
     for geom in of.geoms_of(body):
         key = tuple(round(x, 6) for name, width in FIELDS.items() for x in of.row(f"geom_{name}", geom, width))
-        if first.setdefault(key, geom) != geom:
+        if first.setdefault(key, geom) != geom and not {geom, first[key]} & wraps:  # each tendon has its own
             yield geom, first[key]

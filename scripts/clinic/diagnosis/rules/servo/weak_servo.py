@@ -55,7 +55,7 @@ CASE = "servo-sags"
 
 LATE, CRAWLS = 0.6, 10.0  # s: the time constant above which a step is tried, of a hinge and a slide
 SLOW = 4.0  # rad/s: the natural frequency below which it is
-LEFT = 0.45
+LEFT, MEANT = 0.45, 2.0  # of the step; s, below which it may be meant: a neck, an antenna
 SAG, WALKS = 0.3, 0.55  # rad of a hinge, m of a slide; rad where the robot is free and stands on its feet
 LITTLE, SHARE = 0.085, 0.05  # rad of a hinge, share of the range of a slide, of which a hint tells
 GOOD = {True: (0.02, 0.08, 0.2), False: (0.002, 0.008, 0.02)}  # rad or m that may be left, the best first
@@ -185,6 +185,7 @@ def _late(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
         f"Stiffness {worst.stiffness:.3g} against damping {worst.damping:.3g} and inertia {worst.inertia:.2g}: the "
         f"joint follows in {worst.damping / worst.stiffness:.2g} s.",
         "0.5 s is the most of 55 healthy models with servos; 1.6 s of a humanoid's neck",
+        level="hint" if worst.damping < MEANT * worst.stiffness else "cause",
     )
 
 

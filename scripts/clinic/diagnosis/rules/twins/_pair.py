@@ -173,7 +173,7 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
     if edits and not model.measured(probe, edits) <= limit:
         edits = ()
     level: Level = "cause" if clear and edits else "hint"
-    if not sure and not (level == "cause" and first.quantity in INERTIAL):
+    if not sure and not (level == "cause" and first.quantity in INERTIAL and not _copied(simulation, first)):
         edits, level = (), "hint"  # the one that an edit would spoil may be the healthy one
     quantities = " and ".join(dict.fromkeys(each.quantity for each in found))
     names = [simulation.name(first.kind, side) for side in sides]
@@ -200,6 +200,12 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
         f"at most {limit:.3g} {first.unit}: of the models of 14 robots all but a few pairs agree to less",
         level=level,
     )
+
+
+def _copied(of: Simulation, each: Comparison) -> bool:
+    """Whether both sides have the same numbers for mass, centre of mass and inertia: one part, mounted on both."""
+    fields = {"body_mass": 1, "body_ipos": 3, "body_inertia": 3}
+    return all(of.row(field, each.left, width) == of.row(field, each.right, width) for field, width in fields.items())
 
 
 def _led(model: ReaderModel, each: Comparison) -> bool:

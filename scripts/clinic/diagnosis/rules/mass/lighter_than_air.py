@@ -45,13 +45,13 @@ FAMILIES = ("falls-through", "explodes", "stuck")
 SINCE = "0.1"
 
 AIR, LIMIT, LIGHT, FEW = 1.2, 300.0, 1.0, 3
-METRES = 5.0, 20.0  # m/s2
+METRES, CENTIMETRES = (5.0, 20.0), 500.0  # m/s2
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Trees of moving bodies that collide and weigh next to nothing."""
     of = model.simulation
-    if unit_of_lengths(of):
+    if unit_of_lengths(of) or math.hypot(*of.model("opt.gravity")) > CENTIMETRES:
         return
     parents, masses = of.model("body_parentid"), of.model("body_mass")
     moving = set(of.moving_bodies)

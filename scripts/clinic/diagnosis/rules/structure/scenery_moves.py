@@ -21,7 +21,7 @@ Good:
     -       <joint type="slide" axis="1 0 0" damping="1000"/>
 
 The number: how many joints let it move. Told are bodies of the world whose name says that they are scenery and that
-have a free joint, and bodies with nothing but slides that nothing drives, holds or springs back and whose damping is
+have a free joint or three slides, and bodies with nothing but slides that nothing drives, holds or springs back and whose damping is
 1,000 N s/m and more, up to 100,000: 100 N move it by 1 mm to 100 mm in a second.
 
 When it is wrong: furniture that is meant to be pushed.
@@ -72,7 +72,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         joints = list(of.joints_of(body))
         if not joints or of.model("body_parentid")[body] or driven & set(joints):
             continue
-        if (_called(of, body) and of.joint_type(joints[0]) == FREE) or _creeps(of, joints):
+        if (_called(of, body) and _anywhere(of, joints)) or _creeps(of, joints):
             found[body] = joints
     if found:
         places = [model.element("joint", joint) for joints in found.values() for joint in joints]
@@ -88,6 +88,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _called(of: Simulation, body: int) -> bool:
     return bool(SCENERY & set(re.findall("[a-z]+", of.names("body")[body].lower())))
+
+
+def _anywhere(of: Simulation, joints: list[int]) -> bool:
+    """Whether it can go anywhere: a free joint, or three slides that nothing drives."""
+    kinds = [of.joint_type(joint) for joint in joints]
+    return kinds[0] == FREE or kinds.count(SLIDE) == 3
 
 
 def _creeps(of: Simulation, joints: list[int]) -> bool:

@@ -21,8 +21,8 @@ Good:
     -       <joint type="slide" axis="1 0 0" damping="1000"/>
 
 The number: how many joints let it move. Told are bodies of the world whose name says that they are scenery and that
-have a free joint or three slides, and bodies with nothing but slides that nothing drives, holds or springs back and whose damping is
-1,000 N s/m and more, up to 100,000: 100 N move it by 1 mm to 100 mm in a second.
+have a free joint or three slides, and bodies with nothing but slides that nothing drives, holds or springs back and
+whose damping is 1,000 N s/m and more, up to 100,000: 100 N move it by 1 mm to 100 mm in a second.
 
 When it is wrong: furniture that is meant to be pushed.
 """

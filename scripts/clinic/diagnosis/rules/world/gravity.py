@@ -94,9 +94,9 @@ def _density(of: Simulation) -> float:
 
 
 def _centimetres(simulation: Simulation) -> float:
-    """1 where gravity is that in cm, and the densities those of g/mm3, that is of mm."""
+    """How many times too small gravity is: 10 where it is that in cm, and densities are those of g/mm3; else 1."""
     cm = abs(math.hypot(*simulation.model("opt.gravity")) / CM - 1) < NEAR
-    return float(cm and 0 < _density(simulation) < DUST)
+    return MM / CM if cm and 0 < _density(simulation) < DUST else 1.0
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -129,12 +129,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         says = f"Gravity is {size:.3g} m/s2, {size / 9.81:.2g} times that of the earth."
         edits = model.option("gravity", scaled)
         yield Suspect(name, "gravity", now, scaled, edits, pull, 0.5, says, USUAL, level="hint")
-    if _centimetres(simulation):
+    if _centimetres(simulation) > 1:
         value = " ".join(f"{MM / CM * each + 0.0:g}" for each in g)
-        says = f"{size:.3g} is gravity in cm/s2, and a density of {_density(simulation):.2g} is of g/mm3: of lengths in mm."
-        probe = Probe("gravity in cm where lengths are in mm", "", _centimetres, dynamic=False)
+        says = f"{size:.3g} is gravity in cm/s2; a density of {_density(simulation):.2g} is in g/mm3, so lengths in mm."
+        probe = Probe("times that gravity is too small", "", _centimetres, dynamic=False)
         edits = model.option("gravity", value)
-        yield Suspect(name, "gravity", now, value, edits, probe, 0.5, says, "9810 in mm/s2", level="hint")
+        yield Suspect(name, "gravity", now, value, edits, probe, 1.0, says, "9810 in mm/s2")
 
 
 def _none(model: ReaderModel, now: str, off: bool) -> Iterator[Suspect]:

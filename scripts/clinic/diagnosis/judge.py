@@ -149,14 +149,15 @@ def _beats(one: Judged, other: Judged) -> bool:
 
 
 def order(found: Sequence[Judged], families: Sequence[str]) -> list[Judged]:
-    """The worst first, after those that an edit mends; those of the symptom that the reader names before all others.
+    """The worst first; hints by how often their rules were right, and then those that an edit mends.
 
-    Minor ones come last. What a rule says after its worst comes after the worst of the other rules.
+    Those of the symptom that the reader names come before all others, minor ones last. What a rule says after its worst
+    comes after the worst of the other rules.
     """
 
-    def key(each: Judged) -> tuple[bool, bool, bool, float, float]:
-        named = bool(set(each.rule.families) & set(families))
-        return (not named, each.rule.minor, each.after is None, -each.severity, -each.suspect.excess)
+    def key(each: Judged) -> tuple[bool, bool, float, bool, float, float]:
+        named, odds = bool(set(each.rule.families) & set(families)), -each.rule.odds if each.level == "hint" else -1.0
+        return (not named, each.rule.minor, odds, each.after is None, -each.severity, -each.suspect.excess)
 
     placed, said = [], set()
     for each in sorted(found, key=key):

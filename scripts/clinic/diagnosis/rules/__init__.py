@@ -21,9 +21,11 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
+import tomllib
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -31,6 +33,7 @@ if TYPE_CHECKING:
     from clinic.diagnosis.suspect import Level, Suspect
 
 COMPILES_NOT = "will-not-compile"
+USUAL = 0.3  # the share of right ones among a rule's, where nothing is known
 
 
 @dataclass(frozen=True)
@@ -46,6 +49,7 @@ class Rule:
     level: Level
     unplanted: str
     minor: bool
+    odds: float
     text: str
     afloat: bool
     suspects: Callable[[ReaderModel], Iterable[Suspect]]
@@ -89,6 +93,13 @@ def _changed(text: str, diff: str) -> str:
 
 
 @cache
+def _odds() -> dict[str, float]:
+    """How likely what a rule tells is the fault, by its id: as in `odds.toml`, with two more models that are usual."""
+    read: dict[str, list[int]] = tomllib.loads(Path(__file__).with_name("odds.toml").read_text(encoding="utf-8"))
+    return {name: (right + 2 * USUAL) / (told + 2) for name, (right, told) in read.items()}
+
+
+@cache
 def rules() -> dict[str, Rule]:
     """All rules by id, in alphabetical order."""
     made = {}
@@ -107,6 +118,7 @@ def rules() -> dict[str, Rule]:
             level=getattr(module, "LEVEL", "cause"),
             unplanted=getattr(module, "UNPLANTED", ""),
             minor=getattr(module, "MINOR", False),
+            odds=_odds().get(name, USUAL),
             text=(module.__doc__ or "").strip(),
             afloat=getattr(module, "AFLOAT", False),
             suspects=module.suspects,

@@ -118,7 +118,7 @@ def test_a_part_for_another_model_is_told_of_its_units_in_a_hint():
     assert (causes(part), [each.rule for each in part.hints]) == ([], ["range-in-the-wrong-unit"])
 
 
-def test_the_range_of_a_urdf_is_mended_in_its_limit():
+def test_a_urdf_is_mended_in_its_mimic_or_in_its_limit():
     text = """
 <robot name="gripper">
   <link name="palm"/>
@@ -136,6 +136,13 @@ def test_the_range_of_a_urdf_is_mended_in_its_limit():
 </robot>
 """  # noqa: E501
     (found,) = (each for each in diagnosed(text).causes if each.rule == "follower-out-of-range")
+    assert [(each.element, each.attribute, each.value) for each in found.edit] == [("mimic", "multiplier", "1")]
+
+    farther = text.replace(
+        '<limit lower="0" upper="0.8" effort="1" velocity="1"/>\n    <mimic',
+        '<limit lower="0" upper="0.9" effort="1" velocity="1"/>\n    <mimic',
+    )
+    (found,) = (each for each in diagnosed(farther).causes if each.rule == "follower-out-of-range")
     assert [(each.element, each.attribute, each.value) for each in found.edit] == [
         ("limit", "lower", "-0.8"),
         ("limit", "upper", "0"),

@@ -219,7 +219,7 @@ def test_a_motor_that_turns_the_other_way_is_the_one_with_the_rare_sign():
         f'<motor name="{name}" joint="{name}" gear="{-5 if name == "left_rear" else 5}"/>' for name in names
     )
     text = robot(right="-60 30").replace("</mujoco>", f"<actuator>{motors}</actuator></mujoco>")
-    hint = diagnosed(text).hints[0]
+    hint = next(each for each in diagnosed(text).hints if each.rule == "twin-actuator-differs")
     assert (hint.attribute, hint.elements, hint.value) == ("gear sign", ('actuator "left_rear"',), "5")
 
 

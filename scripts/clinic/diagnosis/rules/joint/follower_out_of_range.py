@@ -38,7 +38,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.couplings import Coupling, couplings, led_over, lost
 from clinic.diagnosis.probes.sides import by_name
@@ -114,10 +114,14 @@ def _of_sign(model: ReaderModel, number: int, coupling: Coupling, factors: tuple
     of = model.simulation
     names = tuple(of.name("joint", joint) for joint in coupling[:2])
     value = written(factors)
-    edits = model.set("equality", [number], "polycoef", value)
+    edits, attribute, now = model.set("equality", [number], "polycoef", value), "polycoef", written(coupling[2])
+    element = model.element("joint", coupling[0])
+    if element is not None and (mimic := element.first("mimic")) is not None:
+        attribute, now, value = "multiplier", mimic.get("multiplier", "1"), f"{factors[1]:g}"
+        edits = (set_attribute(mimic, attribute, value),)
     probe = Probe("share of a leader's range that leads a joint out of its own", "", _lost_by, (number,), dynamic=False)
     says = f"{_astray(of, coupling)} With the other sign it keeps to that."
-    return Suspect(names, "polycoef", written(coupling[2]), value, edits, probe, LOST, says, "within its range")
+    return Suspect(names, attribute, now, value, edits, probe, LOST, says, "within its range")
 
 
 def _lost_by(of: Simulation, number: int) -> float:

@@ -223,6 +223,13 @@ def test_damping_of_a_servo_is_explicit_but_for_the_implicit_integrators(integra
     assert ("damping-explicit" in [each.rule for each in found.hints]) is told, found.text()
 
 
+@pytest.mark.parametrize(("times", "told"), [("10 40", True), ("0.01 0.04", False)])
+def test_a_muscle_whose_times_are_in_milliseconds_lags(times, told):
+    muscle = f'<muscle joint="shoulder" timeconst="{times}" lengthrange="-1 1"/>'
+    hints = [each for each in arm(muscle, 'range="-60 60"').hints if each.rule == "slow-filter"]
+    assert [(each.attribute, each.value) for each in hints] == [("timeconst", "0.01 0.04")] * told
+
+
 @pytest.mark.parametrize(("kind", "told"), [("muscle", False), ("motor", True)])
 def test_two_muscles_pull_one_joint_and_two_motors_do_not(kind, told):
     links = ""

@@ -2,7 +2,7 @@
 
 `dyntype="filter"` and `filterexact` smooth the control with the time constant `dynprm`, which is 1 s where nobody wrote
 it; `timeconst` of `<position>` and `<velocity>` is the same, and that of `<cylinder>` is 1 s, too. The robot follows
-what it was told a second ago.
+what it was told a second ago. A muscle has two of them, `0.01 0.04`; written in milliseconds they are a minute.
 
 Bad:
 
@@ -23,7 +23,7 @@ Good:
     -     <general joint="elbow" gainprm="20" biastype="affine" biasprm="0 -20 -1" dyntype="filter"/>
     +     <general joint="elbow" gainprm="20" biastype="affine" biasprm="0 -20 -1" dyntype="filter" dynprm="0.02"/>
 
-The number: the greatest time constant of the actuators with a filter; 0.5 s and more is told.
+The number: the greatest time constant of the actuators with a filter, and of muscles; 0.5 s and more is told.
 
 When it is wrong: a heater, a pump, or another actuator that is as slow as that.
 """
@@ -43,7 +43,8 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "few healthy models have actuators with a filter"
 
-FILTERS, SLOW, USUAL = (2, 3), 0.5, "0.02"  # mjDYN_FILTER and mjDYN_FILTEREXACT; s
+FILTERS, MUSCLE, SLOW = (2, 3), 4, 0.5  # mjDYN_FILTER and mjDYN_FILTEREXACT, mjDYN_MUSCLE; s
+USUAL = {True: "0.01 0.04", False: "0.02"}  # of a muscle, of others
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -55,13 +56,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     worst = max(slow, key=lambda each: slow[each])
     where = {each: _attribute(model, each) for each in slow}
     attribute, edits = where[worst], tuple[Edit, ...]()
-    for name in sorted(set(where.values())):
-        edits += model.set("actuator", [each for each in slow if where[each] == name], name, USUAL)
-    now = model.value("actuator", worst, attribute) or "left out"
+    for name, muscle in sorted({(where[each], _muscle(of, each)) for each in slow}):
+        some = [each for each in slow if (where[each], _muscle(of, each)) == (name, muscle)]
+        edits += model.set("actuator", some, name, USUAL[muscle])
+    now, value = model.value("actuator", worst, attribute) or "left out", USUAL[_muscle(of, worst)]
     says = f"After a control changes, {of.name('actuator', worst)} gives 63 % of it {slow[worst]:.3g} s later."
     probe = Probe("greatest time constant of an actuator's filter", "s", _slowest, dynamic=False)
     names = tuple(of.name("actuator", each) for each in slow)
-    yield Suspect(names, attribute, now, USUAL, edits, probe, SLOW - 1e-6, says, "0.01 to 0.1 s", level="hint")
+    yield Suspect(names, attribute, now, value, edits, probe, SLOW - 1e-6, says, "0.01 to 0.1 s", level="hint")
 
 
 def _attribute(model: ReaderModel, actuator: int) -> str:
@@ -70,12 +72,17 @@ def _attribute(model: ReaderModel, actuator: int) -> str:
     return "dynprm" if element is None or element.tag == "general" else "timeconst"
 
 
+def _muscle(of: Simulation, actuator: int) -> bool:
+    return int(of.model("actuator_dyntype")[actuator]) == MUSCLE
+
+
 def _times(of: Simulation) -> dict[int, float]:
-    """The time constants of the actuators with a filter in s."""
+    """The time constants of the actuators with a filter in s; of a muscle the longer of its two."""
     count = of.count("actuator")
     width = len(of.model("actuator_dynprm")) // max(1, count)
-    kinds = of.model("actuator_dyntype")
-    return {i: of.row("actuator_dynprm", i, width)[0] for i in range(count) if int(kinds[i]) in FILTERS}
+    kinds = [int(kind) for kind in of.model("actuator_dyntype")]
+    rows = {i: of.row("actuator_dynprm", i, width) for i in range(count) if kinds[i] in (*FILTERS, MUSCLE)}
+    return {i: max(row[: 2 if kinds[i] == MUSCLE else 1]) for i, row in rows.items()}
 
 
 def _slowest(of: Simulation) -> float:

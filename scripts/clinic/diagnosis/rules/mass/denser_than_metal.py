@@ -44,6 +44,7 @@ SINCE = "0.1"
 AFLOAT = True
 
 METAL, LIGHT, WATER = 24000.0, 0.05, 1000.0
+PARTLY = 3.0  # times as dense has a body to be of which the geoms are a part
 STEEL, USUAL, MANY, MOST_OF = 5000.0, 1200.0, 4, 0.6
 SHOWN = 0.7, 1.4  # the radius of gyration over that of geoms that show the body
 
@@ -80,8 +81,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _dense(found: Matter) -> bool:
-    """Whether a body is denser than metal, and its geoms are not too small to show it."""
-    return found.density > METAL and found.radius < SHOWN[1]
+    """Whether a body is denser than metal: by far, where its geoms are too small to show it."""
+    return found.density > METAL * (1 if found.radius < SHOWN[1] else PARTLY)
 
 
 def _steel(model: ReaderModel) -> Iterator[Suspect]:

@@ -37,7 +37,6 @@ import math
 from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.probes.damping import explicit_damping
 from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.probes.matter import explicit
 from clinic.diagnosis.probes.run import fastest
@@ -106,8 +105,6 @@ def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
         {above for body in of.model("geom_bodyid") for above in of.ancestors(int(body))},
     )
     bare = [joint for joint in bare if bodies[joint] not in thin and int(bodies[joint]) in shown]
-    if any(each.share > 1 for each in explicit_damping(of, servos=False).values()):  # the integrator's fault
-        return
     light = sorted(joint for joint in bare if inertia[of.dof(joint)] < ROTOR and not of.model("jnt_stiffness")[joint])
     probe = _symptom(model)
     if probe == commanded() and math.isfinite(model.measured(probe)):  # so fast may a wheel be, and a propeller

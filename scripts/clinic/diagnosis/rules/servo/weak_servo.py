@@ -35,7 +35,7 @@ When it is wrong: a controller that adds the weight itself. `gravcomp="1"` on th
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.load import loads, sag, sags
@@ -55,7 +55,8 @@ CASE = "servo-sags"
 
 LATE, CRAWLS = 0.6, 10.0  # s: the time constant above which a step is tried, of a hinge and a slide
 SLOW = 4.0  # rad/s: the natural frequency below which it is
-LEFT, MEANT = 0.45, 2.0  # of the step; s, below which it may be meant: a neck, an antenna
+LEFT = 0.45  # of the step
+MEANT, LIGHT = 2.0, 0.05  # s and of the mass, below which it may be meant: a neck, an antenna
 SAG, WALKS = 0.3, 0.55  # rad of a hinge, m of a slide; rad where the robot is free and stands on its feet
 LITTLE, SHARE = 0.085, 0.05  # rad of a hinge, share of the range of a slide, of which a hint tells
 GOOD = {True: (0.02, 0.08, 0.2), False: (0.002, 0.008, 0.02)}  # rad or m that may be left, the best first
@@ -185,8 +186,15 @@ def _late(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
         f"Stiffness {worst.stiffness:.3g} against damping {worst.damping:.3g} and inertia {worst.inertia:.2g}: the "
         f"joint follows in {worst.damping / worst.stiffness:.2g} s.",
         "0.5 s is the most of 55 healthy models with servos; 1.6 s of a humanoid's neck",
-        level="hint" if worst.damping < MEANT * worst.stiffness else "cause",
+        level="hint" if worst.damping < MEANT * worst.stiffness and _light(simulation, late) else "cause",
     )
+
+
+def _light(of: Simulation, some: Sequence[Servo]) -> bool:
+    """Whether all of some servos move next to nothing, as the neck of a humanoid does."""
+    carried, bodies = of.model("body_subtreemass"), of.model("jnt_bodyid")
+    whole = sum(of.model("body_mass")[body] for body in of.moving_bodies)
+    return all(carried[int(bodies[each.joint])] < LIGHT * whole for each in some)
 
 
 def _stronger(model: ReaderModel, servo: Servo, stiffness: float, *, damped: bool = False) -> tuple[Edit, ...]:

@@ -35,11 +35,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.damping import explicit_damping
 from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.probes.run import fastest
+from clinic.diagnosis.probes.servo import feedback
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Damping that the integrator cannot follow"
@@ -48,35 +49,41 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "few healthy models are integrated by RK4 and strongly damped"
 
+BEARS = {0: 2.0, 1: 2.79}  # h d / M, by mjtIntegrator: Euler, RK4
+EULERDAMP_OFF = 1 << 15  # mjtDisableBit
 FAST, TENTH = 100.0, 0.1  # rad/s; of the symptom is left
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The integrator, where it takes damping explicitly that the timestep does not bear."""
     of = model.simulation
-    damped = explicit_damping(of)
-    dof = max(damped, key=lambda each: damped[each].share, default=None)
+    integrator, damping = int(of.model("opt.integrator")[0]), _explicit(of)
+    ratios = {dof: of.timestep * each / max(of.mass_diagonal[dof], 1e-12) for dof, each in damping.items()}
+    dof = max(ratios, key=lambda each: ratios[each], default=None)
     edits = model.option("integrator", "implicitfast")
-    if dof is None or damped[dof].share <= 1 or not edits:
+    if dof is None or ratios[dof] <= BEARS[integrator] or not edits:
         return
-    each = damped[dof]
     for probe, limit in ((fastest(), FAST), (shake(), SHAKES), (commanded(), FAST)):
         before = model.measured(probe)
         if before > limit and model.measured(probe, edits) <= max(limit, TENTH * before):
             name = of.name("joint", of.dof_joints[dof])
-            says = f"At {name}: damping {each.damping:.3g} on an inertia of {each.inertia:.2g}, h d / M is "
-            says += f"{each.share * each.bears:.3g}."
-            well = f"h d / M < {each.bears:g}"
+            says = f"At {name}: damping {damping[dof]:.3g} on an inertia of {of.mass_diagonal[dof]:.2g}, h d / M is "
+            says += f"{ratios[dof]:.3g}."
+            well = f"h d / M < {BEARS[integrator]:g}"
+            now = "RK4" if integrator else "Euler"
             yield Suspect(
-                ("the integrator", name),
-                "integrator",
-                each.integrator,
-                "implicitfast",
-                edits,
-                probe,
-                limit,
-                says,
-                well,
-                TENTH,
+                ("the integrator", name), "integrator", now, "implicitfast", edits, probe, limit, says, well, TENTH
             )
             return
+
+
+def _explicit(of: Simulation) -> dict[int, float]:
+    """The damping that is explicit, of joints and of their servos, by degree of freedom."""
+    integrator, disabled = int(of.model("opt.integrator")[0]), int(of.model("opt.disableflags")[0])
+    if integrator not in BEARS:
+        return {}
+    implicit = not integrator and not disabled & EULERDAMP_OFF
+    damping = {dof: 0.0 if implicit else each for dof, each in enumerate(of.model("dof_damping"))}
+    for joint, (_, kv) in feedback(of).items():
+        damping[of.dof(joint)] += kv
+    return damping

@@ -99,8 +99,27 @@ ARM = """<mujoco>
 
 @pytest.mark.parametrize(
     ("centre", "kp", "causes"),
-    [("150", "40", ["centre-of-mass-outside"]), ("0.15", "2", ["weak-servo"]), ("0.15", "40", [])],
+    [("150", "40", ["centre-of-mass-outside"]), ("0.5", "2", ["weak-servo"]), ("0.15", "40", [])],
+    ids=["in millimetres", "beyond the end", "in the middle"],
 )
-def test_a_servo_is_not_too_weak_for_a_centre_of_mass_in_millimetres(centre, kp, causes):
+def test_a_servo_is_too_weak_but_for_a_mass_beyond_all_measure(centre, kp, causes):
     found = examine(NativeEngine(), {"model.xml": ARM.format(centre=centre, kp=kp)})
     assert [each.rule for each in found.causes] == causes, found.text()
+
+
+def test_what_a_comment_silences_takes_no_cause_away():
+    silenced = "<!-- clinic: ignore[centre-of-mass-outside] the counterweight is not drawn -->"
+    text = ARM.format(centre="150", kp="40").replace("<inertial", f"{silenced}\n      <inertial")
+    found = examine(NativeEngine(), {"model.xml": text})
+    assert "weak-servo" in [each.rule for each in found.causes], found.text()
+
+
+def test_two_links_in_millimetres_are_one_reason():
+    forearm = """<body name="forearm" pos="0.3 0 0">
+        <joint name="elbow" axis="0 1 0" damping="3"/>
+        <inertial pos="150 0 0" mass="0.5" diaginertia="0.01 0.01 0.01"/>
+        <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
+      </body>
+    </body>"""
+    text = ARM.format(centre="-150", kp="40").replace("</body>", forearm)
+    assert {each.rule for each in examine(NativeEngine(), {"model.xml": text}).causes} == {"centre-of-mass-outside"}

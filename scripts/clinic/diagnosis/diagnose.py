@@ -144,8 +144,8 @@ class _Trial:
             tried.append(rule)
             judged = (judge(asked(rule), rule, suspect) for suspect in suspects_of(asked(rule), rule, self.tell))
             found += [each for each in judged if each is not None]
-        found = without_consequences(without_rivals(found), asked)
-        found = [replace(each, silenced=self.ignores.why(each, model)) for each in found]
+        found = [replace(each, silenced=self.ignores.why(each, model)) for each in without_rivals(found)]
+        found = without_consequences(found, asked)
         edits: list[Edit] = []
         for each in found:
             if each.proved and not isinstance(model.with_edits([*edits, *each.suspect.edits]), CompileError):

@@ -13,7 +13,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import Rule
 from clinic.diagnosis.suspect import Level, Suspect
 
-MASS = "mass"
+MASS, ABSURD = "mass", 2.0  # tens: a hundred times the limit
 AS_GOOD = 1.5  # a rival whose number is within this factor helps as much
 
 
@@ -85,22 +85,31 @@ def without_rivals(found: Sequence[Judged]) -> list[Judged]:
 def without_consequences(found: Sequence[Judged], model_of: Callable[[Rule], ReaderModel]) -> list[Judged]:
     """The causes but for those whose symptom goes away with another's edit, and not the other way round.
 
-    A mass that is only hinted at is a cause too where it is the reason of one.
+    A mass that is only hinted at, and beyond all measure, is a cause too where it is the reason of one.
     """
 
-    def ends(one: Judged, other: Judged) -> bool:
-        suspect = other.suspect
-        return model_of(other.rule).measured(suspect.probe, one.suspect.edits) <= suspect.limit
-
-    def explains(one: Judged, other: Judged) -> bool:
-        return ends(one, other) and not ends(other, one)
+    def ends(one: Sequence[Judged], other: Judged) -> bool:
+        edits = [edit for each in one for edit in each.suspect.edits]
+        return model_of(other.rule).measured(other.suspect.probe, edits) <= other.suspect.limit
 
     causes = [each for each in found if each.level == "cause"]
-    of_mass = [each for each in found if each.level == "hint" and each.after is not None and each.rule.area == MASS]
-    reasons = [each for each in of_mass if any(other.rule.area != MASS and explains(each, other) for other in causes)]
-    follows = [each for each in causes if any(explains(one, each) for one in (*causes, *reasons))]
-    levels: dict[int, Level] = {id(each): "hint" for each in follows} | {id(each): "cause" for each in reasons}
-    return [replace(each, level=levels.get(id(each), each.level)) for each in found]
+    reasons, follows = list[Judged](), list[Judged]()
+    for rule in {each.rule.id: each.rule for each in found if each.rule.area == MASS}.values():
+        alike = [each for each in found if each.rule is rule and _beyond_measure(each)]
+        ended = [each for each in causes if alike and each.rule.area != MASS and ends(alike, each)]
+        reasons += alike if ended else []
+        follows += ended
+    follows += [each for each in causes if any(ends([one], each) and not ends([each], one) for one in causes)]
+    lowered, raised = {id(each) for each in follows}, {id(each) for each in reasons}
+
+    def level(each: Judged) -> Level:
+        return "hint" if id(each) in lowered else "cause" if id(each) in raised else each.level
+
+    return [replace(each, level=level(each)) for each in found]
+
+
+def _beyond_measure(each: Judged) -> bool:
+    return each.level == "hint" and each.after is not None and not each.silenced and each.severity > ABSURD
 
 
 def grouped(found: Sequence[Judged]) -> list[Judged]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 
 SIDES = {"l": "r", "fl": "fr", "hl": "hr", "bl": "br", "ml": "mr", "rl": "rr"} | {
     "lf": "rf", "lh": "rh", "lr": "rr", "lb": "rb", "lm": "rm"
@@ -41,6 +41,12 @@ def right_of(name: str) -> Iterator[str]:
         yield letter
     if (bare := re.sub(r"_left(?![a-z])|(?<![a-z])left_", "", name)) != name:
         yield bare
+
+
+@kept
+def twins_by_name(simulation: Simulation, kind: str) -> dict[int, int]:
+    """The twin of each left and each right one of a kind, by their names."""
+    return {one: other for pair in by_name(simulation, kind) for one, other in (pair, pair[::-1])}
 
 
 def by_name(simulation: Simulation, kind: str) -> list[tuple[int, int]]:

@@ -115,7 +115,7 @@ def possible(moments: list[float]) -> list[float]:
     """
     least = max(ZERO, PART * max(map(abs, moments)))
     made = [abs(each) if abs(each) > least else 0.0 for each in moments]
-    if 2 * max(made) > sum(made):
+    if 2 * max(made) > sum(made) and sum(each > 0 for each in moments) == 2:
         made = [0.0 if each < 0 else size for each, size in zip(moments, made, strict=True)]
     for index, each in enumerate(made):
         rest = [other for k, other in enumerate(made) if k != index]

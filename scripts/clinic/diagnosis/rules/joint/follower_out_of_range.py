@@ -12,10 +12,10 @@ Bad:
         <body pos="0 0 1">
           <joint name="knuckle" axis="0 1 0" range="0 50"/>
           <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
-        </body>
-        <body pos="0 0.1 1">
-          <joint name="tip" axis="0 1 0" range="0 50"/>
-          <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
+          <body pos="0.05 0 0">
+            <joint name="tip" axis="0 1 0" range="0 50"/>
+            <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.05"/>
+          </body>
         </body>
       </worldbody>
       <equality>
@@ -41,8 +41,8 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.couplings import Coupling, couplings, led_over, lost
-from clinic.diagnosis.probes.sides import by_name
-from clinic.diagnosis.probes.vector import written
+from clinic.diagnosis.probes.sides import twins_by_name
+from clinic.diagnosis.probes.vector import dot, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.joint.fingers_move_together import sign_lost
 from clinic.diagnosis.simulation import Simulation
@@ -63,8 +63,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     astray = {number: each for number, each in couplings(simulation) if lost(simulation, (each,)) > LOST
               and any(each[2][1:]) and not sign_lost(simulation, number, each)}  # fmt: skip
     signs = {number: factors for number, each in astray.items() if (factors := _turned(simulation, each))}
-    for number, factors in signs.items():
-        yield _of_sign(model, number, astray[number], factors)
+    for number, factors in list(signs.items()):
+        suspect = _of_sign(model, number, astray[number], factors)
+        if model.measured(suspect.probe, suspect.edits) <= LOST:
+            yield suspect
+        else:
+            del signs[number]
     found = [each for number, each in astray.items() if number not in signs]
     if not found:
         return
@@ -99,13 +103,23 @@ def _astray(of: Simulation, coupling: Coupling) -> str:
 
 
 def _turned(of: Simulation, coupling: Coupling) -> tuple[float, ...]:
-    """The factors with the other sign, where these lead a joint of its leader's or its twin's range within that."""
+    """The factors with the other sign, where these lead a joint of its leader's or its twin's range within that.
+
+    Two joints of one body are fingers: with the other sign they go against each other.
+    """
     follower, leader, factors = coupling
-    twins = (left + right - follower for left, right in by_name(of, "joint") if follower in (left, right))
-    own = of.row("jnt_range", follower, 2)
-    if not any(of.row("jnt_range", other, 2) == own for other in (leader, *twins)):
-        return ()
+    twin, own = twins_by_name(of, "joint").get(follower), of.row("jnt_range", follower, 2)
     turned = tuple(-each for each in factors)
+    bodies = [int(of.model("jnt_bodyid")[joint]) for joint in (follower, leader)]
+    parents = [of.model("body_parentid")[body] for body in bodies]
+    if bodies[0] != bodies[1] and parents[0] == parents[1]:
+        of.begin()
+        axes = [of.data_row("xaxis", joint, 3) for joint in (follower, leader)]
+        alike = own == of.row("jnt_range", leader, 2) and turned[1] * dot(*axes) < 0
+    else:
+        alike = any(own == of.row("jnt_range", other, 2) for other in (leader, twin) if other is not None)
+    if not alike:
+        return ()
     ways = (factors[0], *turned[1:]), turned
     return next((each for each in ways if lost(of, ((follower, leader, each),)) < WITHIN), ())
 

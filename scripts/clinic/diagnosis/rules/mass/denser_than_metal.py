@@ -44,7 +44,7 @@ SINCE = "0.1"
 AFLOAT = True
 
 METAL, LIGHT, WATER = 24000.0, 0.05, 1000.0
-PARTLY = 3.0  # times as dense has a body to be of which the geoms are a part
+PARTLY = 1.5  # times as dense has a body to be of which the geoms are a part
 STEEL, USUAL, MANY, MOST_OF = 5000.0, 1200.0, 4, 0.6
 SHOWN = 0.7, 1.4  # the radius of gyration over that of geoms that show the body
 

@@ -26,15 +26,17 @@ The number: the model's own weight at the joint over the gain, in the worst of 1
 0.55 rad where the base is free: legs that a learned policy drives go up to 0.5.
 Or a robot with a free base goes down by a quarter of its height within 1 s, its servos told to stay where they are, and
 one of them bends by more than 0.45 rad.
-Or more than 45 % of a step of 0.1 rad is left after 1 s, without gravity. Where the base is fixed, a hint tells of
-hinges that sag by more than 0.085 rad, and of slides that sag by more than 5 % of their range: fingers with 50 mm that
-swing by 5 mm as the arm turns.
+Or more than 45 % of a step of 0.1 rad is left after 1 s, without gravity; a hint for what follows within 2 s and
+carries less than a twentieth of the mass, as a neck does. Where the base is fixed, a hint tells of hinges that sag by
+more than 0.085 rad, and of slides that sag by more than 5 % of their range: fingers with 50 mm that swing by 5 mm as
+the arm turns.
 
 When it is wrong: a controller that adds the weight itself. `gravcomp="1"` on the bodies takes the load away as well.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
@@ -173,7 +175,7 @@ def _late(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
             late.append(each)
     if not late:
         return
-    worst = max(late, key=lambda each: each.damping / each.stiffness)
+    worst = max(late, key=_follows)
     stiffness = {each.actuator: max(20 * each.damping, 400 * each.inertia) for each in late}
     yield Suspect(
         tuple(simulation.name("actuator", each.actuator) for each in late),
@@ -184,10 +186,15 @@ def _late(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
         remaining([each.actuator for each in late]),
         LEFT,
         f"Stiffness {worst.stiffness:.3g} against damping {worst.damping:.3g} and inertia {worst.inertia:.2g}: the "
-        f"joint follows in {worst.damping / worst.stiffness:.2g} s.",
+        f"joint follows in {_follows(worst):.2g} s.",
         "0.5 s is the most of 55 healthy models with servos; 1.6 s of a humanoid's neck",
-        level="hint" if worst.damping < MEANT * worst.stiffness and _light(simulation, late) else "cause",
+        level="hint" if _follows(worst) < MEANT and _light(simulation, late) else "cause",
     )
+
+
+def _follows(servo: Servo) -> float:
+    """How long a joint takes to follow in s: by its damping, or half a period where that is small."""
+    return max(servo.damping / servo.stiffness, math.pi * math.sqrt(servo.inertia / servo.stiffness))
 
 
 def _light(of: Simulation, some: Sequence[Servo]) -> bool:

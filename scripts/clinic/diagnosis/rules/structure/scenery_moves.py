@@ -34,6 +34,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import delete
 from clinic.diagnosis.engine import FREE, SLIDE
+from clinic.diagnosis.probes.equalities import held, sited
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -91,9 +92,11 @@ def _called(of: Simulation, body: int) -> bool:
 
 
 def _anywhere(of: Simulation, joints: list[int]) -> bool:
-    """Whether it can go anywhere: a free joint, or three slides that nothing drives."""
-    kinds = [of.joint_type(joint) for joint in joints]
-    return kinds[0] == FREE or kinds.count(SLIDE) == 3
+    """Whether it can go anywhere: a free joint, or three slides without a spring or an equality that holds it."""
+    slides = [joint for joint in joints if of.joint_type(joint) == SLIDE and not of.model("jnt_stiffness")[joint]]
+    body = int(of.model("jnt_bodyid")[joints[0]])
+    tied = any(body in held(of, each) for each in range(of.count("equality")) if not sited(of, each))
+    return of.joint_type(joints[0]) == FREE or (len(slides) == 3 and not tied)
 
 
 def _creeps(of: Simulation, joints: list[int]) -> bool:

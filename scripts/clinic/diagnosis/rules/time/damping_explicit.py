@@ -1,8 +1,8 @@
 """A joint's damping, or its servo's, is more than an explicit integrator can follow.
 
 `Euler` and `implicitfast` take a joint's damping implicitly: it may be as high as one likes. `RK4` does not, nor does
-`Euler` with `eulerdamp="disable"`; and the `kv` of a servo is implicit with `implicitfast` alone. A damper that stops a
-light wheel within one step throws it back instead, farther each time.
+`Euler` with `eulerdamp="disable"`; and the `kv` of a servo is implicit with `implicit` and `implicitfast` alone. A
+damper that stops a light wheel within one step throws it back instead, farther each time.
 
 Bad:
 
@@ -67,10 +67,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         before = model.measured(probe)
         if before > limit and model.measured(probe, edits) <= max(limit, TENTH * before):
             name = of.name("joint", of.dof_joints[dof])
-            says = f"At {name}: damping {damping[dof]:.3g} on an inertia of {of.mass_diagonal[dof]:.2g}, h d / M is "
-            says += f"{ratios[dof]:.3g}."
+            says = f"At {name}: explicit damping {damping[dof]:.3g} on an inertia of {of.mass_diagonal[dof]:.2g}, "
+            says += f"h d / M is {ratios[dof]:.3g}."
             well = f"h d / M < {BEARS[integrator]:g}"
-            now = "RK4" if integrator else "Euler"
+            now = "RK4" if integrator else "Euler" if _implicit(of) else "Euler without eulerdamp"
             yield Suspect(
                 ("the integrator", name), "integrator", now, "implicitfast", edits, probe, limit, says, well, TENTH
             )
@@ -79,11 +79,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _explicit(of: Simulation) -> dict[int, float]:
     """The damping that is explicit, of joints and of their servos, by degree of freedom."""
-    integrator, disabled = int(of.model("opt.integrator")[0]), int(of.model("opt.disableflags")[0])
-    if integrator not in BEARS:
+    if int(of.model("opt.integrator")[0]) not in BEARS:
         return {}
-    implicit = not integrator and not disabled & EULERDAMP_OFF
-    damping = {dof: 0.0 if implicit else each for dof, each in enumerate(of.model("dof_damping"))}
+    damping = {dof: 0.0 if _implicit(of) else each for dof, each in enumerate(of.model("dof_damping"))}
     for joint, (_, kv) in feedback(of).items():
         damping[of.dof(joint)] += kv
     return damping
+
+
+def _implicit(of: Simulation) -> bool:
+    """Whether Euler takes the damping of joints implicitly."""
+    return not int(of.model("opt.integrator")[0]) and not int(of.model("opt.disableflags")[0]) & EULERDAMP_OFF

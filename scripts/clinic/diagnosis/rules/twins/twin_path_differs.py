@@ -42,20 +42,22 @@ Good:
     -       <site site="right_front"/>
     +       <site site="right_back"/>
 
-The number: the points of a tendon that are not called like those of its twin, at most half of its path. Points that
-have no twin of their own are not counted.
+The number: the points of a tendon that are not called like those of its twin, at most half of its path. What both go
+through, and points without a twin, are not counted. The tendon is told that has a point of the other side, or else the
+one whose point the other tendons go through less.
 
 When it is wrong: a body that is not the same on both sides.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
-from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.probes.sides import by_name
+from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.probes.sides import by_name, twins_by_name
 from clinic.diagnosis.probes.tendons import path
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.twins._pair import EITHER
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
@@ -65,31 +67,54 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "no healthy model of the bench has tendons on two sides"
 
-Point = tuple[str, int]  # a site or geom, or a joint, by kind and number
+Point = tuple[str, int]  # a site or geom by kind and number
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Tendons in pairs whose paths differ in half of their points at most."""
+    """Spatial tendons in pairs whose paths differ in half of their points at most."""
     of = model.simulation
-    used = [point for tendon in range(of.count("tendon")) for point in path(of, tendon)]
     for left, right in by_name(of, "tendon"):
         odd = _odd(of, left, right)
-        for place, (one, other) in odd.items():
-            wrong, now, value = right, other, _twin(of, one)
-            if used.count(other) < used.count(one):  # what only this one goes through is likelier meant
-                wrong, now, value = left, one, _twin(of, other)
-            assert value is not None
-            element = model.element("tendon", wrong)
-            parts = [each for each in element.children if each.tag == now[0]] if element is not None else []
-            written = [each for each in parts if each.get(now[0]) == of.names(now[0])[now[1]]]
-            edits = tuple(set_attribute(each, now[0], of.names(value[0])[value[1]]) for each in written[:1])
-            probe = Probe("points of a tendon unlike those of its twin", "", _count, (left, right), dynamic=False)
-            names = (of.name("tendon", wrong), of.name("tendon", left + right - wrong), of.name(*now))
-            says = f"Its point {place + 1} is {of.name(*now)}, and {of.name(*value)} would be like its twin's."
-            yield Suspect(
-                names, now[0], of.names(now[0])[now[1]], of.names(value[0])[value[1]], edits, probe, 0.5, says,
-                "the twin of each point",
-            )  # fmt: skip
+        if not odd:
+            continue
+        wrong = _wrong_one(of, left, right, odd)
+        told = right if wrong is None else wrong
+        now, beside = next(((one, other) if told == left else (other, one)) for one, other in odd.values())
+        value = _twin(of, beside)
+        edits = () if wrong is None else _edits(model, wrong, odd.values(), wrong == left)
+        probe = Probe("points of a tendon unlike those of its twin", "", _count, (left, right), dynamic=False)
+        names = (of.name("tendon", told), of.name("tendon", left + right - told), of.name(*now))
+        says = f"It goes through {of.name(*now)}, and its twin through {of.name(*beside)}."
+        says += EITHER * (wrong is None)
+        texts = of.names(now[0])[now[1]], of.names(value[0])[value[1]]
+        yield Suspect(names, now[0], *texts, edits, probe, 0.5, says, "the twin of each point")
+
+
+def _wrong_one(of: Simulation, left: int, right: int, odd: dict[int, tuple[Point, Point]]) -> int | None:
+    """Which tendon has a point of the other side; else the one whose odd points are used less; None for a tie."""
+    across = [sum(_of_left(of, pair[side]) is bool(side) for pair in odd.values()) for side in (0, 1)]
+    used = [point for tendon in range(of.count("tendon")) for point in path(of, tendon)]
+    less = [-sum(used.count(pair[side]) for pair in odd.values()) for side in (0, 1)]
+    scores = across if across[0] != across[1] else less
+    return None if scores[0] == scores[1] else left if scores[0] > scores[1] else right
+
+
+def _of_left(of: Simulation, point: Point) -> bool:
+    """Whether a point is on the left, by its name."""
+    kind, index = point
+    return index in {left for left, _ in by_name(of, kind)}
+
+
+def _edits(model: ReaderModel, tendon: int, odd: Iterable[tuple[Point, Point]], of_left: bool) -> tuple[Edit, ...]:
+    """The points of a path replaced by the twins of the other's."""
+    of, element, made = model.simulation, model.element("tendon", tendon), list[Edit]()
+    for one, other in odd:
+        (kind, wrong), beside = (one, other) if of_left else (other, one)
+        right = _twin(of, beside)
+        parts = [each for each in element.children if each.get(kind) == of.names(kind)[wrong]] if element else []
+        if len(parts) == 1 and parts[0].tag == kind:
+            made.append(set_attribute(parts[0], kind, of.names(right[0])[right[1]]))
+    return tuple(made)
 
 
 def _count(of: Simulation, left: int, right: int) -> float:
@@ -99,14 +124,17 @@ def _count(of: Simulation, left: int, right: int) -> float:
 def _odd(of: Simulation, left: int, right: int) -> dict[int, tuple[Point, Point]]:
     """Where in two paths the points are not twins, though each has one: by place, the left's and the right's."""
     one, other = path(of, left), path(of, right)
-    if len(one) != len(other):
+    if len(one) != len(other) or "joint" in {kind for kind, _ in (*one, *other)}:
         return {}
-    pairs = {place: pair for place, pair in enumerate(zip(one, other, strict=True)) if _twin(of, pair[0]) != pair[1]}
-    known = {place: pair for place, pair in pairs.items() if _twin(of, pair[0]) and _twin(of, pair[1])}
-    return known if 0 < 2 * len(pairs) <= len(one) else {}
+    made = {}
+    for place, (a, b) in enumerate(zip(one, other, strict=True)):
+        known = all(index in twins_by_name(of, kind) for kind, index in (a, b))
+        if known and a[0] == b[0] and _twin(of, a) != b:
+            made[place] = (a, b)
+    return made if 2 * len(made) <= len(one) else {}
 
 
-def _twin(of: Simulation, point: Point) -> Point | None:
-    """The twin of a point by its name."""
+def _twin(of: Simulation, point: Point) -> Point:
+    """The twin of a point by its name; itself where it has none."""
     kind, index = point
-    return next(((kind, left + right - index) for left, right in by_name(of, kind) if index in (left, right)), None)
+    return kind, twins_by_name(of, kind).get(index, index)

@@ -23,7 +23,7 @@ Good:
 The number: the angle between gravity and the way down to the floor (-z where there is no horizontal plane), at most
 45 degrees; and the time in which something falls as far as the model is wide: 0.45 s for 1 m, told where it is under
 0.025 s or over 5 s. A hint tells of more than 15 m/s2 or less than 1, but for 981 and 9810 in a model in cm or mm,
-where water has a density of 1 and not of 1,000; and of 981 where it has one of 0.001, as in mm.
+where water has a density of 1 and not of 1,000.
 
 When it is wrong: a slope or a wall that is made by tilting gravity. Gravity 0 where free bodies are above a floor is a
 hint, for it is often meant.
@@ -51,8 +51,7 @@ ANGLE, SHORT, LONG = 45.0, 0.025, 5.0  # degrees, s, s
 OFF = 128  # mjtDisableBit
 USUAL = "0 0 -9.81"
 EARTH = 1.0, 15.0  # m/s2
-LIGHT, DUST = 50.0, 0.02  # where that of water is 1,000 in kg and m, 1 in g and cm, 0.001 in g and mm
-CM, MM, NEAR = 981.0, 9810.0, 0.02  # gravity in those; as a share of it
+LIGHT = 50.0  # of water's density as it is in kg and m, that is 1,000
 
 
 def _up(simulation: Simulation) -> tuple[float, float, float]:
@@ -84,19 +83,10 @@ def _pull(simulation: Simulation) -> float:
 
 def _metres(of: Simulation, size: float) -> bool:
     """Whether lengths are in m: gravity is not that in cm or mm, or water would be one as heavy as in kg and m."""
-    return not any(abs(size / each - 1) < NEAR for each in (CM, MM)) or _density(of) > LIGHT
-
-
-def _density(of: Simulation) -> float:
-    """The density of the heaviest body; 0 where that has no geoms."""
+    if not any(abs(size / each - 1) < 0.02 for each in (981, 9810)):
+        return True
     heaviest = matter(of, max(of.moving_bodies, key=lambda body: of.model("body_mass")[body]))
-    return heaviest.density if heaviest is not None else 0.0
-
-
-def _centimetres(simulation: Simulation) -> float:
-    """How many times too small gravity is: 10 where it is that in cm, and densities are those of g/mm3; else 1."""
-    cm = abs(math.hypot(*simulation.model("opt.gravity")) / CM - 1) < NEAR
-    return MM / CM if cm and 0 < _density(simulation) < DUST else 1.0
+    return heaviest is not None and heaviest.density > LIGHT
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -129,12 +119,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         says = f"Gravity is {size:.3g} m/s2, {size / 9.81:.2g} times that of the earth."
         edits = model.option("gravity", scaled)
         yield Suspect(name, "gravity", now, scaled, edits, pull, 0.5, says, USUAL, level="hint")
-    if _centimetres(simulation) > 1:
-        value = " ".join(f"{MM / CM * each + 0.0:g}" for each in g)
-        says = f"{size:.3g} is gravity in cm/s2; a density of {_density(simulation):.2g} is in g/mm3, so lengths in mm."
-        probe = Probe("times that gravity is too small", "", _centimetres, dynamic=False)
-        edits = model.option("gravity", value)
-        yield Suspect(name, "gravity", now, value, edits, probe, 1.0, says, "9810 in mm/s2")
 
 
 def _none(model: ReaderModel, now: str, off: bool) -> Iterator[Suspect]:

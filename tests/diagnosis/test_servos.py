@@ -136,17 +136,15 @@ def test_a_urdf_is_mended_in_its_mimic_or_in_its_limit():
 </robot>
 """  # noqa: E501
     (found,) = (each for each in diagnosed(text).causes if each.rule == "follower-out-of-range")
-    assert [(each.element, each.attribute, each.value) for each in found.edit] == [("mimic", "multiplier", "1")]
-
-    farther = text.replace(
-        '<limit lower="0" upper="0.8" effort="1" velocity="1"/>\n    <mimic',
-        '<limit lower="0" upper="0.9" effort="1" velocity="1"/>\n    <mimic',
-    )
-    (found,) = (each for each in diagnosed(farther).causes if each.rule == "follower-out-of-range")
     assert [(each.element, each.attribute, each.value) for each in found.edit] == [
         ("limit", "lower", "-0.8"),
         ("limit", "upper", "0"),
     ]
+
+    turned = '<child link="right"/><axis xyz="0 0 -1"/>'  # with the other sign the fingers close against each other
+    against = text.replace('<child link="right"/><axis xyz="0 0 1"/>', turned)
+    (found,) = (each for each in diagnosed(against).causes if each.rule == "follower-out-of-range")
+    assert [(each.element, each.attribute, each.value) for each in found.edit] == [("mimic", "multiplier", "1")]
 
 
 @pytest.mark.parametrize(("damping", "named"), [(10000, ["weak-servo"]), (200, [])])

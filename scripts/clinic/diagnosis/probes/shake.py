@@ -11,6 +11,7 @@ from clinic.diagnosis.suspect import Probe
 
 NUDGE = 0.01  # rad or m
 SECONDS = 0.5
+SLIDES = 10.0  # times the speed in m/s of a slide, to be compared with that of a hinge
 LOOKED_AT = 40  # steps
 SHAKES = 5.0  # rad/s a step, above which a joint rattles
 
@@ -23,14 +24,16 @@ def _shake(simulation: Simulation) -> float:
 
 def _shaken(simulation: Simulation) -> float:
     simulation.begin()
+    joints = [joint for joint in range(simulation.count("joint")) if simulation.joint_type(joint) in (HINGE, SLIDE)]
+    for joint in joints:
+        _put(simulation, joint, _off_the_limits(simulation, joint))
     hold(simulation)
-    for joint in range(simulation.count("joint")):
-        if simulation.joint_type(joint) in (HINGE, SLIDE):
-            low, high = simulation.row("jnt_range", joint, 2)
-            begin = simulation.position(joint)
-            free = not simulation.model("jnt_limited")[joint] or begin + NUDGE < high
-            moved = begin + NUDGE if free else max(low, begin - NUDGE)
-            simulation.engine.write("qpos", [moved], int(simulation.model("jnt_qposadr")[joint]))
+    for joint in joints:
+        low, high = simulation.row("jnt_range", joint, 2)
+        begin = simulation.position(joint)
+        free = not simulation.model("jnt_limited")[joint] or begin + NUDGE < high
+        _put(simulation, joint, begin + NUDGE if free else max(low, begin - NUDGE))
+    scale = [SLIDES if simulation.joint_type(joint) == SLIDE else 1.0 for joint in simulation.dof_joints]
     for _ in simulation.run(SECONDS, samples=20):
         if simulation.unstable():
             return math.inf
@@ -41,13 +44,26 @@ def _shaken(simulation: Simulation) -> float:
         now = list(simulation.data("qvel"))
         for dof, (old, new) in enumerate(zip(speeds, now, strict=True)):
             if (new - old) * changes[dof] < 0:
-                turned[dof] += abs(new - old) / LOOKED_AT
+                turned[dof] += scale[dof] * abs(new - old) / LOOKED_AT
                 turns[dof] += 1
             changes[dof] = new - old
         speeds = now
     if simulation.unstable():
         return math.inf
     return max((each for each, often in zip(turned, turns, strict=True) if often > LOOKED_AT / 2), default=0.0)
+
+
+def _put(simulation: Simulation, joint: int, position: float) -> None:
+    simulation.engine.write("qpos", [position], int(simulation.model("jnt_qposadr")[joint]))
+
+
+def _off_the_limits(simulation: Simulation, joint: int) -> float:
+    """Where a joint stands, or so far from its limit that this does not hold it: at most the middle of its range."""
+    begin, (low, high) = simulation.position(joint), simulation.row("jnt_range", joint, 2)
+    if not simulation.model("jnt_limited")[joint] or not low <= begin <= high:
+        return begin
+    away = min(2 * NUDGE, (high - low) / 2)
+    return min(max(begin, low + away), high - away)
 
 
 def shake() -> Probe:

@@ -2,8 +2,8 @@
 
 `<equality><joint joint1=".." joint2=".."/>` (in URDF `<mimic>`) makes joint1 follow joint2. Where the follower's range
 leaves out what the leader's range asks for, limit and equality fight, and the leader is held. The sign in `polycoef` is
-wrong where the follower has the range of its leader, or of its twin on the other side, and with the other sign keeps to
-it; else the range is.
+wrong where one follower alone is led astray, has the range of its leader, or of its twin on the other side, and with
+the other sign keeps to it; else the range is.
 
 Bad:
 
@@ -62,14 +62,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield from _constant(model)
     astray = {number: each for number, each in couplings(simulation) if lost(simulation, (each,)) > LOST
               and any(each[2][1:]) and not sign_lost(simulation, number, each)}  # fmt: skip
-    signs = {number: factors for number, each in astray.items() if (factors := _turned(simulation, each))}
-    for number, factors in list(signs.items()):
-        suspect = _of_sign(model, number, astray[number], factors)
-        if model.measured(suspect.probe, suspect.edits) <= LOST:
-            yield suspect
-        else:
-            del signs[number]
-    found = [each for number, each in astray.items() if number not in signs]
+    for number, each in astray.items() if len(astray) == 1 else ():
+        if factors := _turned(simulation, each):
+            suspect = _of_sign(model, number, each, factors)
+            if model.measured(suspect.probe, suspect.edits) <= LOST:
+                yield suspect
+                return
+    found = list(astray.values())
     if not found:
         return
     edits: tuple[Edit, ...] = ()

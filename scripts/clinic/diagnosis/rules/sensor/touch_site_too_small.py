@@ -48,6 +48,7 @@ LEVEL = "hint"
 CASE = "touch-sensor-reads-zero"
 
 MOST = 0.95
+SMALL = 20.0  # times the size of a site that a body has across
 AWAY = 3.0  # sizes of the site; nearer contacts may be beside it on purpose
 OVERLAP = 0.1  # forces of parts that overlap mean nothing
 
@@ -60,6 +61,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     bodies = [owners[site] for site in sites]
     if model.measured(of_relatives()) > OVERLAP:
         return
+    yield from _none_of_many(model)
     for sensor, seen in touched(simulation).items():
         site = int(of[sensor])
         if int(kinds[sensor]) != TOUCH or (bodies.count(owners[site]) > 1 and not _dwarf(simulation, site, sites)):
@@ -76,6 +78,27 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             now = " ".join(f"{each:g}" for each in simulation.row("site_size", site, 3))
             says = f"Contacts carry up to {seen.carried:.3g} N on its body, up to {seen.reach:.3g} m from the site."
             yield Suspect(names, "size", now, value, edits, unread(sensor), MOST, says)
+
+
+def _none_of_many(model: ReaderModel) -> Iterator[Suspect]:
+    """Bodies with several touch sensors of which none reads a contact, with sites that are small beside the body."""
+    of = model.simulation
+    sites, owners = of.model("sensor_objid"), of.model("site_bodyid")
+    bodies: dict[int, list[int]] = {}
+    for sensor, seen in touched(of).items():
+        if int(of.model("sensor_type")[sensor]) == TOUCH and seen.carried > 0:
+            bodies.setdefault(int(owners[int(sites[sensor])]), []).append(sensor)
+    for body, sensors in bodies.items():
+        several = [int(sites[sensor]) for sensor in sensors]
+        small = all(SMALL * max(of.row("site_size", site, 3)) < _reach(of, site) for site in several)
+        if len(sensors) < 2 or not small or any(model.measured(unread(sensor)) <= MOST for sensor in sensors):
+            continue
+        most = max(touched(of)[sensor].carried for sensor in sensors)
+        names = (*(of.name("sensor", sensor) for sensor in sensors), of.name("site", several[0]))
+        now = " ".join(f"{each:g}" for each in of.row("site_size", several[0], 3))
+        says = f"Contacts carry up to {most:.3g} N on {of.name('body', body)}, none of it in a site of its "
+        says += f"{len(sensors)} touch sensors."
+        yield Suspect(names, "size", now, "as large as the face", (), unread(sensors[0]), MOST, says)
 
 
 def _dwarf(simulation: Simulation, site: int, sites: list[int]) -> bool:

@@ -1,8 +1,9 @@
-"""An actuator's filter takes seconds to let a control through.
+"""An actuator takes seconds to let a control through: by its filter, or by its own damping.
 
 `dyntype="filter"` and `filterexact` smooth the control with the time constant `dynprm`, which is 1 s where nobody wrote
 it; `timeconst` of `<position>` and `<velocity>` is the same, and that of `<cylinder>` is 1 s, too. The robot follows
-what it was told a second ago. A muscle has two of them, `0.01 0.04`; written in milliseconds they are a minute.
+what it was told a second ago. A muscle has two of them, `0.01 0.04`; written in milliseconds they are a minute. A servo
+with as much `kv` as `kp` lags by a second as well: their quotient is a time constant.
 
 Bad:
 
@@ -23,7 +24,8 @@ Good:
     -     <general joint="elbow" gainprm="20" biastype="affine" biasprm="0 -20 -1" dyntype="filter"/>
     +     <general joint="elbow" gainprm="20" biastype="affine" biasprm="0 -20 -1" dyntype="filter" dynprm="0.02"/>
 
-The number: the greatest time constant of the actuators with a filter, and of muscles; 0.5 s and more is told.
+The number: the greatest time constant of the actuators with a filter, and of muscles; 0.5 s and more is told. Of servos
+kv over kp, from 0.6 s on.
 
 When it is wrong: a heater, a pump, or another actuator that is as slow as that.
 """
@@ -33,23 +35,26 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.servo import AFFINE, FIXED
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
-TITLE = "A filter that lags by a second"
+TITLE = "An actuator that lags by a second"
 FAMILIES = ("slow", "oscillates")
 SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "few healthy models have actuators with a filter"
 
 FILTERS, MUSCLE, SLOW = (2, 3), 4, 0.5  # mjDYN_FILTER and mjDYN_FILTEREXACT, mjDYN_MUSCLE; s
+LATE, PROMPT = 0.6, 0.2  # s: the quotient that is told, and that an edit leaves
 USUAL = {True: "0.01 0.04", False: "0.02"}  # of a muscle, of others
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The actuators with a slow filter, all together."""
     of = model.simulation
+    yield from _damped(model)
     slow = {each: time for each, time in _times(of).items() if time >= SLOW}
     if not slow:
         return
@@ -64,6 +69,29 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     probe = Probe("greatest time constant of an actuator's filter", "s", _slowest, dynamic=False)
     names = tuple(of.name("actuator", each) for each in slow)
     yield Suspect(names, attribute, now, value, edits, probe, SLOW - 1e-6, says, "0.01 to 0.1 s", level="hint")
+
+
+def _damped(model: ReaderModel) -> Iterator[Suspect]:
+    """Servos that are slow by their own damping, all together."""
+    of = model.simulation
+    times = {each: time for each in range(of.count("actuator")) if (time := _lag(of, each)) >= LATE}
+    if not times:
+        return
+    worst = max(times, key=lambda each: times[each])
+    kv = -of.bias(worst)[2]
+    says = f"kv is {times[worst]:.2g} s times kp: {of.name('actuator', worst)} brings 63 % of the way in that time."
+    names = tuple(of.name("actuator", each) for each in times)
+    probe = Probe("kv over kp", "s", _lag, (worst,), dynamic=False)
+    value = rounded(kv * PROMPT / times[worst])
+    healthy = "0.5 s is the most of 55 healthy models with servos"
+    yield Suspect(names, "kv", f"{kv:.3g}", value, (), probe, LATE - 1e-6, says, healthy, level="hint")
+
+
+def _lag(of: Simulation, actuator: int) -> float:
+    """kv over kp of a position servo in s; 0 of another actuator."""
+    kinds = [int(of.model(f"actuator_{kind}type")[actuator]) for kind in ("gain", "bias", "dyn")]
+    bias = of.bias(actuator)
+    return bias[2] / bias[1] if kinds == [FIXED, AFFINE, 0] and bias[1] < 0 and of.gain(actuator)[0] else 0.0
 
 
 def _attribute(model: ReaderModel, actuator: int) -> str:

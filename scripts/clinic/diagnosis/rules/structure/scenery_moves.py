@@ -67,6 +67,8 @@ DAMPED = (1e3, 1e5)  # N s/m
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Bodies of the world that are scenery and have joints, all together."""
     of = model.simulation
+    if model.source is None or model.source.urdf:
+        return
     driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
     found = {}
     for body in range(1, of.count("body")):

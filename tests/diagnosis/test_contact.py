@@ -146,3 +146,18 @@ def test_a_wheel_that_has_no_direction_is_not_told_to_vary_by_nan():
     text = rules()["wheel-not-round"].example("Bad").replace('mass="0.3"/>', 'mass="0.3" zaxis="0 1 nan"/>', 1)
     found = examine(NativeEngine(), {"model.xml": text}, select=["wheel-not-round"])
     assert not [*found.causes, *found.hints]
+
+
+@pytest.mark.parametrize(("size", "told"), [("0.002", True), ("0.06 0.06 0.06", False)])
+def test_several_touch_sensors_that_all_miss_are_told(size, told):
+    sites = "".join(
+        f'<site name="s{index}" type="box" pos="{place}" size="{size} 0.002 0.002"/>'
+        if told
+        else f'<site name="s{index}" type="box" pos="{place}" size="{size}"/>'
+        for index, place in enumerate(("0.05 0 0", "-0.05 0 0", "0 0 0.05"))
+    )
+    sensors = "".join(f'<touch name="t{index}" site="s{index}"/>' for index in range(3))
+    body = f'<body name="box" pos="0 0 0.05"><freejoint/><geom type="box" size="0.05 0.05 0.05"/>{sites}</body>'
+    text = f"<mujoco><worldbody>{FLOOR}{body}</worldbody><sensor>{sensors}</sensor></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["touch-site-too-small"])
+    assert [len(each.elements) for each in found.hints] == [4] * told

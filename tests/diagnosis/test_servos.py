@@ -347,3 +347,40 @@ def test_a_spring_that_holds_a_door_shut_is_well(rest, told):
 def test_a_servo_beside_a_motor_need_not_carry_the_weight(beside, told):
     found = arm(f'<position joint="shoulder" kp="1" kv="0.1"/>{beside}', joint='damping="0.2"')
     assert ("weak-servo" in causes(found)) == told
+
+
+@pytest.mark.parametrize(("armature", "told"), [("0", ["no-armature"]), ("1", [])])
+def test_a_gripper_that_begins_shut_is_nudged_within_its_range(armature, told):
+    text = f"""
+<mujoco>
+  <worldbody>
+    <body pos="0 0 1">
+      <joint name="finger" type="slide" axis="0 1 0" range="0 0.03" armature="{armature}"/>
+      <geom type="box" size="0.04 0.006 0.01" mass="0.04"/>
+    </body>
+  </worldbody>
+  <actuator>
+    <position joint="finger" kp="1000" kv="100" ctrlrange="0 0.03" forcerange="-50 50"/>
+  </actuator>
+</mujoco>
+"""
+    assert causes(diagnosed(text)) == told
+
+
+@pytest.mark.parametrize(("kv", "told"), [("20", True), ("4", False)])
+def test_a_servo_whose_kv_is_that_of_a_second_lags(kv, told):
+    found = arm(f'<position joint="shoulder" kp="20" kv="{kv}"/>', 'damping="0.1"')
+    assert ("slow-filter" in [each.rule for each in found.hints]) is told, found.text()
+
+
+@pytest.mark.parametrize(("bare", "told"), [(1, True), (4, False)])
+def test_one_servo_without_armature_among_many_is_told(bare, told):
+    links = "".join(
+        f'<body pos="0 {0.2 * index} 0"><joint name="j{index}" axis="0 0 1" armature="{0.01 * (index >= bare)}"/>'
+        '<geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="1"/></body>'
+        for index in range(8)
+    )
+    drives = "".join(f'<position joint="j{index}" kp="20" kv="2"/>' for index in range(8))
+    robot = f'<body><freejoint/><geom type="box" size="0.1 1.5 0.1"/>{links}</body>'
+    found = diagnosed(f"<mujoco><worldbody>{robot}</worldbody><actuator>{drives}</actuator></mujoco>")
+    assert ("armature-unlike-others" in [each.rule for each in found.hints]) is told, found.text()

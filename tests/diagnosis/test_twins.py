@@ -10,6 +10,7 @@ from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.probes.siblings import odd_ones
 from clinic.diagnosis.probes.sides import right_of
 from clinic.diagnosis.probes.twins import twins
+from clinic.diagnosis.rules import rules
 from clinic.diagnosis.simulation import Simulation, Start
 
 PARTS = ("front", "middle", "rear")
@@ -315,3 +316,29 @@ def test_either_of_two_fingers_that_follow_each_other_may_be_driven():
     text = robot(right="-60 30").replace("</body></worldbody>", f"{hands}</body></worldbody>")
     text = text.replace("</mujoco>", f"<equality>{coupled}</equality><actuator>{driven}</actuator></mujoco>")
     assert [each for each in unlike(text) if each.attribute == "joint"] == []
+
+
+PATHS = rules()["twin-path-differs"].example("Good")
+
+
+@pytest.mark.parametrize(
+    ("change", "told", "value"),
+    [
+        (("right_back", "right_front"), 'tendon "right_hamstring"', ""),  # as good as the other way round
+        (("right_back", "left_back"), 'tendon "right_hamstring"', "right_back"),
+        (("left_back", "right_back"), 'tendon "left_hamstring"', "left_back"),
+    ],
+)
+def test_the_tendon_that_goes_through_the_other_side_is_told(change, told, value):
+    one, other = (f'<site site="{name}"/>' for name in change)
+    (hint,) = [each for each in diagnosed(PATHS.replace(one, other)).hints if each.rule == "twin-path-differs"]
+    assert hint.elements[0] == told
+    assert [each.value for each in hint.edit] == [value] * bool(value)
+
+
+def test_what_both_tendons_go_through_has_no_twin():
+    middle = PATHS.replace('<site name="left_front"', '<site name="middle"/><site name="left_front"')
+    both = middle.replace('_hamstring">', '_hamstring"><site site="middle"/>')
+    wrong = both.replace('<site site="right_back"/>', '<site site="right_front"/>')
+    assert [each.rule for each in diagnosed(both).hints].count("twin-path-differs") == 0
+    assert [each.rule for each in diagnosed(wrong).hints].count("twin-path-differs") == 1

@@ -28,7 +28,8 @@ Good:
     +         <joint name="knee" axis="0 1 0" armature="0.1"/>
 
 The number: the armature over the largest of the other joints of the same type; more than 20, where at least two others
-have some. Of the bench's healthy models the most is 10.
+have some. Of the bench's healthy models the most is 10. Or hinges with a servo and without armature, where six others of
+the mechanism, and seven in ten, have some; none of the bench's healthy models has such a hinge.
 
 When it is wrong: a flywheel.
 """
@@ -38,6 +39,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.probes.servo import servos
 from clinic.diagnosis.probes.shape import root_of, roots
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -50,12 +52,14 @@ LEVEL = "hint"
 UNPLANTED = "an armature of its own is planted for servo-held-back"
 
 MOST, OTHERS = 20.0, 2
+MANY, NEARLY_ALL = 6, 0.7  # joints with armature, and their share of the driven ones, beside which one without is odd
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The joint with most armature of each mechanism and type, with that of the next."""
     of, owner = model.simulation, root_of(model.simulation)
     bodies, armature = of.model("jnt_bodyid"), of.model("dof_armature")
+    yield from _left_out(model)
     for root in roots(of):
         for kind in (HINGE, SLIDE):
             alike = [joint for joint, body in enumerate(bodies) if owner[int(body)] == root]
@@ -70,6 +74,31 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             probe = Probe("armature over that of the next", "", _times, (joint, other), dynamic=False)
             name = of.name("joint", joint)
             yield Suspect((name,), "armature", now, value, edits, probe, MOST, says, f"up to {MOST:g} times", share=0.5)
+
+
+def _left_out(model: ReaderModel) -> Iterator[Suspect]:
+    """The hinges with a servo that have no armature where nearly all others with one do, all together."""
+    of, owner = model.simulation, root_of(model.simulation)
+    for root in roots(of):
+        own = [each for each in servos(of) if each.hinge and owner[int(of.model("jnt_bodyid")[each.joint])] == root]
+        driven = list(dict.fromkeys(each.joint for each in own))
+        bare = [joint for joint in driven if not of.model("dof_armature")[of.dof(joint)]]
+        have = len(driven) - len(bare)
+        if not bare or have < MANY or have < NEARLY_ALL * len(driven):
+            continue
+        names = tuple(of.name("joint", joint) for joint in bare)
+        least = min(a for joint in driven if (a := of.model("dof_armature")[of.dof(joint)]))
+        says = (
+            f"{have} of {len(driven)} hinges with a servo have armature, {least:g} and more, and {names[0]} has none."
+        )
+        edits = model.set("joint", bare, "armature", f"{least:g}")
+        probe = Probe("hinges with a servo and without armature", "", _bare, tuple(bare), dynamic=False)
+        healthy = "armature for each motor, or for none"
+        yield Suspect(names, "armature", "0", f"{least:g}", edits, probe, 0.5, says, healthy)
+
+
+def _bare(of: Simulation, *joints: int) -> float:
+    return float(sum(not of.model("dof_armature")[of.dof(joint)] for joint in joints))
 
 
 def _times(of: Simulation, joint: int, other: int) -> float:

@@ -28,8 +28,8 @@ Good:
     +         <joint name="knee" axis="0 1 0" armature="0.1"/>
 
 The number: the armature over the largest of the other joints of the same type; more than 20, where at least two others
-have some. Of the bench's healthy models the most is 10. Or hinges with a servo and without armature, where six others of
-the mechanism, and seven in ten, have some; none of the bench's healthy models has such a hinge.
+have some. Of the bench's healthy models the most is 10. Or hinges with a servo and without armature, where six others
+of the mechanism, and seven in ten, have some; none of the bench's healthy models has such a hinge.
 
 When it is wrong: a flywheel.
 """

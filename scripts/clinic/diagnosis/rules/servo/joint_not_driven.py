@@ -30,13 +30,15 @@ Good:
 
 The number: joints that no actuator, tendon, coupling or spring moves, where the twin of left and right is moved, or all
 others of three and more that are called alike but for a number or a finger, unless those hang as deep as each other and
-it does not. More than two are meant so.
+it does not; or the one other that is called so and hangs on the same body, with the same range and mass. More than two
+are meant so.
 
 When it is wrong: a mechanism that is driven on one side, and whose other side the load closes.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.engine import HINGE, SLIDE
@@ -54,7 +56,7 @@ UNPLANTED = "no kind of fault in the bench takes an actuator away"
 
 CONNECT, WELD, BODY = 0, 1, 1  # mjEQ_CONNECT, mjEQ_WELD, mjOBJ_BODY
 JOINT_EQUALITY, TENDON, BY_JOINT, WRAPPED = 2, 3, (0, 1), 1  # mjEQ_JOINT, mjTRN_TENDON, mjTRN_JOINT, mjWRAP_JOINT
-MOST = 2
+MOST, NUMBER = 2, re.compile(r"\d+")
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -84,11 +86,23 @@ def _loose(of: Simulation) -> dict[int, int]:
         some = [joint for joint in pair if joint in moved]
         if len(some) == 1 and _turns(of, *pair):
             made[pair[0] + pair[1] - some[0]] = some[0]
-    for group in groups(of, "joint"):
+    for group in (*groups(of, "joint"), *_pairs(of)):
         still = [joint for joint in group if joint not in moved]
         if len(still) == 1 and _turns(of, *group) and not _elsewhere(of, still[0], group):
             made[still[0]] = next(joint for joint in group if joint in moved)
     return made
+
+
+def _pairs(of: Simulation) -> list[list[int]]:
+    """Two joints that are called alike but for a number, of two bodies that hang on one and weigh the same."""
+    made: dict[tuple[object, ...], list[int]] = {}
+    for joint, name in enumerate(of.names("joint")):
+        body = int(of.model("jnt_bodyid")[joint])
+        mass = round(of.model("body_subtreemass")[body], 6)
+        key = (NUMBER.sub("#", name), of.model("body_parentid")[body], mass, of.row("jnt_range", joint, 2))
+        if NUMBER.search(name) and len(of.joints_of(body)) == 1:
+            made.setdefault(key, []).append(joint)
+    return [each for each in made.values() if len(each) == 2]
 
 
 def _elsewhere(of: Simulation, joint: int, group: Collection[int]) -> bool:

@@ -175,3 +175,32 @@ def test_the_hinge_across_all_others_is_named_where_a_loop_locks():
     assert [(each.attribute, each.value) for each in locked] == [("axis", "0 1 0")]
     assert locked[0].elements == ('joint "crank"', 'equality "loop"', 'joint "rocker"')
     assert "loop-locked" not in [each.rule for each in examine(NativeEngine(), {"model.xml": text}).hints]
+
+
+@pytest.mark.parametrize(("mass", "told"), [(50, True), (1, False)])
+def test_a_weld_that_a_load_pulls_apart_is_told(mass, told):
+    text = f"""
+<mujoco>
+  <worldbody>
+    <body name="hook" pos="0 0 2"><geom size="0.05"/></body>
+    <body name="ball" pos="0 0 1.8">
+      <freejoint/>
+      <geom size="0.05" mass="0.1"/>
+      <site name="below"/>
+    </body>
+    <body pos="0 0 1.2">
+      <joint type="slide" axis="0 0 1" damping="20"/>
+      <geom size="0.1" mass="{mass}"/>
+      <site name="load"/>
+    </body>
+  </worldbody>
+  <tendon>
+    <spatial stiffness="1000" damping="1"><site site="below"/><site site="load"/></spatial>
+  </tendon>
+  <equality>
+    <weld body1="hook" body2="ball"/>
+  </equality>
+</mujoco>
+"""
+    says = found(text, "soft-equality")
+    assert [" apart where the equality holds them together" in each for each in says] == [True] * told

@@ -33,8 +33,8 @@ class Stance:
 
 
 @kept
-def stance(simulation: Simulation) -> Stance:
-    """The robot with most servos, 1 s after they were told to hold the start."""
+def stance(simulation: Simulation, seconds: float = SECONDS) -> Stance:
+    """The robot with most servos, so many seconds after they were told to hold the start."""
     none = Stance(0.0, {}, ())
     owner, bodies = root_of(simulation), simulation.model("jnt_bodyid")
     by_root: dict[int, list[Servo]] = {}
@@ -51,7 +51,7 @@ def stance(simulation: Simulation) -> Stance:
     height = high - low
     if floor is None or height <= 0 or abs(low - floor) > NEAR * height:
         return none
-    for _ in simulation.run(SECONDS):
+    for _ in simulation.run(seconds):
         if simulation.unstable():
             return none
     down = floor + height - simulation.data_row("xpos", root, 3)[2]
@@ -75,11 +75,11 @@ def _lowest(simulation: Simulation, root: int) -> float:
     return min((centre[2] - half[2] for centre, half in boxes), default=float("inf"))
 
 
-def _lost(simulation: Simulation) -> float:
-    return stance(simulation).lost
+def _lost(simulation: Simulation, seconds: float) -> float:
+    return stance(simulation, seconds).lost
 
 
-def goes_down() -> Probe:
+def goes_down(seconds: float = SECONDS) -> Probe:
     """How far a robot goes down whose servos hold the start."""
-    title = f"height that the base loses within {SECONDS:g} s while all servos hold the start"
-    return Probe(title, "of its height", _lost)
+    title = f"height that the base loses within {seconds:g} s while all servos hold the start"
+    return Probe(title, "of its height", _lost, (seconds,))

@@ -25,7 +25,8 @@ Good:
 The number: the model's own weight at the joint over the gain, in the worst of 17 poses: more than 0.3 rad (0.3 m),
 0.55 rad where the base is free: legs that a learned policy drives go up to 0.5.
 Or a robot with a free base goes down by a quarter of its height within 1 s, its servos told to stay where they are, and
-one of them bends by more than 0.45 rad.
+one of them bends by more than 0.45 rad. A hint tells of one that stands for a second and has lost half of its height
+after 5 s, and that with three times the stiffness stands.
 Or more than 45 % of a step of 0.1 rad is left after 1 s, without gravity; a hint for what follows within 2 s and
 carries less than a twentieth of the mass, as a neck does. Where the base is fixed, a hint tells of hinges that sag by
 more than 0.085 rad, and of slides that sag by more than 5 % of their range: fingers with 50 mm that swing by 5 mm as
@@ -58,6 +59,7 @@ CASE = "servo-sags"
 LATE, CRAWLS = 0.6, 10.0  # s: the time constant above which a step is tried, of a hinge and a slide
 SLOW = 4.0  # rad/s: the natural frequency below which it is
 LEFT = 0.45  # of the step
+LONG, FALLEN, STIFFER = 5.0, 0.5, 3.0  # s; of its height; times the stiffness
 MEANT, LIGHT = 2.0, 0.05  # s and of the mass, below which it may be meant: a neck, an antenna
 SAG, WALKS = 0.3, 0.55  # rad of a hinge, m of a slide; rad where the robot is free and stands on its feet
 LITTLE, SHARE = 0.085, 0.05  # rad of a hinge, share of the range of a slide, of which a hint tells
@@ -91,6 +93,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"below {most:g} {worst.unit}; of healthy models with servos 0.29 is the most, 0.5 where the base is free",
         )
     yield from _bends(model, much)
+    yield from _tips(model, much)
     yield from _late(model, much)
     yield from _little(model, {each: far for each, far in found.items() if each not in much})
 
@@ -120,6 +123,22 @@ def _bends(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
         f"Standing, {of.name('joint', bent[0].joint)} is {seen.bent[bent[0]]:.2g} rad off its target.",
         "next to nothing: a robot that stands",
     )
+
+
+def _tips(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
+    """Servos of a robot that stands for a second and has fallen after five, and with more stiffness has not."""
+    of, seen = model.simulation, stance(model.simulation)
+    if sagging or not seen.bent or seen.lost > LOST / 2 or stance(of, LONG).lost < FALLEN:
+        return
+    own = list(seen.bent)
+    edits = tuple(edit for each in own for edit in _stronger(model, each, STIFFER * each.stiffness))
+    if not edits or model.measured(goes_down(LONG), edits) > LOST / 2:
+        return
+    names = tuple(of.name("actuator", each.actuator) for each in own)
+    now, value = f"{own[0].stiffness:.3g}", rounded(STIFFER * own[0].stiffness)
+    says = f"With all servos told to hold the start it stands for 1 s, and falls within {LONG:g} s."
+    healthy = "a robot that stands"
+    yield Suspect(names, "kp", now, value, edits, goes_down(LONG), LOST / 2, says, healthy, level="hint")
 
 
 def _most(simulation: Simulation, servo: Servo) -> float:

@@ -384,3 +384,34 @@ def test_one_servo_without_armature_among_many_is_told(bare, told):
     robot = f'<body><freejoint/><geom type="box" size="0.1 1.5 0.1"/>{links}</body>'
     found = diagnosed(f"<mujoco><worldbody>{robot}</worldbody><actuator>{drives}</actuator></mujoco>")
     assert ("armature-unlike-others" in [each.rule for each in found.hints]) is told, found.text()
+
+
+STOOL = """
+<mujoco>
+  <worldbody>
+    <geom type="plane" size="3 3 0.1"/>
+    <body name="trunk" pos="0 0 0.72">
+      <freejoint/>
+      <geom type="box" size="0.1 0.1 0.1" mass="10" pos="0.01 0 0"/>
+      {legs}
+    </body>
+  </worldbody>
+  <actuator>{servos}</actuator>
+</mujoco>
+"""
+
+
+@pytest.mark.parametrize(("kp", "told"), [(20, True), (100, False)])
+def test_a_robot_that_falls_after_a_while_has_too_little_stiffness(kp, told):
+    legs = "".join(
+        f'<body pos="0 {y} -0.1"><joint name="hip{y}" axis="0 1 0" damping="3"/>'
+        '<geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03" mass="1"/>'
+        f'<body pos="0 0 -0.3"><joint name="ankle{y}" axis="0 1 0" damping="3"/>'
+        '<geom type="box" size="0.08 0.03 0.02" pos="0 0 -0.3" mass="0.5"/></body></body>'
+        for y in (-0.1, 0.1)
+    )
+    names = [f"{name}{y}" for y in (-0.1, 0.1) for name in ("hip", "ankle")]
+    servos = "".join(f'<position joint="{name}" kp="{kp}" kv="2"/>' for name in names)
+    found = diagnosed(STOOL.format(legs=legs, servos=servos))
+    said = [each for each in (*found.causes, *found.hints) if "falls within 5 s" in each.says]
+    assert [each.rule for each in said] == ["weak-servo"] * told, found.text()

@@ -32,9 +32,14 @@ class Stance:
     full: tuple[Servo, ...]
 
 
+def stance(simulation: Simulation) -> Stance:
+    """The robot with most servos, 1 s after they were told to hold the start."""
+    return stance_after(simulation, SECONDS)
+
+
 @kept
-def stance(simulation: Simulation, seconds: float = SECONDS) -> Stance:
-    """The robot with most servos, so many seconds after they were told to hold the start."""
+def stance_after(simulation: Simulation, seconds: float) -> Stance:
+    """The same after so many seconds."""
     none = Stance(0.0, {}, ())
     owner, bodies = root_of(simulation), simulation.model("jnt_bodyid")
     by_root: dict[int, list[Servo]] = {}
@@ -76,7 +81,7 @@ def _lowest(simulation: Simulation, root: int) -> float:
 
 
 def _lost(simulation: Simulation, seconds: float) -> float:
-    return stance(simulation, seconds).lost
+    return stance_after(simulation, seconds).lost
 
 
 def goes_down(seconds: float = SECONDS) -> Probe:

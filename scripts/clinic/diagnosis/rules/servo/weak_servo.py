@@ -45,7 +45,7 @@ from clinic.diagnosis.probes.load import loads, sag, sags
 from clinic.diagnosis.probes.run import resets
 from clinic.diagnosis.probes.servo import Servo, remaining, servos
 from clinic.diagnosis.probes.shape import root_of
-from clinic.diagnosis.probes.stand import BENT, LOST, goes_down, stance
+from clinic.diagnosis.probes.stand import BENT, LOST, goes_down, stance, stance_after
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.servo.servo_held_back import holds_back
 from clinic.diagnosis.simulation import Simulation
@@ -128,7 +128,7 @@ def _bends(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
 def _tips(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
     """Servos of a robot that stands for a second and has fallen after five, and with more stiffness has not."""
     of, seen = model.simulation, stance(model.simulation)
-    if sagging or not seen.bent or seen.lost > LOST / 2 or stance(of, LONG).lost < FALLEN:
+    if sagging or not seen.bent or seen.lost > LOST / 2 or stance_after(of, LONG).lost < FALLEN:
         return
     own = list(seen.bent)
     edits = tuple(edit for each in own for edit in _stronger(model, each, STIFFER * each.stiffness))

@@ -101,10 +101,8 @@ def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
     of, inertia = model.simulation, model.simulation.mass_diagonal
     driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))} - {None}
     bare = [joint for joint in driven if joint is not None and of.model("dof_armature")[of.dof(joint)] == 0]
-    bodies, shown = (
-        of.model("jnt_bodyid"),
-        {above for body in of.model("geom_bodyid") for above in of.ancestors(int(body))},
-    )
+    bodies = of.model("jnt_bodyid")
+    shown = {above for body in of.model("geom_bodyid") for above in of.ancestors(int(body))}
     bare = [joint for joint in bare if bodies[joint] not in thin and int(bodies[joint]) in shown]
     light = sorted(joint for joint in bare if inertia[of.dof(joint)] < ROTOR and not of.model("jnt_stiffness")[joint])
     probe = _symptom(model)

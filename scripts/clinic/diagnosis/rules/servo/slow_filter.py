@@ -79,7 +79,9 @@ def _damped(model: ReaderModel) -> Iterator[Suspect]:
         return
     worst = max(times, key=lambda each: times[each])
     kv = -of.bias(worst)[2]
-    says = f"kv is {times[worst]:.2g} s times kp: {of.name('actuator', worst)} brings 63 % of the way in that time."
+    says = (
+        f"Its kv over its kp is {times[worst]:.2g} s: in that time {of.name('actuator', worst)} goes 63 % of the way."
+    )
     names = tuple(of.name("actuator", each) for each in times)
     probe = Probe("kv over kp", "s", _lag, (worst,), dynamic=False)
     value = rounded(kv * PROMPT / times[worst])

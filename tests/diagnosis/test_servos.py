@@ -415,3 +415,16 @@ def test_a_robot_that_falls_after_a_while_has_too_little_stiffness(kp, told):
     found = diagnosed(STOOL.format(legs=legs, servos=servos))
     said = [each for each in (*found.causes, *found.hints) if "falls within 5 s" in each.says]
     assert [each.rule for each in said] == ["weak-servo"] * told, found.text()
+
+
+@pytest.mark.parametrize(("ranges", "told"), [("", True), ('ctrlrange="-1 1"', False)])
+def test_no_servo_with_a_control_range_is_told_once(ranges, told):
+    links = "".join(
+        f'<body pos="0 {0.3 * index} 1"><joint name="j{index}" axis="0 0 1" range="-60 60" damping="1"/>'
+        '<geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="1"/></body>'
+        for index in range(4)
+    )
+    drives = "".join(f'<position joint="j{index}" kp="20" kv="2" {ranges}/>' for index in range(4))
+    found = diagnosed(f"<mujoco><worldbody>{links}</worldbody><actuator>{drives}</actuator></mujoco>")
+    said = [each for each in found.hints if each.rule == "control-range-forgotten"]
+    assert [len(each.edit) for each in said] == [4] * told, found.text()

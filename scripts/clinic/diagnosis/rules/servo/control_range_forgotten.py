@@ -1,4 +1,4 @@
-"""All servos have a control range, but for one.
+"""All servos have a control range, but for one; or none has.
 
 It was forgotten. The servo takes any target, and a policy or a slider that goes from -1 to 1, or to infinity, presses
 the joint against its limit.
@@ -42,16 +42,17 @@ Good:
     +     <position name="c" joint="c" ctrlrange="-1 1"/>
 
 The number: how many servos of joints with a range take any target; told are at most two, where three and three times
-as many have a control range.
+as many have a control range, or three and more that are all servos of the model: none of the bench's 81 healthy models
+is so.
 
 When it is wrong: a servo that is driven by hand alone.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from clinic.diagnosis.probes.servo import servos
+from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -70,6 +71,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     bare = [each for each in servos(of) if each.ctrl is None and each.range]
     others = sum(each.ctrl is not None for each in servos(of))
+    if not others and len(bare) >= MORE and len(bare) == len(servos(of)):
+        yield _none(model, bare)
     if not 0 < len(bare) <= FEW or others < MORE * max(len(bare), 1):
         return
     for each in bare:
@@ -80,6 +83,18 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         probe = Probe("servos that take any target", "", _bare, dynamic=False)
         names = (of.name("actuator", each.actuator), of.name("joint", each.joint))
         yield Suspect(names, "ctrlrange", "left out", value, edits, probe, 0.0, says, 'inheritrange="1"')
+
+
+def _none(model: ReaderModel, bare: Sequence[Servo]) -> Suspect:
+    """All servos, each with the range of its joint."""
+    of = model.simulation
+    ranges = {each.actuator: f"{each.range[0]:.4g} {each.range[1]:.4g}" for each in bare if each.range}
+    edits = tuple(edit for each, value in ranges.items() for edit in model.set("actuator", [each], "ctrlrange", value))
+    names = tuple(of.name("actuator", each.actuator) for each in bare)
+    says = f"None of {len(bare)} servos has a control range: each takes any target."
+    probe = Probe("servos that take any target", "", _bare, dynamic=False)
+    value = next(iter(ranges.values()))
+    return Suspect(names, "ctrlrange", "left out", value, edits, probe, 0.0, says, 'inheritrange="1"')
 
 
 def _bare(of: Simulation) -> float:

@@ -109,8 +109,9 @@ def test_what_needs_more_says_so_in_a_sentence(installed: Path, tmp_path: Path, 
 
 
 def test_an_engine_that_is_too_old_is_named_in_a_sentence(installed: Path, tmp_path: Path) -> None:
-    (tmp_path / "old").mkdir()
-    (tmp_path / "old" / "mujoco.py").write_text("__version__ = '3.3.7'\nMjModel = MjData = MjSpec = object\n", "utf-8")
+    told = tmp_path / "old" / "mujoco-3.3.7.dist-info"
+    told.mkdir(parents=True)
+    (told / "METADATA").write_text("Metadata-Version: 2.1\nName: mujoco\nVersion: 3.3.7\n", "utf-8")
     done = clinic(Path(f"{tmp_path / 'old'}{os.pathsep}{installed}"), tmp_path, "triage", "model.xml")
     assert done.returncode == 1
     assert done.stderr == "clinic: MuJoCo 3.3.7 is too old; this needs 3.4 or newer: pip install -U mujoco\n"

@@ -97,7 +97,7 @@ def check(
 
 @app.callback()
 def _require_engine() -> None:
-    from clinic.engine.releases import too_old
+    from clinic.engine.installed import too_old
 
     if told := too_old():
         sys.exit(f"clinic: {told}")
@@ -140,7 +140,7 @@ def show(
 
     from clinic.commands import terminal
     from clinic.commands.console import console
-    from clinic.engine.releases import NEEDED_BY_CASES, installed
+    from clinic.engine.installed import NEEDED_BY_CASES, installed
     from clinic.pages.text.prose import prose_problems
     from clinic.proof.evidence import missing_requirement
     from clinic.proof.experiments import measure_case

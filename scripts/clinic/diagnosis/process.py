@@ -17,7 +17,6 @@ from clinic.diagnosis.diagnose import examine, read_file
 from clinic.diagnosis.finding import KILLED, LATE, Diagnosis, ending
 from clinic.diagnosis.simulation import Start, StartError
 from clinic.diagnosis.source import decoded, read_texts
-from clinic.diagnosis.symptom import code_of, measure
 
 LIMIT = 60.0  # s, for one process
 MEMORY = 4 * 2**30  # bytes
@@ -74,7 +73,7 @@ def diagnose(
     """
     text, name, folder = _read(source)
     given = {key: value if isinstance(value, bytes) else str(value).encode() for key, value in (assets or {}).items()}
-    request = Request(text, name, folder, given, symptom, code_of(symptom), start, tuple(select), tuple(ignore))
+    request = Request(text, name, folder, given, symptom, _code_of(symptom), start, tuple(select), tuple(ignore))
     died: dict[str, str] = {}
     while True:
         made, trying, said = _asked(replace(request, ignore=(*request.ignore, *died)), tell)
@@ -89,6 +88,15 @@ def diagnose(
                 "": "MuJoCo ended the process",
             }.get(said, said)
             raise DiagnosisError(f"{name}: {ended} {doing}")
+
+
+def _code_of(symptom: str) -> str:
+    """The program of a symptom's page; the records of the cases are read for it only where a symptom is named."""
+    if not symptom:
+        return ""
+    from clinic.diagnosis.symptom import code_of
+
+    return code_of(symptom)
 
 
 def _read(source: Any) -> tuple[str, str, str]:
@@ -191,6 +199,8 @@ def main() -> None:
             tell=lambda rule: print(f"trying {rule}", flush=True),
         )
         if request.measurement and not made.error and MEASURING not in request.ignore:
+            from clinic.diagnosis.symptom import measure
+
             print(f"trying {MEASURING}", flush=True)
             told = measure(request.symptom, request.measurement, engine, made.texts, request.start)
             made = replace(made, measured=told)

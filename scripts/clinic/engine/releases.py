@@ -8,22 +8,6 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-OLDEST = (3, 4)  # the first release on which a reader's model can be examined
-NEEDED_BY_CASES = (4, 0)  # the release for which the cases are written
-
-
-def installed() -> tuple[int, int]:
-    """The release of MuJoCo that is imported, as (major, minor)."""
-    major, minor = mujoco.__version__.split(".")[:2]
-    return int(major), int(minor)
-
-
-def too_old() -> str:
-    """Why a reader's model cannot be examined on the release that is installed; empty if it can."""
-    needed = ".".join(map(str, OLDEST))
-    told = f"MuJoCo {mujoco.__version__} is too old; this needs {needed} or newer: pip install -U mujoco"
-    return told if installed() < OLDEST else ""
-
 
 def read_spec(path: Path) -> mujoco.MjSpec:
     """The model in an MJCF or URDF file, not compiled; older releases know no file that ends on .urdf.

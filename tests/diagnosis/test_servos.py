@@ -373,16 +373,21 @@ def test_a_servo_whose_kv_is_that_of_a_second_lags(kv, told):
     assert ("slow-filter" in [each.rule for each in found.hints]) is told, found.text()
 
 
+def row(joints: list[str], servo: str) -> Diagnosis:
+    """Levers side by side on a free base, a servo each."""
+    links = "".join(
+        f'<body pos="0 {0.2 * index} 0"><joint name="j{index}" axis="0 0 1" damping="1" {joint}/>'
+        '<geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="1"/></body>'
+        for index, joint in enumerate(joints)
+    )
+    drives = "".join(f'<position joint="j{index}" kp="20" kv="2" {servo}/>' for index in range(len(joints)))
+    robot = f'<body><freejoint/><geom type="box" size="0.1 1.5 0.1"/>{links}</body>'
+    return diagnosed(f"<mujoco><worldbody>{robot}</worldbody><actuator>{drives}</actuator></mujoco>")
+
+
 @pytest.mark.parametrize(("bare", "told"), [(1, True), (4, False)])
 def test_one_servo_without_armature_among_many_is_told(bare, told):
-    links = "".join(
-        f'<body pos="0 {0.2 * index} 0"><joint name="j{index}" axis="0 0 1" armature="{0.01 * (index >= bare)}"/>'
-        '<geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="1"/></body>'
-        for index in range(8)
-    )
-    drives = "".join(f'<position joint="j{index}" kp="20" kv="2"/>' for index in range(8))
-    robot = f'<body><freejoint/><geom type="box" size="0.1 1.5 0.1"/>{links}</body>'
-    found = diagnosed(f"<mujoco><worldbody>{robot}</worldbody><actuator>{drives}</actuator></mujoco>")
+    found = row([f'armature="{0.01 * (index >= bare)}"' for index in range(8)], "")
     assert ("armature-unlike-others" in [each.rule for each in found.hints]) is told, found.text()
 
 
@@ -417,14 +422,8 @@ def test_a_robot_that_falls_after_a_while_has_too_little_stiffness(kp, told):
     assert [each.rule for each in said] == ["weak-servo"] * told, found.text()
 
 
-@pytest.mark.parametrize(("ranges", "told"), [("", True), ('ctrlrange="-1 1"', False)])
-def test_no_servo_with_a_control_range_is_told_once(ranges, told):
-    links = "".join(
-        f'<body pos="0 {0.3 * index} 1"><joint name="j{index}" axis="0 0 1" range="-60 60" damping="1"/>'
-        '<geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="1"/></body>'
-        for index in range(4)
-    )
-    drives = "".join(f'<position joint="j{index}" kp="20" kv="2" {ranges}/>' for index in range(4))
-    found = diagnosed(f"<mujoco><worldbody>{links}</worldbody><actuator>{drives}</actuator></mujoco>")
+@pytest.mark.parametrize(("servo", "told"), [("", True), ('ctrlrange="-1 1"', False)])
+def test_no_servo_with_a_control_range_is_told_once(servo, told):
+    found = row(4 * ['range="-60 60"'], servo)
     said = [each for each in found.hints if each.rule == "control-range-forgotten"]
     assert [len(each.edit) for each in said] == [4] * told, found.text()

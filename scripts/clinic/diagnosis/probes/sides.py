@@ -44,9 +44,10 @@ def right_of(name: str) -> Iterator[str]:
 
 
 @kept
-def twins_by_name(simulation: Simulation, kind: str) -> dict[int, int]:
-    """The twin of each left and each right one of a kind, by their names."""
-    return {one: other for pair in by_name(simulation, kind) for one, other in (pair, pair[::-1])}
+def sided(simulation: Simulation, kind: str) -> dict[int, tuple[str, int]]:
+    """By element of a pair, by their names: its side, and its twin."""
+    pairs = by_name(simulation, kind)
+    return {left: ("left", right) for left, right in pairs} | {right: ("right", left) for left, right in pairs}
 
 
 def by_name(simulation: Simulation, kind: str) -> list[tuple[int, int]]:

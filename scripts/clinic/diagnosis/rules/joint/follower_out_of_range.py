@@ -41,7 +41,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.couplings import Coupling, couplings, led_over, lost
-from clinic.diagnosis.probes.sides import twins_by_name
+from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.probes.vector import dot, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.joint.fingers_move_together import sign_lost
@@ -107,7 +107,7 @@ def _turned(of: Simulation, coupling: Coupling) -> tuple[float, ...]:
     Two joints of one body are fingers: with the other sign they go against each other.
     """
     follower, leader, factors = coupling
-    twin, own = twins_by_name(of, "joint").get(follower), of.row("jnt_range", follower, 2)
+    own, (_, twin) = of.row("jnt_range", follower, 2), sided(of, "joint").get(follower, ("", leader))
     turned = tuple(-each for each in factors)
     bodies = [int(of.model("jnt_bodyid")[joint]) for joint in (follower, leader)]
     parents = [of.model("body_parentid")[body] for body in bodies]
@@ -116,7 +116,7 @@ def _turned(of: Simulation, coupling: Coupling) -> tuple[float, ...]:
         axes = [of.data_row("xaxis", joint, 3) for joint in (follower, leader)]
         alike = own == of.row("jnt_range", leader, 2) and turned[1] * dot(*axes) < 0
     else:
-        alike = any(own == of.row("jnt_range", other, 2) for other in (leader, twin) if other is not None)
+        alike = any(own == of.row("jnt_range", other, 2) for other in (leader, twin))
     if not alike:
         return ()
     ways = (factors[0], *turned[1:]), turned

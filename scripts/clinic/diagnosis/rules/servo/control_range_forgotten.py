@@ -71,29 +71,20 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     bare = [each for each in servos(of) if each.ctrl is None and each.range]
     others = sum(each.ctrl is not None for each in servos(of))
-    if not others and len(bare) >= MORE and len(bare) == len(servos(of)):
-        yield _none(model, bare)
-    if not 0 < len(bare) <= FEW or others < MORE * max(len(bare), 1):
-        return
-    for each in bare:
-        assert each.range is not None
-        value = f"{each.range[0]:.4g} {each.range[1]:.4g}"
-        edits = model.set("actuator", [each.actuator], "ctrlrange", value)
-        says = f"{others} other servos have a control range."
-        probe = Probe("servos that take any target", "", _bare, dynamic=False)
-        names = (of.name("actuator", each.actuator), of.name("joint", each.joint))
-        yield Suspect(names, "ctrlrange", "left out", value, edits, probe, 0.0, says, 'inheritrange="1"')
+    if not others and MORE <= len(bare) == len(servos(of)):
+        yield _suspect(model, bare, f"None of {len(bare)} servos has a control range: each takes any target.")
+    elif len(bare) <= FEW and others >= MORE * max(len(bare), 1):
+        yield from (_suspect(model, [each], f"{others} other servos have a control range.") for each in bare)
 
 
-def _none(model: ReaderModel, bare: Sequence[Servo]) -> Suspect:
-    """All servos, each with the range of its joint."""
+def _suspect(model: ReaderModel, bare: Sequence[Servo], says: str) -> Suspect:
+    """Servos without a control range, each to be given the range of its joint."""
     of = model.simulation
-    ranges = {each.actuator: f"{each.range[0]:.4g} {each.range[1]:.4g}" for each in bare if each.range}
-    edits = tuple(edit for each, value in ranges.items() for edit in model.set("actuator", [each], "ctrlrange", value))
-    names = tuple(of.name("actuator", each.actuator) for each in bare)
-    says = f"None of {len(bare)} servos has a control range: each takes any target."
+    values = {each.actuator: f"{each.range[0]:.4g} {each.range[1]:.4g}" for each in bare if each.range}
+    edits = tuple(edit for each, value in values.items() for edit in model.set("actuator", [each], "ctrlrange", value))
+    names = (*(of.name("actuator", each) for each in values), of.name("joint", bare[0].joint))
     probe = Probe("servos that take any target", "", _bare, dynamic=False)
-    value = next(iter(ranges.values()))
+    value = next(iter(values.values()))
     return Suspect(names, "ctrlrange", "left out", value, edits, probe, 0.0, says, 'inheritrange="1"')
 
 

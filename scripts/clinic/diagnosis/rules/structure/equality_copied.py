@@ -46,7 +46,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, WELD, held, kind_of, sited
-from clinic.diagnosis.probes.sides import by_name
+from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -105,7 +105,7 @@ def _twice(of: Simulation) -> dict[int, int]:
 
 def _across(of: Simulation) -> dict[int, tuple[int, int]]:
     """By equality of different parts of both sides: the end that is on the other side, and the one of its own."""
-    sides = {kind: _sides(of, kind) for kind in ("body", "site", "joint")}
+    sides = {kind: sided(of, kind) for kind in ("body", "site", "joint")}
     kept, crossing = set(), {}
     for each in range(of.count("equality")):
         known = kind_of(of, each) in (CONNECT, WELD, COUPLED) and of.model("eq_active0")[each]
@@ -121,9 +121,3 @@ def _across(of: Simulation) -> dict[int, tuple[int, int]]:
     if len(crossing) > 1:  # one driver leads both sides
         return {}
     return {each: ends for each, ends in crossing.items() if kind_of(of, each) in kept}
-
-
-def _sides(of: Simulation, kind: str) -> dict[int, tuple[str, int]]:
-    """By element of a pair: its side, and its twin."""
-    pairs = by_name(of, kind)
-    return {left: ("left", right) for left, right in pairs} | {right: ("right", left) for left, right in pairs}

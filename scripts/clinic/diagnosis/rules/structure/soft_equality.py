@@ -77,7 +77,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _pulled_apart(model: ReaderModel) -> Iterator[Suspect]:
     """Connections and welds that a load pulls apart, and that a shorter time constant holds together, all together."""
     of = model.simulation
-    apart = {each: gap for each in _holding(of) if (gap := _gap(of, each)) > max(GAP, SHARE * _reach(of, each))}
+    apart = {each: gap for each, gap in _gaps(of).items() if gap > max(GAP, SHARE * _reach(of, each))}
     if not apart:
         return
     worst = max(apart, key=lambda each: apart[each])
@@ -97,10 +97,6 @@ def _holding(of: Simulation) -> list[int]:
     return [each for each in every if kind_of(of, each) in (CONNECT, WELD) and not by_mocap(of, each)]
 
 
-def _gap(of: Simulation, each: int) -> float:
-    return _gaps(of).get(each, 0.0)
-
-
 @kept
 def _gaps(of: Simulation) -> dict[int, float]:
     """How far apart in m the connections and welds hold, 2 s after letting go; none where the model explodes."""
@@ -113,7 +109,7 @@ def _gaps(of: Simulation) -> dict[int, float]:
 
 
 def _widest(of: Simulation, *equalities: int) -> float:
-    return max(_gap(of, each) for each in equalities)
+    return max(_gaps(of).get(each, math.inf) for each in equalities)
 
 
 def _reach(of: Simulation, each: int) -> float:

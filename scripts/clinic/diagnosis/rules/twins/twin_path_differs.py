@@ -54,7 +54,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
-from clinic.diagnosis.probes.sides import by_name, twins_by_name
+from clinic.diagnosis.probes.sides import by_name, sided
 from clinic.diagnosis.probes.tendons import path
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.twins._pair import EITHER
@@ -92,17 +92,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _wrong_one(of: Simulation, left: int, right: int, odd: dict[int, tuple[Point, Point]]) -> int | None:
     """Which tendon has a point of the other side; else the one whose odd points are used less; None for a tie."""
-    across = [sum(_of_left(of, pair[side]) is bool(side) for pair in odd.values()) for side in (0, 1)]
+    across = [
+        sum(sided(of, kind)[index][0] != own for kind, index in points)
+        for own, points in zip(("left", "right"), zip(*odd.values(), strict=True), strict=True)
+    ]
     used = [point for tendon in range(of.count("tendon")) for point in path(of, tendon)]
     less = [-sum(used.count(pair[side]) for pair in odd.values()) for side in (0, 1)]
     scores = across if across[0] != across[1] else less
     return None if scores[0] == scores[1] else left if scores[0] > scores[1] else right
-
-
-def _of_left(of: Simulation, point: Point) -> bool:
-    """Whether a point is on the left, by its name."""
-    kind, index = point
-    return index in {left for left, _ in by_name(of, kind)}
 
 
 def _edits(model: ReaderModel, tendon: int, odd: Iterable[tuple[Point, Point]], of_left: bool) -> tuple[Edit, ...]:
@@ -128,13 +125,13 @@ def _odd(of: Simulation, left: int, right: int) -> dict[int, tuple[Point, Point]
         return {}
     made = {}
     for place, (a, b) in enumerate(zip(one, other, strict=True)):
-        known = all(index in twins_by_name(of, kind) for kind, index in (a, b))
+        known = all(index in sided(of, kind) for kind, index in (a, b))
         if known and a[0] == b[0] and _twin(of, a) != b:
             made[place] = (a, b)
     return made if 2 * len(made) <= len(one) else {}
 
 
 def _twin(of: Simulation, point: Point) -> Point:
-    """The twin of a point by its name; itself where it has none."""
+    """The twin of a point that has one by its name."""
     kind, index = point
-    return kind, twins_by_name(of, kind).get(index, index)
+    return kind, sided(of, kind)[index][1]

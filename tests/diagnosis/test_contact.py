@@ -161,3 +161,25 @@ def test_several_touch_sensors_that_all_miss_are_told(size, told):
     text = f"<mujoco><worldbody>{FLOOR}{body}</worldbody><sensor>{sensors}</sensor></mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["touch-site-too-small"])
     assert [len(each.elements) for each in found.hints] == [4] * told
+
+
+@pytest.mark.parametrize(
+    ("disc", "told"),
+    [('rgba="0 1 0 0.5"', True), ('rgba="0 1 0 1"', False), ('rgba="0 1 0 0.5" contype="0" conaffinity="0"', False)],
+    ids=["seen through", "a thing", "not touched"],
+)
+def test_a_target_that_stops_what_is_brought_to_it_is_told(disc, told):
+    target = f'<geom name="target" type="cylinder" size="0.1 0.001" pos="0.3 0 0.001" {disc}/>'
+    text = f"<mujoco><worldbody>{FLOOR}{target}{BOX.format(z=0.05, more='')}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["visual-collides"])
+    assert [each.elements for each in found.hints] == [('geom "target"',)] * told
+
+
+@pytest.mark.parametrize(("cells", "told"), [(101, True), (11, False)])
+def test_a_terrain_from_a_file_is_told_in_words_where_contacts_are_lost(cells, told):
+    elevation = " ".join(["0"] * cells**2)
+    asset = f'<hfield name="hills" nrow="{cells}" ncol="{cells}" size="0.5 0.5 0.1 1" elevation="{elevation}"/>'
+    terrain = '<geom name="terrain" type="hfield" hfield="hills"/>'
+    text = f"<mujoco><asset>{asset}</asset><worldbody>{terrain}{BOX.format(z=0.05, more='')}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["contacts-cut-off"])
+    assert [(each.elements[0], each.edit) for each in found.hints] == [('hfield "hills"', ())] * told

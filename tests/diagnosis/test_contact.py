@@ -183,3 +183,23 @@ def test_a_terrain_from_a_file_is_told_in_words_where_contacts_are_lost(cells, t
     text = f"<mujoco><asset>{asset}</asset><worldbody>{terrain}{BOX.format(z=0.05, more='')}</worldbody></mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["contacts-cut-off"])
     assert [(each.elements[0], each.edit) for each in found.hints] == [('hfield "hills"', ())] * told
+
+
+@pytest.mark.parametrize(("x", "rule"), [(0, "hull-over-hole"), (0.055, "overlap-at-start")])
+def test_a_bar_in_the_opening_of_a_hook_is_no_overlap(x, rule):
+    """The hook is a U of three plates, open upwards; the second bar goes through one of them."""
+    plates = [((-0.06, 0.06), (-0.06, -0.05)), ((-0.06, -0.05), (-0.06, 0.06)), ((0.05, 0.06), (-0.06, 0.06))]
+    corners, faces = [], []
+    for (left, right), (low, high) in plates:
+        first = len(corners)
+        corners += [(x, y, z) for x in (left, right) for y in (-0.02, 0.02) for z in (low, high)]
+        quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+        faces += [(first + a, first + b, first + c) for q in quads for a, b, c in (q[:3], (q[0], q[2], q[3]))]
+    numbers = [" ".join(f"{each:g}" for one in of for each in one) for of in (corners, faces)]
+    text = (
+        f'<mujoco><asset><mesh name="hook" vertex="{numbers[0]}" face="{numbers[1]}"/></asset><worldbody>'
+        f'<geom name="bar" type="capsule" fromto="{x} -.3 0 {x} .3 0" size="0.02"/>'
+        '<body><freejoint/><geom name="hook" type="mesh" mesh="hook"/></body></worldbody></mujoco>'
+    )
+    found = examine(NativeEngine(), {"model.xml": text}, select=["hull-over-hole", "overlap-at-start"])
+    assert [each.rule for each in found.causes] == [rule]

@@ -427,3 +427,18 @@ def test_no_servo_with_a_control_range_is_told_once(servo, told):
     found = row(4 * ['range="-60 60"'], servo)
     said = [each for each in found.hints if each.rule == "control-range-forgotten"]
     assert [len(each.edit) for each in said] == [4] * told, found.text()
+
+
+def test_servos_that_damping_mends_are_told_without_one_that_it_does_not():
+    """The third is thrown to and fro by its clipped force, whatever damps it."""
+    arm = "".join(
+        f'<body name="b{i}" pos="{i} 0 1"><joint name="j{i}" axis="0 0 1"/>'
+        f'<geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="{mass}"/></body>'
+        for i, mass in enumerate((2, 2, 0.005))
+    )
+    servos = "".join(f'<position name="s{i}" joint="j{i}" kp="500" forcerange="-28 28"/>' for i in range(3))
+    text = (
+        f'<mujoco><option integrator="implicitfast"/><worldbody>{arm}</worldbody><actuator>{servos}</actuator></mujoco>'
+    )
+    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["undamped-servo"]).causes
+    assert found.elements == ('actuator "s0"', 'actuator "s1"')

@@ -1,38 +1,65 @@
-"""Meshes that overlap by their convex hulls alone: their own surfaces do not meet."""
+"""Meshes that overlap by their convex hulls alone: what is in there does not meet their own surfaces."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
-from clinic.diagnosis.engine import MESH, Contact
+from clinic.diagnosis.engine import CAPSULE, CYLINDER, MESH, SPHERE, Contact
 from clinic.diagnosis.probes.overlap import beginning
 from clinic.diagnosis.probes.shape import root_of
-from clinic.diagnosis.probes.surface import SDF, Triangle, triangles
+from clinic.diagnosis.probes.surface import SDF, Triangle, nearest, triangles
 from clinic.diagnosis.probes.vector import Vector, add, at, cross, dot, sub, times
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 PAIRS = 24  # the deepest ones are looked at
 FACES = 4000  # of a finer mesh nothing is told
-DEEP = 0.05  # of the smaller mesh's radius
+DEEP = 0.05  # of the smaller one's radius
+BESIDE = 8  # points of a rod to each side of its middle
 
 
 @kept
 def closed_holes(simulation: Simulation) -> dict[tuple[int, int], float]:
-    """The depth, as a share of the smaller mesh's radius, of pairs at the start whose surfaces do not meet.
+    """The depth, as a share of the smaller one's radius, of pairs at the start whose surfaces do not meet.
 
-    Parts of one mechanism are left out: how they nest is `overlap_of_relatives`'s.
+    They are meshes, or a mesh and a ball, capsule or cylinder. Parts of one mechanism are left out: how they nest is
+    `overlap_of_relatives`'s.
     """
     kinds, radii = simulation.model("geom_type"), simulation.model("geom_rbound")
     owner, bodies = root_of(simulation), simulation.model("geom_bodyid")
     made = {}
     for contact in _deepest(simulation):
         share = -contact.distance / max(min(radii[geom] for geom in contact.geoms), 1e-9)
-        meshes = all(int(kinds[geom]) in (MESH, SDF) for geom in contact.geoms)
-        strangers = len({owner[int(bodies[geom])] for geom in contact.geoms} - {0}) == 2
-        if strangers and meshes and contact.force > 0 and share > DEEP and not _meet(simulation, *contact.geoms):
+        meshes = [geom for geom in contact.geoms if int(kinds[geom]) in (MESH, SDF)]
+        trees = {owner[int(bodies[geom])] for geom in contact.geoms}
+        if len(trees) < 2 or contact.force <= 0 or share <= DEEP:
+            continue
+        if len(meshes) == 2:
+            apart = 0 not in trees and not _meet(simulation, *meshes)
+        else:
+            apart = bool(meshes) and _clear(simulation, meshes[0], sum(contact.geoms) - meshes[0])
+        if apart:
             made[contact.geoms] = share
     return made
+
+
+def _clear(simulation: Simulation, mesh: int, other: int) -> bool:
+    """Whether a ball, capsule or cylinder is in a hole of a mesh: it does not meet its surface, nor is it inside."""
+    kind, (radius, half) = int(simulation.model("geom_type")[other]), simulation.row("geom_size", other, 3)[:2]
+    faces = _in_world(simulation, mesh)
+    if kind not in (SPHERE, CAPSULE, CYLINDER) or not faces:
+        return False
+    now = beginning(simulation)
+    middle, frame = at(now.geom_xpos, other), now.geom_xmat[9 * other : 9 * other + 9]
+    ends = 0.0 if kind == SPHERE else half
+    line = [add(middle, times(frame, (0.0, 0.0, ends * step / BESIDE))) for step in range(-BESIDE, BESIDE + 1)]
+    around = [add(point, (side * radius,) * 3) for point in (line[0], line[-1]) for side in (-1.0, 1.0)]
+    close = _near(faces, [(around[0], around[1], around[2]), (around[1], around[2], around[3])])
+    if any(math.dist(nearest(face, point), point) < radius for point in line for face in close):
+        return False
+    up = [(middle, add(middle, (0.0, 0.0, 1.0), 1e3), middle)]
+    return sum(_crosses(each, face) for each in up for face in faces) % 2 == 0
 
 
 def _deepest(simulation: Simulation) -> list[Contact]:

@@ -42,8 +42,8 @@ The number: how far from the mesh's own surface another mechanism touches it wit
 radius, or of 2.5 radii of what touches it where that is less; below 0.15 is well. MuJoCo's manual, Computation,
 Collision detection: meshes are replaced by their hulls. The edit, `type="sdf"`, collides with the surface itself: it is
 slow and may shake, and proves the cause. What to build instead are primitives, or the mesh cut into convex pieces.
-A hint tells of meshes that begin in each other's hulls by a twentieth of their radius, as the links of a chain do,
-where no edge of one goes through a face of the other.
+So it is with a ball, capsule or cylinder that begins in the hull by a twentieth of its radius and does not meet the
+surface, a bar in a hook. A hint tells of meshes that begin so in each other's hulls, as the links of a chain do.
 
 When it is wrong: a coarse collision mesh whose hull is meant to be filled. Parts of one mechanism, and two mechanisms
 that collide, are not looked at.
@@ -57,7 +57,7 @@ from clinic.diagnosis.engine import MESH
 from clinic.diagnosis.probes.hulls import DEEP, closed_holes, holes_closed
 from clinic.diagnosis.probes.surface import away, touched_off_surface
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.suspect import Level, Suspect
 
 TITLE = "A hull that closes a mesh's hole"
 FAMILIES = ("falls-through", "stuck", "jumps-at-start")
@@ -84,4 +84,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if geoms:
         names, edits = tuple(of.name("geom", geom) for geom in geoms), model.set("geom", geoms, "type", "sdf")
         says = f"{len(closed)} pairs of meshes overlap at the start by their hulls, and their surfaces do not meet."
-        yield Suspect(names, "type", "mesh", "sdf", edits, holes_closed(), DEEP, says, "no overlap", level="hint")
+        things = {geom for pair in closed for geom in pair} - {*geoms}
+        if things:
+            says = f"{of.name('geom', min(things))} begins in its hull, and does not meet its surface."
+        level: Level = "cause" if things else "hint"
+        yield Suspect(names, "type", "mesh", "sdf", edits, holes_closed(), DEEP, says, "no overlap", level=level)

@@ -34,6 +34,7 @@ from collections.abc import Iterable, Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import BOX, FREE, HINGE, PLANE, SLIDE, Contact
+from clinic.diagnosis.probes.hulls import closed_holes
 from clinic.diagnosis.probes.overlap import at_start, beginning, buried
 from clinic.diagnosis.probes.shape import box, geoms_of_tree, root_of
 from clinic.diagnosis.reader_model import ReaderModel
@@ -52,6 +53,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Whatever is buried deepest, raised until it is free; the upper one of two bodies; else boxes halved."""
     simulation = model.simulation
     found = {root: each for root, each in buried(simulation).items() if each[0] > MOST}
+    hulls = closed_holes(simulation) if found else {}
+    found = {root: each for root, each in found.items() if each[1].geoms not in hulls}
     if not found or (model.start.key < 0 and simulation.count("key")):
         return  # where there are keyframes, what begins is begun from one
     bodies, owner, kinds = simulation.model("geom_bodyid"), root_of(simulation), simulation.model("geom_type")

@@ -38,7 +38,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.overlap import legged, of_relatives, relatives
-from clinic.diagnosis.probes.shape import root_of, thickness
+from clinic.diagnosis.probes.shape import root_of, roots, thickness
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -66,8 +66,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     xml = "".join(f'<exclude body1="{names[one]}" body2="{names[other]}"/>' for one, other in deep)
     named = all(names[body] for pair in deep for body in pair)
     bodies = tuple(simulation.name("body", body) for pair in sorted(deep, key=deep.__getitem__)[::-1] for body in pair)
-    if not deep or (model.source is not None and model.source.urdf and any(0 in pair for pair in deep)):
-        return  # what a URDF has for a base is often carried by something else
+    based = model.source is not None and model.source.urdf and any(0 in pair for pair in deep)
+    if not deep or (based and len(roots(simulation)) > 1):
+        return  # what a URDF has for a base is often carried by something else, but for that of a single arm
     static = any(not root_of(simulation)[body] for pair in deep for body in pair)
     says = f"They overlap by {1000 * max(deep.values()):.3g} mm" + (
         "; the parent is fixed to the world, so that the filter of parents does not apply." if static else "."

@@ -1,0 +1,81 @@
+"""A tool hangs on a link's origin, beside the site that the link has for it.
+
+An arm's last link has a site for what is mounted on it: `attachment_site`, `flange`. A hand that is put into the link
+without that site's `pos` and `quat` sits in the wrist, or looks to the side.
+
+Bad:
+
+    <mujoco>
+      <worldbody>
+        <body name="wrist" pos="0 0 0.5">
+          <joint axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0 0.1 0" size="0.04"/>
+          <site name="attachment_site" pos="0 0.1 0" quat="-1 1 0 0"/>
+          <body name="hand">
+            <geom type="box" size="0.03 0.06 0.03" pos="0 0 0.03"/>
+          </body>
+        </body>
+      </worldbody>
+    </mujoco>
+
+Good:
+
+    -       <body name="hand">
+    +       <body name="hand" pos="0 0.1 0" quat="-1 1 0 0">
+
+The number: how far a body without a joint, with neither place nor turn of its own, is from the only site of its parent
+that is called attachment, flange, mount, tool or TCP: more than 1 cm.
+
+When it is wrong: a part of the link that is written as a body.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.probes.vector import norm, sub, written
+from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
+
+TITLE = "A tool beside the site that it belongs to"
+FAMILIES = ("wrong-numbers", "jumps-at-start", "drifts")
+SINCE = "0.1"
+AFLOAT = True
+LEVEL = "hint"
+UNPLANTED = "few healthy models have a tool in a body of its own, and a site for it"
+
+PLACE = re.compile(r"attach|flange|mount|tool|tcp", re.IGNORECASE)
+NEAR = 0.01  # m
+
+
+def suspects(model: ReaderModel) -> Iterator[Suspect]:
+    """Each tool that its link's site calls elsewhere."""
+    of = model.simulation
+    for body in range(1, of.count("body")):
+        bare = not any(of.row("body_pos", body, 3)) and abs(of.row("body_quat", body, 4)[0]) == 1
+        sites, element = _sites(of, body), model.element("body", body)
+        if not bare or of.joints_of(body) or len(sites) != 1 or element is None or _off(of, body) <= NEAR:
+            continue
+        place, turn = written(of.row("site_pos", sites[0], 3)), written(of.row("site_quat", sites[0], 4))
+        edits = set_attribute(element, "pos", place), set_attribute(element, "quat", turn)
+        link, site = of.name("body", int(of.model("body_parentid")[body])), of.name("site", sites[0])
+        says = f"It hangs on the origin of {link}, whose {site} is {100 * _off(of, body):.3g} cm away."
+        probe = Probe("a tool from the site of its link", "m", _off, (body,), dynamic=False)
+        yield Suspect((of.name("body", body), site), "pos, quat", "left out", f"{place}, {turn}", edits, probe, NEAR,
+                      says, "at the site")  # fmt: skip
+
+
+def _sites(of: Simulation, body: int) -> list[int]:
+    """The sites of a body's parent that are for tools; none of the world's."""
+    parent, names = int(of.model("body_parentid")[body]), of.names("site")
+    owners = of.model("site_bodyid") if parent else ()
+    return [site for site, owner in enumerate(owners) if int(owner) == parent and PLACE.search(names[site])]
+
+
+def _off(of: Simulation, body: int) -> float:
+    """How far a body is from the nearest site of its parent for tools, in m."""
+    here = of.row("body_pos", body, 3)
+    return min((norm(sub(of.row("site_pos", site, 3), here)) for site in _sites(of, body)), default=0.0)

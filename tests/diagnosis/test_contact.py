@@ -203,3 +203,20 @@ def test_a_bar_in_the_opening_of_a_hook_is_no_overlap(x, rule):
     )
     found = examine(NativeEngine(), {"model.xml": text}, select=["hull-over-hole", "overlap-at-start"])
     assert [each.rule for each in found.causes] == [rule]
+
+
+@pytest.mark.parametrize(("others", "told"), [(3, True), (1, False)])
+def test_the_one_mocap_body_of_four_that_things_bump_into_is_told(others, told):
+    mark = '<body name="m{0}" mocap="true" pos="{0} 0 1"><geom size="0.1" {1}/></body>'
+    ghosts = "".join(mark.format(i, 'contype="0" conaffinity="0"') for i in range(1, 1 + others))
+    text = f"<mujoco><worldbody>{FLOOR}{mark.format(0, '')}{ghosts}{BOX.format(z=0.05, more='')}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["visual-collides"])
+    assert [each.elements for each in found.hints] == [('geom 1 of body "m0"',)] * told
+
+
+@pytest.mark.parametrize(("name", "told"), [("obstacle", True), ("obstacle_visual", False)])
+def test_an_obstacle_that_nothing_touches_is_told(name, told):
+    wall = f'<geom name="{name}" type="box" pos="1 0 0.2" size="0.05 1 0.2" contype="0" conaffinity="0"/>'
+    text = f"<mujoco><worldbody>{FLOOR}{wall}{BOX.format(z=0.05, more='')}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["touches-nothing"])
+    assert [each.elements for each in found.hints] == [('geom "obstacle"',)] * told

@@ -81,3 +81,24 @@ def test_a_link_that_mujoco_fuses_is_weighed(floating: bool) -> None:
         )
     (found,) = examine(NativeEngine(), {"rover.urdf": text.replace("</robot>", f"{root}</robot>")}).hints
     assert (found.rule, found.elements) == ("inertia-unlike-geoms", ('body "body"',))
+
+
+@pytest.mark.parametrize(("others", "told"), [("fixed", True), ("continuous", False)])
+def test_wheels_that_are_all_fixed_and_have_an_axis_are_told(others: str, told: bool) -> None:
+    inertial = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    wheel = (
+        '<link name="{0}_wheel">{2}</link><joint name="{0}_wheel_joint" type="{1}"><parent link="base"/>'
+        '<child link="{0}_wheel"/><axis xyz="0 1 0"/></joint>'
+    )
+    kinds = [("left", "fixed"), ("right", "fixed"), ("rear", others)]
+    text = f'<robot name="r"><link name="base"/>{"".join(wheel.format(*kind, inertial) for kind in kinds)}</robot>'
+    found = examine(NativeEngine(), {"rover.urdf": text}, select=["urdf-fixed-with-range"]).hints
+    assert [len(each.elements) for each in found] == [3] * told
+
+
+@pytest.mark.parametrize(("ends", "told"), [('lower="0" upper="0"', True), ("", False)])
+def test_joints_that_all_have_a_point_for_a_range_are_told(ends: str, told: bool) -> None:
+    limit = f'<limit effort="1" velocity="1" {ends}/></joint>'
+    text = ROVER.format(i=0.3, parent="base").replace('"continuous"', '"revolute"').replace("</joint>", limit)
+    found = examine(NativeEngine(), {"rover.urdf": text}, select=["range-empty"]).hints
+    assert [each.elements for each in found] == [('joint "axle"',)] * told

@@ -42,6 +42,7 @@ FIELDS = {  # attribute: field, width of a row, columns compared
     "body": {
         "mass": ("body_mass", 1, (0,)),
         "center of mass": ("body_ipos", 3, (0, 1, 2)),
+        "inertia": ("body_inertia", 3, (0, 1, 2)),
         "pos": ("body_pos", 3, (0, 1, 2)),
     },
 }
@@ -157,7 +158,7 @@ def swapped(one: str, other: str) -> bool:
 def _apart(one: tuple[float, ...], other: tuple[float, ...]) -> float:
     wide = max(map(abs, (*one, *other)))
     pairs = zip(one, other, strict=True)
-    return max(apart(a, b) if len(one) == 1 else 100 * abs(a - b) / max(wide, 1e-9) for a, b in pairs)
+    return max(apart(a, b) if len(one) == 1 else 100 * abs(a - b) / max(wide, 1e-12) for a, b in pairs)
 
 
 def _unlike(simulation: Simulation, kind: str, attribute: str, index: int, other: int) -> float:

@@ -38,8 +38,8 @@ Good:
 The number: bodies that are called a wheel, caster, tyre, foot, finger, pad, jaw or claw, that have geoms and none which
 collides, nor has what hangs on them, while other parts of the same robot collide.
 
-So is a geom that stands still and is called a floor, ground, terrain, table, step, stair, ramp or wall, has masks of
-zero, and has nothing that stands still and collides around it or in its body.
+So is a geom that stands still and is called a floor, ground, terrain, table, step, stair, ramp, wall, obstacle or
+barrier, has masks of zero, and has nothing that stands still and collides around it or in its body.
 
 When it is wrong: parts that another geom stands in for, such as a sphere of the calf for the foot.
 """
@@ -67,7 +67,9 @@ PART = re.compile(
     re.IGNORECASE,
 )
 
-GROUND = re.compile(r"(?<![a-z])(floor|ground|terrain|table|step|stair|ramp|wall)s?(?![a-z])", re.IGNORECASE)
+GROUND = re.compile(
+    r"(?<![a-z])(floor|ground|terrain|table|step|stair|ramp|wall|obstacle|barrier)s?(?![a-z])", re.IGNORECASE
+)
 SEEN = re.compile(r"visual|(?<![a-z])vis(?![a-z])|light|marker|line|goal|target|shadow", re.IGNORECASE)
 CONTACT, THIN = 1 << 4, 0.01  # mjtDisableBit; m
 CASTER = re.compile(r"caster|castor", re.IGNORECASE)

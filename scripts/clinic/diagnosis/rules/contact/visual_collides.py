@@ -25,7 +25,8 @@ Good:
     +     <default class="visual"><geom group="2" contype="0" conaffinity="0" mass="0"/></default>
 
 The number: geoms whose class or name says visual, in a body that has another geom that collides, with masks that are
-not zero; and transparent ones of the world or a mocap body that are called target, marker, waypoint or indicator.
+not zero; and transparent ones of the world or a mocap body that are called target, marker, waypoint or indicator;
+and the one of four geoms of mocap bodies and more that something can touch.
 
 When it is wrong: a geom that is seen and touched, and is called so for its group.
 """
@@ -50,6 +51,7 @@ UNPLANTED = "only a name says what a geom is for"
 SEEN = re.compile(r"(?<![a-z])(visuals?|vis)(?![a-z])", re.IGNORECASE)
 MARK = re.compile(r"(?<![a-z])(target|marker|waypoint|indicator)(?![a-rt-z])", re.IGNORECASE)
 OPAQUE = 0.9  # of alpha
+MANY = 3  # geoms of mocap bodies
 CONTACT = 1 << 4  # mjtDisableBit
 BOTH = re.compile(r"coll", re.IGNORECASE)
 
@@ -59,7 +61,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     if int(of.model("opt.disableflags")[0]) & CONTACT:
         return
-    found = [geom for geom in range(of.count("geom")) if _marks(of, geom)]
+    marks = [geom for geom in range(of.count("geom")) if _marks(of, geom)]
+    found = [*marks, *_odd_mocap(of)]
     for body in range(1, of.count("body")):
         geoms = [geom for geom in of.geoms_of(body) if solid(of, geom)]
         seen = [geom for geom in geoms if (each := model.element("geom", geom)) is not None and _seen(each)]
@@ -67,7 +70,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not found:
         return
     says = f"{of.name('geom', found[0])} is called visual, and touches things beside the geom that is made for it."
-    if _marks(of, found[0]):
+    if not marks and _odd_mocap(of):
+        says = f"{of.name('geom', found[0])} stops what it comes to, and the geoms of all other mocap bodies do not."
+    if marks:
         says = f"{of.name('geom', found[0])} is transparent and called a mark, and stops what comes to it."
     edits = model.set("geom", found, "contype", "0") + model.set("geom", found, "conaffinity", "0")
     masks = ", ".join(f"{int(of.model(f'geom_{mask}')[found[0]])}" for mask in ("contype", "conaffinity"))
@@ -83,6 +88,19 @@ def _marks(of: Simulation, geom: int) -> bool:
     still = not int(of.model("body_weldid")[body]) or int(of.model("body_mocapid")[body]) >= 0
     if not called or not still or not 0 < of.model("geom_rgba")[4 * geom + 3] < OPAQUE:
         return False
+    return _stops(of, geom)
+
+
+def _odd_mocap(of: Simulation) -> list[int]:
+    """The one geom of mocap bodies that stops things, where three others and more do not."""
+    mocap = [body for body, each in enumerate(of.model("body_mocapid")) if int(each) >= 0]
+    geoms = [geom for body in mocap for geom in of.geoms_of(body)]
+    odd = [geom for geom in geoms if _stops(of, geom)]
+    return odd if len(odd) == 1 and len(geoms) > MANY else []
+
+
+def _stops(of: Simulation, geom: int) -> bool:
+    """Whether something that moves may touch a geom."""
     moving = {*of.moving_bodies}
     return any(int(owner) in moving and collides(of, geom, each) for each, owner in enumerate(of.model("geom_bodyid")))
 

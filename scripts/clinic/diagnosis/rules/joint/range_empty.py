@@ -74,7 +74,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _urdf(model: ReaderModel) -> Iterator[Suspect]:
     """Revolute and prismatic joints of a URDF without an upper limit above the lower one, by what is wrong."""
     found: dict[str, list[Element]] = {}
-    bounded = False
     root = model.source.root if model.source is not None and model.source.urdf else None
     for joint in root.children if root is not None else ():
         if joint.tag != "joint" or joint.get("type") not in ("revolute", "prismatic"):
@@ -86,9 +85,10 @@ def _urdf(model: ReaderModel) -> Iterator[Suspect]:
         elif low >= high:
             found.setdefault("a point" if low == high else "written from its upper end to its lower", []).append(joint)
         else:
-            bounded = True
-    if not bounded and "written from its upper end to its lower" not in found:
+            found.setdefault("", [])
+    if found.keys() == {"left out"}:
         return  # a pendulum that is meant to turn, in the words of another type
+    found.pop("", None)
     for what, joints in found.items():
         limit = joints[0].first("limit")
         now = f"{limit.get('lower')} {limit.get('upper')}".strip() if limit is not None else "left out"

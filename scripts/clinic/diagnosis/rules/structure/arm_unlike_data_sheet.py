@@ -93,7 +93,7 @@ FEW = 2  # lengths, or axes, that may be wrong in an arm that is still the one o
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Rows of hinges that have nearly all numbers of an arm whose name stands in the model."""
-    arms = called(_names(model)) if longest_row(model.simulation) >= LEAST else []
+    arms = called(names_in(model)) if longest_row(model.simulation) >= LEAST else []
     for count in dict.fromkeys(len(arm.axes) for arm in arms):
         alike = [arm for arm in arms if len(arm.axes) == count]
         for row in rows_of_hinges(model.simulation, count):
@@ -107,7 +107,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 yield from _ranges(model, arm, row)
 
 
-def _names(model: ReaderModel) -> str:
+def names_in(model: ReaderModel) -> str:
     """What a model and its parts are called."""
     source, of = model.source, model.simulation
     own = [source.main, source.root.get("model"), source.root.get("name")] if source is not None else []

@@ -71,7 +71,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         meant = f"<{MEANT[tag]}>" if tag in MEANT else "removed"
         says = f"URDF has no <{tag}> there, and it is passed over."
         probe = counted("elements that are passed over", len(holders))
-        yield Suspect(tuple(holders), tag, f"<{tag}>", meant, (), probe, 0.0, says, "none")
+        yield Suspect(tuple(holders), tag, f"<{tag}>", meant, (), probe, len(holders) - 0.5, says, "none")
 
 
 def _mimics(source: Source) -> Iterator[Suspect]:

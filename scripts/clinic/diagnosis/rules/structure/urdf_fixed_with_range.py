@@ -27,7 +27,7 @@ Good:
     +   <joint name="elbow" type="revolute">
 
 The number: fixed joints with a range that is not a point and an effort above 0. One is told; more of them were made by
-the program that wrote the file.
+the program that wrote the file. And two or more wheels that have an axis and are all fixed.
 
 When it is wrong: a joint that is locked on purpose and may be freed again.
 """
@@ -48,21 +48,31 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "the healthy models that faults are planted in are MJCF"
 
+WHEEL = re.compile(r"(?i)(?<!caster_)wheel")
 SLIDES = re.compile("(?i)slid|prism|lift|finger")
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """The joint of a URDF that is alone so."""
+    """The joint of a URDF that is alone so, and wheels that are all so."""
     if model.source is None or not model.source.urdf:
         return
-    found = [each for each in model.source.elements("joint") if each.get("type") == "fixed" and _range(each)]
-    if len(found) == 1:
-        low, high = _range(found[0]) or (0.0, 0.0)
-        value = "prismatic" if SLIDES.search(found[0].get("name")) else "revolute"
-        names, edits = (f'joint "{found[0].get("name")}"',), (set_attribute(found[0], "type", value),)
-        says = f"It is fixed, and its limit is {low:g} to {high:g}."
-        probe = counted("fixed joints with a range", 1)
-        yield Suspect(names, "type", "fixed", value, edits, probe, 0.5, says, "none", at=found[0])
+    joints = [each for each in model.source.elements("joint") if each.get("type") == "fixed"]
+    ranged = [each for each in joints if _range(each)]
+    if len(ranged) == 1:
+        low, high = _range(ranged[0]) or (0.0, 0.0)
+        value = "prismatic" if SLIDES.search(ranged[0].get("name")) else "revolute"
+        yield _fixed(ranged, value, f"It is fixed, and its limit is {low:g} to {high:g}.")
+    wheels = [each for each in model.source.elements("joint") if WHEEL.search(each.get("name"))]
+    held = [each for each in joints if each in wheels and each.first("axis")]
+    if len(held) > 1 and all(each in joints for each in wheels):
+        yield _fixed(held, "continuous", "All wheels are fixed, and have an axis to turn about.")
+
+
+def _fixed(joints: list[Element], value: str, says: str) -> Suspect:
+    names = tuple(f'joint "{each.get("name")}"' for each in joints)
+    edits = tuple(set_attribute(each, "type", value) for each in joints)
+    probe = counted("fixed joints with a range or an axis", len(joints))
+    return Suspect(names, "type", "fixed", value, edits, probe, 0.5, says, "none", at=joints[0])
 
 
 def _range(joint: Element) -> tuple[float, float] | None:

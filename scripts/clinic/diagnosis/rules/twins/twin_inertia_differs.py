@@ -75,4 +75,4 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """What differs in a pair, a suspect for each quantity."""
     for found, clear in odd(model, ("body",), ("mass", "center of mass", "inertia", "gravcomp")):
         yield suspect(model, found, clear)
-    yield from siblings(model, "body", ("mass", "center of mass"))
+    yield from siblings(model, "body", ("mass", "center of mass", "inertia"))

@@ -1,0 +1,58 @@
+"""Robots that are sold: what of a model must be as its data sheet has it."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.finding import Finding
+from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.probes.robots import known_robots
+from clinic.diagnosis.rules import rules
+
+GO2 = rules()["robot-unlike-data-sheet"].example("Good")
+
+
+def told(text: str) -> list[Finding]:
+    return list(examine(NativeEngine(), {"model.xml": text}, select=["robot-unlike-data-sheet"]).hints)
+
+
+@pytest.mark.parametrize("robot", known_robots(), ids=lambda robot: robot.names[0])
+def test_a_data_sheet_has_ranges_and_efforts_that_can_be(robot):
+    assert all(line.low < line.high and line.effort >= 0 for line in robot.joints)
+    assert all(name == name.lower() and "-" not in name for name in robot.names)
+
+
+@pytest.mark.parametrize(
+    ("now", "wrong", "elements", "value"),
+    [
+        (
+            'FL_hip_joint" axis="1 0 0" range="-60 60',
+            'FL_hip_joint" axis="1 0 0" range="-06 60',
+            'joint "FL_hip_joint"',
+            "-60 60",
+        ),
+        ('FL_calf_joint" ctrlrange="-45.43 45.43', 'FL_calf_joint" ctrlrange="-23.7 23.7', "actuator 2", "45.43"),
+    ],
+    ids=["range", "effort"],
+)
+def test_one_number_that_is_not_the_data_sheets_is_told_and_mended(now, wrong, elements, value):
+    assert now in GO2
+    (found,) = told(GO2.replace(now, wrong))
+    assert (found.elements, found.value) == ((elements,), value)
+    assert [each.attribute for each in found.edit] == [found.attribute]
+
+
+@pytest.mark.parametrize(
+    ("now", "other"),
+    [
+        ("-45.43 45.43", "-35.55 35.55"),
+        ('axis="1 0 0" range="-60 60"', 'axis="-1 0 0" range="-60 60"'),
+        ("23.7", "5"),
+        ('model="go2"', 'model="dog"'),
+    ],
+    ids=["another release", "the other way", "all scaled", "no name"],
+)
+def test_what_no_single_number_contradicts_is_not_told(now, other):
+    text = GO2.replace(now, other)
+    assert text != GO2
+    assert told(text) == []

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import re
 import tomllib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
@@ -91,9 +91,14 @@ def _arm(name: str, said: dict[str, Any]) -> Arm:
 
 def called(text: str) -> list[Arm]:
     """The arms of which a text has a name, as a word of its own; the maker's in common where it names none of them."""
-    said = re.sub(r"[^a-z0-9]+", "_", f" {text.lower()} ")
-    named = [arm for arm in known_arms() if any(f"_{name}_" in said for name in arm.names)]
+    named = [arm for arm in known_arms() if is_called(text, arm.names)]
     return [arm for arm in named if arm.lengths] or named
+
+
+def is_called(text: str, names: Iterable[str]) -> bool:
+    """Whether a text has one of the names, in lower case, as a word of its own."""
+    said = re.sub(r"[^a-z0-9]+", "_", f" {text.lower()} ")
+    return any(f"_{name}_" in said for name in names)
 
 
 def differs(measured: float, right: float) -> bool:

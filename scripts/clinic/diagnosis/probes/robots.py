@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.probes.arms import is_called
 from clinic.diagnosis.simulation import Simulation, kept
 
 
@@ -59,9 +60,7 @@ def known_robots() -> tuple[Robot, ...]:
 
 def robot_in(of: Simulation, text: str) -> tuple[Robot, dict[int, list[Joint]]] | None:
     """The robot that a text names and of which a model has the most joints, with the lines of each, in rad and m."""
-    said = re.sub(r"[^a-z0-9]+", "_", f" {text.lower()} ")
-    named = [robot for robot in known_robots() if any(f"_{name}_" in said for name in robot.names)]
-    found = [(robot, _lines(of, robot)) for robot in named]
+    found = [(robot, _lines(of, robot)) for robot in known_robots() if is_called(text, robot.names)]
     return max(found, key=lambda each: len(each[1]), default=None)
 
 

@@ -1,4 +1,4 @@
-"""A robot that is called as one that is sold, and has joints with another strength or range.
+"""A robot that is called as one that is sold, and has another weight, or joints of another strength or range.
 
 Most joints of the model are as the maker describes them, and a few are not: the calf's torque was given to the thigh,
 digits changed places. A policy that is trained with it asks of the real robot what it cannot do.
@@ -55,7 +55,8 @@ Good:
     +     <motor joint="FL_thigh_joint" ctrlrange="-23.7 23.7"/>
 
 The number: by how much the largest force on a joint is off that of the data sheet, more than 5 %, where a third of all
-joints have theirs; and by how many degrees an end of a range is elsewhere, more than 3, where two thirds have theirs.
+joints have theirs; by how many degrees an end of a range is elsewhere, more than 3, where two thirds have theirs; and
+how many times the whole robot weighs what it should, or the other way round, more than 1.5.
 The numbers are from the makers' own descriptions, for the robots in `probes/robots.toml`; of releases that differ, one.
 
 When it is wrong: a model of another release of the robot, or one that leaves some strength in reserve.
@@ -69,6 +70,7 @@ from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.robots import Joint, Robot, limit_of, nearest_range, robot_in
+from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.structure.arm_unlike_data_sheet import names_in
@@ -84,6 +86,7 @@ UNPLANTED = "few of the models of the bench are robots that are sold"
 
 STRONGER, STRONG = 0.05, 1 / 3  # of the effort; the share of the joints that have theirs
 ELSEWHERE, SAME, WIDE = math.radians(3), math.radians(0.6), 2 / 3  # of an end of a range; the share that have theirs
+HEAVY = 1.5  # times the mass
 METRE = 0.05  # of a slide counts like a radian
 FEWEST = 4  # joints that agree
 
@@ -92,8 +95,28 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The joints of a robot by that name that are unlike most others of it."""
     found = robot_in(model.simulation, names_in(model))
     if found is not None:
+        yield from _mass(model, *found)
         yield from _efforts(model, *found)
         yield from _ranges(model, *found)
+
+
+def _mass(model: ReaderModel, robot: Robot, joints: dict[int, list[Joint]]) -> Iterator[Suspect]:
+    of, bodies = model.simulation, model.simulation.model("jnt_bodyid")
+    tops = tuple(dict.fromkeys(root_of(of)[int(bodies[joint])] for joint in joints))
+    if not robot.mass or len(tops) > 1 or len(joints) < len(robot.joints) or _heavy(of, tops[0], robot.mass) <= HEAVY:
+        return
+    now, value = f"{_weight(of, tops[0]):.3g} kg", f"{robot.mass:.3g} kg"
+    says = f"It weighs {now}, and {robot.names[0]} weighs {value}."
+    probe = Probe("mass over the data sheet's, or this over it", "", _heavy, (tops[0], robot.mass), dynamic=False)
+    yield Suspect((of.name("body", tops[0]),), "mass", now, value, (), probe, HEAVY, says, value)
+
+
+def _weight(of: Simulation, top: int) -> float:
+    return sum(of.model("body_mass")[body] for body, root in enumerate(root_of(of)) if root == top)
+
+
+def _heavy(of: Simulation, top: int, mass: float) -> float:
+    return max(_weight(of, top) / mass, mass / max(_weight(of, top), 1e-9))
 
 
 def _efforts(model: ReaderModel, robot: Robot, joints: dict[int, list[Joint]]) -> Iterator[Suspect]:

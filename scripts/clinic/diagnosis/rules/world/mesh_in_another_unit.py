@@ -38,6 +38,7 @@ When it is wrong: a planet beside a satellite.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
@@ -51,6 +52,7 @@ TITLE = "A mesh in another unit"
 FAMILIES = ("jumps-at-start", "explodes", "wrong-mass", "camera", "stuck")
 SINCE = "0.1"
 
+STAND_IN = re.compile(r"fake|dummy|virtual", re.IGNORECASE)  # a frame of a URDF that must have a shape
 TIMES, USUAL = 100.0, 10.0  # the usual size
 TINY, SPECK, METRES = 0.001, 0.0003, 10.0  # m, half of a mesh's length
 
@@ -63,6 +65,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     small = [mesh for mesh, size in sizes.items() if size < min(usual / TIMES, TINY)]
     if len(small) < len(sizes):  # a screw among links
         small = [mesh for mesh in small if sizes[mesh] < SPECK and 1000 * sizes[mesh] > usual / USUAL]
+        small = [mesh for mesh in small if not STAND_IN.search(of.names("mesh")[mesh])]
     for meshes, factor in ((large, 0.001), (small, 1000.0)):
         if not meshes:
             continue

@@ -31,7 +31,7 @@ Good:
     +         <inertial pos="0 0 0.15" mass="1" diaginertia="0.008 0.008 0.0005"/>
 
 The number: how far the middle of the geoms is from the joint, in half lengths of the box around them; told from 0.7 on
-of one link that a hinge turns, where no other is so. Of two it may be a habit: the URDF of the UR10 has two.
+of one link that a hinge turns, where no other is so; of several where the joint is half of that outside of the box.
 
 When it is wrong: a link that a counterweight balances.
 """
@@ -55,7 +55,7 @@ AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "which link a counterweight balances, only its maker knows"
 
-FAR = 0.7
+FAR, OUTSIDE = 0.7, 0.5
 LIGHT = 0.01  # of the mass of all
 
 
@@ -66,7 +66,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     heavy = [(body, each) for body, each in explicit(model) if each.mass > LIGHT * all_mass and _turns(of, body)]
     here = [(body, each) for body, each in heavy if not any(each.centre)]
     found = [(body, each) for body, each in here if norm(each.solid_centre) > FAR * max(each.half)]
-    if len(found) != 1 or len(heavy) - len(here) < 2:
+    if len(found) != 1:
+        found = [(body, each) for body, each in found if each.outside > OUTSIDE * max(each.half)]
+    if len(heavy) - len(here) < 2:
         return
     for body, each in found:
         far = norm(each.solid_centre)

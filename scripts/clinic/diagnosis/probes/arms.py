@@ -39,6 +39,7 @@ class Arm:
         height: From the base along the first axis to where the second is nearest to it, in m; None where not known.
         mass: Of all links that move, in kg; None where not known.
         ranges: Of each joint, in rad; empty where not known.
+        grip: From the last axis but one to the way of its own fingers, about the last axis, in rad; None without.
     """
 
     names: tuple[str, ...]
@@ -48,6 +49,7 @@ class Arm:
     height: float | None
     mass: float | None
     ranges: tuple[tuple[float, float], ...]
+    grip: float | None
 
     @property
     def numbers(self) -> tuple[float, ...]:
@@ -86,7 +88,8 @@ def _arm(name: str, said: dict[str, Any]) -> Arm:
     ranges = tuple((math.radians(low), math.radians(high)) for low, high in said.get("range", ()))
     axes = tuple(said["axes"].split()) if "axes" in said else ("",) * (len(lengths) + 1)
     metres = None if height is None else height / 1000
-    return Arm((name, *said.get("also", ())), lengths, offsets, axes, metres, said.get("mass"), ranges)
+    grip = math.radians(said["grip"]) if "grip" in said else None
+    return Arm((name, *said.get("also", ())), lengths, offsets, axes, metres, said.get("mass"), ranges, grip)
 
 
 def called(text: str) -> list[Arm]:

@@ -45,8 +45,9 @@ from the data sheet's; more than 2 mm and 1 %, where at most two of an arm's are
 the axes that point against the ones in the maker's description while all the others point along them, at most two. Or
 how far the shoulder is from where it is above the base; or how many times the links together weigh what they do there,
 from 2 on, or from 1.02 where it is to 0.3 % what those of a sister model weigh; or by how many degrees a range goes
-beyond theirs, from 3 to 45. Lengths and axes are those of Denavit and Hartenberg, so that they do not depend on where
-the frames of the bodies are. They are from the makers' own descriptions, for the arms in `probes/arms.toml`.
+beyond theirs, from 3 to 45; or by how many the fingers of its own hand slide another way, more than 5. Lengths and
+axes are those of Denavit and Hartenberg, so that they do not depend on where the frames of the bodies are. They are
+from the makers' own descriptions, for the arms in `probes/arms.toml`.
 
 When it is wrong: an arm that was measured itself, or one of another series of the same name.
 """
@@ -58,6 +59,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import SLIDE
 from clinic.diagnosis.probes.arms import (
     NEAR,
     Arm,
@@ -72,7 +74,7 @@ from clinic.diagnosis.probes.arms import (
     measured,
     rows_of_hinges,
 )
-from clinic.diagnosis.probes.vector import Vector, add, norm, sub, times, transpose, written
+from clinic.diagnosis.probes.vector import Vector, add, cross, dot, norm, sub, times, transpose, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -84,6 +86,7 @@ AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "one of the 81 models of the bench is an arm that is sold"
 
+TURNED = math.radians(5)  # of a hand
 BASE = re.compile(r"(?<![a-z])base(?![a-z])|link_?0(?![0-9])", re.IGNORECASE)
 FARTHER, ANOTHER, ROUND = math.radians(3), math.radians(45), 2 * math.pi - 0.1
 HEAVY, SISTER, SAME = 2.0, 1.02, 0.003  # times the mass of the data sheet; with a sister's mass; how near to it
@@ -103,6 +106,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 yield from (_length(model, arm, row, which) for which in wrong)
                 yield from _axes(model, arm, row)
                 yield from _base(model, arm, row)
+                yield from _hand(model, arm, row)
                 yield from _mass(model, arm, row)
                 yield from _ranges(model, arm, row)
 
@@ -208,6 +212,33 @@ def _away(of: Simulation, joints: tuple[int, ...], height: float) -> Vector:
 
 def _sunk(of: Simulation, joints: tuple[int, ...], height: float) -> float:
     return norm(_away(of, joints, height))
+
+
+def _hand(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
+    """Fingers that slide another way than those of the arm's own hand: it is mounted at another angle."""
+    of, last = model.simulation, int(model.simulation.model("jnt_bodyid")[row.joints[-1]])
+    fingers = [
+        joint
+        for joint, body in enumerate(of.model("jnt_bodyid"))
+        if of.joint_type(joint) == SLIDE and last in of.ancestors(int(body))
+    ]
+    if arm.grip is None or len(fingers) != 2 or _aside(of, row.joints, fingers[0], arm.grip) <= TURNED:
+        return
+    off = math.degrees(_aside(of, row.joints, fingers[0], arm.grip))
+    hand = of.name("body", int(of.model("body_parentid")[int(of.model("jnt_bodyid")[fingers[0]])]))
+    says = f"Its fingers slide {off:.0f} degrees aside from where those of {arm.names[0]} do: it is mounted so."
+    names = (hand, *(of.name("joint", joint) for joint in fingers))
+    value = f"turned by {off:.0f} degrees about the flange"
+    probe = Probe("way of the fingers off the data sheet's", "rad", _aside, (row.joints, fingers[0], arm.grip))
+    yield Suspect(names, "quat", "", value, (), probe, TURNED, says, value, level="hint")
+
+
+def _aside(of: Simulation, joints: tuple[int, ...], finger: int, grip: float) -> float:
+    """By which angle a finger slides aside from the data sheet's way, in rad; to and fro are one way."""
+    across, along = measured(of, joints).axes[-2:]
+    way = of.data_row("xaxis", finger, 3)
+    angle = math.atan2(dot(way, across), dot(way, cross(across, along))) - grip
+    return abs((angle + math.pi / 2) % math.pi - math.pi / 2)
 
 
 def _mass(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:

@@ -76,6 +76,8 @@ class Idle(NamedTuple):
 IDLE = {
     Idle("actuator", "biasprm", ("biastype", "affine"), "Without biastype it is not read, and the control is a force."),
     Idle("actuator", "lengthrange", ("", ""), "It is no muscle, and nothing else reads its lengthrange."),
+    Idle("actuator", "forcerange", ("forcelimited", "true"), "forcelimited says false: its force has no limit."),
+    Idle("actuator", "ctrlrange", ("ctrllimited", "true"), "ctrllimited says false: it takes any control."),
     Idle("joint", "springref", ("stiffness", "above 0"), "Without stiffness there is no spring."),
     Idle("geom", "friction", ("condim", "3"), "With condim 1, which decides here, a contact has no friction."),
     Idle("geom", "fluidshape", ("", "density or viscosity of <option>"), "There is no fluid: both are 0 in <option>."),
@@ -119,6 +121,8 @@ def _read(of: Simulation, attribute: str, each: int) -> bool:
         case "lengthrange":
             kinds = {int(of.model(f"actuator_{what}type")[each]) for what in ("gain", "bias")}
             return bool(kinds & {MUSCLE, USER})
+        case "forcerange" | "ctrlrange":
+            return bool(of.model(f"actuator_{attribute.removesuffix('range')}limited")[each])
         case "springref":
             return bool(of.model("jnt_stiffness")[each]) or any(of.model("tendon_stiffness"))
         case "friction":

@@ -220,3 +220,15 @@ def test_an_obstacle_that_nothing_touches_is_told(name, told):
     text = f"<mujoco><worldbody>{FLOOR}{wall}{BOX.format(z=0.05, more='')}</worldbody></mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["touches-nothing"])
     assert [each.elements for each in found.hints] == [('geom "obstacle"',)] * told
+
+
+def test_a_ball_inside_a_solid_mesh_is_in_no_hole():
+    corners = " ".join(f"{x} {y} {z}" for x in (-0.1, 0.1) for y in (-0.1, 0.1) for z in (0, 0.2))
+    faces = "0 1 3 0 3 2 4 6 7 4 7 5 0 4 5 0 5 1 2 3 7 2 7 6 0 2 6 0 6 4 1 5 7 1 7 3"
+    text = (
+        f'<mujoco><asset><mesh name="block" vertex="{corners}" face="{faces}"/></asset><worldbody>'
+        '<geom type="mesh" mesh="block"/><body pos="0 0 0.1"><freejoint/><geom size="0.05"/></body>'
+        "</worldbody></mujoco>"
+    )
+    found = examine(NativeEngine(), {"model.xml": text}, select=["hull-over-hole", "overlap-at-start"])
+    assert [each.rule for each in found.causes] == ["overlap-at-start"]

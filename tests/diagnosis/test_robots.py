@@ -62,3 +62,51 @@ def test_what_no_single_number_contradicts_is_not_told(now, other):
 def test_a_robot_of_another_weight_is_told(mass: str, says: str) -> None:
     text = GO2.replace('mass="7"', f'mass="{mass}"')
     assert [each.says for each in told(text)] == [says] * bool(says)
+
+
+def panda(way: str, finger: str = "finger_joint") -> str:
+    """The axes of a Panda, and a hand whose fingers slide along `way`."""
+    links = ("0 0 .333", "0 0 1"), ("0 0 0", "0 1 0"), ("0 0 .316", "0 0 1"), (".0825 0 0", "0 -1 0")
+    links += ("-.0825 0 .384", "0 0 1"), ("0 0 0", "0 -1 0"), (".088 0 0", "0 0 -1")
+    opened = "".join(
+        f'<body name="panda_link{i}" pos="{pos}"><joint name="panda_joint{i}" axis="{axis}"/><geom size=".02" mass="2"/>'
+        for i, (pos, axis) in enumerate(links, 1)
+    )
+    hand = "".join(
+        f'<body name="f{i}"><joint name="{finger}{i}" type="slide" axis="{way}"/><geom size=".01"/></body>'
+        for i in (1, 2)
+    )
+    key = '<keyframe><key name="home" qpos="0 0 0 0 0 0 -.785 0 0"/></keyframe>'
+    body = f'{opened}<body name="hand" pos="0 0 -.107"><geom size=".02"/>{hand}</body>{"</body>" * len(links)}'
+    return f'<mujoco model="panda"><worldbody><body name="panda_link0">{body}</body></worldbody>{key}</mujoco>'
+
+
+@pytest.mark.parametrize(
+    ("way", "finger", "told"),
+    [
+        ("1 -1 0", "finger_joint", False),
+        ("0 1 0", "finger_joint", True),
+        ("1 1 0", "panda_finger_joint", True),
+        ("0 1 0", "wsg50_joint", False),
+        ("0 0 1", "finger_joint", False),
+    ],
+)
+def test_the_hand_of_a_panda_is_mounted_at_45_degrees(way: str, finger: str, told: bool) -> None:
+    found = examine(NativeEngine(), {"model.xml": panda(way, finger)}, select=["arm-unlike-data-sheet"]).hints
+    assert [each.elements[0] for each in found if each.attribute == "quat"] == ['body "hand"'] * told
+
+
+@pytest.mark.parametrize("name", ["a1", "b2", "spot"])
+def test_an_everyday_name_makes_no_robot(name: str) -> None:
+    leg = '<body name="{0}"><joint name="{0}_hip" range="-60 60"/><geom size="0.1" mass="10"/></body>'
+    legs = "".join(leg.format(side) for side in ("left", "right", "middle", "hind"))
+    body = f'<body name="{name}"><freejoint/><geom size="0.1"/>{legs}</body>'
+    assert told(f"<mujoco><worldbody>{body}</worldbody></mujoco>") == []
+
+
+def test_a_ball_joint_is_none_of_the_data_sheet() -> None:
+    ball = GO2.replace(
+        '<joint name="FL_hip_joint" axis="1 0 0" range="-60 60"/>', '<joint name="FL_hip_joint" type="ball"/>'
+    )
+    assert ball != GO2
+    assert told(ball.replace('<motor joint="FL_hip_joint" ctrlrange="-23.7 23.7"/>', "")) == []

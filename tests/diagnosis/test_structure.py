@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from clinic.diagnosis.diagnose import Diagnosis, examine
+from clinic.diagnosis.edit import apply
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import rules
 
@@ -204,3 +205,28 @@ def test_a_weld_that_a_load_pulls_apart_is_told(mass, told):
 """
     says = found(text, "soft-equality")
     assert [" apart where the equality holds them together" in each for each in says] == [True] * told
+
+
+@pytest.mark.parametrize(
+    ("hand", "told"),
+    [
+        ('<body name="hand"><geom size="0.02"/></body>', True),
+        ('<body name="hand" euler="0 0 0"><geom size="0.02"/></body>', True),
+        ('<body name="hand"><geom size="0.02" pos="0 0.1 0"/></body>', False),
+        (
+            '<body name="hand" pos="0 0.1 0"><geom size="0.02"/></body><body name="imu"><geom size="0.01"/></body>',
+            False,
+        ),
+        ('<body name="skin"><geom size="0.02" contype="0" conaffinity="0"/></body>', False),
+    ],
+    ids=["at the origin", "with a turn", "drawn at the site", "at the site", "only seen"],
+)
+def test_a_tool_that_is_not_at_the_site_for_it_is_told(hand: str, told: bool) -> None:
+    site = '<site name="attachment_site" pos="0 0.1 0" quat="-1 1 0 0"/>'
+    wrist = f'<body name="wrist"><joint axis="0 1 0"/><geom size="0.04"/>{site}{hand}</body>'
+    text = f"<mujoco><worldbody>{wrist}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["mount-off-its-site"]).hints
+    assert [each.elements[0] for each in found] == ['body "hand"'] * told
+    for each in found:
+        edited = apply({"model.xml": text}, each.edit)
+        assert NativeEngine().compile(edited["model.xml"], {}).count("body") == 3

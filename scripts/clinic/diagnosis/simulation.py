@@ -123,6 +123,11 @@ class Simulation:
         if forward:
             self.engine.forward()
 
+    def as_written(self) -> None:
+        """To the pose in which the file has its bodies: each joint at its `ref`, whatever the start is."""
+        self.engine.reset(-1)
+        self.engine.forward()
+
     def steps(self, seconds: float, most: int = 4000) -> int:
         """How many steps `seconds` are; fewer for a large model, so that no run takes long."""
         size = max(1, self.count("dof")) * max(1.0, self.count("geom") / 50)

@@ -137,7 +137,7 @@ def _chains(of: Simulation) -> tuple[tuple[int, ...], ...]:
 @kept
 def measured(of: Simulation, joints: tuple[int, ...]) -> Measured:
     """The numbers of hinges in a row."""
-    of.begin()
+    of.as_written()
     places = [of.data_row("xanchor", joint, 3) for joint in joints]
     axes = [of.data_row("xaxis", joint, 3) for joint in joints]
     lengths, offsets, foot, shoulder = [], [], places[0], places[0]

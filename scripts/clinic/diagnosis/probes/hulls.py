@@ -16,7 +16,8 @@ from clinic.diagnosis.suspect import Probe
 PAIRS = 24  # the deepest ones are looked at
 FACES = 4000  # of a finer mesh nothing is told
 DEEP = 0.05  # of the smaller one's radius
-BESIDE = 8  # points of a rod to each side of its middle
+MOST_POINTS = 50  # of a rod to each side of its middle
+OBLIQUE = (0.1234, 0.4567, 1.0)  # along no edge of what is drawn
 
 
 @kept
@@ -53,13 +54,15 @@ def _clear(simulation: Simulation, mesh: int, other: int) -> bool:
     now = beginning(simulation)
     middle, frame = at(now.geom_xpos, other), now.geom_xmat[9 * other : 9 * other + 9]
     ends = 0.0 if kind == SPHERE else half
-    line = [add(middle, times(frame, (0.0, 0.0, ends * step / BESIDE))) for step in range(-BESIDE, BESIDE + 1)]
+    count = max(1, min(MOST_POINTS, math.ceil(ends / radius)))
+    line = [add(middle, times(frame, (0.0, 0.0, ends * step / count))) for step in range(-count, count + 1)]
     around = [add(point, (side * radius,) * 3) for point in (line[0], line[-1]) for side in (-1.0, 1.0)]
     close = _near(faces, [(around[0], around[1], around[2]), (around[1], around[2], around[3])])
+    if any(_pierces(line[0], line[-1], face) for face in close):
+        return False
     if any(math.dist(nearest(face, point), point) < radius for point in line for face in close):
         return False
-    up = [(middle, add(middle, (0.0, 0.0, 1.0), 1e3), middle)]
-    return sum(_crosses(each, face) for each in up for face in faces) % 2 == 0
+    return sum(_pierces(middle, add(middle, OBLIQUE, 1e3), face) for face in faces) % 2 == 0
 
 
 def _deepest(simulation: Simulation) -> list[Contact]:
@@ -103,24 +106,26 @@ def _box(points: Sequence[Vector]) -> tuple[Vector, Vector]:
 
 
 def _crosses(edges: Triangle, face: Triangle) -> bool:
-    """Whether an edge of one triangle goes through another one.
+    """Whether an edge of one triangle goes through another one."""
+    return any(_pierces(*edge, face) for edge in zip(edges, (*edges[1:], edges[0]), strict=True))
+
+
+def _pierces(start: Vector, end: Vector, face: Triangle) -> bool:
+    """Whether a line from one point to another goes through a triangle.
 
     T. Moeller and B. Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.
     """
     a, b, c = face
-    for start, end in zip(edges, (*edges[1:], edges[0]), strict=True):
-        along = sub(end, start)
-        normal = cross(along, sub(c, a))
-        across = dot(sub(b, a), normal)
-        if not across:
-            continue
-        from_a = sub(start, a)
-        u = dot(from_a, normal) / across
-        around = cross(from_a, sub(b, a))
-        v, t = dot(along, around) / across, dot(sub(c, a), around) / across
-        if u >= 0 and v >= 0 and u + v <= 1 and 0 <= t <= 1:
-            return True
-    return False
+    along = sub(end, start)
+    normal = cross(along, sub(c, a))
+    across = dot(sub(b, a), normal)
+    if not across:
+        return False
+    from_a = sub(start, a)
+    u = dot(from_a, normal) / across
+    around = cross(from_a, sub(b, a))
+    v, t = dot(along, around) / across, dot(sub(c, a), around) / across
+    return u >= 0 and v >= 0 and u + v <= 1 and 0 <= t <= 1
 
 
 def _closed(simulation: Simulation) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 
 from clinic.diagnosis.engine import HINGE, SLIDE, Contact
 from clinic.diagnosis.probes.run import State, state
@@ -98,13 +99,16 @@ def extent(simulation: Simulation, root: int) -> float:
     return max(far, default=0.0)
 
 
-def buried(simulation: Simulation) -> dict[int, tuple[float, Contact]]:
-    """For each tree that can fall its deepest overlap at the start with something else, as a share of its extent."""
+def buried(simulation: Simulation, holes: Collection[tuple[int, int]] = ()) -> dict[int, tuple[float, Contact]]:
+    """For each tree that can fall its deepest overlap at the start with something else, as a share of its extent.
+
+    Pairs of geoms in `holes` are passed over.
+    """
     bodies, owner = simulation.model("geom_bodyid"), root_of(simulation)
     made: dict[int, tuple[float, Contact]] = {}
     falls = falling(simulation)
     for contact in beginning(simulation).contacts:
-        trees = {owner[int(bodies[geom])] for geom in contact.geoms}
+        trees = {owner[int(bodies[geom])] for geom in contact.geoms if contact.geoms not in holes}
         for root in trees & set(falls) if len(trees) > 1 else ():
             share = -contact.distance / max(extent(simulation, root), 1e-9)
             if contact.force > 0 and share > made.get(root, (0.0, contact))[0]:

@@ -48,8 +48,7 @@ class Pairs:
 
     def __init__(self, simulation: Simulation) -> None:
         self.of = simulation
-        simulation.engine.reset(-1)
-        simulation.engine.forward()
+        simulation.as_written()
         fields = ("xpos", "xmat", "xipos", "ximat", "xanchor", "xaxis", "geom_xpos", "geom_xmat", "site_xpos")
         self._data = {name: simulation.data(name) for name in (*fields, "cam_xpos", "cam_xmat")}
         self.pairs: dict[str, list[tuple[int, int]]] = {kind: by_name(simulation, kind) for kind in KINDS}

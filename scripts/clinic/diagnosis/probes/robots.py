@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.arms import is_called
 from clinic.diagnosis.simulation import Simulation, kept
 
@@ -23,6 +23,11 @@ class Joint(NamedTuple):
     effort: float  # 0 where it is not known
     low: float
     high: float
+
+    @property
+    def turns(self) -> bool:
+        """Whether it is one of hinges: no slide of the table goes two metres."""
+        return self.high - self.low > 2
 
 
 @dataclass(frozen=True)
@@ -67,9 +72,10 @@ def robot_in(of: Simulation, text: str) -> tuple[Robot, dict[int, list[Joint]]] 
 def _lines(of: Simulation, robot: Robot) -> dict[int, list[Joint]]:
     made = {}
     for joint, name in enumerate(of.names("joint")):
-        lines = [line for line in robot.joints if line.pattern.search(name.lower())]
-        unit = math.pi / 180 if of.joint_type(joint) == HINGE else 1.0
-        if lines:
+        hinge = of.joint_type(joint) == HINGE
+        lines = [line for line in robot.joints if line.pattern.search(name.lower()) and hinge == line.turns]
+        if lines and of.joint_type(joint) in (HINGE, SLIDE):
+            unit = math.pi / 180 if hinge else 1.0
             made[joint] = [line._replace(low=unit * line.low, high=unit * line.high) for line in lines]
     return made
 
@@ -77,10 +83,9 @@ def _lines(of: Simulation, robot: Robot) -> dict[int, list[Joint]]:
 @kept
 def limit_of(of: Simulation, joint: int) -> Limit | None:
     """What limits the force on a joint most; None where nothing does, or several actuators drive it."""
-    found = []
+    found, own = [], _drivers(of).get(joint, [])
     if of.model("jnt_actfrclimited")[joint]:
         found.append(Limit("joint", joint, "actuatorfrcrange", of.row("jnt_actfrcrange", joint, 2)[1], 1.0))
-    own = [actuator for actuator in range(of.count("actuator")) if of.driven_joint(actuator) == joint]
     if len(own) > 1:
         return None
     for actuator in own:
@@ -92,6 +97,15 @@ def limit_of(of: Simulation, joint: int) -> Limit | None:
             most = of.row("actuator_ctrlrange", actuator, 2)[1]
             found.append(Limit("actuator", actuator, "ctrlrange", gear * gain * most, gear * gain))
     return min(found, key=lambda limit: limit.force, default=None)
+
+
+@kept
+def _drivers(of: Simulation) -> dict[int, list[int]]:
+    made: dict[int, list[int]] = {}
+    for actuator in range(of.count("actuator")):
+        if (joint := of.driven_joint(actuator)) is not None:
+            made.setdefault(joint, []).append(actuator)
+    return made
 
 
 def nearest_range(lines: Sequence[Joint], low: float, high: float) -> tuple[float, float]:

@@ -111,7 +111,7 @@ def odd_ones(simulation: Simulation, kind: str, more: float = UNLIKE) -> Iterato
         if len(group) < least:
             continue
         table = {name: {i: _row(simulation, kind, name, i) for i in group} for name in FIELDS[kind]}
-        alike = _without_thumb(group, list(table.values()))
+        alike = _without_thumb(group, [rows for name, rows in table.items() if name != "inertia"])
         for attribute, rows in table.items():
             for index in alike:
                 others = [each for each in alike if each != index]
@@ -140,6 +140,7 @@ def _row(simulation: Simulation, kind: str, attribute: str, index: int) -> tuple
     field, width, columns = FIELDS[kind][attribute]
     place = simulation.dof(index) if field.startswith("dof") else index
     row = simulation.row(field, place, width)
+    row = tuple(sorted(row)) if attribute == "inertia" else row  # whatever its axes are called
     return tuple(abs(row[column]) if attribute in LENGTHS else row[column] for column in columns)  # mirrored or not
 
 

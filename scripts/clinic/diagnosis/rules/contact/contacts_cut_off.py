@@ -25,7 +25,8 @@ Good:
 
 The number: the most contacts of one geom with the height field after letting go; 50 is `mjMAXCONPAIR` of `mjmodel.h`.
 
-When it is wrong: a wide body that keeps still on its 50 contacts.
+When it is wrong: a wide body that keeps still on its 50 contacts; a field that your code fills, so that the edit of its
+rows has to be one of the code.
 """
 
 from __future__ import annotations
@@ -57,19 +58,19 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = {pair: most for pair, most in _most(of).items() if most >= KEPT}
     for geom in dict.fromkeys(field for field, _ in found):
         wide = max((other for field, other in found if field == geom), key=lambda one: of.model("geom_rbound")[one])
-        named = of.names("hfield")[int(of.model("geom_dataid")[geom])]
-        field = next((each for each in source.elements("hfield") if each.get("name") == named), None)
-        if field is None:
+        fields, which = list(source.elements("hfield")), int(of.model("geom_dataid")[geom])
+        if which >= len(fields):  # of an attached model
             continue
+        field = fields[which]
         cells = _cells(of.model("geom_rbound")[wide], field)
         level = not field.get("file") and not field.get("elevation")
         edits = (
             tuple(set_attribute(field, *each) for each in zip(("nrow", "ncol"), cells, strict=True)) if level else ()
         )
-        now = f"{field.get('nrow')}, {field.get('ncol')}" if level else "as in its file"
+        now = "as in its file" if field.get("file") else f"{field.get('nrow')}, {field.get('ncol')}"
         says = f"{of.name('geom', wide)} has {KEPT} contacts with it, which is all that are kept of two geoms."
-        probe = Probe("most contacts of one geom with the terrain", "", _largest)
-        yield Suspect((f'hfield "{named}"', of.name("geom", wide)), "nrow, ncol", now, ", ".join(cells), edits,
+        probe = Probe("most contacts of one geom with the terrain", "", _largest, (geom,))
+        yield Suspect((of.name("hfield", which), of.name("geom", wide)), "nrow, ncol", now, ", ".join(cells), edits,
                       probe, KEPT - 0.5, says, "below 50", share=0.9, at=field)  # fmt: skip
 
 
@@ -91,11 +92,12 @@ def _most(of: Simulation) -> dict[tuple[int, int], int]:
         pairs = Counter(
             (field, sum(contact.geoms) - field)
             for contact in of.engine.contacts()
+            if min(contact.geoms) >= 0
             for field in fields & {*contact.geoms}
         )
         most |= {pair: max(each, most.get(pair, 0)) for pair, each in pairs.items()}
     return most
 
 
-def _largest(of: Simulation) -> float:
-    return float(max(_most(of).values(), default=0))
+def _largest(of: Simulation, geom: int) -> float:
+    return float(max((most for (field, _), most in _most(of).items() if field == geom), default=0))

@@ -52,9 +52,9 @@ MOST = 0.05
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Whatever is buried deepest, raised until it is free; the upper one of two bodies; else boxes halved."""
     simulation = model.simulation
-    found = {root: each for root, each in buried(simulation).items() if each[0] > MOST}
-    hulls = closed_holes(simulation) if found else {}
-    found = {root: each for root, each in found.items() if each[1].geoms not in hulls}
+    deep = any(share > MOST for share, _ in buried(simulation).values())
+    holes = closed_holes(simulation) if deep else {}
+    found = {root: each for root, each in buried(simulation, holes).items() if each[0] > MOST}
     if not found or (model.start.key < 0 and simulation.count("key")):
         return  # where there are keyframes, what begins is begun from one
     bodies, owner, kinds = simulation.model("geom_bodyid"), root_of(simulation), simulation.model("geom_type")

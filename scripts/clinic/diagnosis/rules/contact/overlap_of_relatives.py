@@ -37,6 +37,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.arms import longest_row
 from clinic.diagnosis.probes.overlap import legged, of_relatives, relatives
 from clinic.diagnosis.probes.shape import root_of, roots, thickness
 from clinic.diagnosis.reader_model import ReaderModel
@@ -48,7 +49,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 CASE = "joint-snaps-at-start"
 
-MOST = 0.1
+MOST, ARM = 0.1, 5  # hinges in a row of an arm
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -67,7 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     named = all(names[body] for pair in deep for body in pair)
     bodies = tuple(simulation.name("body", body) for pair in sorted(deep, key=deep.__getitem__)[::-1] for body in pair)
     based = model.source is not None and model.source.urdf and any(0 in pair for pair in deep)
-    if not deep or (based and len(roots(simulation)) > 1):
+    if not deep or (based and (len(roots(simulation)) > 1 or longest_row(simulation) < ARM)):
         return  # what a URDF has for a base is often carried by something else, but for that of a single arm
     static = any(not root_of(simulation)[body] for pair in deep for body in pair)
     says = f"They overlap by {1000 * max(deep.values()):.3g} mm" + (

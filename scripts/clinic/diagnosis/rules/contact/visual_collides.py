@@ -26,7 +26,7 @@ Good:
 
 The number: geoms whose class or name says visual, in a body that has another geom that collides, with masks that are
 not zero; and transparent ones of the world or a mocap body that are called target, marker, waypoint or indicator;
-and the one of four geoms of mocap bodies and more that something can touch.
+and those of the one of four mocap bodies and more that something can touch.
 
 When it is wrong: a geom that is seen and touched, and is called so for its group.
 """
@@ -51,34 +51,36 @@ UNPLANTED = "only a name says what a geom is for"
 SEEN = re.compile(r"(?<![a-z])(visuals?|vis)(?![a-z])", re.IGNORECASE)
 MARK = re.compile(r"(?<![a-z])(target|marker|waypoint|indicator)(?![a-rt-z])", re.IGNORECASE)
 OPAQUE = 0.9  # of alpha
-MANY = 3  # geoms of mocap bodies
+MANY = 3  # mocap bodies
 CONTACT = 1 << 4  # mjtDisableBit
 BOTH = re.compile(r"coll", re.IGNORECASE)
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """All geoms that are called visual and collide, where something else of their body is to collide."""
+    """All geoms that are only to be seen and collide, by what says so."""
     of = model.simulation
     if int(of.model("opt.disableflags")[0]) & CONTACT:
         return
-    marks = [geom for geom in range(of.count("geom")) if _marks(of, geom)]
-    found = [*marks, *_odd_mocap(of)]
+    seen = []
     for body in range(1, of.count("body")):
         geoms = [geom for geom in of.geoms_of(body) if solid(of, geom)]
-        seen = [geom for geom in geoms if (each := model.element("geom", geom)) is not None and _seen(each)]
-        found += seen if len(seen) < len(geoms) else []
-    if not found:
-        return
-    says = f"{of.name('geom', found[0])} is called visual, and touches things beside the geom that is made for it."
-    if not marks and _odd_mocap(of):
-        says = f"{of.name('geom', found[0])} stops what it comes to, and the geoms of all other mocap bodies do not."
-    if marks:
-        says = f"{of.name('geom', found[0])} is transparent and called a mark, and stops what comes to it."
-    edits = model.set("geom", found, "contype", "0") + model.set("geom", found, "conaffinity", "0")
-    masks = ", ".join(f"{int(of.model(f'geom_{mask}')[found[0]])}" for mask in ("contype", "conaffinity"))
-    names = tuple(of.name("geom", geom) for geom in found)
-    probe = counted("visual geoms that collide", len(found))
-    yield Suspect(names, "contype, conaffinity", masks, "0, 0", edits, probe, 0.5, says, "0, 0 for what is only seen")
+        visual = [geom for geom in geoms if (each := model.element("geom", geom)) is not None and _seen(each)]
+        seen += visual if len(visual) < len(geoms) else []
+    marks = [geom for geom in range(of.count("geom")) if _marks(of, geom)]
+    for geoms, says in (
+        (seen, "is called visual, and touches things beside the geom that is made for it."),
+        (marks, "is transparent and called a mark, and stops what comes to it."),
+        (_odd_mocap(of), "stops what it comes to, and the geoms of all other mocap bodies do not."),
+    ):
+        if not geoms:
+            continue
+        edits = model.set("geom", geoms, "contype", "0") + model.set("geom", geoms, "conaffinity", "0")
+        masks = ", ".join(f"{int(of.model(f'geom_{mask}')[geoms[0]])}" for mask in ("contype", "conaffinity"))
+        names = tuple(of.name("geom", geom) for geom in geoms)
+        probe, told = counted("visual geoms that collide", len(geoms)), f"{names[0]} {says}"
+        yield Suspect(
+            names, "contype, conaffinity", masks, "0, 0", edits, probe, 0.5, told, "0, 0 for what is only seen"
+        )
 
 
 def _marks(of: Simulation, geom: int) -> bool:
@@ -92,11 +94,12 @@ def _marks(of: Simulation, geom: int) -> bool:
 
 
 def _odd_mocap(of: Simulation) -> list[int]:
-    """The one geom of mocap bodies that stops things, where three others and more do not."""
-    mocap = [body for body, each in enumerate(of.model("body_mocapid")) if int(each) >= 0]
-    geoms = [geom for body in mocap for geom in of.geoms_of(body)]
-    odd = [geom for geom in geoms if _stops(of, geom)]
-    return odd if len(odd) == 1 and len(geoms) > MANY else []
+    """The geoms that stop things of the one mocap body that has some, where three others and more have none."""
+    mocap = [body for body, each in enumerate(of.model("body_mocapid")) if int(each) >= 0 and of.geoms_of(body)]
+    if len(mocap) <= MANY:
+        return []
+    odd = [geoms for body in mocap if (geoms := [geom for geom in of.geoms_of(body) if _stops(of, geom)])]
+    return [geom for geom in odd[0] if not _marks(of, geom)] if len(odd) == 1 else []
 
 
 def _stops(of: Simulation, geom: int) -> bool:

@@ -111,8 +111,7 @@ def _of_root(of: Simulation, body: int) -> list[int]:
 
 def _tilt(of: Simulation, joint: int) -> float:
     """The angle of a joint's axis to the vertical in degrees, at the zero pose."""
-    of.engine.reset(-1)
-    of.engine.forward()
+    of.as_written()
     return math.degrees(math.acos(min(1.0, abs(of.data_row("xaxis", joint, 3)[2]))))
 
 

@@ -80,8 +80,7 @@ def _gaps(of: Simulation) -> dict[int, tuple[float, float]]:
     """By hinge: how far its axis is from its own link and from the one above, in sizes of its own."""
     if of.count("joint") > LARGE:
         return {}
-    of.engine.reset(-1)
-    of.engine.forward()
+    of.as_written()
     parents, welds, kinds = of.model("body_parentid"), of.model("body_weldid"), of.model("geom_type")
     links: dict[int, list[int]] = {}
     for geom, body in enumerate(of.model("geom_bodyid")):

@@ -86,8 +86,8 @@ def _urdf(model: ReaderModel) -> Iterator[Suspect]:
             found.setdefault("a point" if low == high else "written from its upper end to its lower", []).append(joint)
         else:
             found.setdefault("", [])
-    if found.keys() == {"left out"}:
-        return  # a pendulum that is meant to turn, in the words of another type
+    if "" not in found:
+        found.pop("left out", None)  # a pendulum that is meant to turn, in the words of another type
     found.pop("", None)
     for what, joints in found.items():
         limit = joints[0].first("limit")

@@ -86,7 +86,8 @@ AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "one of the 81 models of the bench is an arm that is sold"
 
-TURNED = math.radians(5)  # of a hand
+TURNED, ACROSS = math.radians(5), 0.5  # of a hand; the sine of the angle between its fingers' way and the flange's axis
+HAND = re.compile(r"^([\w/]*[_/])?(panda\d*|fr3|fer)?_?finger_joint\d$", re.IGNORECASE)  # of the makers' own hand
 BASE = re.compile(r"(?<![a-z])base(?![a-z])|link_?0(?![0-9])", re.IGNORECASE)
 FARTHER, ANOTHER, ROUND = math.radians(3), math.radians(45), 2 * math.pi - 0.1
 HEAVY, SISTER, SAME = 2.0, 1.02, 0.003  # times the mass of the data sheet; with a sister's mass; how near to it
@@ -205,7 +206,7 @@ def _base(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
 def _away(of: Simulation, joints: tuple[int, ...], height: float) -> Vector:
     """From where the shoulder is to where the base has it, in m."""
     row = measured(of, joints)
-    of.begin()
+    of.as_written()
     parent = int(of.model("body_parentid")[int(of.model("jnt_bodyid")[joints[0]])])
     return sub(add(of.data_row("xpos", parent, 3), row.axes[0], height), row.shoulder)
 
@@ -220,25 +221,26 @@ def _hand(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     fingers = [
         joint
         for joint, body in enumerate(of.model("jnt_bodyid"))
-        if of.joint_type(joint) == SLIDE and last in of.ancestors(int(body))
+        if of.joint_type(joint) == SLIDE and last in of.ancestors(int(body)) and HAND.search(of.names("joint")[joint])
     ]
     if arm.grip is None or len(fingers) != 2 or _aside(of, row.joints, fingers[0], arm.grip) <= TURNED:
         return
     off = math.degrees(_aside(of, row.joints, fingers[0], arm.grip))
     hand = of.name("body", int(of.model("body_parentid")[int(of.model("jnt_bodyid")[fingers[0]])]))
     says = f"Its fingers slide {off:.0f} degrees aside from where those of {arm.names[0]} do: it is mounted so."
-    names = (hand, *(of.name("joint", joint) for joint in fingers))
-    value = f"turned by {off:.0f} degrees about the flange"
-    probe = Probe("way of the fingers off the data sheet's", "rad", _aside, (row.joints, fingers[0], arm.grip))
+    names, value = (hand, *(of.name("joint", joint) for joint in fingers)), f"turned by {off:.0f} degrees"
+    probe = Probe("way of the fingers off", "rad", _aside, (row.joints, fingers[0], arm.grip), dynamic=False)
     yield Suspect(names, "quat", "", value, (), probe, TURNED, says, value, level="hint")
 
 
 def _aside(of: Simulation, joints: tuple[int, ...], finger: int, grip: float) -> float:
     """By which angle a finger slides aside from the data sheet's way, in rad; to and fro are one way."""
-    across, along = measured(of, joints).axes[-2:]
-    way = of.data_row("xaxis", finger, 3)
-    angle = math.atan2(dot(way, across), dot(way, cross(across, along))) - grip
-    return abs((angle + math.pi / 2) % math.pi - math.pi / 2)
+    of.as_written()
+    across, along, way = (of.data_row("xaxis", joint, 3) for joint in (*joints[-2:], finger))
+    side, front = dot(way, across), dot(way, cross(across, along))
+    if math.hypot(side, front) < ACROSS:
+        return 0.0
+    return abs((math.atan2(side, front) - grip + math.pi / 2) % math.pi - math.pi / 2)
 
 
 def _mass(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:

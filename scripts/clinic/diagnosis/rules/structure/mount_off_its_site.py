@@ -24,7 +24,8 @@ Good:
     +       <body name="hand" pos="0 0.1 0" quat="-1 1 0 0">
 
 The number: how far a body without a joint, with neither place nor turn of its own, is from the only site of its parent
-that is called attachment, flange, mount, tool or TCP: more than 1 cm.
+that is called attachment, flange, mount, tool or TCP: more than 1 cm. It is the only such body there, can touch things,
+nothing else is at the site, and it is not drawn there.
 
 When it is wrong: a part of the link that is written as a body.
 """
@@ -34,7 +35,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.edit import remove_attribute, set_attribute
+from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.probes.vector import norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -49,23 +51,44 @@ UNPLANTED = "few healthy models have a tool in a body of its own, and a site for
 
 PLACE = re.compile(r"attach|flange|mount|tool|tcp", re.IGNORECASE)
 NEAR = 0.01  # m
+TURNS = ("euler", "axisangle", "xyaxes", "zaxis")
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each tool that its link's site calls elsewhere."""
     of = model.simulation
+    hung: dict[int, list[int]] = {}
     for body in range(1, of.count("body")):
-        bare = not any(of.row("body_pos", body, 3)) and abs(of.row("body_quat", body, 4)[0]) == 1
-        sites, element = _sites(of, body), model.element("body", body)
-        if not bare or of.joints_of(body) or len(sites) != 1 or element is None or _off(of, body) <= NEAR:
+        hung.setdefault(int(of.model("body_parentid")[body]), []).append(body)
+    for link, children in hung.items():
+        bare = [body for body in children if _bare(of, body)]
+        if len(bare) != 1 or any(_sites(of, body) and _off(of, body) <= NEAR for body in children):
+            continue
+        (body,), sites, element = bare, _sites(of, bare[0]), model.element("body", bare[0])
+        if len(sites) != 1 or element is None or _off(of, body) <= NEAR or _drawn_there(of, body, sites[0]):
             continue
         place, turn = written(of.row("site_pos", sites[0], 3)), written(of.row("site_quat", sites[0], 4))
-        edits = set_attribute(element, "pos", place), set_attribute(element, "quat", turn)
-        link, site = of.name("body", int(of.model("body_parentid")[body])), of.name("site", sites[0])
-        says = f"It hangs on the origin of {link}, whose {site} is {100 * _off(of, body):.3g} cm away."
+        written_turns = [remove_attribute(element, each) for each in TURNS if each in element.attributes]
+        edits = *written_turns, set_attribute(element, "pos", place), set_attribute(element, "quat", turn)
+        site = of.name("site", sites[0])
+        says = f"It hangs on the origin of {of.name('body', link)}, whose {site} is {100 * _off(of, body):.3g} cm away."
         probe = Probe("a tool from the site of its link", "m", _off, (body,), dynamic=False)
         yield Suspect((of.name("body", body), site), "pos, quat", "left out", f"{place}, {turn}", edits, probe, NEAR,
                       says, "at the site")  # fmt: skip
+
+
+def _bare(of: Simulation, body: int) -> bool:
+    """Whether a body is its parent's origin, and something hangs on it that can touch."""
+    here = not any(of.row("body_pos", body, 3)) and abs(of.row("body_quat", body, 4)[0]) == 1
+    parts = [each for each in range(body, of.count("body")) if body in of.ancestors(each)]
+    return here and not of.joints_of(body) and any(solid(of, geom) for each in parts for geom in of.geoms_of(each))
+
+
+def _drawn_there(of: Simulation, body: int, site: int) -> bool:
+    """Whether a body's own geoms are nearer to a site than to its origin: drawn in the frame of the link."""
+    there = of.row("site_pos", site, 3)
+    places = [of.row("geom_pos", geom, 3) for geom in of.geoms_of(body)]
+    return any(norm(sub(place, there)) < norm(place) for place in places)
 
 
 def _sites(of: Simulation, body: int) -> list[int]:

@@ -1,4 +1,4 @@
-"""A body's place is written again in all that is in it, and counts twice.
+"""A body's place is written again for its geoms, and counts twice.
 
 A geom's `pos` is in the frame of its body, and a link's `<origin>` in that of its joint. Where a file was made from
 another format, or by hand, the place of the body in its parent stands in both: the part is twice as far away.
@@ -32,7 +32,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.vector import norm, written
+from clinic.diagnosis.probes.vector import Vector, norm, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect, counted
 
@@ -54,7 +54,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     geoms = [geom for body in found for geom in of.geoms_of(body)]
     now = written(of.row("body_pos", found[0], 3))
-    says = f"{of.name('body', found[0])} is at {now} in its parent, and all that is in it again at {now}."
+    says = f"{of.name('body', found[0])} is at {now} in its parent, and its geoms again at {now}."
     names = tuple(of.name(kind, each) for kind, some in (("body", found), ("geom", geoms)) for each in some)
     probe = counted("bodies whose geoms have their place again", len(found))
     edits = model.set("geom", geoms, "pos", "0 0 0")
@@ -66,5 +66,14 @@ def _twice(model: ReaderModel, body: int) -> bool:
     place, geoms = of.row("body_pos", body, 3), of.geoms_of(body)
     if norm(place) < AWAY or sum(map(bool, place)) < 2 or any(model.value("geom", geom, "fromto") for geom in geoms):
         return False
-    there = (zip(of.row("geom_pos", geom, 3), place, strict=True) for geom in geoms)
-    return bool(geoms) and all(abs(a - b) < SAME for pairs in there for a, b in pairs)
+    return bool(geoms) and all(_again(model, geom, place) for geom in geoms)
+
+
+def _again(model: ReaderModel, geom: int, place: Vector) -> bool:
+    """Whether a place is written for a geom; a mesh is put elsewhere by its own centre."""
+    said = model.value("geom", geom, "pos") or model.value("geom", geom, "xyz") or ""
+    try:
+        numbers = [float(each) for each in said.split()]
+    except ValueError:
+        return False
+    return len(numbers) == len(place) and all(abs(a - b) < SAME for a, b in zip(numbers, place, strict=True))

@@ -54,12 +54,13 @@ Good:
     -     <motor joint="FL_thigh_joint" ctrlrange="-45.43 45.43"/>
     +     <motor joint="FL_thigh_joint" ctrlrange="-23.7 23.7"/>
 
-The number: by how much the largest force on a joint is off that of the data sheet, more than 5 %, where a third of all
-joints have theirs; by how many degrees an end of a range is elsewhere, more than 3, where two thirds have theirs; and
-how many times the whole robot weighs what it should, or the other way round, more than 1.5.
-The numbers are from the makers' own descriptions, for the robots in `probes/robots.toml`; of releases that differ, one.
+The number: by how much the largest force on a joint is off that of the data sheet, more than 5 %, where a third of the
+joints with a limit have theirs; by how many degrees an end of a range is elsewhere, more than 3, where two thirds have
+theirs; and, of such a robot, how many times the whole of it weighs what it should, or the other way round, more than
+1.5. Four joints at least must agree. The numbers are from the makers' own descriptions, for the robots in
+`probes/robots.toml`; of releases that differ, one.
 
-When it is wrong: a model of another release of the robot, or one that leaves some strength in reserve.
+When it is wrong: a model of another release of the robot, one that leaves some strength in reserve, or one with a load.
 """
 
 from __future__ import annotations
@@ -103,7 +104,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _mass(model: ReaderModel, robot: Robot, joints: dict[int, list[Joint]]) -> Iterator[Suspect]:
     of, bodies = model.simulation, model.simulation.model("jnt_bodyid")
     tops = tuple(dict.fromkeys(root_of(of)[int(bodies[joint])] for joint in joints))
-    if not robot.mass or len(tops) > 1 or len(joints) < len(robot.joints) or _heavy(of, tops[0], robot.mass) <= HEAVY:
+    if not robot.mass or len(tops) != 1 or not _is(*_ranged(of, joints)) or _heavy(of, tops[0], robot.mass) <= HEAVY:
         return
     now, value = f"{_weight(of, tops[0]):.3g} kg", f"{robot.mass:.3g} kg"
     says = f"It weighs {now}, and {robot.names[0]} weighs {value}."
@@ -142,11 +143,12 @@ def _efforts(model: ReaderModel, robot: Robot, joints: dict[int, list[Joint]]) -
     )
     limit, right = limits[worst], wrong[worst]
     probe = Probe("force off the data sheet's effort", "of it", _off, (worst, right), dynamic=False)
-    says = f"{of.name('joint', worst)} is given {limit.force:.4g} N m; that of {robot.names[0]} gives {right:.4g} N m."
-    says += f" So {alike} others have theirs."
+    unit = "N m" if of.joint_type(worst) == HINGE else "N"
+    says = f"{of.name('joint', worst)} is given {limit.force:.4g} {unit}; that of {robot.names[0]} gives {right:.4g}"
+    says += f" {unit}. {alike} others are given theirs."
     names = tuple(of.name(limit.kind, limit.of) for limit in limits.values())
     now, value = f"{limit.force / limit.scale:g}", values[worst]
-    yield Suspect(names, limit.attribute, now, value, edits, probe, STRONGER, says, f"{right:g} N m", level="hint")
+    yield Suspect(names, limit.attribute, now, value, edits, probe, STRONGER, says, f"{right:g} {unit}", level="hint")
 
 
 def _off(of: Simulation, joint: int, effort: float) -> float:
@@ -157,14 +159,9 @@ def _off(of: Simulation, joint: int, effort: float) -> float:
 
 def _ranges(model: ReaderModel, robot: Robot, joints: dict[int, list[Joint]]) -> Iterator[Suspect]:
     of = model.simulation
-    limited = {
-        joint: nearest_range(lines, *of.row("jnt_range", joint, 2))
-        for joint, lines in joints.items()
-        if of.model("jnt_limited")[joint]
-    }
-    wrong = {joint: right for joint, right in limited.items() if _elsewhere(of, joint, right) > ELSEWHERE}
-    alike = sum(_elsewhere(of, joint, right) < SAME for joint, right in limited.items())
-    if not wrong or alike < max(FEWEST, WIDE * len(limited)):
+    ranges, alike = _ranged(of, joints)
+    wrong = {joint: right for joint, right in ranges.items() if _elsewhere(of, joint, right) > ELSEWHERE}
+    if not wrong or not _is(ranges, alike):
         return
     worst = max(wrong, key=lambda joint: _elsewhere(of, joint, wrong[joint]))
     values = {joint: _written(model, joint, right) for joint, right in wrong.items()}
@@ -174,6 +171,21 @@ def _ranges(model: ReaderModel, robot: Robot, joints: dict[int, list[Joint]]) ->
     says = f"{of.name('joint', worst)} has {now}; that of {robot.names[0]} {value}, and {alike} others have theirs."
     names = tuple(of.name("joint", joint) for joint in wrong)
     yield Suspect(names, "range", now, value, edits, probe, ELSEWHERE, says, value, level="hint")
+
+
+def _ranged(of: Simulation, joints: dict[int, list[Joint]]) -> tuple[dict[int, tuple[float, float]], int]:
+    """The data sheet's range of each joint that has one, and how many joints have just that."""
+    ranges = {
+        joint: nearest_range(lines, *of.row("jnt_range", joint, 2))
+        for joint, lines in joints.items()
+        if of.model("jnt_limited")[joint]
+    }
+    return ranges, sum(_elsewhere(of, joint, right) < SAME for joint, right in ranges.items())
+
+
+def _is(ranges: dict[int, tuple[float, float]], alike: int) -> bool:
+    """Whether enough ranges are the data sheet's for it to be this robot."""
+    return alike >= max(FEWEST, WIDE * len(ranges))
 
 
 def _elsewhere(of: Simulation, joint: int, right: tuple[float, float]) -> float:

@@ -27,7 +27,8 @@ Good:
     +   <joint name="elbow" type="revolute">
 
 The number: fixed joints with a range that is not a point and an effort above 0. One is told; more of them were made by
-the program that wrote the file. And two or more wheels that have an axis and are all fixed.
+the program that wrote the file. And two or more wheels that have an axis and are fixed, where no joint is
+continuous.
 
 When it is wrong: a joint that is locked on purpose and may be freed again.
 """
@@ -48,7 +49,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "the healthy models that faults are planted in are MJCF"
 
-WHEEL = re.compile(r"(?i)(?<!caster_)wheel")
+WHEEL = re.compile(r"(?i)wheel(?!.*(cover|mount|guard|encoder|hub))(?<!caster_wheel)(?<!steering_wheel)")
 SLIDES = re.compile("(?i)slid|prism|lift|finger")
 
 
@@ -56,15 +57,15 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The joint of a URDF that is alone so, and wheels that are all so."""
     if model.source is None or not model.source.urdf:
         return
-    joints = [each for each in model.source.elements("joint") if each.get("type") == "fixed"]
+    all_joints = [each for each in model.source.root.children if each.tag == "joint"]
+    joints = [each for each in all_joints if each.get("type") == "fixed"]
     ranged = [each for each in joints if _range(each)]
     if len(ranged) == 1:
         low, high = _range(ranged[0]) or (0.0, 0.0)
         value = "prismatic" if SLIDES.search(ranged[0].get("name")) else "revolute"
         yield _fixed(ranged, value, f"It is fixed, and its limit is {low:g} to {high:g}.")
-    wheels = [each for each in model.source.elements("joint") if WHEEL.search(each.get("name"))]
-    held = [each for each in joints if each in wheels and each.first("axis")]
-    if len(held) > 1 and all(each in joints for each in wheels):
+    held = [each for each in joints if WHEEL.search(each.get("name")) and _turns(each)]
+    if len(held) > 1 and not any(each.get("type") == "continuous" for each in all_joints):
         yield _fixed(held, "continuous", "All wheels are fixed, and have an axis to turn about.")
 
 
@@ -73,6 +74,12 @@ def _fixed(joints: list[Element], value: str, says: str) -> Suspect:
     edits = tuple(set_attribute(each, "type", value) for each in joints)
     probe = counted("fixed joints with a range or an axis", len(joints))
     return Suspect(names, "type", "fixed", value, edits, probe, 0.5, says, "none", at=joints[0])
+
+
+def _turns(joint: Element) -> bool:
+    """Whether an axis is written for a joint that it could turn about."""
+    axis = joint.first("axis")
+    return axis is not None and bool(axis.get("xyz").strip("0. \t\n-+"))
 
 
 def _range(joint: Element) -> tuple[float, float] | None:

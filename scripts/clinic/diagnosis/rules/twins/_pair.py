@@ -116,6 +116,8 @@ def siblings(model: ReaderModel, kind: str, attributes: Collection[str] = ()) ->
         and (each.attribute, each.index) not in paired
         and (each.clear or (each.little and len(each.siblings) >= 3 and each.unlike > SOME) or _swapped(model, each))
     ]
+    heavier = {each.index for each in found if each.attribute == "mass"}
+    found = [each for each in found if each.attribute != "inertia" or each.index not in heavier]
     if len({each.index for each in found}) > 1:  # two that differ alike, left and right, are meant
         return
     for each in found:

@@ -3,7 +3,8 @@
 `biasprm` needs `biastype="affine"`: without it a `<general>` is a motor, its control a force. `lengthrange` tells a
 muscle how its tendon's length is scaled, and nobody else; `<position>` with a `ctrlrange` holds a length. `springref`
 needs a `stiffness`, `fluidshape` a `density` or a `viscosity` of the `<option>`, and the `friction` of a geom that
-decides by its `priority` a `condim` above 1.
+decides by its `priority` a `condim` above 1. A `forcerange` is off by `forcelimited="false"`, and a `ctrlrange` by
+`ctrllimited="false"`.
 
 Bad:
 
@@ -35,7 +36,7 @@ Good:
 The number: how many elements have the attribute, with another value than MuJoCo's own, and not what it needs. MuJoCo's
 manual, XML reference, tells of each what reads it.
 
-When it is wrong: a number that your own code reads, or a spring that it switches on.
+When it is wrong: a number that your own code reads, a spring or a limit that it switches on.
 """
 
 from __future__ import annotations
@@ -122,7 +123,8 @@ def _read(of: Simulation, attribute: str, each: int) -> bool:
             kinds = {int(of.model(f"actuator_{what}type")[each]) for what in ("gain", "bias")}
             return bool(kinds & {MUSCLE, USER})
         case "forcerange" | "ctrlrange":
-            return bool(of.model(f"actuator_{attribute.removesuffix('range')}limited")[each])
+            low, high = of.row(f"actuator_{attribute}", each, 2)
+            return bool(of.model(f"actuator_{attribute.removesuffix('range')}limited")[each]) or low >= high
         case "springref":
             return bool(of.model("jnt_stiffness")[each]) or any(of.model("tendon_stiffness"))
         case "friction":

@@ -69,7 +69,7 @@ def panda(way: str, finger: str = "finger_joint") -> str:
     links = ("0 0 .333", "0 0 1"), ("0 0 0", "0 1 0"), ("0 0 .316", "0 0 1"), (".0825 0 0", "0 -1 0")
     links += ("-.0825 0 .384", "0 0 1"), ("0 0 0", "0 -1 0"), (".088 0 0", "0 0 -1")
     opened = "".join(
-        f'<body name="panda_link{i}" pos="{pos}"><joint name="panda_joint{i}" axis="{axis}"/><geom size=".02" mass="2"/>'
+        f'<body name="panda_link{i}" pos="{pos}"><joint name="panda_joint{i}" axis="{axis}"/><geom size=".02"/>'
         for i, (pos, axis) in enumerate(links, 1)
     )
     hand = "".join(

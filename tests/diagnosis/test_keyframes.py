@@ -68,3 +68,21 @@ def test_where_keyframe_and_control_agree_the_range_is_the_wrong_one():
 def test_two_targets_in_each_others_place_are_exchanged():
     (found,) = told("0.3 1.2 0.4", "0.3 0.4 1.2")
     assert (found.rule, found.value) == ("key-targets-elsewhere", "0.3 1.2 0.4")
+
+
+@pytest.mark.parametrize(("kind", "says"), [("velocity", "as speeds."), ("motor", "as torques.")])
+def test_angles_are_no_control_of_a_motor_or_a_velocity_servo(kind: str, says: str) -> None:
+    arm = "".join(f'<body><joint name="j{i}" axis="0 1 0"/><geom size="0.02" pos="0.1 0 0"/></body>' for i in range(3))
+    actuators = "".join(f'<{kind} joint="j{i}"/>' for i in range(3))
+    key = '<keyframe><key qpos="0.3 0.5 -0.7" ctrl="0.3 0.5 -0.7"/></keyframe>'
+    text = f"<mujoco><worldbody>{arm}</worldbody><actuator>{actuators}</actuator>{key}</mujoco>"
+    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["key-angles-for-motors"]).hints
+    assert found.says.endswith(says)
+
+
+@pytest.mark.parametrize(("at", "told"), [(-0.05, False), (-0.02, False), (0.0, True)])
+def test_a_slide_is_outside_of_its_range_from_four_centimetres_on(at: float, told: bool) -> None:
+    cart = '<body><joint name="x" type="slide" axis="1 0 0" range="-1 -0.05"/><geom size="0.1"/></body>'
+    text = f'<mujoco><worldbody>{cart}</worldbody><keyframe><key qpos="{at}"/></keyframe></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text}, select=["key-outside-range"])
+    assert bool([*found.causes, *found.hints]) is told

@@ -102,3 +102,16 @@ def test_joints_that_all_have_a_point_for_a_range_are_told(ends: str, told: bool
     text = ROVER.format(i=0.3, parent="base").replace('"continuous"', '"revolute"').replace("</joint>", limit)
     found = examine(NativeEngine(), {"rover.urdf": text}, select=["range-empty"]).hints
     assert [each.elements for each in found] == [('joint "axle"',)] * told
+
+
+def test_a_moment_that_the_twin_link_has_is_the_one_that_is_told() -> None:
+    link = (
+        '<link name="{0}_arm"><inertial><mass value="1"/><inertia ixx="0.0007" iyy="0.0065" izz="{1}" ixy="0" ixz="0"'
+        ' iyz="0"/></inertial></link>'
+        '<joint name="{0}" type="continuous"><parent link="base"/><child link="{0}_arm"/></joint>'
+    )
+    text = (
+        f'<robot name="r"><link name="base"/>{link.format("left", "0.0066")}{link.format("right", "0.00066")}</robot>'
+    )
+    (cause,) = examine(NativeEngine(), {"r.urdf": text}).causes
+    assert (cause.rule, cause.attribute, cause.value) == ("invalid-inertia", "izz", "0.0066")

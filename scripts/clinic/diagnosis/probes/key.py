@@ -12,6 +12,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import WIDTH, Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
+SLIDES = 2.5  # rad, as which a slide's metre counts
 AGREE = 0.05  # rad or m
 UNIT = 0.02  # how far from 1 the length of a quaternion may be
 MOST_PARTS = 5  # of a keyframe that are tried in every order
@@ -72,7 +73,7 @@ def sunk(key: int) -> Probe:
 
 
 def _beyond(simulation: Simulation, key: int) -> float:
-    return max((abs(off) for off in beyond(simulation, key).values()), default=0.0)
+    return max((weighed(simulation, *each) for each in beyond(simulation, key).items()), default=0.0)
 
 
 def beyond(simulation: Simulation, key: int) -> dict[int, float]:
@@ -86,6 +87,11 @@ def beyond(simulation: Simulation, key: int) -> dict[int, float]:
             if off:
                 made[joint] = off
     return made
+
+
+def weighed(simulation: Simulation, joint: int, off: float) -> float:
+    """How far a joint is outside of its range, in rad; for a slide SLIDES a metre."""
+    return abs(off) * (SLIDES if simulation.joint_type(joint) == SLIDE else 1.0)
 
 
 @kept

@@ -32,6 +32,7 @@ import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import remove_attribute, set_attribute
+from clinic.diagnosis.probes.sides import right_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence
 from clinic.diagnosis.source import Element
@@ -45,6 +46,7 @@ NO_BODY = "Of any body each principal moment is positive, and at most the sum of
 ONCE = "fullinertia says how the body is turned, so that nothing else can."
 DIAGONAL = ("ixx", "iyy", "izz")
 PART = 1e-7  # of the largest moment: a rod of 1 m and 0.2 mm
+ALIKE = 0.05
 ZERO = 1e-15  # kg m2: below it is what was left of a subtraction
 
 
@@ -93,6 +95,12 @@ def _put(inertial: Element, attribute: str, said: str) -> Iterator[Suspect]:
 def _in_urdf(link: Element, said: str) -> Iterator[Suspect]:
     for inertia in (each for each in link.walk() if each.tag == "inertia"):
         before = [float(inertia.get(name, "0")) for name in DIAGONAL]
+        if (odd := _unlike_twin(inertia, before)) is not None:
+            name, value, twin = odd
+            says = f"{said}. That of its twin, link {twin!r}, has {name} {value}, and the same moments else."
+            now, edit = inertia.get(name), set_attribute(inertia, name, value)
+            yield mends(inertia, (edit,), says, attribute=name, now=now, value=value)
+            continue
         edits = [set_attribute(inertia, name, f"{v:.4g}") for name, v in zip(DIAGONAL, possible(before), strict=True)]
         edits += [set_attribute(inertia, name, "0") for name in ("ixy", "ixz", "iyz") if float(inertia.get(name, "0"))]
         wrong = max(range(3), key=lambda k: abs(float(edits[k].value) - before[k]))
@@ -104,6 +112,22 @@ def _in_urdf(link: Element, said: str) -> Iterator[Suspect]:
         )
         says = f"{link_name}: {said}."
         yield mends(inertia, edits, says, attribute=told, now=now, value=value)
+
+
+def _unlike_twin(inertia: Element, moments: list[float]) -> tuple[str, str, str] | None:
+    """The one moment of a link that is unlike that of the link on the other side, with that and its link's name."""
+    link = inertia.parent.parent if inertia.parent else None
+    robot = link.parent if link else None
+    for other in robot.children if link and robot else ():
+        name, twin = link.get("name") if link else "", other.get("name")
+        theirs = next((each for each in other.walk() if each.tag == "inertia"), None)
+        if theirs is None or other.tag != "link" or not (twin in right_of(name) or name in right_of(twin)):
+            continue
+        right = [float(theirs.get(each, "0")) for each in DIAGONAL]
+        odd = [k for k in range(3) if abs(moments[k] - right[k]) > ALIKE * abs(right[k])]
+        if len(odd) == 1:
+            return DIAGONAL[odd[0]], theirs.get(DIAGONAL[odd[0]]), twin
+    return None
 
 
 def possible(moments: list[float]) -> list[float]:

@@ -30,7 +30,7 @@ Good:
     +     <key name="home" qpos="0.9 -1.8"/>
 
 The number: of the motors of a keyframe whose control is not zero, how many have just the position of their joint; two
-and more, and all but one of them.
+and more, and all but one of them. So it is with velocity servos.
 
 When it is wrong: torques that happen to be the angles; so it is a hint.
 """
@@ -59,7 +59,7 @@ def _copied(simulation: Simulation, key: int) -> float:
     given, same = 0, 0
     for actuator, value in enumerate(simulation.data("ctrl")):
         joint = simulation.driven_joint(actuator)
-        if joint is None or value == 0 or any(simulation.bias(actuator)[:3]):
+        if joint is None or value == 0 or any(simulation.bias(actuator)[:2]):
             continue
         given += 1
         same += abs(simulation.position(joint) - value) < 1e-6
@@ -73,7 +73,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         element, same = model.element("key", key), _copied(of, key)
         if same > FEW and element is not None and "ctrl" in element.attributes:
             probe = Probe("motors whose control is their joint's position", "motors", _copied, (key,), dynamic=False)
-            says = f"The controls of {same:.0f} motors are the positions of their joints, and are taken as torques."
+            speeds = any(of.bias(actuator)[2] for actuator in range(of.count("actuator")))
+            says = f"The controls of {same:.0f} motors are the positions of their joints, and are taken as "
+            says += "speeds." if speeds else "torques."
             yield Suspect(
                 (of.name("key", key),),
                 "ctrl",

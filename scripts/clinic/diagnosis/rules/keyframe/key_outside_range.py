@@ -26,7 +26,7 @@ Good:
     -     <key name="home" qpos="0.2 -1.2"/>
     +     <key name="home" qpos="0.2 1.2"/>
 
-The number: how far the worst joint is outside, in rad or m: 0.1 and more. Where the joint's servo is told to hold it
+The number: how far the worst joint is outside: 0.1 rad or 4 cm, and more. Where the joint's servo is told to hold it
 there, and may be, the joint's range is what is told. What would be inside in degrees, or far inside with the other
 sign, is written so; else it is put to the end of the range.
 
@@ -40,7 +40,7 @@ from collections.abc import Iterator, Mapping
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import HINGE
-from clinic.diagnosis.probes.key import against_range, beyond, outside, reordered, start_at
+from clinic.diagnosis.probes.key import against_range, beyond, outside, reordered, start_at, weighed
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -51,7 +51,7 @@ FAMILIES = ("jumps-at-start", "explodes")
 SINCE = "0.1"
 CASE = "arm-jumps-at-reset"
 
-LIMIT = 0.1  # rad or m
+LIMIT = 0.1  # rad
 TURNED = 0.25  # of the range: farther outside, and inside with the other sign
 
 
@@ -61,7 +61,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for key in range(of.count("key")):
         if reordered(model, key):
             continue
-        off = {joint: each for joint, each in beyond(of, key).items() if abs(each) > LIMIT}
+        off = {joint: each for joint, each in beyond(of, key).items() if weighed(of, joint, each) > LIMIT}
         element = model.element("key", key)
         if not off or element is None:
             continue
@@ -79,7 +79,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 qpos[int(of.model("jnt_qposadr")[joint])] = math.radians(of.position(joint))
             elif joint in off:
                 qpos[int(of.model("jnt_qposadr")[joint])] = _meant(of, joint, off[joint])
-        worst = max(off, key=lambda joint: abs(off[joint]))
+        worst = max(off, key=lambda joint: weighed(of, joint, off[joint]))
         low, high = of.row("jnt_range", worst, 2)
         says = f"{of.name('joint', worst)} stands {abs(off[worst]):.3g} outside of {low:.3g} to {high:.3g}."
         yield Suspect(
@@ -92,7 +92,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             LIMIT,
             says + " As degrees it would be inside." * in_degrees,
             "inside of the ranges",
-            excess=abs(off[worst]) / LIMIT,
+            excess=weighed(of, worst, off[worst]) / LIMIT,
         )
 
 
@@ -121,7 +121,7 @@ def _ranges(model: ReaderModel, key: int, held: Mapping[int, tuple[float, float]
 
 
 def _beyond(of: Simulation, key: int, joint: int) -> float:
-    return abs(beyond(of, key).get(joint, 0.0))
+    return weighed(of, joint, beyond(of, key).get(joint, 0.0))
 
 
 def _inside(of: Simulation, joint: int, at: float) -> bool:

@@ -342,3 +342,15 @@ def test_what_both_tendons_go_through_has_no_twin():
     wrong = both.replace('<site site="right_back"/>', '<site site="right_front"/>')
     assert [each.rule for each in diagnosed(both).hints].count("twin-path-differs") == 0
     assert [each.rule for each in diagnosed(wrong).hints].count("twin-path-differs") == 1
+
+
+def test_one_finger_of_four_with_other_moments_gets_those_of_the_others() -> None:
+    finger = (
+        '<body name="finger{0}" pos="{0} 0 0"><inertial pos="0 0 0" mass="0.02" diaginertia="{1}"/>'
+        '<joint axis="0 1 0"/><geom size="0.02"/></body>'
+    )
+    moments = ["3e-6 3e-6 1e-6", "1e-6 3e-6 3e-6", "3e-6 3e-6 1e-6", "4e-7 4e-7 1e-7"]
+    fingers = "".join(finger.format(i, each) for i, each in enumerate(moments))
+    text = f'<mujoco><worldbody><body name="hand"><geom size="0.1"/>{fingers}</body></worldbody></mujoco>'
+    (cause,) = examine(NativeEngine(), {"hand.xml": text}, select=["twin-inertia-differs"]).causes
+    assert (cause.elements, cause.value) == (('body "finger3"',), "3e-6 3e-6 1e-6")

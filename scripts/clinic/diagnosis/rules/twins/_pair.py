@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
-from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.probes.inertia import inertial
 from clinic.diagnosis.probes.siblings import FIELDS, LIKE, SOME, Odd, odd_ones, swapped
 from clinic.diagnosis.probes.siblings import unlike as alike
@@ -123,6 +123,8 @@ def siblings(model: ReaderModel, kind: str, attributes: Collection[str] = ()) ->
     for each in found:
         names = COPIED.get(each.attribute, (each.attribute,))
         edits = copied(model, kind, each.index, each.siblings[0], names)
+        if each.attribute == "inertia":
+            edits = _moments_of(model, each)
         if edits and not model.measured(alike(each), edits) <= LIKE:
             edits = ()
         others = ", ".join(of.name(kind, other) for other in each.siblings[:3])
@@ -135,6 +137,15 @@ def siblings(model: ReaderModel, kind: str, attributes: Collection[str] = ()) ->
         healthy = "siblings alike"
         elements = (of.name(kind, each.index),)
         yield Suspect(elements, each.attribute, now, value, edits, probe, LIKE, says, healthy, level=level)
+
+
+def _moments_of(model: ReaderModel, each: Odd) -> tuple[Edit, ...]:
+    """The edit that gives a body the moments of its sibling, where both are written alike."""
+    bodies = [model.element("body", body) for body in (each.index, each.siblings[0])]
+    own, other = (body.first("inertial") if body is not None else None for body in bodies)
+    if own is None or other is None or not other.get("diaginertia") or "diaginertia" not in own.attributes:
+        return ()
+    return (set_attribute(own, "diaginertia", other.get("diaginertia")),)
 
 
 def _swapped(model: ReaderModel, each: Odd) -> bool:

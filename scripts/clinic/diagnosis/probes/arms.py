@@ -129,7 +129,7 @@ def _chains(of: Simulation) -> tuple[tuple[int, ...], ...]:
     for last in range(1, of.count("body")):
         if last in parents:
             continue
-        bodies = reversed([last, *of.ancestors(last)])
+        bodies = reversed(of.ancestors(last))
         found[tuple(joint for body in bodies for joint in of.joints_of(body) if of.joint_type(joint) == HINGE)] = None
     return tuple(found)
 

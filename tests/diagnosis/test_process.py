@@ -93,7 +93,7 @@ def test_where_a_rule_fails_that_is_no_fault_of_the_model_or_the_engine(monkeypa
 def test_a_rule_that_takes_too_long_says_nothing_of_the_model(monkeypatch):
     slow = DIES_ON_A_RULE.format(rule="masks").replace("os.abort()", "__import__('time').sleep(60)")
     monkeypatch.setattr(process, "CHILD", (sys.executable, "-c", slow))
-    monkeypatch.setattr(process, "LIMIT", 5.0)
+    monkeypatch.setattr(process, "LIMIT", 10.0)
     found = diagnose(TALL, select=["masks", "spring-too-stiff"])
     assert DIES not in {each.rule for each in found.causes}
     assert [each.rule for each in found.hints] == [LATE]

@@ -115,3 +115,11 @@ def test_a_moment_that_the_twin_link_has_is_the_one_that_is_told() -> None:
     )
     (cause,) = examine(NativeEngine(), {"r.urdf": text}).causes
     assert (cause.rule, cause.attribute, cause.value) == ("invalid-inertia", "izz", "0.0066")
+
+
+def test_an_origin_of_a_link_that_is_its_joints_is_told() -> None:
+    origin = '<origin rpy="1.5708 0 0"/>'
+    text = ROVER.format(i=0.3, parent="base")
+    twice = text.replace(origin, '<origin rpy="1.5708 0 0" xyz="0 0.2 -0.05"/>')
+    found = [examine(NativeEngine(), {"r.urdf": each}, select=["place-twice"]).hints for each in (text, twice)]
+    assert [[each.elements[0] for each in hints] for hints in found] == [[], ['body "wheel"']]

@@ -108,7 +108,9 @@ def buried(simulation: Simulation, holes: Collection[tuple[int, int]] = ()) -> d
     made: dict[int, tuple[float, Contact]] = {}
     falls = falling(simulation)
     for contact in beginning(simulation).contacts:
-        trees = {owner[int(bodies[geom])] for geom in contact.geoms if contact.geoms not in holes}
+        if contact.geoms in holes:
+            continue
+        trees = {owner[int(bodies[geom])] for geom in contact.geoms}
         for root in trees & set(falls) if len(trees) > 1 else ():
             share = -contact.distance / max(extent(simulation, root), 1e-9)
             if contact.force > 0 and share > made.get(root, (0.0, contact))[0]:

@@ -117,9 +117,10 @@ def _in_urdf(link: Element, said: str) -> Iterator[Suspect]:
 def _unlike_twin(inertia: Element, moments: list[float]) -> tuple[str, str, str] | None:
     """The one moment of a link that is unlike that of the link on the other side, with that and its link's name."""
     link = inertia.parent.parent if inertia.parent else None
-    robot = link.parent if link else None
-    for other in robot.children if link and robot else ():
-        name, twin = link.get("name") if link else "", other.get("name")
+    if link is None or link.parent is None:
+        return None
+    for other in link.parent.children:
+        name, twin = link.get("name"), other.get("name")
         theirs = next((each for each in other.walk() if each.tag == "inertia"), None)
         if theirs is None or other.tag != "link" or not (twin in right_of(name) or name in right_of(twin)):
             continue

@@ -32,6 +32,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import MESH
 from clinic.diagnosis.probes.vector import Vector, norm, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect, counted
@@ -70,10 +71,12 @@ def _twice(model: ReaderModel, body: int) -> bool:
 
 
 def _again(model: ReaderModel, geom: int, place: Vector) -> bool:
-    """Whether a place is written for a geom; a mesh is put elsewhere by its own centre."""
-    said = model.value("geom", geom, "pos") or model.value("geom", geom, "xyz") or ""
+    """Whether a place is that of a geom as it is written; a mesh's own centre puts it elsewhere."""
+    of, said = model.simulation, model.value("geom", geom, "pos")
+    if said is None and int(of.model("geom_type")[geom]) == MESH:
+        return False
     try:
-        numbers = [float(each) for each in said.split()]
+        at = [float(each) for each in said.split()] if said else of.row("geom_pos", geom, 3)
     except ValueError:
         return False
-    return len(numbers) == len(place) and all(abs(a - b) < SAME for a, b in zip(numbers, place, strict=True))
+    return len(at) == len(place) and all(abs(a - b) < SAME for a, b in zip(at, place, strict=True))

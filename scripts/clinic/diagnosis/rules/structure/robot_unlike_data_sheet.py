@@ -94,17 +94,25 @@ FEWEST = 4  # joints that agree
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The joints of a robot by that name that are unlike most others of it."""
-    found = robot_in(model.simulation, names_in(model))
-    if found is not None:
-        yield from _mass(model, *found)
-        yield from _efforts(model, *found)
-        yield from _ranges(model, *found)
+    of = model.simulation
+    found = robot_in(of, names_in(model))
+    if found is None:
+        return
+    robot, joints = found
+    ranges = _ranged(of, joints)
+    alike = sum(_elsewhere(of, joint, right) < SAME for joint, right in ranges.items())
+    is_it = alike >= max(FEWEST, WIDE * len(ranges))
+    if is_it:
+        yield from _mass(model, robot, joints)
+    yield from _efforts(model, robot, joints)
+    if is_it:
+        yield from _ranges(model, robot, ranges, alike)
 
 
 def _mass(model: ReaderModel, robot: Robot, joints: dict[int, list[Joint]]) -> Iterator[Suspect]:
     of, bodies = model.simulation, model.simulation.model("jnt_bodyid")
     tops = tuple(dict.fromkeys(root_of(of)[int(bodies[joint])] for joint in joints))
-    if not robot.mass or len(tops) != 1 or not _is(*_ranged(of, joints)) or _heavy(of, tops[0], robot.mass) <= HEAVY:
+    if not robot.mass or len(tops) != 1 or _heavy(of, tops[0], robot.mass) <= HEAVY:
         return
     now, value = f"{_weight(of, tops[0]):.3g} kg", f"{robot.mass:.3g} kg"
     says = f"It weighs {now}, and {robot.names[0]} weighs {value}."
@@ -157,11 +165,10 @@ def _off(of: Simulation, joint: int, effort: float) -> float:
     return max(limit.force / max(effort, 1e-9), effort / max(limit.force, 1e-9)) - 1 if limit else 0.0
 
 
-def _ranges(model: ReaderModel, robot: Robot, joints: dict[int, list[Joint]]) -> Iterator[Suspect]:
+def _ranges(model: ReaderModel, robot: Robot, ranges: dict[int, tuple[float, float]], alike: int) -> Iterator[Suspect]:
     of = model.simulation
-    ranges, alike = _ranged(of, joints)
     wrong = {joint: right for joint, right in ranges.items() if _elsewhere(of, joint, right) > ELSEWHERE}
-    if not wrong or not _is(ranges, alike):
+    if not wrong:
         return
     worst = max(wrong, key=lambda joint: _elsewhere(of, joint, wrong[joint]))
     values = {joint: _written(model, joint, right) for joint, right in wrong.items()}
@@ -173,19 +180,13 @@ def _ranges(model: ReaderModel, robot: Robot, joints: dict[int, list[Joint]]) ->
     yield Suspect(names, "range", now, value, edits, probe, ELSEWHERE, says, value, level="hint")
 
 
-def _ranged(of: Simulation, joints: dict[int, list[Joint]]) -> tuple[dict[int, tuple[float, float]], int]:
-    """The data sheet's range of each joint that has one, and how many joints have just that."""
-    ranges = {
+def _ranged(of: Simulation, joints: dict[int, list[Joint]]) -> dict[int, tuple[float, float]]:
+    """The data sheet's range of each joint that has one."""
+    return {
         joint: nearest_range(lines, *of.row("jnt_range", joint, 2))
         for joint, lines in joints.items()
         if of.model("jnt_limited")[joint]
     }
-    return ranges, sum(_elsewhere(of, joint, right) < SAME for joint, right in ranges.items())
-
-
-def _is(ranges: dict[int, tuple[float, float]], alike: int) -> bool:
-    """Whether enough ranges are the data sheet's for it to be this robot."""
-    return alike >= max(FEWEST, WIDE * len(ranges))
 
 
 def _elsewhere(of: Simulation, joint: int, right: tuple[float, float]) -> float:

@@ -7,15 +7,14 @@ from random import Random
 from clinic.diagnosis.bench.faults import Fault, between, kind, text_of
 from clinic.diagnosis.edit import delete, set_attribute
 from clinic.diagnosis.engine import PLANE
-from clinic.diagnosis.probes.shape import falling, root_of
+from clinic.diagnosis.probes.shape import falling, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 
 MOVES = ("strays", "sinks", "faster", "unstable")
 
 
 def _colliding(model: ReaderModel) -> list[int]:
-    masks = zip(model.simulation.model("geom_contype"), model.simulation.model("geom_conaffinity"), strict=True)
-    return [i for i, (one, other) in enumerate(masks) if one or other]
+    return [geom for geom in range(model.simulation.count("geom")) if solid(model.simulation, geom)]
 
 
 def _rests(model: ReaderModel) -> bool:

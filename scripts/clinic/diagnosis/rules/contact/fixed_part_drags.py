@@ -46,7 +46,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import FREE, HINGE
+from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.shape import root_of, round_about
 from clinic.diagnosis.probes.touch import Deciding, resting
 from clinic.diagnosis.reader_model import ReaderModel
@@ -94,7 +94,8 @@ def _dragged(of: Simulation) -> dict[int, tuple[float, Deciding]]:
         if len(pair) != 1 or decided.kind != "geom":  # both of them move, or a pair decides
             continue
         body = int(bodies[pair[0]])
-        rolls |= {owner[body]} & {owner[each] for each in (body,) if int(welds[body]) in driven}
+        if int(welds[body]) in driven:
+            rolls.add(owner[body])
         if int(welds[body]) in of.free_bodies and decided.dim > 1 and decided.friction > STICKS:
             made[pair[0]] = (contact.force, decided)
     return {geom: each for geom, each in made.items() if owner[int(bodies[geom])] in rolls}
@@ -108,7 +109,7 @@ def _rollers(of: Simulation) -> set[int]:
 def _wheels(of: Simulation) -> set[int]:
     """The bodies that a driven level hinge without limits turns about their middle, on a free base."""
     of.begin()
-    free = {int(of.model("jnt_bodyid")[each]) for each in range(of.count("joint")) if of.joint_type(each) == FREE}
+    free = set(of.free_bodies)
     driven = {joint for each in range(of.count("actuator")) if (joint := of.driven_joint(each)) is not None}
     owner, made = root_of(of), set()
     for joint in driven:

@@ -37,6 +37,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect, counted
 
@@ -57,11 +58,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     condim, bodies, fixed = of.model("geom_condim"), of.model("geom_bodyid"), of.model("body_weldid")
     if any(each > PLAIN for each in condim) or of.count("pair"):
         return
-    masks = zip(of.model("geom_contype"), of.model("geom_conaffinity"), strict=True)
     found = [
         geom
-        for geom, solid in enumerate(masks)
-        if any(solid) and fixed[int(bodies[geom])] and of.row("geom_friction", geom, 3)[1] > 1.001 * DEFAULT
+        for geom, body in enumerate(bodies)
+        if solid(of, geom) and fixed[int(body)] and of.row("geom_friction", geom, 3)[1] > 1.001 * DEFAULT
     ]
     found = [geom for geom in found if FINGER.search(f"{of.name('geom', geom)} {of.name('body', int(bodies[geom]))}")]
     if len(found) < 2:

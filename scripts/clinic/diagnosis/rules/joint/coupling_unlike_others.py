@@ -54,6 +54,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.equalities import COUPLED, held, kind_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -64,7 +65,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "few healthy models have three couplings"
 
-JOINTS, ENOUGH = 2, 3  # mjEQ_JOINT
+ENOUGH = 3
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -72,7 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     if (each := _odd(of)) is None:
         return
-    follower, leader = (int(of.model(f"eq_obj{side}id")[each]) for side in (1, 2))
+    follower, leader = held(of, each)
     others = [one for one in _relations(of) if one != each]
     wanted = _line(of, follower)[_relations(of)[others[0]] or 0]
     says = f"It couples {of.name('joint', follower)} to {of.name('joint', leader)}, which is on another branch; "
@@ -95,17 +96,16 @@ def _odd(of: Simulation) -> int | None:
     usual = {relation for relation in found.values() if relation is not None}
     if len(found) < ENOUGH or len(apart) != 1 or len(usual) != 1:
         return None
-    follower = int(of.model("eq_obj1id")[apart[0]])
-    return apart[0] if 0 < usual.pop() < len(_line(of, follower)) else None
+    return apart[0] if 0 < usual.pop() < len(_line(of, held(of, apart[0])[0])) else None
 
 
 def _relations(of: Simulation) -> dict[int, int | None]:
     """By coupling of two joints: how many joints the second is above the first; 0 beside it, None elsewhere."""
     made: dict[int, int | None] = {}
     parents, owners = of.model("body_parentid"), of.model("jnt_bodyid")
-    for each, kind in enumerate(of.model("eq_type")):
-        joints = [int(of.model(f"eq_obj{side}id")[each]) for side in (1, 2)]
-        if int(kind) != JOINTS or min(joints) < 0:
+    for each in range(of.count("equality")):
+        joints = held(of, each)
+        if kind_of(of, each) != COUPLED or min(joints) < 0:
             continue
         lines = [_line(of, joint) for joint in joints]
         if joints[1] in lines[0]:

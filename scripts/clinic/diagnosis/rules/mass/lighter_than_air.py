@@ -34,7 +34,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
 from clinic.diagnosis.probes.matter import matter
-from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.probes.shape import root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.world.lengths_in_another_unit import unit_of_lengths
 from clinic.diagnosis.simulation import Simulation
@@ -53,24 +53,20 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     if unit_of_lengths(of) or math.hypot(*of.model("opt.gravity")) > CENTIMETRES:
         return
-    parents, masses = of.model("body_parentid"), of.model("body_mass")
-    moving = set(of.moving_bodies)
+    masses, owner = of.model("body_mass"), root_of(of)
     trees: dict[int, list[int]] = {}
-    for body in sorted(moving):
-        root = body
-        while int(parents[root]) in moving:
-            root = int(parents[root])
-        trees.setdefault(root, []).append(body)
+    for body in of.moving_bodies:
+        trees.setdefault(owner[body], []).append(body)
     in_metres = METRES[0] < math.hypot(*of.model("opt.gravity")) < METRES[1]
     most = LIGHT if in_metres and not of.model("opt.density")[0] else LIMIT  # in a fluid it may float
-    light = [body for body in moving if of.joints_of(body) and _air(of, body) > LIMIT]
+    light = [body for body in of.moving_bodies if of.joints_of(body) and _air(of, body) > LIMIT]
     groups = list(trees.items())
     if len(light) <= 2:  # a link of a tree that is heavy enough
         groups += [(body, [body]) for body in light if trees.get(body) != [body]]
     yield from _links(model, most)
     for root, bodies in groups:
         geoms = [geom for body in bodies for geom in of.geoms_of(body)]
-        if not any(of.model("geom_contype")[geom] or of.model("geom_conaffinity")[geom] for geom in geoms):
+        if not any(solid(of, geom) for geom in geoms):
             continue
         probe = Probe("mass of the air in its place over its own", "", _air, tuple(bodies), dynamic=False)
         if (times := model.measured(probe)) <= most:

@@ -51,7 +51,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.inertia import set_inertial
-from clinic.diagnosis.probes.matter import Matter, explicit, mass_of
+from clinic.diagnosis.probes.matter import explicit, mass_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect, rounded
 
@@ -71,7 +71,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for body, each in found:
         others = [other.density for index, other in found if index != body]
         times = 1 / each.radius**2 if each.radius > 0 else 1.0
-        if len(others) < OTHERS or times < TIMES or _placeholder(each):
+        if len(others) < OTHERS or times < TIMES or each.even:
             continue
         usual = sorted(others)[len(others) // 2]
         if not usual / ALIKE < each.density / times < usual * ALIKE:
@@ -90,9 +90,3 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "the mass of its inertia",
             level="hint",
         )
-
-
-def _placeholder(each: Matter) -> bool:
-    """Whether the inertia is equal about all axes, as one types it in."""
-    moments = (each.about[0], each.about[4], each.about[8])
-    return max(moments) < 1.03 * min(moments)

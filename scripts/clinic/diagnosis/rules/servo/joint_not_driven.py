@@ -42,6 +42,7 @@ import re
 from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, WELD, held, kind_of, sited
 from clinic.diagnosis.probes.siblings import groups
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.reader_model import ReaderModel
@@ -54,8 +55,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "no kind of fault in the bench takes an actuator away"
 
-CONNECT, WELD, BODY = 0, 1, 1  # mjEQ_CONNECT, mjEQ_WELD, mjOBJ_BODY
-JOINT_EQUALITY, TENDON, BY_JOINT, WRAPPED = 2, 3, (0, 1), 1  # mjEQ_JOINT, mjTRN_TENDON, mjTRN_JOINT, mjWRAP_JOINT
+TENDON, BY_JOINT, WRAPPED = 3, (0, 1), 1  # mjTRN_TENDON, mjTRN_JOINT, mjWRAP_JOINT
 MOST, NUMBER = 2, re.compile(r"\d+")
 
 
@@ -134,12 +134,12 @@ def _moved(of: Simulation) -> set[int]:
         if int(wrapped) != WRAPPED:
             return set()
         made.add(int(on))
-    for each, kind in enumerate(of.model("eq_type")):
-        ends = [int(of.model(f"eq_obj{side}id")[each]) for side in (1, 2)]
-        if int(kind) == JOINT_EQUALITY:
-            made |= set(ends)
-        elif int(kind) in (CONNECT, WELD) and int(of.model("eq_objtype")[each]) == BODY:
-            made |= {joint for end in ends for body in of.ancestors(end) for joint in of.joints_of(body)}
+    for each in range(of.count("equality")):
+        kind = kind_of(of, each)
+        if kind == COUPLED:
+            made |= set(held(of, each))
+        elif kind in (CONNECT, WELD) and not sited(of, each):
+            made |= {joint for end in held(of, each) for body in of.ancestors(end) for joint in of.joints_of(body)}
         else:
             return set()
     return made | {joint for joint, stiffness in enumerate(of.model("jnt_stiffness")) if stiffness}

@@ -36,6 +36,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.servo.control_range_too_wide import inherited
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
@@ -98,9 +99,8 @@ def _told(of: Simulation, servo: Servo, attribute: str) -> tuple[str, str, str]:
     assert servo.ctrl is not None
     assert servo.targets is not None
     assert servo.range is not None
-    ends = sorted((each - servo.offset) / servo.scale for each in servo.range)
     says = (
         f"It sends {name} from {servo.targets[0]:.3g} to {servo.targets[1]:.3g} {servo.unit}; its range is "
         f"{servo.range[0]:.3g} to {servo.range[1]:.3g}."
     )
-    return " ".join(f"{each:g}" for each in servo.ctrl), " ".join(f"{each:.4g}" for each in ends), says
+    return " ".join(f"{each:g}" for each in servo.ctrl), inherited(servo), says

@@ -38,7 +38,8 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HFIELD, PLANE
-from clinic.diagnosis.probes.vector import Vector, add, norm, sub, times, transpose, written
+from clinic.diagnosis.probes.equalities import CONNECT, ends, held, kind_of, sited
+from clinic.diagnosis.probes.vector import Vector, norm, sub, times, transpose, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -49,7 +50,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "the 81 models of the bench connect nothing by an anchor"
 
-CONNECT, BODY = 0, 1  # mjtEq, mjtObj
 STRAIGHT = 1.02
 FAR, AWAY = 0.3, 3.0  # times the body's size; the same for a rod or a string that is not drawn
 
@@ -60,7 +60,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for each in range(of.count("equality")):
         if (far := _far(of, each)) <= FAR:
             continue
-        bodies = [int(of.model(f"eq_obj{side}id")[each]) for side in (1, 2)]
+        bodies = held(of, each)
         most = AWAY if 0 in bodies or _between(of, each, bodies) else FAR
         if far <= most:
             continue
@@ -83,22 +83,16 @@ def _anchor(simulation: Simulation, each: int) -> Vector:
 
 
 def _far(simulation: Simulation, each: int) -> float:
-    if int(simulation.model("eq_type")[each]) != CONNECT or int(simulation.model("eq_objtype")[each]) != BODY:
+    if kind_of(simulation, each) != CONNECT or sited(simulation, each):
         return 0.0
     simulation.begin()
-    first, second = (int(simulation.model(f"eq_obj{side}id")[each]) for side in (1, 2))
-    return _apart(simulation, _place(simulation, each, first), (first, second))
+    return _apart(simulation, ends(simulation, each)[0], held(simulation, each))
 
 
-def _place(of: Simulation, each: int, first: int) -> Vector:
-    """Where the anchor is in the world, as the state is now."""
-    return add(of.data_row("xpos", first, 3), times(of.data_row("xmat", first, 9), _anchor(of, each)))
-
-
-def _between(of: Simulation, each: int, bodies: list[int]) -> bool:
+def _between(of: Simulation, each: int, bodies: tuple[int, int]) -> bool:
     """Whether the anchor is on the line from one body to the other: on a rod that is not drawn."""
     of.begin()
-    point, (one, other) = _place(of, each, bodies[0]), (of.data_row("xipos", body, 3) for body in bodies)
+    point, (one, other) = ends(of, each)[0], (of.data_row("xipos", body, 3) for body in bodies)
     return norm(sub(point, one)) + norm(sub(point, other)) < STRAIGHT * norm(sub(one, other))
 
 
@@ -120,11 +114,11 @@ def _apart(simulation: Simulation, point: Vector, bodies: tuple[int, ...]) -> fl
     return min(found, default=0.0)
 
 
-def _from_world(model: ReaderModel, each: int, bodies: list[int]) -> tuple[Edit, ...]:
+def _from_world(model: ReaderModel, each: int, bodies: tuple[int, int]) -> tuple[Edit, ...]:
     """The anchor's numbers, read as a place in the world, in the frame of the first body."""
     of, point = model.simulation, _anchor(model.simulation, each)
     of.begin()
-    if _apart(of, point, tuple(bodies)) > 0.5:
+    if _apart(of, point, bodies) > 0.5:
         return ()
     turn, place = of.data_row("xmat", bodies[0], 9), of.data_row("xpos", bodies[0], 3)
     return model.set("equality", [each], "anchor", written(times(transpose(turn), sub(point, place))))

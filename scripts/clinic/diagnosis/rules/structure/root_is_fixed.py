@@ -40,6 +40,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import insert
 from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, HINGE, PLANE, SPHERE
+from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.vector import dot, norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -73,13 +74,11 @@ def _feet(of: Simulation) -> list[int]:
     """Bodies that are the first to move on their way from the world, of limbs that reach down to the floor."""
     of.begin()
     kinds, parents = of.model("geom_type"), of.model("body_parentid")
-    moving, heights = set(of.moving_bodies), of.data("xpos")[2::3]
+    owner, heights = root_of(of), of.data("xpos")[2::3]
     floors = [of.data("geom_xpos")[3 * geom + 2] for geom, kind in enumerate(kinds) if int(kind) == PLANE]
     lowest: dict[int, float] = {}
-    for body in moving if len(floors) == 1 else ():
-        first = body
-        while int(parents[first]) in moving:
-            first = int(parents[first])
+    for body in of.moving_bodies if len(floors) == 1 else ():
+        first = owner[body]
         low = min((of.data("geom_xpos")[3 * geom + 2] for geom in of.geoms_of(body)), default=float("inf"))
         lowest[first] = min(low, lowest.get(first, float("inf")))
     made = []

@@ -51,6 +51,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.shape import collides, solid
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
@@ -92,7 +93,7 @@ def _share(of: Simulation, side: int) -> float:
 
 @kept
 def _pairs(of: Simulation) -> list[tuple[int, int]]:
-    return [pair for pair in twins(of).pairs["geom"] if any(map(any, (_masks(of, geom) for geom in pair)))]
+    return [pair for pair in twins(of).pairs["geom"] if any(solid(of, geom) for geom in pair)]
 
 
 @kept
@@ -103,17 +104,7 @@ def _less(of: Simulation) -> tuple[dict[int, list[int]], dict[int, list[int]]]:
     made: tuple[dict[int, list[int]], dict[int, list[int]]] = ({}, {})
     for pair in _pairs(of):
         for side, geom in enumerate(pair):
-            missed = [each for each in middle if _touch(of, pair[1 - side], each) and not _touch(of, geom, each)]
+            missed = [each for each in middle if collides(of, pair[1 - side], each) and not collides(of, geom, each)]
             if missed:
                 made[side][geom] = missed
     return made
-
-
-def _masks(of: Simulation, geom: int) -> tuple[int, int]:
-    return int(of.model("geom_contype")[geom]), int(of.model("geom_conaffinity")[geom])
-
-
-def _touch(of: Simulation, one: int, other: int) -> bool:
-    """Whether the masks let two geoms collide."""
-    (kind, meets), (other_kind, other_meets) = _masks(of, one), _masks(of, other)
-    return bool(kind & other_meets or other_kind & meets)

@@ -45,6 +45,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, counted
@@ -135,6 +136,4 @@ def _read(of: Simulation, attribute: str, each: int) -> bool:
 
 def _slick(of: Simulation, geom: int) -> bool:
     """Whether a geom decides by its priority that its contacts have no friction."""
-    solid = of.model("geom_contype")[geom] or of.model("geom_conaffinity")[geom]
-    own = of.model("geom_priority")[geom]
-    return bool(solid) and own > 0 and of.model("geom_condim")[geom] == 1
+    return solid(of, geom) and of.model("geom_priority")[geom] > 0 and of.model("geom_condim")[geom] == 1

@@ -38,6 +38,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import delete
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.fall import below, fallen, limit
+from clinic.diagnosis.probes.key import start_at
 from clinic.diagnosis.probes.shape import box, falling, geoms_of_tree, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -99,8 +100,7 @@ def _lowest(of: Simulation) -> set[int]:
     """The bodies with a solid geom about as low as the lowest of their tree, which can fall."""
     made, parents = set[int](), {int(each) for each in of.model("body_parentid")}
     for key in range(-1, min(1, of.count("key"))):
-        of.engine.reset(key)
-        of.engine.forward()
+        start_at(of, key)
         places, axes = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat"))
         for root in falling(of):
             boxes = {geom: box(of, places, axes, geom) for geom in geoms_of_tree(of, root) if solid(of, geom)}

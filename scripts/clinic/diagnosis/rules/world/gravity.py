@@ -41,7 +41,7 @@ from clinic.diagnosis.probes.shape import falling
 from clinic.diagnosis.probes.vector import dot
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, counted
 
 TITLE = "Gravity points the wrong way, or has the wrong size"
 FAMILIES = ("falls-through", "drifts", "stuck", "sags")
@@ -130,9 +130,7 @@ def _none(model: ReaderModel, now: str, off: bool) -> Iterator[Suspect]:
     flags = tuple(set_attribute(each, "gravity", "enable") for each in model.source.elements("flag")) if off else ()
     edits = flags or model.option("gravity", USUAL)
     names = tuple(simulation.name("body", body) for body in falls)
-    probe = Probe(
-        "free bodies that nothing pulls down", "", lambda s, count: float(count), (len(names),), dynamic=False
-    )
+    probe = counted("free bodies that nothing pulls down", len(names))
     says = "Gravity is switched off." if off else f"Gravity is {now}."
     yield Suspect(
         ("gravity", *names), "gravity", "disable" if off else now, USUAL, edits, probe, 0.0, says, level="hint"

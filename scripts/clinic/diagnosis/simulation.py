@@ -114,12 +114,11 @@ class Simulation:
         """In s."""
         return self.model("opt.timestep")[0]
 
-    def begin(self, *, ctrl: bool = True, forward: bool = True) -> None:
+    def begin(self, *, forward: bool = True) -> None:
         """Back to the start that the reader chose; controls are the keyframe's and the reader's."""
         self.engine.reset(self.begin_with.key)
-        if ctrl:
-            self._drive(self.begin_with.ctrl)
-            self._drive(next((controls for _, controls in self.begin_with.series), {}))
+        self._drive(self.begin_with.ctrl)
+        self._drive(next((controls for _, controls in self.begin_with.series), {}))
         if forward:
             self.engine.forward()
 

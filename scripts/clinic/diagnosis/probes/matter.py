@@ -36,7 +36,6 @@ class Matter:
     Attributes:
         mass: In kg.
         centre: The centre of mass.
-        spread: The standard deviation of the mass about its centre along each axis.
         about: The inertia about the centre of mass, in kg m2, row by row.
         middle: The middle of the box around all geoms.
         half: Its half sizes.
@@ -47,7 +46,6 @@ class Matter:
 
     mass: float
     centre: Vector
-    spread: Vector
     about: Vector
     middle: Vector
     half: Vector
@@ -146,12 +144,9 @@ def matter(simulation: Simulation, body: int) -> Matter | None:
         shifted = tuple(dot(off, off) * IDENTITY[3 * i + j] - off[i] * off[j] for i in range(3) for j in range(3))
         solid = add(solid, add(moments, shifted), mass * volume / total)
     about = tensor(simulation, body)
-    half_trace = (about[0] + about[4] + about[8]) / 2
-    spread = tuple(math.sqrt(max(0.0, half_trace - about[4 * i]) / mass) for i in range(3))
     return Matter(
         mass,
         simulation.row("body_ipos", body, 3),
-        spread,
         about,
         tuple((a + b) / 2 for a, b in zip(low, high, strict=True)),
         tuple((b - a) / 2 for a, b in zip(low, high, strict=True)),

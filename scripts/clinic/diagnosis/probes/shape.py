@@ -76,14 +76,14 @@ def thickness(simulation: Simulation, geom: int) -> float:
     return 2 * min(simulation.row("geom_aabb", geom, 6)[3:])
 
 
-def round_about(simulation: Simulation, joint: int, share: float = 0.1) -> bool:
-    """Whether a geom of a hinge's body has its middle on the hinge, to a share of the geom's radius."""
+def round_about(simulation: Simulation, joint: int) -> bool:
+    """Whether a geom of a hinge's body has its middle on the hinge, to a tenth of the geom's radius."""
     of = simulation
     anchor, axis = of.data_row("xanchor", joint, 3), of.data_row("xaxis", joint, 3)
     for geom in of.geoms_of(int(of.model("jnt_bodyid")[joint])):
         middle = times(of.data_row("geom_xmat", geom, 9), of.row("geom_aabb", geom, 6)[:3])
         off = sub(add(of.data_row("geom_xpos", geom, 3), middle), anchor)
-        if norm(add(off, axis, -dot(off, axis))) < share * of.model("geom_rbound")[geom]:
+        if norm(add(off, axis, -dot(off, axis))) < 0.1 * of.model("geom_rbound")[geom]:
             return True
     return False
 

@@ -20,7 +20,6 @@ class Deciding:
 
     dim: int
     friction: float
-    rolling: float
     kind: str  # "geom" or "pair"
     elements: tuple[int, ...]
 
@@ -28,14 +27,14 @@ class Deciding:
 def deciding(simulation: Simulation, contact: Contact) -> Deciding:
     """Of a contact's geoms; MuJoCo's manual, Computation, Contact parameters."""
     if (index := pair_of(simulation, *contact.geoms)) is not None:
-        friction = simulation.row("pair_friction", index, 5)
-        return Deciding(int(simulation.model("pair_dim")[index]), friction[0], friction[3], "pair", (index,))
+        friction = simulation.row("pair_friction", index, 5)[0]
+        return Deciding(int(simulation.model("pair_dim")[index]), friction, "pair", (index,))
     priority = simulation.model("geom_priority")
     top = max(priority[geom] for geom in contact.geoms)
     geoms = tuple(sorted({geom for geom in contact.geoms if priority[geom] == top}))
-    frictions = [simulation.row("geom_friction", geom, 3) for geom in geoms]
+    friction = max(simulation.row("geom_friction", geom, 3)[0] for geom in geoms)
     dim = max(int(simulation.model("geom_condim")[geom]) for geom in geoms)
-    return Deciding(dim, max(each[0] for each in frictions), max(each[2] for each in frictions), "geom", geoms)
+    return Deciding(dim, friction, "geom", geoms)
 
 
 def resting(simulation: Simulation) -> list[tuple[Contact, Deciding]]:
@@ -52,7 +51,7 @@ def with_like(simulation: Simulation, found: Iterable[Deciding], is_like: Callab
     made = list(found)
     like = tuple(geom for geom in range(simulation.count("geom")) if solid(simulation, geom) and is_like(geom))
     geoms = any(each.kind == "geom" for each in made)
-    return [*made, Deciding(3, 0.0, 0.0, "geom", like)] if like and geoms else made
+    return [*made, Deciding(3, 0.0, "geom", like)] if like and geoms else made
 
 
 def edits_of(model: ReaderModel, of: Iterable[Deciding], attribute: str, value: str) -> tuple[Edit, ...]:

@@ -28,19 +28,16 @@ def _inertial(
     mass: float = 1.0,
     moments: tuple[float, ...] = (1.0, 1.0, 1.0),
     offset: tuple[float, float, float] = (0.0, 0.0, 0.0),
-    turned: bool = True,
     absolute: tuple[float, float, float] | None = None,
 ) -> tuple[Edit, ...]:
-    """Edits that write a body's inertia, as compiled, with its numbers times factors.
-
-    `turned` keeps the rotation of the principal axes; `absolute` gives the moments as they are to be written.
-    """
+    """Edits that write a body's inertia, as compiled, with its numbers times factors; `absolute` gives the moments."""
     simulation = model.simulation
     position = [a + b for a, b in zip(simulation.row("body_ipos", body, 3), offset, strict=True)]
     inertia = absolute or [a * b for a, b in zip(simulation.row("body_inertia", body, 3), moments, strict=True)]
-    rotation = f' quat="{text_of(*simulation.row("body_iquat", body, 4))}"' if turned else ""
+    rotation = text_of(*simulation.row("body_iquat", body, 4))
     heavy = simulation.model("body_mass")[body] * mass
-    xml = f'<inertial pos="{text_of(*position)}"{rotation} mass="{text_of(heavy)}" diaginertia="{text_of(*inertia)}"/>'
+    xml = f'<inertial pos="{text_of(*position)}" quat="{rotation}" mass="{text_of(heavy)}"'
+    xml += f' diaginertia="{text_of(*inertia)}"/>'
     element = model.element("body", body)
     assert element is not None
     old = element.first("inertial")

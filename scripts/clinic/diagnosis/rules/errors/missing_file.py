@@ -74,7 +74,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         nearly = _nearly_called(base, {posixpath.basename(_file(each)) for each in named})
         guessed = edits + [edit for element in ill for edit in _moved(model, element, nearly)]
         edits = guessed if nearly and model.measured(COMPILES, guessed) == 0 else edits
-    if any(each.start == first.start for each in edits) or _directory(model, first) in {each.start for each in edits}:
+    if any(each.start == first.start for each in edits) or _directory(model) in {each.start for each in edits}:
         edits.sort(key=lambda each: each.start != first.start)
         says = f"{found.group(1)} is not there; {edits[0].value} is."
         edits = list(dict.fromkeys(edits))
@@ -88,7 +88,7 @@ def _file(element: Element) -> str:
     return element.get("file") or element.get("filename")
 
 
-def _directory(model: ReaderModel, element: Element) -> int:
+def _directory(model: ReaderModel) -> int:
     assert model.source is not None
     compiler = model.source.root.first("compiler")
     return compiler.start if compiler else -1

@@ -99,11 +99,11 @@ def _of_file(model: ReaderModel, file: str, says: str) -> Suspect:
     return advised(element, says, "filename" if element and "filename" in element.attributes else "file")
 
 
-def _read(file: str, most: int = 400) -> tuple[bytes, int] | None:
+def _read(file: str) -> tuple[bytes, int] | None:
     """A file's first bytes and its length; None where it cannot be read."""
     try:
         with open(file, "rb") as opened:
-            head = opened.read(most)
+            head = opened.read(400)
             return head, opened.seek(0, 2)
     except OSError:
         return None

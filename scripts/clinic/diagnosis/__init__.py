@@ -9,8 +9,3 @@ reader_model            the text beside what was compiled of it, and every edite
 rules, suspect, judge   what may be wrong; whether it is
 diagnose, finding       all of it in turn, and what is said
 """
-
-from clinic.diagnosis.diagnose import diagnose_here as diagnose
-from clinic.diagnosis.finding import Diagnosis, Finding
-
-__all__ = ["Diagnosis", "Finding", "diagnose"]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -18,7 +17,7 @@ from clinic.diagnosis.judge import Judged, grouped, judge, order, suspects_of, w
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import Rule, rules
 from clinic.diagnosis.simulation import Start
-from clinic.diagnosis.source import decoded, read_source, read_texts
+from clinic.diagnosis.source import decoded, read_source
 from clinic.diagnosis.stand_ins import StandIns
 from clinic.diagnosis.suspect import Suspect
 
@@ -189,28 +188,6 @@ class _Trial:
             and not meshes & {*each.suspect.elements}
         ]
         return made._replace(found=kept)
-
-
-def diagnose_here(path: Path | str, **options: object) -> Diagnosis:
-    """Diagnoses a model file in this process, whose current folder is the model's meanwhile.
-
-    Args:
-        path: An MJCF or URDF file.
-        options: See `examine`.
-
-    Raises:
-        OSError: If the file cannot be read.
-    """
-    from clinic.diagnosis.native import NativeEngine
-
-    path = Path(path).absolute()
-    before = Path.cwd()
-    os.chdir(path.parent)
-    try:
-        texts = read_texts(decoded(path.read_bytes())[0], path.name, read_file)
-        return examine(NativeEngine(), texts, **options)  # type: ignore[arg-type]
-    finally:
-        os.chdir(before)
 
 
 def read_file(name: str) -> str | None:

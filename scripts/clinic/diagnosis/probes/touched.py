@@ -10,7 +10,6 @@ from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 TOUCH, FORCE, TORQUE, RANGE = 0, 4, 5, 7  # mjtSensor
-SITE = 6  # mjtObj
 
 
 @dataclass

@@ -30,7 +30,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import FREE, SPHERE
+from clinic.diagnosis.engine import SPHERE
 from clinic.diagnosis.probes.push import rolls_on
 from clinic.diagnosis.probes.shape import root_of, solid
 from clinic.diagnosis.probes.touch import edits_of, names_of, resting
@@ -54,8 +54,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         geoms = [geom for geom in simulation.geoms_of(body) if solid(simulation, geom)]
         if owner.count(body) != 1 or len(geoms) != 1 or int(kinds[geoms[0]]) != SPHERE:
             continue
-        joint = simulation.joints_of(body)[0]
-        if simulation.joint_type(joint) != FREE or simulation.model("dof_damping")[simulation.dof(joint)] > 0:
+        if simulation.model("dof_damping")[simulation.dof(simulation.joints_of(body)[0])] > 0:
             continue
         meant = [
             decides

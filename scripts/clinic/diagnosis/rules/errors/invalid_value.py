@@ -80,7 +80,6 @@ ADVICE = {
     "negative|positive|must be|should be": "The sign is taken off.",
 }
 CONTACT = ("found", "force", "torque", "dist", "pos", "normal", "tangent", "linvel", "angvel")
-MINUS = re.compile(r"(?<!\w)-")
 RANGE = re.compile(r"(?:\w*range)\[0\] should be smaller than \w+\[1\]|invalid (?:\w+ )?range")
 
 

@@ -27,7 +27,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import Edit, replace
+from clinic.diagnosis.edit import replace
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import mends
 from clinic.diagnosis.rules.errors._remedy import advised
@@ -80,18 +80,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         says = f"MJCF begins with <mujoco>, and not with <{root.tag}>."
         yield mends(root, (replace(root, inner),), says, value="<mujoco>")
     elif root.tag in WHOLE:
-        yield mends(root, (_around(root, f"<mujoco>{xml}</mujoco>"),), "MJCF begins with <mujoco>.", value="<mujoco>")
+        yield mends(root, (replace(root, f"<mujoco>{xml}</mujoco>"),), "MJCF begins with <mujoco>.", value="<mujoco>")
     elif root.tag in INSIDE:
         whole = f"<mujoco><worldbody>{xml}</worldbody></mujoco>"
         says = f"A <{root.tag}> belongs into the <worldbody> of a <mujoco>."
-        yield mends(root, (_around(root, whole),), says, value="<mujoco><worldbody>")
+        yield mends(root, (replace(root, whole),), says, value="<mujoco><worldbody>")
     else:
         says = f"MuJoCo reads MJCF (<mujoco>) and URDF (<robot>), and this is <{root.tag}>."
         yield advised(root, " ".join(filter(None, (says, ROOTS.get(root.tag, "")))))
-
-
-def _around(root: object, xml: str) -> Edit:
-    return replace(root, xml)  # type: ignore[arg-type]
 
 
 def _of_text(text: str) -> str:

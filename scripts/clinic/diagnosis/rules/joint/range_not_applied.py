@@ -80,7 +80,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _unstopped(simulation: Simulation, joints: tuple[int, ...]) -> float:
-    simulation.begin()
     free = 0.0
     with alone(simulation, limp=True):
         for joint in joints:

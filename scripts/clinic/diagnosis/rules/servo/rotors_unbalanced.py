@@ -135,7 +135,7 @@ def _drones(of: Simulation) -> Iterator[Drone]:
     g, owner = norm(of.model("opt.gravity")), root_of(of)
     if not g or of.model("opt.density")[0] > WATER:
         return
-    for body in dict.fromkeys(of.free_bodies):
+    for body in of.free_bodies:
         found = _drone(of, body, g * of.model("body_subtreemass")[body])
         tree = [each for each, root in enumerate(owner) if root == body]
         if found and not any(of.model("body_gravcomp")[each] for each in tree):

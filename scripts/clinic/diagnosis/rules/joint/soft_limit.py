@@ -35,7 +35,7 @@ from clinic.diagnosis.edit import Edit, remove_attribute
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.servo import alone
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A limit that gives way"
@@ -102,22 +102,21 @@ def _most(of: Simulation, *joints: int) -> float:
     return max(_gives(of, joint) for joint in joints)
 
 
+@kept
 def _gives(of: Simulation, joint: int) -> float:
     """How much further a joint goes than with MuJoCo's own limit, over what is allowed."""
-    if ("gives", joint) not in of.kept:
-        least = FAR if of.joint_type(joint) == HINGE else SHARE * _span(of, joint)
-        own = {field: of.row(field, joint, len(usual)) for field, usual in OWN.values()}
-        with alone(of, limp=True):
-            far = _past(of, joint)
-            try:
-                for field, usual in OWN.values():
-                    of.engine.write_model(field, usual, len(usual) * joint)
-                far -= _past(of, joint)
-            finally:
-                for field, row in own.items():
-                    of.engine.write_model(field, row, len(row) * joint)
-        of.kept["gives", joint] = far / least
-    return of.kept["gives", joint]  # type: ignore[return-value]
+    least = FAR if of.joint_type(joint) == HINGE else SHARE * _span(of, joint)
+    own = {field: of.row(field, joint, len(usual)) for field, usual in OWN.values()}
+    with alone(of, limp=True):
+        far = _past(of, joint)
+        try:
+            for field, usual in OWN.values():
+                of.engine.write_model(field, usual, len(usual) * joint)
+            far -= _past(of, joint)
+        finally:
+            for field, row in own.items():
+                of.engine.write_model(field, row, len(row) * joint)
+    return far / least
 
 
 def _past(of: Simulation, joint: int) -> float:

@@ -43,7 +43,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A muscle that gives no force"
@@ -108,13 +108,12 @@ def _length(of: Simulation, actuator: int) -> float:
     return of.data("actuator_length")[actuator]
 
 
+@kept
 def _missing(of: Simulation, actuator: int) -> float:
     """What excitation leaves of the peak force, where it gives the most."""
-    if ("missing", actuator) not in of.kept:
-        peak = _peak(of, actuator)
-        given = max(_given(of, actuator, share) for share in (None, *SHARES)) if peak > 1e-9 else 0.0
-        of.kept["missing", actuator] = 1.0 - given / max(peak, 1e-9)
-    return of.kept["missing", actuator]  # type: ignore[return-value]
+    peak = _peak(of, actuator)
+    given = max(_given(of, actuator, share) for share in (None, *SHARES)) if peak > 1e-9 else 0.0
+    return 1.0 - given / max(peak, 1e-9)
 
 
 def _given(of: Simulation, actuator: int, share: float | None) -> float:

@@ -53,7 +53,7 @@ from clinic.diagnosis.probes import tendons
 from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, WELD, by_mocap, ends, frames, kind_of, off_course
 from clinic.diagnosis.probes.vector import dot, sub, times, transpose, written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import WIDTH, Simulation
+from clinic.diagnosis.simulation import WIDTH, Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A mechanism that its loops lock"
@@ -174,10 +174,9 @@ def _without(column: Column, directions: Sequence[Column]) -> Column:
     return column
 
 
+@kept
 def _columns(of: Simulation) -> list[Column]:
     """How fast each degree of freedom opens the connections; translations alone of a free joint, none of a ball."""
-    if "columns" in of.kept:
-        return of.kept["columns"]  # type: ignore[return-value]
     of.begin()
     rest, start = _gaps(of), list(of.data("qpos"))
     made: list[Column] = [(0.0,) * len(rest)] * of.count("dof")
@@ -188,7 +187,6 @@ def _columns(of: Simulation) -> list[Column]:
             of.engine.forward()
             made[of.dof(joint) + each] = tuple((x - y) / STEP for x, y in zip(_gaps(of), rest, strict=True))
             of.engine.write("qpos", start, 0)
-    of.kept["columns"] = made
     return made
 
 

@@ -50,8 +50,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.couplings import couplings
+from clinic.diagnosis.probes.tendons import TENDON, joints_of, path
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import REFERENCES, Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A tendon whose length never changes"
@@ -60,8 +61,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "what it is meant to cross, only intent knows"
 
-TENDON_DRIVEN, TENDON = 3, 18  # mjtTrn, mjtObj
-JOINT, PULLEY, SITE = 1, 2, 3  # mjtWrap
+TENDON_READ = 18  # mjtObj
 LEAST = 1e-3  # of the largest coefficient
 
 
@@ -71,7 +71,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for tendon in range(of.count("tendon")):
         if not _used(of, tendon):
             continue
-        fixed = int(of.model("wrap_type")[int(of.model("tendon_adr")[tendon])]) == JOINT
+        fixed = bool(joints_of(of, tendon))
         what = "coefficients of its joints are 0 or take each other away" if fixed else "sites do not move apart"
         yield Suspect(
             (of.name("tendon", tendon),),
@@ -92,39 +92,30 @@ def _used(of: Simulation, tendon: int) -> float:
     if not _constant(of, tendon):
         return 0.0
     driven = sum(
-        int(kind) == TENDON_DRIVEN and int(of.model("actuator_trnid")[2 * each]) == tendon
+        int(kind) == TENDON and int(of.model("actuator_trnid")[2 * each]) == tendon
         for each, kind in enumerate(of.model("actuator_trntype"))
     )
     read = zip(of.model("sensor_objtype"), of.model("sensor_objid"), strict=True)
     uses = [of.model("tendon_limited")[tendon], of.model("tendon_stiffness")[tendon]]
-    return float(driven + sum(map(bool, uses)) + sum((int(a), int(b)) == (TENDON, tendon) for a, b in read))
+    return float(driven + sum(map(bool, uses)) + sum((int(a), int(b)) == (TENDON_READ, tendon) for a, b in read))
 
 
 def _constant(of: Simulation, tendon: int) -> bool:
-    first, number = int(of.model("tendon_adr")[tendon]), int(of.model("tendon_num")[tendon])
-    wraps = range(first, first + number)
-    kinds = [int(of.model("wrap_type")[each]) for each in wraps]
-    ids = [int(of.model("wrap_objid")[each]) for each in wraps]
-    if JOINT in kinds:
-        return _cancelled(of, ids, [of.model("wrap_prm")[each] for each in wraps])
-    owner = {SITE: "site_bodyid"}
-    bodies = {
-        int(of.model(owner.get(kind, "geom_bodyid"))[index])
-        for kind, index in zip(kinds, ids, strict=True)
-        if kind != PULLEY
-    }
+    if fixed := joints_of(of, tendon):
+        return _cancelled(of, fixed)
+    bodies = {int(of.model(REFERENCES[kind])[index]) for kind, index in path(of, tendon)}
     return len({int(of.model("body_weldid")[body]) for body in bodies}) == 1
 
 
-def _cancelled(of: Simulation, joints: list[int], coefficients: list[float]) -> bool:
-    """Whether the ways of joints, followers taken by the factors of their couplings, add up to nothing."""
+def _cancelled(of: Simulation, fixed: list[tuple[int, float]]) -> bool:
+    """Whether the ways of joints, times coefficients, followers by the factors of their couplings, add up to nothing."""
     leads = {follower: (leader, factors[1]) for _, (follower, leader, factors) in couplings(of)}
     sums: dict[int, float] = {}
-    for joint, coefficient in zip(joints, coefficients, strict=True):
+    for joint, coefficient in fixed:
         top, way = joint, coefficient
         for _ in leads:
             leader, factor = leads.get(top, (top, 1.0))
             top, way = leader, way * factor
         sums[top] = sums.get(top, 0.0) + way
-    largest = max(map(abs, coefficients), default=0.0)
+    largest = max(abs(coefficient) for _, coefficient in fixed)
     return all(abs(each) <= LEAST * largest for each in sums.values())

@@ -233,6 +233,15 @@ class Simulation:
         joint = int(self.model("actuator_trnid")[2 * actuator])
         return joint if self.joint_type(joint) in (HINGE, SLIDE) else None
 
+    @cached_property
+    def drivers(self) -> dict[int, list[int]]:
+        """The hinges and slides that actuators drive directly, and the actuators of each."""
+        made: dict[int, list[int]] = {}
+        for actuator in range(self.count("actuator")):
+            if (joint := self.driven_joint(actuator)) is not None:
+                made.setdefault(joint, []).append(actuator)
+        return made
+
     def unstable(self) -> bool:
         """Whether the simulation went to infinity since the last `begin`."""
         found = self.engine.warnings()

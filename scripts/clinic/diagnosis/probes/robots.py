@@ -83,7 +83,7 @@ def _lines(of: Simulation, robot: Robot) -> dict[int, list[Joint]]:
 @kept
 def limit_of(of: Simulation, joint: int) -> Limit | None:
     """What limits the force on a joint most; None where nothing does, or several actuators drive it."""
-    found, own = [], _drivers(of).get(joint, [])
+    found, own = [], of.drivers.get(joint, [])
     if of.model("jnt_actfrclimited")[joint]:
         found.append(Limit("joint", joint, "actuatorfrcrange", of.row("jnt_actfrcrange", joint, 2)[1], 1.0))
     if len(own) > 1:
@@ -97,15 +97,6 @@ def limit_of(of: Simulation, joint: int) -> Limit | None:
             most = of.row("actuator_ctrlrange", actuator, 2)[1]
             found.append(Limit("actuator", actuator, "ctrlrange", gear * gain * most, gear * gain))
     return min(found, key=lambda limit: limit.force, default=None)
-
-
-@kept
-def _drivers(of: Simulation) -> dict[int, list[int]]:
-    made: dict[int, list[int]] = {}
-    for actuator in range(of.count("actuator")):
-        if (joint := of.driven_joint(actuator)) is not None:
-            made.setdefault(joint, []).append(actuator)
-    return made
 
 
 def nearest_range(lines: Sequence[Joint], low: float, high: float) -> tuple[float, float]:

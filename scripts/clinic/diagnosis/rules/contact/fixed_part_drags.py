@@ -110,9 +110,8 @@ def _wheels(of: Simulation) -> set[int]:
     """The bodies that a driven level hinge without limits turns about their middle, on a free base."""
     of.begin()
     free = set(of.free_bodies)
-    driven = {joint for each in range(of.count("actuator")) if (joint := of.driven_joint(each)) is not None}
     owner, made = root_of(of), set()
-    for joint in driven:
+    for joint in of.drivers:
         body = int(of.model("jnt_bodyid")[joint])
         endless = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
         level = abs(of.data_row("xaxis", joint, 3)[2]) < LEVEL_ENOUGH

@@ -80,8 +80,7 @@ def _below(of: Simulation, *joints: int) -> float:
 
 def _ranges(of: Simulation) -> dict[int, float]:
     """The width in rad of the range of each hinge that is driven or has a spring."""
-    driven = {of.driven_joint(each) for each in range(of.count("actuator"))}
-    driven |= {joint for joint, stiffness in enumerate(of.model("jnt_stiffness")) if stiffness}
+    driven = set(of.drivers) | {joint for joint, stiffness in enumerate(of.model("jnt_stiffness")) if stiffness}
     made = {}
     for joint in range(of.count("joint")):
         if joint in driven and of.joint_type(joint) == HINGE and of.model("jnt_limited")[joint]:

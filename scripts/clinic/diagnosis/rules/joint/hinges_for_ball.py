@@ -103,8 +103,9 @@ def _held(of: Simulation, joint: int) -> bool:
     """Whether something but inertia acts on a joint."""
     dof = of.dof(joint)
     fields = ("dof_damping", "dof_frictionloss", "dof_armature")
-    driven = any(of.driven_joint(actuator) == joint for actuator in range(of.count("actuator")))
-    return driven or bool(of.model("jnt_stiffness")[joint]) or any(of.model(field)[dof] for field in fields)
+    return (
+        joint in of.drivers or bool(of.model("jnt_stiffness")[joint]) or any(of.model(field)[dof] for field in fields)
+    )
 
 
 def _lost(of: Simulation, body: int) -> float:

@@ -145,14 +145,13 @@ def _push_held(of: Simulation, joint: int) -> float:
     return max(OPENING * damping, friction) / most if most > 0 else 0.0
 
 
-def _moved(of: Simulation) -> set[int | None]:
+def _moved(of: Simulation) -> set[int]:
     """The joints that an actuator, a spring, a tendon or an equality may move."""
     every = set(range(of.count("joint")))
     if of.count("tendon") or _cranked(of):
-        return set(every)
-    driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
+        return every
     tied = every if of.count("equality") else set()
-    return driven | {joint for joint in every if of.model("jnt_stiffness")[joint]} | tied
+    return set(of.drivers) | {joint for joint in every if of.model("jnt_stiffness")[joint]} | tied
 
 
 def _cranked(of: Simulation) -> bool:
@@ -205,11 +204,10 @@ def _held(simulation: Simulation) -> dict[int, float]:
         return {}
     if _cranked(simulation):
         return {}
-    driven = {simulation.driven_joint(actuator) for actuator in range(simulation.count("actuator"))}
     gravity, springs = math.hypot(*simulation.model("opt.gravity")), simulation.model("jnt_stiffness")
     made = {}
     for joint in range(simulation.count("joint")):
-        if joint in driven or springs[joint] or simulation.joint_type(joint) not in (HINGE, SLIDE):
+        if joint in simulation.drivers or springs[joint] or simulation.joint_type(joint) not in (HINGE, SLIDE):
             continue
         dof, body = simulation.dof(joint), int(simulation.model("jnt_bodyid")[joint])
         lever = size(simulation, body) if simulation.joint_type(joint) == HINGE else 1.0

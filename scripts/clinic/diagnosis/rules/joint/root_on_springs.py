@@ -60,10 +60,9 @@ FEW = 3
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The roots whose joints have a stiffness from a default class."""
     of = model.simulation
-    driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
     stiffness = of.model("jnt_stiffness")
     for root in roots(of):
-        joints = tuple(joint for joint in of.joints_of(root) if stiffness[joint] > 0 and joint not in driven)
+        joints = tuple(joint for joint in of.joints_of(root) if stiffness[joint] > 0 and joint not in of.drivers)
         own = any((each := model.element("joint", j)) is None or "stiffness" in each.attributes for j in joints)
         if len(joints) < FEW or own or not any(of.joint_type(joint) == SLIDE for joint in joints):
             continue

@@ -54,10 +54,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     parents, bodies, names = of.model("body_parentid"), of.model("jnt_bodyid"), of.names("body")
     urdf = model.source is not None and model.source.urdf  # which does not say what drives a joint
-    driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
     for joint in range(of.count("joint")):
         body = int(bodies[joint])
-        if of.joint_type(joint) != SLIDE or not parents[body] or joint in driven or len(of.joints_of(body)) > 1:
+        if of.joint_type(joint) != SLIDE or not parents[body] or joint in of.drivers or len(of.joints_of(body)) > 1:
             continue
         if of.model("jnt_stiffness")[joint] > 0:
             continue

@@ -82,12 +82,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _springs(of: Simulation) -> list[int]:
     """The slides that have a spring and a range and no actuator."""
-    driven = {of.driven_joint(each) for each in range(of.count("actuator"))}
     stiffness, limited = of.model("jnt_stiffness"), of.model("jnt_limited")
     return [
         joint
         for joint in range(of.count("joint"))
-        if of.joint_type(joint) == SLIDE and stiffness[joint] > 0 and limited[joint] and joint not in driven
+        if of.joint_type(joint) == SLIDE and stiffness[joint] > 0 and limited[joint] and joint not in of.drivers
     ]
 
 

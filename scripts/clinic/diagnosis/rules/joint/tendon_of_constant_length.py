@@ -108,7 +108,7 @@ def _constant(of: Simulation, tendon: int) -> bool:
 
 
 def _cancelled(of: Simulation, fixed: list[tuple[int, float]]) -> bool:
-    """Whether the ways of joints, times coefficients, followers by the factors of their couplings, add up to nothing."""
+    """Whether the ways of joints, each by its coefficient and that of its coupling, add up to nothing."""
     leads = {follower: (leader, factors[1]) for _, (follower, leader, factors) in couplings(of)}
     sums: dict[int, float] = {}
     for joint, coefficient in fixed:

@@ -81,14 +81,13 @@ def twice(of: Simulation) -> dict[int, list[int]]:
 def _idle(of: Simulation, joint: int) -> list[int]:
     """The hinges and slides of a joint's mechanism, or called like it but for a number, that no actuator drives."""
     owner, bodies = root_of(of), of.model("jnt_bodyid")
-    driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
     row = of_a_row(of)
     beside = (
         each
         for each in range(of.count("joint"))
         if owner[int(bodies[each])] == owner[int(bodies[joint])] or row[each] == row[joint]
     )
-    return [each for each in beside if each not in driven and of.joint_type(each) in (HINGE, SLIDE)]
+    return [each for each in beside if each not in of.drivers and of.joint_type(each) in (HINGE, SLIDE)]
 
 
 def _more(of: Simulation, joint: int) -> float:

@@ -126,7 +126,7 @@ def _moved(of: Simulation) -> set[int]:
     kinds = [int(each) for each in of.model("actuator_trntype")]
     if any(kind not in (*BY_JOINT, TENDON) for kind in kinds):
         return set()
-    made = {joint for each in range(len(kinds)) if (joint := of.driven_joint(each)) is not None}
+    made = set(of.drivers)
     if not made:
         return made
     wraps = zip(of.model("wrap_type"), of.model("wrap_objid"), strict=True) if of.count("tendon") else ()

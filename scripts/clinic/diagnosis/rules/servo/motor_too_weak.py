@@ -103,9 +103,8 @@ def _strongest(of: Simulation, actuator: int) -> float:
 def _burden(of: Simulation, actuator: int) -> float:
     """The greatest load of a joint's weight over what its velocity servo gives while it stands; 0 for what is none."""
     joint, bias = of.driven_joint(actuator), of.bias(actuator)[:3]
-    drives = [each for each in range(of.count("actuator")) if of.driven_joint(each) == joint]
     velocity = int(of.model("actuator_biastype")[actuator]) == AFFINE and not any(bias[:2]) and bias[2] < 0
-    if joint is None or not velocity or not of.model("actuator_ctrllimited")[actuator] or len(drives) > 1:
+    if joint is None or not velocity or not of.model("actuator_ctrllimited")[actuator] or len(of.drivers[joint]) > 1:
         return 0.0
     if of.model("jnt_stiffness")[joint] or of.count("equality") or of.count("tendon"):
         return 0.0
@@ -120,11 +119,7 @@ def _slow_of(of: Simulation, joint: int) -> float:
 
 def _slow(of: Simulation) -> dict[int, float]:
     """Inertia over the force of all that drives a joint, of joints that limited motors alone drive."""
-    forces: dict[int, float] = {}
-    for actuator in range(of.count("actuator")):
-        joint = of.driven_joint(actuator)
-        if joint is not None:
-            forces[joint] = forces.get(joint, 0.0) + _force(of, actuator)
+    forces = {joint: sum(_force(of, each) for each in own) for joint, own in of.drivers.items()}
     return {joint: of.mass_diagonal[of.dof(joint)] / force for joint, force in forces.items() if 0 < force < math.inf}
 
 

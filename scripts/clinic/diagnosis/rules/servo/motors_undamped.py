@@ -94,8 +94,7 @@ def _share(of: Simulation) -> float:
 def _bare(of: Simulation) -> list[int]:
     """The hinges that motors drive; none where one has damping, friction, armature, or no range, or in a fluid."""
     actuators = range(of.count("actuator"))
-    joints = [of.driven_joint(each) for each in actuators]
-    hinges = list(dict.fromkeys(each for each in joints if each is not None and of.joint_type(each) == HINGE))
+    hinges = [joint for joint in of.drivers if of.joint_type(joint) == HINGE]
     fields = ("dof_damping", "dof_armature", "dof_frictionloss")
     held = any(of.model(field)[of.dof(joint)] for joint in hinges for field in fields)
     motors = all(int(of.model(f"actuator_{kind}type")[each]) == 0 for each in actuators for kind in ("gain", "bias"))

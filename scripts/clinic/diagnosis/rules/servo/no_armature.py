@@ -99,8 +99,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
     """Driven joints of light links without armature, where something gets too fast and no gain is the reason."""
     of, inertia = model.simulation, model.simulation.mass_diagonal
-    driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))} - {None}
-    bare = [joint for joint in driven if joint is not None and of.model("dof_armature")[of.dof(joint)] == 0]
+    bare = [joint for joint in of.drivers if of.model("dof_armature")[of.dof(joint)] == 0]
     bodies = of.model("jnt_bodyid")
     shown = {above for body in of.model("geom_bodyid") for above in of.ancestors(int(body))}
     bare = [joint for joint in bare if bodies[joint] not in thin and int(bodies[joint]) in shown]

@@ -69,11 +69,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     if model.source is None or model.source.urdf:
         return
-    driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
     found = {}
     for body in range(1, of.count("body")):
         joints = list(of.joints_of(body))
-        if not joints or of.model("body_parentid")[body] or driven & set(joints):
+        if not joints or of.model("body_parentid")[body] or of.drivers.keys() & set(joints):
             continue
         if (_called(of, body) and _anywhere(of, joints)) or _creeps(of, joints):
             found[body] = joints

@@ -224,7 +224,7 @@ def _copied(of: Simulation, each: Comparison) -> bool:
 def _led(model: ReaderModel, each: Comparison) -> bool:
     """Whether the range is of a pair of which one joint is driven, so that the other is led."""
     of = model.simulation
-    driven = {of.driven_joint(actuator) for actuator in range(of.count("actuator"))}
+    driven = of.drivers
     return each.quantity == "range" and each.kind == "joint" and (each.left in driven) != (each.right in driven)
 
 

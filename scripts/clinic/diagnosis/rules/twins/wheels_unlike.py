@@ -111,7 +111,7 @@ def _axles(of: Simulation) -> Iterator[tuple[int, int]]:
 def _is_wheel(of: Simulation, joint: int) -> bool:
     body = int(of.model("jnt_bodyid")[joint])
     free = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
-    drives = sum(of.driven_joint(actuator) == joint for actuator in range(of.count("actuator")))
+    drives = len(of.drivers.get(joint, []))
     called = is_wheel(of.names("joint")[joint], of.names("body")[body])
     driven = drives == 1 or (called and not of.count("actuator"))
     return free and driven and abs(_axis(of, joint)[2]) < LEVEL_ENOUGH and _tyre(of, joint) >= 0 and body > 0
@@ -136,7 +136,7 @@ def _radius(of: Simulation, joint: int) -> float:
 
 
 def _actuator(of: Simulation, joint: int) -> int | None:
-    return next((each for each in range(of.count("actuator")) if of.driven_joint(each) == joint), None)
+    return next(iter(of.drivers.get(joint, [])), None)
 
 
 def _gear(of: Simulation, joint: int) -> float:

@@ -162,6 +162,10 @@ class ReaderModel:
         found = (index for index in range(self.simulation.count(kind)) if self.simulation.name(kind, index) == said)
         return self.element(kind, next(found, -1))
 
+    def text_of(self, element: Element) -> str:
+        """An element as it is written, with all inside."""
+        return self.texts[element.file].encode()[element.start : element.end].decode()
+
     def value(self, kind: str, index: int, attribute: str) -> str | None:
         """What is written for an attribute, on the element or in its default class; None where nothing is."""
         element = self.element(kind, index)

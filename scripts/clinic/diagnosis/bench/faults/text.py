@@ -25,11 +25,6 @@ def _elements(model: ReaderModel, *tags: str) -> list[Element]:
     return list(model.source.elements(*tags))
 
 
-def _xml(model: ReaderModel, element: Element) -> str:
-    assert model.source is not None
-    return model.source.texts[element.file].encode()[element.start : element.end].decode()
-
-
 @kind("unknown-attribute", "removed-attribute", harms=DOES_NOT_COMPILE)
 def attribute_of_an_older_release(model: ReaderModel, random: Random) -> Fault | None:
     """An attribute of `<option>` or `<compiler>` that newer releases do not know."""
@@ -62,7 +57,7 @@ def element_misspelt(model: ReaderModel, random: Random) -> Fault | None:
         return None
     element = random.choice(found)
     wrong = other[element.tag]
-    xml = _xml(model, element).replace(f"<{element.tag}", f"<{wrong}", 1)
+    xml = model.text_of(element).replace(f"<{element.tag}", f"<{wrong}", 1)
     return Fault((replace(element, xml),), (), wrong)
 
 
@@ -124,7 +119,7 @@ def tag_not_closed(model: ReaderModel, random: Random) -> Fault | None:
     if not found:
         return None
     element = random.choice(found)
-    xml = _xml(model, element)
+    xml = model.text_of(element)
     wrong = xml[: xml.rindex("/")] + ">" if random.random() < 0.5 else xml.replace('"', "", 1)
     return Fault((replace(element, wrong),), (), "")
 

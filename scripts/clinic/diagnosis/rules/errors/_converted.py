@@ -47,7 +47,7 @@ def converted(model: ReaderModel, element: Element, attribute: str) -> Iterator[
     elif tag == "camera" and attribute in ("lookat", "target_pos"):
         yield from _seen(element, attribute)
     elif tag == "freejoint":
-        text = model.texts[element.file].encode()[element.start : element.end].decode()
+        text = model.text_of(element)
         whole = text.replace("<freejoint", '<joint type="free"', 1).replace("</freejoint", "</joint")
         yield (replace(element, whole),), '<joint type="free">', "A <freejoint> has a name and a group alone."
     elif tag == "light" and attribute in ("color", "rgba", "rgb"):

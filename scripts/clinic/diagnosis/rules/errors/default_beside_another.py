@@ -55,14 +55,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     tops = [each for each in model.source.root.children if each.tag == "default"]
     for element in meant(model, "default"):
-        xml = model.texts[element.file].encode()[element.start : element.end].decode()
+        xml = model.text_of(element)
         home = next((each for each in tops if each.get("class") in ("", "main") and each is not element), None)
         edits: tuple[Edit, ...] = (replace(element, f"<default>{xml}</default>"),)
         edits = (delete(element), insert(home, xml)) if home else edits
         named = [each for each in tops if each.get("class") not in ("", "main") and each.file == element.file]
         if home is None and len(named) > 1:
-            text = model.texts[element.file].encode()
-            inner = "".join(text[each.start : each.end].decode() for each in named)
+            inner = "".join(model.text_of(each) for each in named)
             edits = (replace(named[0], f"<default>{inner}</default>"), *(delete(each) for each in named[1:]))
         name = element.get("class")
         yield mends(

@@ -74,7 +74,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     if "model type" not in model.error and "unrecognized element" not in model.error:
         return
-    xml = text.encode()[root.start : root.end].decode()
+    xml = model.text_of(root)
     if root.tag.lower() in ("mujoco", "mjcf", "mujocoinclude", "mujocomodel", "model"):
         inner = re.sub(rf"^<{re.escape(root.tag)}\b", "<mujoco", re.sub(r"</[\w:]+\s*>$", "</mujoco>", xml))
         says = f"MJCF begins with <mujoco>, and not with <{root.tag}>."

@@ -177,10 +177,8 @@ def _sensor(model: ReaderModel, sensor: Element, kind: str, said: str) -> Iterat
 
 
 def _renamed(model: ReaderModel, element: Element, tag: str) -> str:
-    text = model.texts[element.file].encode()[element.start : element.end].decode()
-    return re.sub(
-        rf"^<{element.tag}\b|</{element.tag}(?=\s*>$)", lambda found: found[0].replace(element.tag, tag), text
-    )
+    ends = rf"^<{element.tag}\b|</{element.tag}(?=\s*>$)"
+    return re.sub(ends, lambda found: found[0].replace(element.tag, tag), model.text_of(element))
 
 
 def _wrap(tendon: Element, name: str | None, said: str) -> Iterator[Suspect]:

@@ -100,7 +100,7 @@ def _together(model: ReaderModel, element: Element) -> Iterator[tuple[tuple[Edit
 
 def _moved(model: ReaderModel, elements: list[Element]) -> Iterator[tuple[tuple[Edit, ...], str]]:
     root, gone = model.source.root if model.source else None, [delete(each) for each in elements]
-    text = "\n    ".join(_text(model, each) for each in elements)
+    text = "\n    ".join(model.text_of(each) for each in elements)
     for section, words in HOME.items():
         if root is not None and elements[0].tag in words.split():
             there = root.first(section)
@@ -112,7 +112,7 @@ def _tries(model: ReaderModel, element: Element) -> Iterator[tuple[tuple[Edit, .
     if element.tag == "composite":
         yield from _flexcomp(element)
         return
-    text = _text(model, element)
+    text = model.text_of(element)
     known = [*SECTIONS.split(), *KNOWN.split(), *(word for words in HOME.values() for word in words.split())]
     names = [RENAMED[element.tag]] if element.tag in RENAMED else nearest(element.tag, known)
     for name in names:
@@ -141,7 +141,3 @@ def _flexcomp(composite: Element) -> Iterator[tuple[tuple[Edit, ...], str]]:
     xml += '<edge equality="true"/></flexcomp>'
     yield (replace(composite, xml),), f'<flexcomp dim="{dim}">'
     yield (delete(composite),), "removed"
-
-
-def _text(model: ReaderModel, element: Element) -> str:
-    return model.texts[element.file].encode()[element.start : element.end].decode()

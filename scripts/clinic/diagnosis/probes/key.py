@@ -30,7 +30,7 @@ def servos(simulation: Simulation, key: int) -> dict[int, tuple[float, float]]:
     start_at(simulation, key)
     ctrl = simulation.data("ctrl")
     return {
-        each.actuator: (each.offset + each.scale * ctrl[each.actuator], simulation.position(each.joint))
+        each.actuator: (each.target(ctrl[each.actuator]), simulation.position(each.joint))
         for each in found
         if each.scale > 0
     }
@@ -106,7 +106,7 @@ def against_range(simulation: Simulation, key: int) -> dict[int, tuple[float, fl
     for each in found:
         if each.joint in off and each.targets and each.scale > 0:
             at = simulation.position(each.joint)
-            target = each.offset + each.scale * simulation.data("ctrl")[each.actuator]
+            target = each.target(simulation.data("ctrl")[each.actuator])
             if abs(target - at) < AGREE and each.targets[0] - AGREE < at < each.targets[1] + AGREE:
                 made[each.joint] = each.targets
     return made

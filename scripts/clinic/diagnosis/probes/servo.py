@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -44,6 +44,11 @@ class Servo:
         return "rad" if self.hinge else "m"
 
     @property
+    def force_unit(self) -> str:
+        """Of the force at the joint."""
+        return "N m" if self.hinge else "N"
+
+    @property
     def ratio(self) -> float:
         """The damping ratio; 1 is critical."""
         return self.damping / (2 * math.sqrt(self.stiffness * self.inertia))
@@ -53,12 +58,20 @@ class Servo:
         """Where its control range can send the joint."""
         if self.ctrl is None:
             return None
-        ends = [self.offset + self.scale * each for each in self.ctrl]
+        ends = [self.target(each) for each in self.ctrl]
         return min(ends), max(ends)
+
+    def target(self, ctrl: float) -> float:
+        """The position in rad or m that a control calls for."""
+        return self.offset + self.scale * ctrl
+
+    def holding(self, position: float) -> float:
+        """The control that calls for a position in rad or m, whatever the control range is."""
+        return (position - self.offset) / self.scale
 
     def command(self, position: float) -> float:
         """The control that calls for a position, within the control range."""
-        wanted = (position - self.offset) / self.scale
+        wanted = self.holding(position)
         return min(max(wanted, self.ctrl[0]), self.ctrl[1]) if self.ctrl else wanted
 
 
@@ -159,6 +172,11 @@ def servo_of(simulation: Simulation, actuator: int) -> Servo | None:
     return next((each for each in servos(simulation) if each.actuator == actuator), None)
 
 
+def greatest(simulation: Simulation, number: Callable[[Servo], float], actuators: Collection[int]) -> float:
+    """The greatest that a number of the servos among some actuators is, in its own unit; 0 where none is a servo."""
+    return max((number(each) for each in servos(simulation) if each.actuator in actuators), default=0.0)
+
+
 def _overshoot(simulation: Simulation, actuators: Sequence[int]) -> float:
     return max((_rings(simulation, actuator) for actuator in actuators), default=0.0)
 
@@ -181,7 +199,7 @@ def _begun(simulation: Simulation, servo: Servo) -> tuple[float, float]:
         step = min(step, 0.1 * (high - low))
         step = step if high - begin > begin - low else -step
     command(simulation, servo, begin + step)
-    goal = servo.offset + servo.scale * simulation.data("ctrl")[servo.actuator]
+    goal = servo.target(simulation.data("ctrl")[servo.actuator])
     return goal, goal - begin
 
 

@@ -61,7 +61,7 @@ def stance_after(simulation: Simulation, seconds: float) -> Stance:
             return none
     down = floor + height - simulation.data_row("xpos", root, 3)[2]
     targets = simulation.data("ctrl")
-    bent = {s: abs(s.offset + s.scale * targets[s.actuator] - simulation.position(s.joint)) for s in own}
+    bent = {s: abs(s.target(targets[s.actuator]) - simulation.position(s.joint)) for s in own}
     forces, gears = simulation.data("actuator_force"), simulation.model("actuator_gear")
     full = [s for s in own if abs(forces[s.actuator] * gears[6 * s.actuator]) >= FULL * s.force]
     return Stance(down / height, bent, tuple(full))

@@ -34,7 +34,7 @@ from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.key import against_range
-from clinic.diagnosis.probes.servo import Servo, servos
+from clinic.diagnosis.probes.servo import Servo, greatest, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.servo.control_range_too_wide import inherit, inherited
 from clinic.diagnosis.rules.servo.driven_twice import twice
@@ -60,7 +60,7 @@ def missed(servo: Servo) -> float:
 
 
 def _missed(simulation: Simulation, actuators: Sequence[int]) -> float:
-    return max((missed(each) for each in servos(simulation) if each.actuator in actuators), default=0.0)
+    return greatest(simulation, missed, actuators)
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

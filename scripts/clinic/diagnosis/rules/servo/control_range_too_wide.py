@@ -36,7 +36,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.press import past_limit
-from clinic.diagnosis.probes.servo import Servo, servos
+from clinic.diagnosis.probes.servo import Servo, greatest, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Level, Probe, Suspect
@@ -84,7 +84,7 @@ def _farthest_of(found: list[Servo]) -> Probe:
 
 
 def _farthest(simulation: Simulation, actuators: tuple[int, ...]) -> float:
-    return max((beyond(each) for each in servos(simulation) if each.actuator in actuators), default=0.0)
+    return greatest(simulation, beyond, actuators)
 
 
 def _amplified(model: ReaderModel, servo: Servo) -> bool:
@@ -134,7 +134,7 @@ def in_degrees(servo: Servo) -> str:
 def inherited(servo: Servo) -> str:
     """The control range that reaches the joint's range."""
     assert servo.range is not None
-    return " ".join(f"{each:.4g}" for each in sorted((each - servo.offset) / servo.scale for each in servo.range))
+    return " ".join(f"{each:.4g}" for each in sorted(map(servo.holding, servo.range)))
 
 
 def inherit(model: ReaderModel, servo: Servo) -> tuple[Edit, ...]:

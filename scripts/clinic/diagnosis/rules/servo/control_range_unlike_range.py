@@ -52,7 +52,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.servo import Servo, servos
+from clinic.diagnosis.probes.servo import Servo, greatest, servos
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -112,4 +112,4 @@ def _apart(servo: Servo) -> float:
 
 
 def _unlike(simulation: Simulation, actuator: int) -> float:
-    return max((_apart(each) for each in servos(simulation) if each.actuator == actuator), default=0.0)
+    return greatest(simulation, _apart, [actuator])

@@ -62,7 +62,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not weak:
         return
     worst = weak[0]
-    unit = "N m" if worst.hinge else "N"
+    unit = worst.force_unit
     yield Suspect(
         tuple(simulation.name("actuator", each.actuator) for each in weak),
         "forcerange",
@@ -83,7 +83,7 @@ def _gives_way(model: ReaderModel) -> Iterator[Suspect]:
     full = sorted(seen.full, key=lambda each: -seen.bent[each])
     if not full or max(seen.bent.values()) <= BENT:
         return
-    unit = "N m" if full[0].hinge else "N"
+    unit = full[0].force_unit
     yield Suspect(
         tuple(of.name("actuator", each.actuator) for each in full),
         "forcerange",

@@ -33,7 +33,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.servo import Servo, servos
+from clinic.diagnosis.probes.servo import Servo, greatest, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -96,4 +96,4 @@ def _ratio(of: Simulation, servo: Servo) -> float:
 
 
 def _off(of: Simulation, actuator: int) -> float:
-    return max((abs(_ratio(of, each) - 1) for each in servos(of) if each.actuator == actuator), default=0.0)
+    return greatest(of, lambda each: abs(_ratio(of, each) - 1), [actuator])

@@ -62,7 +62,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         name, title = of.name("actuator", servo.actuator), "steps in which the force turns from end to end"
         probe = Probe(title, "of 0.2 s", _turns, (servo.actuator, stiff <= STIFF))
-        unit = "N m" if servo.hinge else "N"
+        unit = servo.force_unit
         if stiff > STIFF:
             kp = of.gain(servo.actuator)[0]
             value = rounded(kp * WELL / stiff)

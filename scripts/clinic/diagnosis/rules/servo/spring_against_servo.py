@@ -36,7 +36,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.servo import Servo, alone, servos
+from clinic.diagnosis.probes.servo import Servo, alone, greatest, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -78,7 +78,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _most(of: Simulation, actuators: tuple[int, ...]) -> float:
-    return max((_kept(of, each) for each in servos(of) if each.actuator in actuators), default=0.0)
+    return greatest(of, lambda each: _kept(of, each), actuators)
 
 
 def _kept(of: Simulation, servo: Servo) -> float:

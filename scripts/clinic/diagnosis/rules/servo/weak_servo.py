@@ -89,7 +89,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             sag([each.actuator for each in weak]),
             most,
             f"The weight at {simulation.name('joint', worst.joint)} is up to {load[worst.dof]:.3g} "
-            f"{'N m' if hinge else 'N'}, and its servo gives {worst.stiffness:.3g} for each {worst.unit}.",
+            f"{worst.force_unit}, and its servo gives {worst.stiffness:.3g} for each {worst.unit}.",
             f"below {most:g} {worst.unit}; of healthy models with servos 0.29 is the most, 0.5 where the base is free",
         )
     yield from _bends(model, much)
@@ -169,7 +169,7 @@ def _little(model: ReaderModel, found: dict[int, float]) -> Iterator[Suspect]:
             (),
             sag([each.actuator for each in weak]),
             4 * good,
-            f"The weight at {of.name('joint', worst.joint)}, up to {load:.3g} {'N m' if hinge else 'N'}, moves it "
+            f"The weight at {of.name('joint', worst.joint)}, up to {load:.3g} {worst.force_unit}, moves it "
             f"{sagging:.2g} {worst.unit} off its target{share}, unless gravcomp takes the weight away.",
             f"below {LITTLE:g} rad, or 5 % of the range of a slide",
             level="hint",

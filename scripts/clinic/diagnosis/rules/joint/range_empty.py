@@ -33,12 +33,12 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import HINGE, SLIDE
-from clinic.diagnosis.probes.servo import alone, servos
+from clinic.diagnosis.probes.limits import unstopped
+from clinic.diagnosis.probes.servo import servos
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
-from clinic.diagnosis.suspect import Probe, Suspect, counted
+from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A range without any extent"
 FAMILIES = ("passes-limit", "stuck")
@@ -64,7 +64,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             " ".join(text),
             edits[0].value if edits else "",
             edits,
-            Probe("1 where nothing pushes the joint back from beyond its range", "", _free, (joint,), dynamic=False),
+            unstopped([joint], "the joint"),
             0.5,
             f"Its range is {what}, and MuJoCo takes that for none.",
             "the lower end first",
@@ -124,13 +124,3 @@ def _edits(model: ReaderModel, joint: int, text: list[str]) -> tuple[Edit, ...]:
     else:
         return ()
     return model.set("joint", [joint], "range", f"{low * scale:.4g} {high * scale:.4g}")
-
-
-def _free(simulation: Simulation, joint: int) -> float:
-    low, high = sorted(simulation.row("jnt_range", joint, 2))
-    with alone(simulation, limp=True):
-        simulation.begin(forward=False)
-        place = int(simulation.model("jnt_qposadr")[joint])
-        simulation.engine.write("qpos", [high + 0.1 * max(high - low, 0.1)], place)
-        simulation.engine.forward()
-        return float(simulation.data("qfrc_constraint")[simulation.dof(joint)] >= 0)

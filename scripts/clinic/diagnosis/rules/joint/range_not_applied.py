@@ -31,10 +31,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE, SLIDE
-from clinic.diagnosis.probes.servo import alone
+from clinic.diagnosis.probes.limits import unstopped
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A range that is not applied"
 FAMILIES = ("passes-limit",)
@@ -70,24 +69,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         "false",
         "true",
         model.set("joint", found, "limited", "true"),
-        Probe(
-            "1 where nothing pushes a joint back from beyond its range", "", _unstopped, (tuple(found),), dynamic=False
-        ),
+        unstopped(found),
         0.5,
         f"The range of {simulation.name('joint', found[0])}, {low:.3g} to {high:.3g}, has no effect.",
         'limited="auto", with autolimits',
     )
-
-
-def _unstopped(simulation: Simulation, joints: tuple[int, ...]) -> float:
-    free = 0.0
-    with alone(simulation, limp=True):
-        for joint in joints:
-            low, high = simulation.row("jnt_range", joint, 2)
-            simulation.begin(forward=False)
-            beyond = high + 0.1 * (high - low)
-            simulation.engine.write("qpos", [beyond], int(simulation.model("jnt_qposadr")[joint]))
-            simulation.engine.forward()
-            pushed = simulation.data("qfrc_constraint")[simulation.dof(joint)] < 0
-            free = max(free, 0.0 if pushed else 1.0)
-    return free

@@ -197,6 +197,23 @@ class Simulation:
         kinds, bodies = self.model("jnt_type"), self.model("jnt_bodyid")
         return [int(bodies[joint]) for joint, kind in enumerate(kinds) if int(kind) == FREE]
 
+    @cached_property
+    def moving_mass(self) -> float:
+        """The mass in kg of the bodies that some joint moves."""
+        return sum(self.model("body_mass")[body] for body in self.moving_bodies)
+
+    @cached_property
+    def children(self) -> dict[int, list[int]]:
+        """The bodies that hang on each body, the world too, that has some."""
+        made: dict[int, list[int]] = {}
+        for body in range(1, self.count("body")):
+            made.setdefault(int(self.model("body_parentid")[body]), []).append(body)
+        return made
+
+    def below(self, body: int) -> list[int]:
+        """A body and all that hangs on it."""
+        return [each for each in range(body, self.count("body")) if body in self.ancestors(each)]
+
     def ancestors(self, body: int) -> list[int]:
         """A body, the one that it hangs on, and so on up to the world."""
         made = [body]

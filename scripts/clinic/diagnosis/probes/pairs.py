@@ -94,9 +94,6 @@ class Pairs:
 
     def _by_place(self) -> None:
         of = self.of
-        children: dict[int, list[int]] = {}
-        for body in range(1, of.count("body")):
-            children.setdefault(int(of.model("body_parentid")[body]), []).append(body)
         paired = {kind: {index for pair in self.pairs[kind] for index in pair} for kind in KINDS}
 
         def pair(kind: str, left: list[int], right: list[int]) -> None:
@@ -114,7 +111,7 @@ class Pairs:
         done = 0
         while done < len(self.pairs["body"]):
             left, right = self.pairs["body"][done]
-            pair("body", children.get(left, []), children.get(right, []))
+            pair("body", of.children.get(left, []), of.children.get(right, []))
             pair("joint", of.joints_of(left), of.joints_of(right))
             pair("geom", of.geoms_of(left), of.geoms_of(right))
             done += 1

@@ -69,6 +69,22 @@ def solid(simulation: Simulation, geom: int) -> bool:
     return bool(simulation.model("geom_contype")[geom] or simulation.model("geom_conaffinity")[geom])
 
 
+def in_pairs(simulation: Simulation) -> set[int]:
+    """The geoms of all `<pair>`."""
+    return {int(geom) for side in (1, 2) for geom in simulation.model(f"pair_geom{side}")}
+
+
+def masks_told(simulation: Simulation, geom: int) -> str:
+    """The masks of a geom, contype before conaffinity: `1, 1`."""
+    return ", ".join(f"{int(simulation.model(f'geom_{mask}')[geom])}" for mask in ("contype", "conaffinity"))
+
+
+def plane_heights(simulation: Simulation) -> list[float]:
+    """How high the planes are, as the state is now, in m."""
+    kinds, places = simulation.model("geom_type"), simulation.data("geom_xpos")
+    return [places[3 * geom + 2] for geom, kind in enumerate(kinds) if int(kind) == PLANE]
+
+
 def thickness(simulation: Simulation, geom: int) -> float:
     """The smallest extent of a geom in its own axes, in m; infinite for a plane."""
     if int(simulation.model("geom_type")[geom]) == PLANE:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.servo import Servo, hold, servos
-from clinic.diagnosis.probes.shape import box, geoms_of_tree, root_of
+from clinic.diagnosis.probes.shape import box, geoms_of_tree, plane_heights, root_of
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
@@ -51,7 +50,7 @@ def stance_after(simulation: Simulation, seconds: float) -> Stance:
         return none
     simulation.begin()
     hold(simulation)
-    low, floor = _lowest(simulation, root), _floor(simulation)
+    low, floor = _lowest(simulation, root), max(plane_heights(simulation), default=None)
     high = simulation.data_row("xpos", root, 3)[2]
     height = high - low
     if floor is None or height <= 0 or abs(low - floor) > NEAR * height:
@@ -65,11 +64,6 @@ def stance_after(simulation: Simulation, seconds: float) -> Stance:
     forces, gears = simulation.data("actuator_force"), simulation.model("actuator_gear")
     full = [s for s in own if abs(forces[s.actuator] * gears[6 * s.actuator]) >= FULL * s.force]
     return Stance(down / height, bent, tuple(full))
-
-
-def _floor(simulation: Simulation) -> float | None:
-    planes = [geom for geom, kind in enumerate(simulation.model("geom_type")) if int(kind) == PLANE]
-    return max((simulation.data_row("geom_xpos", geom, 3)[2] for geom in planes), default=None)
 
 
 def _lowest(simulation: Simulation, root: int) -> float:

@@ -45,6 +45,14 @@ def unit(a: Sequence[float]) -> Vector:
     return tuple(x / length for x in a) if length > 1e-12 else tuple(0.0 for _ in a)
 
 
+def around(axis: Sequence[float], count: int) -> list[Vector]:
+    """So many directions at right angles to an axis of length 1, evenly over a turn."""
+    first = unit(cross(axis, (1.0, 0.0, 0.0) if abs(axis[0]) < 0.9 else (0.0, 1.0, 0.0)))
+    second = cross(axis, first)
+    angles = (2 * math.pi * turn / count for turn in range(count))
+    return [add(tuple(math.cos(angle) * x for x in first), second, math.sin(angle)) for angle in angles]
+
+
 def transpose(m: Sequence[float]) -> Vector:
     """Rows for columns; the inverse of a rotation."""
     return tuple(m[3 * column + row] for row in range(3) for column in range(3))

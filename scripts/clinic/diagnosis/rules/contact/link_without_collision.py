@@ -47,7 +47,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.shape import root_of, solid
+from clinic.diagnosis.probes.shape import in_pairs, masks_told, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -73,7 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     probe = Probe("links without a geom that collides", "", _count, dynamic=False)
     names = (*(of.name("body", body) for body in found), *(of.name("geom", geom) for geom in geoms))
     says = f"{of.name('body', found[0])} has no geom that can touch anything, and the other links have."
-    masks = ", ".join(f"{int(of.model(f'geom_{mask}')[geoms[0]])}" for mask in ("contype", "conaffinity"))
+    masks = masks_told(of, geoms[0])
     wanted = "a geom that collides"
     yield Suspect(names, "contype, conaffinity", masks, "1, 1", (), probe, 0, says, wanted, level="hint")
 
@@ -88,7 +88,7 @@ def _bare(of: Simulation) -> list[int]:
     links: dict[int, list[int]] = {}
     for geom, body in enumerate(of.model("geom_bodyid")):
         links.setdefault(int(welds[int(body)]), []).append(geom)
-    paired = {int(geom) for side in (1, 2) for geom in of.model(f"pair_geom{side}")}
+    paired = in_pairs(of)
     hard = {link for link, geoms in links.items() if any(solid(of, geom) or geom in paired for geom in geoms)} | {0}
     size = {link: max(of.model("geom_rbound")[geom] for geom in geoms) for link, geoms in links.items()}
     robots: dict[int, list[int]] = {}

@@ -36,7 +36,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.fall import bare, below, fallen, limit
-from clinic.diagnosis.probes.shape import collides, geoms_of_tree, pair_of, root_of, solid
+from clinic.diagnosis.probes.shape import collides, geoms_of_tree, masks_told, pair_of, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect
@@ -80,15 +80,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if made in told:
             continue
         told.add(made)
-        now = [f"{int(simulation.model('geom_contype')[geom])}" for geom in odd[:1]]
-        now += [f"{int(simulation.model('geom_conaffinity')[geom])}" for geom in odd[:1]]
         names = tuple(simulation.name("geom", geom) for geom in odd)
         body = simulation.name("body", root)
         says = f"No geom of {body} and {simulation.name('geom', surface)} have a bit in common: no contact is made."
         yield Suspect(
             (*names, body),
             "contype, conaffinity",
-            ", ".join(now),
+            masks_told(simulation, odd[0]) if odd else "",
             ", ".join(value.values()),
             made,
             below(root, surface),

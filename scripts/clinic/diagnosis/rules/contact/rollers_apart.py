@@ -36,14 +36,13 @@ When it is wrong: a paddle wheel, a gear, the legs of a spider on a turning body
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import CAPSULE, HINGE, SPHERE
 from clinic.diagnosis.probes.shape import solid
-from clinic.diagnosis.probes.vector import Vector, add, at, cross, dot, sub, unit
+from clinic.diagnosis.probes.vector import Vector, around, at, dot, sub
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation, kept
+from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A wheel of rollers that stand apart"
@@ -79,20 +78,11 @@ def _rollers(of: Simulation, joint: int) -> list[int]:
     hub = int(of.model("jnt_bodyid")[joint])
     if of.joint_type(joint) != HINGE or of.model("jnt_limited")[joint]:
         return []
-    carried = [body for body in _carried(of).get(hub, []) if of.joints_of(body)]
+    carried = [body for body in of.children.get(hub, []) if of.joints_of(body)]
     geoms = [[geom for geom in of.geoms_of(body) if solid(of, geom)] for body in carried]
     kinds = {int(of.model("geom_type")[geom]) for own in geoms for geom in own}
     alone = all(len(own) == 1 for own in geoms) and not any(solid(of, geom) for geom in of.geoms_of(hub))
     return [own[0] for own in geoms] if alone and len(geoms) >= ENOUGH and kinds <= {SPHERE, CAPSULE} else []
-
-
-@kept
-def _carried(of: Simulation) -> dict[int, list[int]]:
-    """The bodies that hang on a body."""
-    made: dict[int, list[int]] = {}
-    for body, parent in enumerate(of.model("body_parentid")):
-        made.setdefault(int(parent), []).append(body)
-    return made
 
 
 def _varies(of: Simulation, joint: int) -> float:
@@ -102,11 +92,7 @@ def _varies(of: Simulation, joint: int) -> float:
         return 0.0
     of.begin()
     axis, anchor = of.data_row("xaxis", joint, 3), of.data_row("xanchor", joint, 3)
-    first = unit(cross(axis, (1.0, 0.0, 0.0) if abs(axis[0]) < 0.9 else (0.0, 1.0, 0.0)))
-    second = cross(axis, first)
-    turns = (2 * math.pi * turn / ANGLES for turn in range(ANGLES))
-    ways = [add(tuple(math.cos(angle) * x for x in first), second, math.sin(angle)) for angle in turns]
-    radii = [max(_support(of, geom, anchor, way) for geom in rollers) for way in ways]
+    radii = [max(_support(of, geom, anchor, way) for geom in rollers) for way in around(axis, ANGLES)]
     return (max(radii) - min(radii)) * len(radii) / sum(radii) if min(radii) > 0 else 0.0
 
 

@@ -50,7 +50,7 @@ import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import PLANE
-from clinic.diagnosis.probes.shape import box, root_of, solid
+from clinic.diagnosis.probes.shape import box, in_pairs, masks_told, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -86,7 +86,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     probe = Probe("feet, wheels and fingers without a geom that collides", "", _count, (), dynamic=False)
     names = (*(of.name("body", body) for body in found), *(of.name("geom", geom) for geom in geoms))
     says = f"{of.name('body', found[0])} has no geom that can touch anything, and other parts of the robot have."
-    masks = ", ".join(f"{int(of.model(f'geom_{mask}')[geoms[0]])}" for mask in ("contype", "conaffinity"))
+    masks = masks_told(of, geoms[0])
     yield Suspect(
         names, "contype, conaffinity", masks, "1, 1", (), probe, 0, says, "a geom that collides", level="hint"
     )  # fmt: skip
@@ -102,7 +102,7 @@ def _ground(model: ReaderModel) -> Iterator[Suspect]:
         return
     names = tuple(of.name("geom", geom) for geom in found)
     says = f"{names[0]} touches nothing, and nothing in its place does."
-    masks = ", ".join(f"{int(of.model(f'geom_{mask}')[found[0]])}" for mask in ("contype", "conaffinity"))
+    masks = masks_told(of, found[0])
     edits = model.set("geom", found, "contype", "1") + model.set("geom", found, "conaffinity", "1")
     probe = Probe("floors, tables and steps that nothing touches", "", _count_ground, (), dynamic=False)
     yield Suspect(names, "contype, conaffinity", masks, "1, 1", edits, probe, 0, says, "a geom that collides")
@@ -118,7 +118,7 @@ def _untouched(of: Simulation) -> list[int]:
     still = [
         geom for geom, body in enumerate(bodies) if int(body) not in moving and of.model("body_mocapid")[int(body)] < 0
     ]
-    paired = {int(geom) for side in (1, 2) for geom in of.model(f"pair_geom{side}")}
+    paired = in_pairs(of)
     solids = [geom for geom in still if solid(of, geom) or geom in paired]
     geoms, names = of.names("geom"), of.names("body")
     found = []
@@ -150,7 +150,7 @@ def _bare(of: Simulation) -> list[int]:
     """The parts that should touch something, and cannot."""
     owner, names = root_of(of), of.names("body")
     touches = {body for body in range(1, of.count("body")) if any(solid(of, geom) for geom in of.geoms_of(body))}
-    paired = {int(of.model("geom_bodyid")[int(geom)]) for side in (1, 2) for geom in of.model(f"pair_geom{side}")}
+    paired = {int(of.model("geom_bodyid")[geom]) for geom in in_pairs(of)}
     carriers = {above for body in touches | paired for above in of.ancestors(body)[1:-1]}
     near = touches | paired | carriers
     robots = {owner[body] for body in touches if owner[body]}

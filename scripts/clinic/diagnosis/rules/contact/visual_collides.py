@@ -36,7 +36,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.shape import collides, solid
+from clinic.diagnosis.probes.shape import collides, masks_told, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
@@ -75,7 +75,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if not geoms:
             continue
         edits = model.set("geom", geoms, "contype", "0") + model.set("geom", geoms, "conaffinity", "0")
-        masks = ", ".join(f"{int(of.model(f'geom_{mask}')[geoms[0]])}" for mask in ("contype", "conaffinity"))
+        masks = masks_told(of, geoms[0])
         names = tuple(of.name("geom", geom) for geom in geoms)
         probe, told = counted("visual geoms that collide", len(geoms)), f"{names[0]} {says}"
         yield Suspect(

@@ -44,7 +44,18 @@ from itertools import product
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.engine import BOX, CYLINDER, HINGE, MESH
 from clinic.diagnosis.probes.shape import solid
-from clinic.diagnosis.probes.vector import Vector, add, at, cross, dot, norm, of_quaternion, sub, times, unit, written
+from clinic.diagnosis.probes.vector import (
+    Vector,
+    add,
+    around,
+    at,
+    dot,
+    norm,
+    of_quaternion,
+    sub,
+    times,
+    written,
+)
 from clinic.diagnosis.probes.wheels import is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -126,13 +137,7 @@ def _varies(simulation: Simulation, joint: int, geom: int) -> float:
     anchor = simulation.row("jnt_pos", joint, 3)
     place = sub(simulation.row("geom_pos", geom, 3), anchor)
     points = [add(place, times(frame, point)) for point in _points(simulation, geom)]
-    first = unit(cross(axis, (1.0, 0.0, 0.0) if abs(axis[0]) < 0.9 else (0.0, 1.0, 0.0)))
-    second = cross(axis, first)
-    radii = []
-    for turn in range(ANGLES):
-        angle = 2 * math.pi * turn / ANGLES
-        way = add(tuple(math.cos(angle) * x for x in first), second, math.sin(angle))
-        radii.append(max(dot(point, way) for point in points))
+    radii = [max(dot(point, way) for point in points) for way in around(axis, ANGLES)]
     return (max(radii) - min(radii)) * len(radii) / sum(radii)
 
 

@@ -93,7 +93,7 @@ def _gap(of: Simulation, joint: int, *, at_start: bool = False) -> float:
     body = int(of.model("jnt_bodyid")[joint])
     parent = int(of.model("body_parentid")[body])
     axis, now = of.data_row("xaxis", joint, 3), of.position(joint)
-    mine, guide = _extent(of, _below(of, body), axis), _extent(of, [parent], axis)
+    mine, guide = _extent(of, of.below(body), axis), _extent(of, [parent], axis)
     if mine is None or guide is None:
         return -1.0
     gaps = []
@@ -101,15 +101,6 @@ def _gap(of: Simulation, joint: int, *, at_start: bool = False) -> float:
         low, high = (each + end - now for each in mine)
         gaps.append(max(low - guide[1], guide[0] - high) / max(mine[1] - mine[0], 1e-9))
     return max(gaps)
-
-
-def _below(of: Simulation, body: int) -> list[int]:
-    """A body and all that hangs on it."""
-    parents, made = of.model("body_parentid"), [body]
-    for each in range(body + 1, of.count("body")):
-        if int(parents[each]) in made and each not in made:
-            made.append(each)
-    return made
 
 
 def _extent(of: Simulation, bodies: list[int], axis: tuple[float, ...]) -> tuple[float, float] | None:

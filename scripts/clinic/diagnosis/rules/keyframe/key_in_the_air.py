@@ -36,7 +36,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import HFIELD, PLANE
 from clinic.diagnosis.probes.key import reordered, start_at
-from clinic.diagnosis.probes.shape import box, solid
+from clinic.diagnosis.probes.shape import box, plane_heights, solid
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -80,11 +80,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _gap(of: Simulation, key: int) -> float:
     """How high the lowest moving geom is above what is below it and does not move, in sizes; 0 without a plane."""
     start_at(of, key)
-    kinds, bodies, moving = of.model("geom_type"), of.model("geom_bodyid"), set(of.moving_bodies)
-    planes = [of.data_row("geom_xpos", geom, 3)[2] for geom, kind in enumerate(kinds) if int(kind) == PLANE]
+    bodies, moving = of.model("geom_bodyid"), set(of.moving_bodies)
     low = min((_ends(of, geom)[0] for geom, body in enumerate(bodies) if int(body) in moving), default=0.0)
-    below = [height for height in (*planes, *_tops(of)) if height <= low + NEAR]
-    if not below or any(int(kind) == HFIELD for kind in kinds):
+    below = [height for height in (*plane_heights(of), *_tops(of)) if height <= low + NEAR]
+    if not below or HFIELD in map(int, of.model("geom_type")):
         return 0.0
     return (low - max(below)) / max(_size(of), 1e-9)
 

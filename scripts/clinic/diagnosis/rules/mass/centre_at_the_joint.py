@@ -62,8 +62,7 @@ LIGHT = 0.01  # of the mass of all
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Jointed links with the centre of mass at their origin and the geoms beside it, where the others' is elsewhere."""
     of = model.simulation
-    all_mass = sum(of.model("body_mass")[body] for body in of.moving_bodies)
-    heavy = [(body, each) for body, each in explicit(model) if each.mass > LIGHT * all_mass and _turns(of, body)]
+    heavy = [(body, each) for body, each in explicit(model) if each.mass > LIGHT * of.moving_mass and _turns(of, body)]
     here = [(body, each) for body, each in heavy if not any(each.centre)]
     found = [(body, each) for body, each in here if norm(each.solid_centre) > FAR * max(each.half)]
     if len(found) != 1:

@@ -54,11 +54,10 @@ FAR, NEARER, LIGHT = 0.4, 0.25, 0.01
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each body that other signs bring near the middle of its geoms."""
     of = model.simulation
-    all_mass = sum(of.model("body_mass")[body] for body in of.moving_bodies)
     turned = [(body, each, centre) for body, each in explicit(model) if (centre := _turned(each)) is not None]
     told = {name for each in centre_of_mass_outside.suspects(model) for name in each.elements} if turned else set()
     for body, each, centre in turned:
-        if each.mass < LIGHT * all_mass or of.name("body", body) in told:
+        if each.mass < LIGHT * of.moving_mass or of.name("body", body) in told:
             continue
         now, value = f"pos {written(each.centre)}", f"pos {written(centre)}"
         edits = set_inertial(model, body, each.mass, centre, each.about)

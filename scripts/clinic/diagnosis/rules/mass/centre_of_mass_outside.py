@@ -51,8 +51,7 @@ FAR = 1.5  # where a unit is wrong, whatever the other bodies are like
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """A body whose centre of mass is far out of its geoms, where the others' are in theirs."""
     of = model.simulation
-    all_mass = sum(of.model("body_mass")[body] for body in of.moving_bodies)
-    heavy = [(body, each) for body, each in explicit(model) if each.mass > LIGHT * all_mass]
+    heavy = [(body, each) for body, each in explicit(model) if each.mass > LIGHT * of.moving_mass]
     found = [(body, each) for body, each in heavy if each.outside > LIMIT * max(each.half)]
     alone = len(found) == 1 and len(heavy) >= 5
     if not alone:

@@ -53,11 +53,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Bodies that no material makes, all together, or links that are all of solid steel."""
     yield from _steel(model)
     of = model.simulation
-    all_mass = sum(of.model("body_mass")[body] for body in of.moving_bodies)
     dense = [
         (body, found)
         for body in of.moving_bodies
-        if (found := matter(of, body)) and _dense(found) and found.mass > LIGHT * all_mass
+        if (found := matter(of, body)) and _dense(found) and found.mass > LIGHT * of.moving_mass
     ]
     slides = all(of.joint_type(joint) == SLIDE for joint in range(of.count("joint")))
     if not dense or (slides and len(of.moving_bodies) == 1):  # a point mass may be as small as one likes

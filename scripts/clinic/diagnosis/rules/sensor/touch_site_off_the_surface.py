@@ -37,7 +37,7 @@ from collections.abc import Iterator
 from itertools import product
 
 from clinic.diagnosis.engine import BOX, CAPSULE, CYLINDER, ELLIPSOID, SPHERE
-from clinic.diagnosis.probes.shape import solid
+from clinic.diagnosis.probes.shape import in_pairs, solid
 from clinic.diagnosis.probes.touched import TOUCH
 from clinic.diagnosis.probes.vector import Vector, add, norm, sub, times, transpose
 from clinic.diagnosis.reader_model import ReaderModel
@@ -87,7 +87,7 @@ def _off(of: Simulation, site: int) -> float:
 def _why(of: Simulation, site: int) -> str:
     """Why no contact can be inside of a site; empty where one can."""
     body = int(of.model("site_bodyid")[site])
-    pairs = {int(geom) for side in (1, 2) for geom in of.model(f"pair_geom{side}")}
+    pairs = in_pairs(of)
     geoms = [geom for geom in of.geoms_of(body) if solid(of, geom) or geom in pairs]
     if any(int(of.model("geom_type")[geom]) not in (SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX) for geom in geoms):
         return ""

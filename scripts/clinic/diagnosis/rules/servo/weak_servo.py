@@ -219,8 +219,7 @@ def _follows(servo: Servo) -> float:
 def _light(of: Simulation, some: Sequence[Servo]) -> bool:
     """Whether all of some servos move next to nothing, as the neck of a humanoid does."""
     carried, bodies = of.model("body_subtreemass"), of.model("jnt_bodyid")
-    whole = sum(of.model("body_mass")[body] for body in of.moving_bodies)
-    return all(carried[int(bodies[each.joint])] < LIGHT * whole for each in some)
+    return all(carried[int(bodies[each.joint])] < LIGHT * of.moving_mass for each in some)
 
 
 def _stronger(model: ReaderModel, servo: Servo, stiffness: float, *, damped: bool = False) -> tuple[Edit, ...]:

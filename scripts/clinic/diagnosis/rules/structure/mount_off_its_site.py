@@ -57,10 +57,7 @@ TURNS = ("euler", "axisangle", "xyaxes", "zaxis")
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each tool that its link's site calls elsewhere."""
     of = model.simulation
-    hung: dict[int, list[int]] = {}
-    for body in range(1, of.count("body")):
-        hung.setdefault(int(of.model("body_parentid")[body]), []).append(body)
-    for link, children in hung.items():
+    for link, children in of.children.items():
         bare = [body for body in children if _bare(of, body)]
         if len(bare) != 1 or any(_sites(of, body) and _off(of, body) <= NEAR for body in children):
             continue
@@ -80,8 +77,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _bare(of: Simulation, body: int) -> bool:
     """Whether a body is its parent's origin, and something hangs on it that can touch."""
     here = not any(of.row("body_pos", body, 3)) and abs(of.row("body_quat", body, 4)[0]) == 1
-    parts = [each for each in range(body, of.count("body")) if body in of.ancestors(each)]
-    return here and not of.joints_of(body) and any(solid(of, geom) for each in parts for geom in of.geoms_of(each))
+    touches = any(solid(of, geom) for each in of.below(body) for geom in of.geoms_of(each))
+    return here and not of.joints_of(body) and touches
 
 
 def _drawn_there(of: Simulation, body: int, site: int) -> bool:

@@ -31,7 +31,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, insert, replace
 from clinic.diagnosis.engine import MESH, PLANE
-from clinic.diagnosis.probes.shape import box
+from clinic.diagnosis.probes.shape import box, plane_heights
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
@@ -86,9 +86,8 @@ def _own_body(model: ReaderModel, geom: Element) -> tuple[Edit, ...]:
 def _in_air(of: Simulation) -> set[int]:
     """Bodies of which all geoms are above every plane."""
     of.begin()
-    kinds, positions, axes = of.model("geom_type"), tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat"))
-    floors = [of.data("geom_xpos")[3 * geom + 2] for geom, kind in enumerate(kinds) if int(kind) == PLANE]
-    floor = max(floors, default=float("-inf"))
+    positions, axes = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat"))
+    floor = max(plane_heights(of), default=float("-inf"))
     made = set()
     for body in range(1, of.count("body")):
         boxes = [box(of, positions, axes, geom) for geom in of.geoms_of(body)]

@@ -39,8 +39,8 @@ import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import insert
-from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, HINGE, PLANE, SPHERE
-from clinic.diagnosis.probes.shape import root_of
+from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, HINGE, SPHERE
+from clinic.diagnosis.probes.shape import plane_heights, root_of
 from clinic.diagnosis.probes.vector import dot, norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -73,9 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _feet(of: Simulation) -> list[int]:
     """Bodies that are the first to move on their way from the world, of limbs that reach down to the floor."""
     of.begin()
-    kinds, parents = of.model("geom_type"), of.model("body_parentid")
-    owner, heights = root_of(of), of.data("xpos")[2::3]
-    floors = [of.data("geom_xpos")[3 * geom + 2] for geom, kind in enumerate(kinds) if int(kind) == PLANE]
+    parents, owner, heights, floors = of.model("body_parentid"), root_of(of), of.data("xpos")[2::3], plane_heights(of)
     lowest: dict[int, float] = {}
     for body in of.moving_bodies if len(floors) == 1 else ():
         first = owner[body]
@@ -129,8 +127,7 @@ def _count(simulation: Simulation, by_name: bool) -> float:
 def _wheels(of: Simulation) -> list[int]:
     """Bodies of wheels that are the first to move on their way from the world, and reach the floor."""
     of.begin()
-    kinds, moving = of.model("geom_type"), set(of.moving_bodies)
-    floors = [of.data("geom_xpos")[3 * geom + 2] for geom, kind in enumerate(kinds) if int(kind) == PLANE]
+    kinds, moving, floors = of.model("geom_type"), set(of.moving_bodies), plane_heights(of)
     made = []
     for joint in range(of.count("joint")) if floors else ():
         body = int(of.model("jnt_bodyid")[joint])

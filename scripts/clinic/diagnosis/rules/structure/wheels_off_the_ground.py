@@ -98,7 +98,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             says = f"It is {1000 * abs(off):.3g} mm {where} the ground on which the wheels stand."
             lower = "higher" if off > 0 else "lower"
             value = f"the robot {1000 * abs(off):.3g} mm {lower}"
-            names = (of.name("body", root), *(of.name("body", body) for body in _children(of, root)))
+            names = (of.name("body", root), *(of.name("body", body) for body in of.children.get(root, [])))
             yield Suspect(names, "pos", "", value, (), probe, LEAST, says, "0")
 
 
@@ -146,10 +146,6 @@ def _called(of: Simulation, geom: int) -> str:
 
 def _above(of: Simulation, root: int, geom: int) -> float:
     return -_below(of, root, geom)
-
-
-def _children(of: Simulation, root: int) -> list[int]:
-    return [body for body, parent in enumerate(of.model("body_parentid")) if int(parent) == root and body != root]
 
 
 def _bottom(of: Simulation, geom: int) -> float:

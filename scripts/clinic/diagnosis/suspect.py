@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sized
 from dataclasses import dataclass
 from typing import Literal
 
@@ -44,6 +44,15 @@ def counted(title: str, count: int) -> Probe:
 
 def _counted(_: Simulation, count: int) -> float:
     return float(count)
+
+
+def how_many(title: str, find: Callable[..., Sized], *of: object) -> Probe:
+    """The number of what a function of a module finds in a compiled model, with the arguments `of`."""
+    return Probe(title, "", _found, (find, *of), dynamic=False)
+
+
+def _found(simulation: Simulation, find: Callable[..., Sized], *of: object) -> float:
+    return float(len(find(simulation, *of)))
 
 
 @dataclass(frozen=True)

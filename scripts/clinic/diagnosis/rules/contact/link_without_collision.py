@@ -50,7 +50,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.probes.shape import in_pairs, masks_told, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A link that touches nothing"
 FAMILIES = ("falls-through", "slips")
@@ -70,16 +70,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not found:
         return
     geoms = [geom for body in found for geom in of.geoms_of(body)]
-    probe = Probe("links without a geom that collides", "", _count, dynamic=False)
+    probe = how_many("links without a geom that collides", _bare)
     names = (*(of.name("body", body) for body in found), *(of.name("geom", geom) for geom in geoms))
     says = f"{of.name('body', found[0])} has no geom that can touch anything, and the other links have."
     masks = masks_told(of, geoms[0])
     wanted = "a geom that collides"
     yield Suspect(names, "contype, conaffinity", masks, "1, 1", (), probe, 0, says, wanted, level="hint")
-
-
-def _count(of: Simulation) -> float:
-    return float(len(_bare(of)))
 
 
 def _bare(of: Simulation) -> list[int]:

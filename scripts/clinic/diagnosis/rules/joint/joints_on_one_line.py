@@ -35,7 +35,7 @@ from clinic.diagnosis.probes.run import let_go
 from clinic.diagnosis.probes.vector import cross, norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "Two joints that make the same motion"
 FAMILIES = ("explodes", "drifts")
@@ -54,7 +54,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     places = [model.element("joint", joint) for joint in again]
     edits = tuple(delete(each) for each in places if each is not None) if all(places) and source else ()
     singular = model.measured(_singular()) > 0
-    probe = _singular() if singular else Probe("joints that move a body as another", "", _count, dynamic=False)
+    probe = _singular() if singular else how_many("joints that move a body as another", _again)
     names = tuple(of.name("joint", joint) for pair in again.items() for joint in pair)
     what = "turns about the line" if of.joint_type(next(iter(again))) == HINGE else "slides along the direction"
     says, value = f"{names[0]} {what} of {names[1]}.", f"without {names[0]}"
@@ -76,10 +76,6 @@ def _again(of: Simulation) -> dict[int, int]:
                 if parallel and on_line and of.joint_type(joint) == of.joint_type(other):
                     made.setdefault(joint, other)
     return made
-
-
-def _count(of: Simulation) -> float:
-    return float(len(_again(of)))
 
 
 def _singular() -> Probe:

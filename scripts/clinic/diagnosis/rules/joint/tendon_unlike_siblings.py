@@ -72,7 +72,7 @@ from clinic.diagnosis.probes.siblings import WHICH
 from clinic.diagnosis.probes.tendons import joints_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A finger's tendon unlike the others'"
 FAMILIES = ("stuck", "drifts", "wrong-numbers")
@@ -93,7 +93,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         which = next(k for k, pair in enumerate(zip(own, usual, strict=True)) if _apart(*pair))
         joint = joints_of(of, tendon)[which][0]
         name, told = of.name("tendon", tendon), ", ".join(of.name("tendon", each) for each in others[:3])
-        probe = Probe("tendons that stand apart from their siblings", "", _count, dynamic=False)
+        probe = how_many("tendons that stand apart from their siblings", _odd)
         if own[which][0] == usual[which][0]:
             attribute, now, value = "coef", f"{own[which][1]:g}", f"{usual[which][1]:g}"
             says = f"Its coefficient of {of.name('joint', joint)} is {now}; {told} agree in {value}."
@@ -102,10 +102,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             says = f"It goes to {of.name('joint', joint)}, which is of another branch; {told} go to joints of one."
         edits = _edits(model, tendon, which, attribute, value)
         yield Suspect((name,), attribute, now, value, edits, probe, 0, says, "tendons alike")
-
-
-def _count(of: Simulation) -> float:
-    return float(len(_odd(of)))
 
 
 def _odd(of: Simulation) -> dict[int, list[int]]:

@@ -53,7 +53,7 @@ from clinic.diagnosis.probes.shape import root_of, solid
 from clinic.diagnosis.probes.wheels import is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A wheel that cannot go on turning"
 FAMILIES = ("stuck", "slow")
@@ -77,17 +77,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         bodies = [body for body, each in found.items() if each == reason]
         joints = [joint for body in bodies for joint in _hinges(of, body)]
         attribute, value = WANTED[reason]
-        probe = Probe("wheels that cannot go on turning", "", _count, (), dynamic=False)
+        probe = how_many("wheels that cannot go on turning", _held)
         names = tuple(of.name("joint", joint) for joint in joints) or tuple(of.name("body", body) for body in bodies)
         says = f"{of.name('body', bodies[0])} is a wheel, and {reason}."
         now = f"{_friction(of, bodies[0]):.3g}" if reason == FRICTION else ""
         edits = model.set("joint", joints, "frictionloss", "0") if reason == FRICTION else ()
         healthy = "wheels that turn without an end"
         yield Suspect(names, attribute, now, value, edits, probe, 0, says, healthy, level="hint")
-
-
-def _count(of: Simulation) -> float:
-    return float(len(_held(of)))
 
 
 def _held(of: Simulation) -> dict[int, str]:

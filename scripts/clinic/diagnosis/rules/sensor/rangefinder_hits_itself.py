@@ -40,7 +40,7 @@ from clinic.diagnosis.probes.shape import box, root_of
 from clinic.diagnosis.probes.vector import add
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A rangefinder that sees its own robot"
 FAMILIES = ("sensor-reads-zero",)
@@ -65,14 +65,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = f"Its ray ends after {reading:.3g} m at {of.name('geom', geom)}, which is of the same robot."
     names = tuple(dict.fromkeys(name for each, (hit, _) in found.items()
                                 for name in (of.name("sensor", each), of.name("geom", hit))))  # fmt: skip
-    probe = Probe("rangefinders that see their own robot", "", _count, (), dynamic=False)
+    probe = how_many("rangefinders that see their own robot", _blind)
     site = int(of.model("sensor_objid")[sensor])
     now = " ".join(f"{x:.3g}" for x in of.row("site_pos", site, 3))
     yield Suspect(names, "pos of the site", now, "outside", (), probe, 0, says, "a free view", level="hint")
-
-
-def _count(simulation: Simulation) -> float:
-    return float(len(_blind(simulation)))
 
 
 def _blind(of: Simulation) -> dict[int, tuple[int, float]]:

@@ -40,7 +40,7 @@ from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "An actuator drives another joint than its name says"
 FAMILIES = ("stuck", "drifts", "sags")
@@ -92,10 +92,6 @@ def _longer(joints: Mapping[tuple[str, ...], list[int]], key: tuple[str, ...]) -
             and words[0].startswith(key[0]) for each in some]  # fmt: skip
 
 
-def _undriven(simulation: Simulation) -> float:
-    return float(len(_meant(simulation)))
-
-
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Actuators that leave the joint of their name alone, each by itself; two that are swapped together."""
     simulation = model.simulation
@@ -114,7 +110,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             simulation.names("joint")[driven],
             name,
             edits,
-            Probe("actuators that drive another joint than that of their name", "", _undriven, dynamic=False),
+            how_many("actuators that drive another joint than that of their name", _meant),
             0.5,
             f"{simulation.name('actuator', actuator)} drives {simulation.name('joint', driven)}, and "
             f"{simulation.name('joint', meant)} is driven by "

@@ -50,7 +50,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.probes.tendons import TENDON
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "An actuator pulls another tendon than its name says"
 FAMILIES = ("stuck", "drifts", "sags")
@@ -68,7 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         name = of.name("actuator", actuator)
         says = f"{name} pulls {of.name('tendon', pulled)}, as another one does, and {of.name('tendon', meant)} is "
         says += "pulled by none."
-        probe = Probe("actuators that pull another tendon than that of their name", "", _count, dynamic=False)
+        probe = how_many("actuators that pull another tendon than that of their name", _misled)
         yield Suspect((name,), "tendon", now, value, edits, probe, 0, says, "the tendon of its name")
 
 
@@ -97,7 +97,3 @@ def _called(word: str, own: set[str]) -> bool:
 
 def _words(name: str) -> set[str]:
     return set(re.findall(r"[a-z]+\d*|\d+", re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()))
-
-
-def _count(of: Simulation) -> float:
-    return float(len(_misled(of)))

@@ -47,7 +47,7 @@ from clinic.diagnosis.probes.siblings import groups
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A joint without an actuator among others that have one"
 FAMILIES = ("stuck", "sags", "drifts")
@@ -67,13 +67,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     joint, like = next(iter(found.items()))
     says = f"Nothing drives {of.name('joint', joint)}, and {of.name('joint', like)} is driven."
-    probe = Probe("joints that nothing drives beside others that are driven", "", _count, dynamic=False)
+    probe = how_many("joints that nothing drives beside others that are driven", _loose)
     names = tuple(of.name("joint", each) for each in found)
     yield Suspect(names, "joint", "no actuator", "an actuator", (), probe, 0, says, "each joint driven as its twin")
-
-
-def _count(of: Simulation) -> float:
-    return float(len(_loose(of)))
 
 
 def _loose(of: Simulation) -> dict[int, int]:

@@ -35,7 +35,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.probes.servo import servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A motor that is told angles"
 FAMILIES = ("sags", "stuck", "drifts", "passes-limit")
@@ -55,13 +55,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     joint = of.driven_joint(found[0])
     ends = " ".join(f"{end:.4g}" for end in of.row("actuator_ctrlrange", found[0], 2))
     says = f"Its controls go from {ends.replace(' ', ' to ')}, the range of {of.name('joint', joint or 0)}, as N m."
-    probe = Probe("motors whose control range is the range of the joint", "", _count, (), dynamic=False)
+    probe = how_many("motors whose control range is the range of the joint", _told)
     names = tuple(of.name("actuator", actuator) for actuator in found)
     yield Suspect(names, "ctrlrange", ends, "<position>", (), probe, 0, says, "<position> for angles", level="hint")
-
-
-def _count(simulation: Simulation) -> float:
-    return float(len(_told(simulation)))
 
 
 def _told(of: Simulation) -> list[int]:

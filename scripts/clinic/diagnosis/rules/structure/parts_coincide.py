@@ -44,7 +44,7 @@ from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.probes.vector import at
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "Two parts in one place"
 FAMILIES = ("jumps-at-start", "stuck", "slips")
@@ -60,12 +60,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         names = tuple(of.name("body", body) for body in bodies)
         says = f"{names[0]} and {names[1]} begin in the same place, and have the same shape."
         now = " ".join(f"{x:.4g}" for x in of.row("body_pos", bodies[0], 3))
-        probe = Probe("groups of parts in one place", "", _count, dynamic=False)
+        probe = how_many("groups of parts in one place", _together)
         yield Suspect(names, "pos", now, "apart from each other", (), probe, 0.1, says, "none")
-
-
-def _count(of: Simulation) -> float:
-    return float(len(_together(of)))
 
 
 def _together(of: Simulation) -> list[list[int]]:

@@ -66,7 +66,7 @@ from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A part that hangs on the other side"
 FAMILIES = ("drifts", "stuck", "jumps-at-start")
@@ -82,13 +82,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         names = of.name("body", body), of.name("body", parent)
         value = of.names("body")[meant]
         says = f"{names[0]} hangs on {names[1]}, as its twin does; {of.name('body', meant)} carries nothing like it."
-        probe = Probe("parts that hang on the other side", "", _count, dynamic=False)
+        probe = how_many("parts that hang on the other side", _astray)
         edits = _edits(model, of.names("body")[body], value)
         yield Suspect(names, "parent", of.names("body")[parent], value, edits, probe, 0, says, "each on its own side")
-
-
-def _count(of: Simulation) -> float:
-    return float(len(_astray(of)))
 
 
 def _astray(of: Simulation) -> dict[int, tuple[int, int]]:

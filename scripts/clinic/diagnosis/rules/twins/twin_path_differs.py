@@ -59,7 +59,7 @@ from clinic.diagnosis.probes.tendons import path
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.twins._pair import EITHER
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A tendon's path unlike that of the other side"
 FAMILIES = ("wrong-numbers", "drifts", "stuck")
@@ -82,7 +82,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         now, beside = next(((one, other) if told == left else (other, one)) for one, other in odd.values())
         value = _twin(of, beside)
         edits = () if wrong is None else _edits(model, wrong, odd.values(), wrong == left)
-        probe = Probe("points of a tendon unlike those of its twin", "", _count, (left, right), dynamic=False)
+        probe = how_many("points of a tendon unlike those of its twin", _odd, left, right)
         names = (of.name("tendon", told), of.name("tendon", left + right - told), of.name(*now))
         says = f"It goes through {of.name(*now)}, and its twin through {of.name(*beside)}."
         says += EITHER * (wrong is None)
@@ -112,10 +112,6 @@ def _edits(model: ReaderModel, tendon: int, odd: Iterable[tuple[Point, Point]], 
         if len(parts) == 1 and parts[0].tag == kind:
             made.append(set_attribute(parts[0], kind, of.names(right[0])[right[1]]))
     return tuple(made)
-
-
-def _count(of: Simulation, left: int, right: int) -> float:
-    return float(len(_odd(of, left, right)))
 
 
 def _odd(of: Simulation, left: int, right: int) -> dict[int, tuple[Point, Point]]:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.equalities import COUPLED
 from clinic.diagnosis.simulation import Simulation
 
-JOINT = 2  # mjtEq
 POINTS = 41
 SLACK = 0.02  # of the follower's range
 
@@ -17,7 +17,7 @@ def couplings(simulation: Simulation) -> Iterator[tuple[int, Coupling]]:
     """The equalities that couple two joints, and how."""
     for each in range(simulation.count("equality")):
         follower, leader = (int(simulation.model(f"eq_obj{side}id")[each]) for side in (1, 2))
-        if int(simulation.model("eq_type")[each]) == JOINT and leader >= 0 and simulation.model("eq_active0")[each]:
+        if int(simulation.model("eq_type")[each]) == COUPLED and leader >= 0 and simulation.model("eq_active0")[each]:
             yield each, (follower, leader, simulation.equality_data(each)[:5])
 
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from clinic.diagnosis.engine import OBJ_SITE
 from clinic.diagnosis.probes.vector import Vector, add, norm, sub, times
 from clinic.diagnosis.simulation import Simulation
 
-CONNECT, WELD, COUPLED, SITE = 0, 1, 2, 6  # mjtEq; mjtObj
+CONNECT, WELD, COUPLED = range(3)  # mjtEq
 
 Frame = tuple[Vector, Vector]  # where it is in the world, and its axes
 
@@ -17,7 +18,7 @@ def kind_of(of: Simulation, each: int) -> int:
 
 def sited(of: Simulation, each: int) -> bool:
     """Whether two sites are held together, in place of two bodies."""
-    return int(of.model("eq_objtype")[each]) == SITE
+    return int(of.model("eq_objtype")[each]) == OBJ_SITE
 
 
 def held(of: Simulation, each: int) -> tuple[int, int]:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.probes.equalities import CONNECT
 from clinic.diagnosis.probes.servo import alone, servos
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 POSES = 16
-CONNECT = 0  # mjtEq
 SPREAD = 0.5  # rad or m, of a joint without a range
 
 

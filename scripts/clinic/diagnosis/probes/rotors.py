@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from clinic.diagnosis.engine import TRN_SITE
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.vector import Vector, add, at, cross, norm, sub, times, transpose
 from clinic.diagnosis.simulation import Simulation
-
-SITE = 4  # mjtTrn
 
 
 @dataclass(frozen=True)
@@ -36,7 +35,7 @@ class Rotor:
 
 def rotors(of: Simulation, body: int) -> list[Rotor]:
     """The rotors of a free body and of all that hangs on it, at the start."""
-    if SITE not in map(int, of.model("actuator_trntype")):
+    if TRN_SITE not in map(int, of.model("actuator_trntype")):
         return []
     owner, bodies, sites = root_of(of), of.model("site_bodyid"), of.model("actuator_trnid")
     of.begin()
@@ -44,7 +43,7 @@ def rotors(of: Simulation, body: int) -> list[Rotor]:
     made = []
     for each, kind in enumerate(of.model("actuator_trntype")):
         site, gear = int(sites[2 * each]), of.row("actuator_gear", each, 6)
-        if int(kind) != SITE or sites[2 * each + 1] >= 0 or owner[int(bodies[site])] != body or not norm(gear[:3]):
+        if int(kind) != TRN_SITE or sites[2 * each + 1] >= 0 or owner[int(bodies[site])] != body or not norm(gear[:3]):
             continue
         axes = times(turn, of.data_row("site_xmat", site, 9))
         place = times(turn, sub(of.data_row("site_xpos", site, 3), centre))

@@ -7,13 +7,12 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.engine import ACTUATORS_OFF, CONTACTS_OFF, DYN_MUSCLE, HINGE, SPRINGS_OFF
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 FIXED, AFFINE = 0, 1  # mjtGain; mjtBias: none, affine
-INTEGRATOR, MUSCLE = 1, 4  # mjtDyn
-CONTACTS_OFF, SPRINGS_OFF, ACTUATORS_OFF = 1 << 4, 1 << 5, 1 << 11  # mjtDisableBit
+INTEGRATOR = 1  # mjtDyn
 STEP = {True: 0.1, False: 0.01}  # of a hinge in rad, of a slide in m
 
 
@@ -99,7 +98,7 @@ def feedback(simulation: Simulation) -> dict[int, tuple[float, float]]:
 def _servo(simulation: Simulation, actuator: int) -> Servo | None:
     joint = simulation.driven_joint(actuator)
     kinds = [int(simulation.model(f"actuator_{kind}")[actuator]) for kind in ("gaintype", "biastype", "dyntype")]
-    if joint is None or kinds[0] != FIXED or kinds[1] != AFFINE or kinds[2] in (INTEGRATOR, MUSCLE):
+    if joint is None or kinds[0] != FIXED or kinds[1] != AFFINE or kinds[2] in (INTEGRATOR, DYN_MUSCLE):
         return None
     gain, bias = simulation.gain(actuator)[0], simulation.bias(actuator)
     gear = simulation.row("actuator_gear", actuator, 6)[0]

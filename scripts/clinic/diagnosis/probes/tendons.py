@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.engine import DYN_MUSCLE, HINGE, SLIDE, WRAP_JOINT
 from clinic.diagnosis.probes.equalities import COUPLED
-from clinic.diagnosis.probes.servo import AFFINE, FIXED, INTEGRATOR, MUSCLE
+from clinic.diagnosis.probes.servo import AFFINE, FIXED, INTEGRATOR
 from clinic.diagnosis.simulation import Simulation, kept
 
-TENDON, JOINT_WRAP = 3, 1  # mjtTrn; mjtWrap
+TENDON = 3  # mjtTrn
 WRAPS = {1: "joint", 3: "site", 4: "geom", 5: "geom"}  # mjtWrap: joint, site, sphere, cylinder
 POSES, GOLDEN = 64, 0.6180339887
 
@@ -15,7 +15,7 @@ POSES, GOLDEN = 64, 0.6180339887
 def joints_of(of: Simulation, tendon: int) -> list[tuple[int, float]]:
     """The joints of a fixed tendon with their coefficients; none of a spatial one."""
     first, number = int(of.model("tendon_adr")[tendon]), int(of.model("tendon_num")[tendon])
-    if int(of.model("wrap_type")[first]) != JOINT_WRAP:
+    if int(of.model("wrap_type")[first]) != WRAP_JOINT:
         return []
     return [(int(of.model("wrap_objid")[each]), of.model("wrap_prm")[each]) for each in range(first, first + number)]
 
@@ -70,7 +70,7 @@ def servo(of: Simulation, actuator: int) -> tuple[float, float] | None:
     """Of a position servo on a tendon: the length it asks for at control 0, and what a unit adds; else None."""
     kinds = [int(of.model(f"actuator_{kind}type")[actuator]) for kind in ("trn", "gain", "bias", "dyn")]
     gain, bias, gear = of.gain(actuator)[0], of.bias(actuator), of.row("actuator_gear", actuator, 6)[0]
-    if kinds[:3] != [TENDON, FIXED, AFFINE] or kinds[3] in (INTEGRATOR, MUSCLE) or bias[1] >= 0 or not gain * gear:
+    if kinds[:3] != [TENDON, FIXED, AFFINE] or kinds[3] in (INTEGRATOR, DYN_MUSCLE) or bias[1] >= 0 or not gain * gear:
         return None
     return bias[0] / (-bias[1] * gear), gain / (-bias[1] * gear)
 

@@ -32,8 +32,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from itertools import combinations
 
+from clinic.diagnosis.engine import CONTACTS_OFF
 from clinic.diagnosis.probes.push import slides_on
-from clinic.diagnosis.probes.servo import CONTACTS_OFF
 from clinic.diagnosis.probes.shape import collides, pair_of
 from clinic.diagnosis.probes.touch import Deciding, edits_of, names_of, resting, with_like
 from clinic.diagnosis.reader_model import ReaderModel

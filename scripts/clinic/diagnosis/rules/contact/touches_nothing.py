@@ -49,7 +49,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import PLANE
+from clinic.diagnosis.engine import CONTACTS_OFF, PLANE
 from clinic.diagnosis.probes.shape import box, in_pairs, masks_told, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -71,7 +71,7 @@ GROUND = re.compile(
     r"(?<![a-z])(floor|ground|terrain|table|step|stair|ramp|wall|obstacle|barrier)s?(?![a-z])", re.IGNORECASE
 )
 SEEN = re.compile(r"visual|(?<![a-z])vis(?![a-z])|light|marker|line|goal|target|shadow", re.IGNORECASE)
-CONTACT, THIN = 1 << 4, 0.01  # mjtDisableBit; m
+THIN = 0.01  # m
 CASTER = re.compile(r"caster|castor", re.IGNORECASE)
 
 
@@ -95,7 +95,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _ground(model: ReaderModel) -> Iterator[Suspect]:
     """What is called a floor, a table or a step and cannot be touched, all together."""
     of = model.simulation
-    if int(of.model("opt.disableflags")[0]) & CONTACT or not of.free_bodies:
+    if int(of.model("opt.disableflags")[0]) & CONTACTS_OFF or not of.free_bodies:
         return
     found = _untouched(of)
     if not found:

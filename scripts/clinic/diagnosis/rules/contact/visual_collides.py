@@ -36,6 +36,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import CONTACTS_OFF
 from clinic.diagnosis.probes.shape import collides, masks_told, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -52,14 +53,13 @@ SEEN = re.compile(r"(?<![a-z])(visuals?|vis)(?![a-z])", re.IGNORECASE)
 MARK = re.compile(r"(?<![a-z])(target|marker|waypoint|indicator)(?![a-rt-z])", re.IGNORECASE)
 OPAQUE = 0.9  # of alpha
 MANY = 3  # mocap bodies
-CONTACT = 1 << 4  # mjtDisableBit
 BOTH = re.compile(r"coll", re.IGNORECASE)
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """All geoms that are only to be seen and collide, by what says so."""
     of = model.simulation
-    if int(of.model("opt.disableflags")[0]) & CONTACT:
+    if int(of.model("opt.disableflags")[0]) & CONTACTS_OFF:
         return
     seen = []
     for body in range(1, of.count("body")):

@@ -42,7 +42,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.engine import SLIDE
+from clinic.diagnosis.engine import SLIDE, WRAP_JOINT
 from clinic.diagnosis.probes.couplings import Coupling, couplings, lost
 from clinic.diagnosis.probes.vector import add, dot, norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
@@ -58,7 +58,6 @@ UNPLANTED = "no healthy model has two slides that are coupled"
 MOST = 0.9
 FINGER = re.compile(r"(?i)finger|gripper|claw|jaw|thumb|pinch|hand(?!le)")
 ALIKE, BESIDE = 0.05, 0.7  # of the range; of the distance
-JOINT_WRAP = 1  # mjtWrap
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -112,7 +111,7 @@ def _uncoupled(model: ReaderModel) -> Iterator[Suspect]:
     parents, bodies = of.model("body_parentid"), of.model("jnt_bodyid")
     bound = {joint for _, (follower, leader, _) in couplings(of) for joint in (follower, leader)}
     for each, kind in enumerate(of.model("wrap_type")):
-        if int(kind) == JOINT_WRAP:
+        if int(kind) == WRAP_JOINT:
             bound.add(int(of.model("wrap_objid")[each]))
     for joint, kind in enumerate(of.model("jnt_type")):
         if int(kind) == SLIDE and joint not in bound:

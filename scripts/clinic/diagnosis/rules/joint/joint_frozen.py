@@ -36,7 +36,7 @@ import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.engine import HINGE, SLIDE, TRN_IN_PARENT
 from clinic.diagnosis.probes.drive import way_left
 from clinic.diagnosis.probes.load import loads
 from clinic.diagnosis.probes.servo import servos
@@ -55,7 +55,6 @@ SLOW = 0.5  # rad/s or m/s that full force reaches
 LEFT = 0.7
 STILL = 0.03  # rad/s or m/s that its own weight gives what nothing drives
 HEAVY = 0.05  # of weight times size: a joint that is balanced has less
-IN_PARENT = 1  # mjtTrn
 LEVER = 0.1  # m: a knob is turned by what is longer than it
 PUSH, WEIGHTS, OPENING = 50.0, 2.0, 0.1  # N, times its weight, and the rad/s or m/s that it is to reach by them
 
@@ -156,7 +155,7 @@ def _moved(of: Simulation) -> set[int]:
 
 def _cranked(of: Simulation) -> bool:
     """Whether an actuator moves what it moves otherwise than by its joint: by a crank, at a site."""
-    return any(int(kind) > IN_PARENT for kind in of.model("actuator_trntype"))
+    return any(int(kind) > TRN_IN_PARENT for kind in of.model("actuator_trntype"))
 
 
 def _push(of: Simulation, joint: int) -> float:

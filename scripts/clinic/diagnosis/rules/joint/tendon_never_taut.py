@@ -39,7 +39,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.tendons import joints_of
+from clinic.diagnosis.probes.tendons import TENDON, joints_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect, counted, rounded
@@ -50,7 +50,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "no healthy model hangs anything on a rope"
 
-TENDON = 3  # mjtTrn
 SLACK, GROWN = 1 / 0.95, 1.1
 SAMPLES = 50
 

@@ -49,6 +49,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import OBJ_TENDON
 from clinic.diagnosis.probes.couplings import couplings
 from clinic.diagnosis.probes.tendons import TENDON, joints_of, path
 from clinic.diagnosis.reader_model import ReaderModel
@@ -61,7 +62,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "what it is meant to cross, only intent knows"
 
-TENDON_READ = 18  # mjtObj
 LEAST = 1e-3  # of the largest coefficient
 
 
@@ -97,7 +97,7 @@ def _used(of: Simulation, tendon: int) -> float:
     )
     read = zip(of.model("sensor_objtype"), of.model("sensor_objid"), strict=True)
     uses = [of.model("tendon_limited")[tendon], of.model("tendon_stiffness")[tendon]]
-    return float(driven + sum(map(bool, uses)) + sum((int(a), int(b)) == (TENDON_READ, tendon) for a, b in read))
+    return float(driven + sum(map(bool, uses)) + sum((int(a), int(b)) == (OBJ_TENDON, tendon) for a, b in read))
 
 
 def _constant(of: Simulation, tendon: int) -> bool:

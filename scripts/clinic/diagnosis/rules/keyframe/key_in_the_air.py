@@ -34,7 +34,7 @@ import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.engine import HFIELD, PLANE
+from clinic.diagnosis.engine import HFIELD, PLANE, TRN_SITE
 from clinic.diagnosis.probes.key import reordered, start_at
 from clinic.diagnosis.probes.shape import box, plane_heights, solid
 from clinic.diagnosis.probes.vector import written
@@ -52,13 +52,12 @@ HIGH, LOW, NEAR = 1.0, 0.25, 0.02  # sizes of the robot; m that a foot may be in
 MEANT = re.compile(
     r"jump|air|fly|flight|drop|fall|hover|high|above|take|throw|toss|launch|land|hang|flip", re.IGNORECASE
 )
-SITE = 4  # mjtTrn
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Keyframes of one free robot that begin far above the planes."""
     of = model.simulation
-    flies = any(int(kind) == SITE for kind in of.model("actuator_trntype")) or of.model("opt.gravity")[2] >= 0
+    flies = any(int(kind) == TRN_SITE for kind in of.model("actuator_trntype")) or of.model("opt.gravity")[2] >= 0
     if len(of.free_bodies) != 1 or flies or (not of.count("key") or _gap(of, -1) > LOW):
         return
     height = int(of.model("jnt_qposadr")[of.joints_of(of.free_bodies[0])[0]]) + 2

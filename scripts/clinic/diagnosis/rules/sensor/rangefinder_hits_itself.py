@@ -36,7 +36,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import OBJ_SITE
 from clinic.diagnosis.probes.shape import box, root_of
+from clinic.diagnosis.probes.touched import RANGE
 from clinic.diagnosis.probes.vector import add
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -48,8 +50,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "healthy models with a rangefinder are too few"
 
-RANGEFINDER = 7  # mjtSensor
-SITE = 6  # mjtObj
 MOST = 0.5  # of the rangefinders of a model: fewer are rays of a scan
 NEAR = 1e-3  # m
 
@@ -57,7 +57,7 @@ NEAR = 1e-3  # m
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Rangefinders that see a geom of their own robot, where it is not a few of a scan."""
     of = model.simulation
-    rays = [each for each, kind in enumerate(of.model("sensor_type")) if int(kind) == RANGEFINDER]
+    rays = [each for each, kind in enumerate(of.model("sensor_type")) if int(kind) == RANGE]
     found = _blind(of)
     if not found or len(found) < MOST * len(rays):
         return
@@ -79,7 +79,7 @@ def _blind(of: Simulation) -> dict[int, tuple[int, float]]:
     readings, kinds = of.data("sensordata"), of.model("sensor_objtype")
     for sensor, kind in enumerate(of.model("sensor_type")):
         reading = readings[int(of.model("sensor_adr")[sensor])]
-        if int(kind) != RANGEFINDER or int(kinds[sensor]) != SITE or reading < 0:
+        if int(kind) != RANGE or int(kinds[sensor]) != OBJ_SITE or reading < 0:
             continue
         site = int(of.model("sensor_objid")[sensor])
         body = int(of.model("site_bodyid")[site])

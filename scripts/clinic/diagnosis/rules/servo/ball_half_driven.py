@@ -34,7 +34,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import BALL
+from clinic.diagnosis.engine import BALL, TRN_IN_PARENT
 from clinic.diagnosis.probes.vector import Vector, dot, norm, sub, unit
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -46,7 +46,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "the healthy models drive few ball joints"
 
-JOINT, IN_PARENT = 0, 1  # mjtTrn
 AXES, LEAST = 3, 1e-6
 
 
@@ -74,7 +73,7 @@ def _driving(of: Simulation, joint: int) -> list[int]:
     return [
         each
         for each, kind in enumerate(of.model("actuator_trntype"))
-        if int(kind) in (JOINT, IN_PARENT) and int(of.model("actuator_trnid")[2 * each]) == joint
+        if int(kind) <= TRN_IN_PARENT and int(of.model("actuator_trnid")[2 * each]) == joint
     ]
 
 

@@ -37,8 +37,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HINGE, SLIDE
-from clinic.diagnosis.probes.servo import MUSCLE
+from clinic.diagnosis.engine import DYN_MUSCLE, HINGE, SLIDE
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.siblings import of_a_row
 from clinic.diagnosis.reader_model import ReaderModel
@@ -73,7 +72,7 @@ def twice(of: Simulation) -> dict[int, list[int]]:
         joint = of.driven_joint(actuator)
         kinds = [int(of.model(f"actuator_{kind}")[actuator]) for kind in KINDS]
         spring = of.bias(actuator)[1] != 0
-        if joint is not None and kinds[2] != MUSCLE:
+        if joint is not None and kinds[2] != DYN_MUSCLE:
             driving.setdefault((joint, spring, *kinds), []).append(actuator)
     return {key[0]: each for key, each in driving.items() if len(each) > 1 and _idle(of, key[0])}
 

@@ -34,7 +34,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.probes.servo import MUSCLE
+from clinic.diagnosis.engine import DYN_MUSCLE
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -68,7 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _nothing(of: Simulation, actuator: int) -> float:
     """1 where both ends of the controls give the same clipped force, else 0."""
     limited = of.model("actuator_forcelimited")[actuator] and of.model("actuator_ctrllimited")[actuator]
-    biased = int(of.model("actuator_biastype")[actuator]) or int(of.model("actuator_dyntype")[actuator]) == MUSCLE
+    biased = int(of.model("actuator_biastype")[actuator]) or int(of.model("actuator_dyntype")[actuator]) == DYN_MUSCLE
     if not limited or biased:
         return 0.0
     low, high = of.row("actuator_forcerange", actuator, 2)

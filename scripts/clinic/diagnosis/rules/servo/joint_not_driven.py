@@ -41,9 +41,10 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator
 
-from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.engine import HINGE, SLIDE, TRN_IN_PARENT, WRAP_JOINT
 from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, WELD, held, kind_of, sited
 from clinic.diagnosis.probes.siblings import groups
+from clinic.diagnosis.probes.tendons import TENDON
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -55,7 +56,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "no kind of fault in the bench takes an actuator away"
 
-TENDON, BY_JOINT, WRAPPED = 3, (0, 1), 1  # mjTRN_TENDON, mjTRN_JOINT, mjWRAP_JOINT
 MOST, NUMBER = 2, re.compile(r"\d+")
 
 
@@ -120,14 +120,14 @@ def _turns(of: Simulation, *joints: int) -> bool:
 def _moved(of: Simulation) -> set[int]:
     """The joints that an actuator, a tendon, a coupling or a spring moves; none where other things are driven."""
     kinds = [int(each) for each in of.model("actuator_trntype")]
-    if any(kind not in (*BY_JOINT, TENDON) for kind in kinds):
+    if any(kind > TRN_IN_PARENT and kind != TENDON for kind in kinds):
         return set()
     made = set(of.drivers)
     if not made:
         return made
     wraps = zip(of.model("wrap_type"), of.model("wrap_objid"), strict=True) if of.count("tendon") else ()
     for wrapped, on in wraps:
-        if int(wrapped) != WRAPPED:
+        if int(wrapped) != WRAP_JOINT:
             return set()
         made.add(int(on))
     for each in range(of.count("equality")):

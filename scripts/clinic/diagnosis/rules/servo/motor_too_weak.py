@@ -36,6 +36,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.load import loads
+from clinic.diagnosis.probes.servo import AFFINE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
@@ -47,7 +48,6 @@ LEVEL = "hint"
 UNPLANTED = "how fast a joint should be, its maker knows"
 
 SLOW = 1.0  # s2/m, s2/rad
-AFFINE = 1  # mjtBias
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -46,7 +46,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.servo import MUSCLE
+from clinic.diagnosis.engine import DYN_MUSCLE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -64,7 +64,7 @@ IDLE = 0.05
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """All muscles of which a part of the control range does nothing."""
     of = model.simulation
-    muscles = [each for each, kind in enumerate(of.model("actuator_dyntype")) if kind == MUSCLE]
+    muscles = [each for each, kind in enumerate(of.model("actuator_dyntype")) if kind == DYN_MUSCLE]
     found = [each for each in muscles if _idle(of, each) > IDLE]
     if found:
         low, high = of.row("actuator_ctrlrange", found[0], 2)

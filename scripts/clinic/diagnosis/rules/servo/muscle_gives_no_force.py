@@ -41,7 +41,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.engine import GAIN_MUSCLE, HINGE, SLIDE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -52,7 +52,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "a muscle may be paralysed on purpose"
 
-MUSCLE = 2  # mjtGain
 LEAST = 0.9
 SHARES = (0.0, 0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9, 1.0)
 
@@ -61,7 +60,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Muscles without force, all with the same reason together."""
     of = model.simulation
     for each, kind in enumerate(of.model("actuator_gaintype")):
-        if int(kind) != MUSCLE or _missing(of, each) <= LEAST:
+        if int(kind) != GAIN_MUSCLE or _missing(of, each) <= LEAST:
             continue
         low, high = of.row("actuator_lengthrange", each, 2)
         force, length, most = _peak(of, each), _length(of, each), _excited(of, each)

@@ -39,6 +39,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import GAIN_MUSCLE
 from clinic.diagnosis.probes.tendons import TENDON, reach
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -50,14 +51,14 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "the healthy models of the bench have no muscles with a length range of their own"
 
-MUSCLE, LIMIT, USUAL = 2, 0.2, 1 / 3  # mjtGain
+LIMIT, USUAL = 0.2, 1 / 3
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each muscle whose tendon goes far out of its length range, where those of the others hardly do."""
     of = model.simulation
     muscles = [
-        each for each in range(of.count("actuator")) if int(of.model("actuator_gaintype")[each]) == MUSCLE
+        each for each in range(of.count("actuator")) if int(of.model("actuator_gaintype")[each]) == GAIN_MUSCLE
         and model.value("actuator", each, "lengthrange") is not None
     ]  # fmt: skip
     beyond = {each: _beyond(of, each) for each in muscles}

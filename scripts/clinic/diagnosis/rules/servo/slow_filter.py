@@ -35,6 +35,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import DYN_MUSCLE
 from clinic.diagnosis.probes.servo import AFFINE, FIXED
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -46,7 +47,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "few healthy models have actuators with a filter"
 
-FILTERS, MUSCLE, SLOW = (2, 3), 4, 0.5  # mjDYN_FILTER and mjDYN_FILTEREXACT, mjDYN_MUSCLE; s
+FILTERS, SLOW = (2, 3), 0.5  # mjDYN_FILTER and mjDYN_FILTEREXACT; s
 LATE, PROMPT = 0.6, 0.2  # s: the quotient that is told, and that an edit leaves
 USUAL = {True: "0.01 0.04", False: "0.02"}  # of a muscle, of others
 
@@ -103,7 +104,7 @@ def _attribute(model: ReaderModel, actuator: int) -> str:
 
 
 def _muscle(of: Simulation, actuator: int) -> bool:
-    return int(of.model("actuator_dyntype")[actuator]) == MUSCLE
+    return int(of.model("actuator_dyntype")[actuator]) == DYN_MUSCLE
 
 
 def _times(of: Simulation) -> dict[int, float]:
@@ -111,8 +112,8 @@ def _times(of: Simulation) -> dict[int, float]:
     count = of.count("actuator")
     width = len(of.model("actuator_dynprm")) // max(1, count)
     kinds = [int(kind) for kind in of.model("actuator_dyntype")]
-    rows = {i: of.row("actuator_dynprm", i, width) for i in range(count) if kinds[i] in (*FILTERS, MUSCLE)}
-    return {i: max(row[: 2 if kinds[i] == MUSCLE else 1]) for i, row in rows.items()}
+    rows = {i: of.row("actuator_dynprm", i, width) for i in range(count) if kinds[i] in (*FILTERS, DYN_MUSCLE)}
+    return {i: max(row[: 2 if kinds[i] == DYN_MUSCLE else 1]) for i, row in rows.items()}
 
 
 def _slowest(of: Simulation) -> float:

@@ -48,7 +48,7 @@ from dataclasses import dataclass
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
-from clinic.diagnosis.probes.servo import speed_gain
+from clinic.diagnosis.probes.servo import AFFINE, speed_gain
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
@@ -59,7 +59,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "nearly no healthy model has velocity servos of wheels"
 
-AFFINE = 1  # mjtBias
 MISSING, HALF, SECONDS, MORE = 0.8, 0.5, 2.0, 20.0
 
 

@@ -48,7 +48,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.servo import MUSCLE, servos, speed_gain
+from clinic.diagnosis.engine import DYN_MUSCLE
+from clinic.diagnosis.probes.servo import servos, speed_gain
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.siblings import of_a_row
 from clinic.diagnosis.reader_model import ReaderModel
@@ -122,7 +123,7 @@ def _groups(of: Simulation) -> dict[Key, dict[int, float]]:
     for actuator in range(of.count("actuator")):
         driven, gear = of.driven_joint(actuator), abs(of.model("actuator_gear")[6 * actuator])
         dynamic = int(of.model("actuator_dyntype")[actuator])
-        if driven is None or not gear or dynamic == MUSCLE:
+        if driven is None or not gear or dynamic == DYN_MUSCLE:
             continue
         among = owners[driven], of.joint_type(driven)
         limited = of.model("actuator_forcelimited")[actuator]

@@ -33,7 +33,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.probes.servo import AFFINE, INTEGRATOR, MUSCLE
+from clinic.diagnosis.engine import DYN_MUSCLE
+from clinic.diagnosis.probes.servo import AFFINE, INTEGRATOR
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -59,7 +60,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for actuator in range(simulation.count("actuator")):
         if int(simulation.model("actuator_biastype")[actuator]) != AFFINE or simulation.driven_joint(actuator) is None:
             continue
-        if int(simulation.model("actuator_dyntype")[actuator]) in (INTEGRATOR, MUSCLE):
+        if int(simulation.model("actuator_dyntype")[actuator]) in (INTEGRATOR, DYN_MUSCLE):
             continue
         if (placed := model.element("actuator", actuator)) is not None and placed.tag == "cylinder":
             continue  # whose force is that of a pressure

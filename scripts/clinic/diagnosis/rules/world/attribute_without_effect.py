@@ -45,6 +45,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.engine import GAIN_MUSCLE
 from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -56,7 +57,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "what was meant by it, only intent knows"
 
-MUSCLE, USER, NONE = 2, 3, 0  # mjtGain, mjtBias
+USER, NONE = 3, 0  # mjtGain, mjtBias
 
 
 class Idle(NamedTuple):
@@ -122,7 +123,7 @@ def _read(of: Simulation, attribute: str, each: int) -> bool:
             return int(of.model("actuator_biastype")[each]) != NONE
         case "lengthrange":
             kinds = {int(of.model(f"actuator_{what}type")[each]) for what in ("gain", "bias")}
-            return bool(kinds & {MUSCLE, USER})
+            return bool(kinds & {GAIN_MUSCLE, USER})
         case "forcerange" | "ctrlrange":
             low, high = of.row(f"actuator_{attribute}", each, 2)
             return bool(of.model(f"actuator_{attribute.removesuffix('range')}limited")[each]) or low >= high

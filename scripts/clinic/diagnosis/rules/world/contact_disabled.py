@@ -33,6 +33,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.engine import CONTACTS_OFF
 from clinic.diagnosis.probes.fall import below, fallen, limit
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -41,7 +42,7 @@ TITLE = "Contacts are switched off"
 FAMILIES = ("falls-through",)
 SINCE = "0.1"
 
-FLAGS = {16: "contact", 1: "constraint"}  # mjtDisableBit
+FLAGS = {CONTACTS_OFF: "contact", 1: "constraint"}  # mjtDisableBit
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

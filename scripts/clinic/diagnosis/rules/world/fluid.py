@@ -32,6 +32,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import GRAVITY_OFF
 from clinic.diagnosis.probes.shape import falling, size
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -58,7 +59,7 @@ def _held_back(simulation: Simulation) -> float:
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The medium, where something can fall in it."""
     simulation = model.simulation
-    if not any(simulation.model("opt.gravity")) or int(simulation.model("opt.disableflags")[0]) & 128:
+    if not any(simulation.model("opt.gravity")) or int(simulation.model("opt.disableflags")[0]) & GRAVITY_OFF:
         return
     probe = Probe("drag of a fall", "of the weight", _held_back, dynamic=False)
     for name, usual, most, unit in (("density", 1.2, 6.0, "kg/m3"), ("viscosity", 0.00002, 0.01, "Pa s")):

@@ -35,7 +35,7 @@ import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.engine import PLANE
+from clinic.diagnosis.engine import GRAVITY_OFF, PLANE
 from clinic.diagnosis.probes.matter import matter
 from clinic.diagnosis.probes.shape import falling
 from clinic.diagnosis.probes.vector import dot
@@ -48,7 +48,6 @@ FAMILIES = ("falls-through", "drifts", "stuck", "sags")
 SINCE = "0.1"
 
 ANGLE, SHORT, LONG = 45.0, 0.025, 5.0  # degrees, s, s
-OFF = 128  # mjtDisableBit
 USUAL = "0 0 -9.81"
 EARTH = 1.0, 15.0  # m/s2
 LIGHT = 50.0  # of water's density as it is in kg and m, that is 1,000
@@ -93,7 +92,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Gravity's direction, its size beside the model's, and its absence."""
     simulation = model.simulation
     g, falls = simulation.row("opt.gravity", 0, 3), bool(simulation.count("dof"))
-    off = bool(int(simulation.model("opt.disableflags")[0]) & OFF)
+    off = bool(int(simulation.model("opt.disableflags")[0]) & GRAVITY_OFF)
     now = " ".join(f"{each:g}" for each in g)
     name = ("gravity",)
     if not falls:

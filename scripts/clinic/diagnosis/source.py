@@ -18,6 +18,7 @@ BARE = re.compile(rb"<|&(?!(?:amp|lt|gt|quot|apos|#\d+|#x[0-9A-Fa-f]+);)")
 CONTROL = bytes.maketrans(bytes(range(1, 32)), bytes(each if each in b"\t\n\r" else 63 for each in range(1, 32)))
 FRONT = re.compile(rb"(?:\xef\xbb\xbf)?[^<]*(?:<\?xml.*?\?>)?", re.DOTALL)
 TRANSPARENT = {"frame"}  # its children belong to the body around it
+ORIENTATIONS = ("quat", "euler", "axisangle", "xyaxes", "zaxis")  # attributes, of which an element has one
 REPEATING = {"replicate", "composite", "flexcomp", "attach"}  # what they make has no line of its own
 
 

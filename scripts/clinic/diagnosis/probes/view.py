@@ -13,10 +13,10 @@ from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.vector import IDENTITY, Vector, add, at, cross, dot, sub, times, transpose
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.source import ORIENTATIONS
 
 ASPECT = 1.0  # of the image's sides, where the model does not say
 VISIBLE = 3  # groups from this one on are hidden by default
-TURNS = ("xyaxes", "euler", "axisangle", "zaxis", "quat")
 FIXED, TRACK, TRACKCOM = range(3)  # mjtCamLight
 HEAD = re.compile("(?i)head|neck|skull")
 
@@ -130,7 +130,9 @@ def turned(model: ReaderModel, camera: int, right: Sequence[float], up: Sequence
     if int(simulation.model("cam_mode")[camera]) in (TRACK, TRACKCOM):
         m = m if any(m) else IDENTITY
     local = [sum(m[3 * row + column] * axis[row] for row in range(3)) for axis in (right, up) for column in range(3)]
-    gone = tuple(remove_attribute(element, name) for name in TURNS[1:] if name in element.attributes)
+    gone = tuple(
+        remove_attribute(element, name) for name in ORIENTATIONS if name in element.attributes and name != "xyaxes"
+    )
     return (*gone, set_attribute(element, "xyaxes", " ".join(f"{round(each, 6) + 0.0:.4g}" for each in local)))
 
 

@@ -7,9 +7,7 @@ from random import Random
 from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, text_of, written
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.source import Element
-
-TURNS = ("xyaxes", "euler", "axisangle", "zaxis", "quat")
+from clinic.diagnosis.source import ORIENTATIONS, Element
 
 
 @kind("touch-site-too-small", "touch-site", harms=("reads",))
@@ -50,7 +48,7 @@ def _turned(model: ReaderModel, random: Random, axis: int) -> Fault | None:
     i, element = chosen
     w, x, y, z = model.simulation.row("cam_quat", i, 4)
     quat = ((-x, w, z, -y), (-y, -z, w, x), (-z, y, -x, w))[axis]
-    gone: list[Edit] = [remove_attribute(element, name) for name in TURNS if name in element.attributes]
+    gone: list[Edit] = [remove_attribute(element, name) for name in ORIENTATIONS if name in element.attributes]
     edits = (*gone, set_attribute(element, "quat", text_of(*quat)))
     return Fault(edits, (model.simulation.name("camera", i),), "quat")
 

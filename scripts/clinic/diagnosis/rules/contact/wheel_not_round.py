@@ -59,6 +59,7 @@ from clinic.diagnosis.probes.vector import (
 from clinic.diagnosis.probes.wheels import is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.source import ORIENTATIONS
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A wheel that is not round"
@@ -69,7 +70,6 @@ UNPLANTED = "no healthy model stands on a wheel that is a single cylinder or box
 
 VARIES, CENTRED = 0.1, 0.2
 ANGLES = 24
-TURNED = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -157,8 +157,8 @@ def _edits(model: ReaderModel, joint: int, geom: int) -> tuple[Edit, ...]:
     element = model.element("geom", geom)
     if element is None or model.value("geom", geom, "fromto") or model.source is None or model.source.urdf:
         return ()
-    if any(name not in element.attributes and model.value("geom", geom, name) for name in TURNED):
+    if any(name not in element.attributes and model.value("geom", geom, name) for name in ORIENTATIONS):
         return ()
-    gone = [remove_attribute(element, name) for name in TURNED if name in element.attributes and name != "zaxis"]
+    gone = [remove_attribute(element, name) for name in ORIENTATIONS if name in element.attributes and name != "zaxis"]
     axis = model.simulation.row("jnt_axis", joint, 3)
     return (*gone, set_attribute(element, "zaxis", written(axis)))

@@ -35,7 +35,7 @@ from clinic.diagnosis.edit import remove_attribute, set_attribute
 from clinic.diagnosis.probes.sides import right_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence
-from clinic.diagnosis.source import Element
+from clinic.diagnosis.source import ORIENTATIONS, Element
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "An impossible inertia"
@@ -62,7 +62,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if model.source.urdf:
             yield from _in_urdf(inertial, said)
         elif "fullinertia" in inertial.attributes:
-            for attribute in ("diaginertia", "quat", "euler", "axisangle", "xyaxes", "zaxis"):
+            for attribute in ("diaginertia", *ORIENTATIONS):
                 if attribute in inertial.attributes:
                     taken = (remove_attribute(inertial, attribute),)
                     now = inertial.get(attribute)

@@ -32,7 +32,7 @@ from clinic.diagnosis.rules.errors._message import meant, mends, nearest, senten
 from clinic.diagnosis.rules.errors._remedy import remedied
 from clinic.diagnosis.rules.errors._scale import scaled_back
 from clinic.diagnosis.rules.errors._values import VALUES
-from clinic.diagnosis.source import Element
+from clinic.diagnosis.source import ORIENTATIONS, Element
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A value that MuJoCo does not take"
@@ -54,7 +54,6 @@ KNOWN += " convex exact legacy shell mindist maxforce netforce linear sRGB grid 
 KNOWN += " enable disable Euler RK4 implicit implicitfast discrete pyramidal elliptic PGS CG Newton local fixed track"
 URDF_TYPES = "revolute continuous prismatic fixed floating planar"
 URDF = {"hinge": ["revolute", "continuous"], "slide": ["prismatic"], "free": ["floating"], "ball": ["floating"]}
-ORIENTATIONS = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
 SIZES = {  # how many numbers a geom takes
     "sphere": "A sphere has a radius, in m.",
     "capsule": "A capsule has a radius and half a length, or its ends in fromto, in m.",

@@ -42,6 +42,7 @@ from clinic.diagnosis.probes.inertia import inertial, set_inertial
 from clinic.diagnosis.probes.matter import Matter, across, explicit, flat
 from clinic.diagnosis.probes.vector import dot, norm
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.source import ORIENTATIONS
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The inertia lies across the body"
@@ -52,7 +53,6 @@ LEVEL = "hint"
 
 LONG, LIMIT = 0.3, 1.0
 STOUT, ACROSS, OTHERS = 0.5, 1.2, 3
-TURNS = ("quat", "euler", "axisangle", "xyaxes", "zaxis")
 FLAT, OFF, ALONG, SAME = 1.25, 1.1, 0.95, 0.01
 
 
@@ -105,9 +105,9 @@ def _turn_left_out(model: ReaderModel, body: int) -> bool:
     """Whether `diaginertia` stands without the turn that it has in nearly all other bodies."""
     of = model.simulation
     written = [each for one in range(1, of.count("body")) if (each := inertial(model, one)) is not None]
-    turned = [any(each.get(name) for name in TURNS) for each in written if each.get("diaginertia")]
+    turned = [any(each.get(name) for name in ORIENTATIONS) for each in written if each.get("diaginertia")]
     own = inertial(model, body)
-    bare = own is not None and bool(own.get("diaginertia")) and not any(own.get(name) for name in TURNS)
+    bare = own is not None and bool(own.get("diaginertia")) and not any(own.get(name) for name in ORIENTATIONS)
     return bare and sum(turned) >= max(OTHERS, 0.7 * len(turned))
 
 

@@ -40,6 +40,7 @@ from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.probes.vector import norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.source import ORIENTATIONS
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A tool beside the site that it belongs to"
@@ -51,7 +52,6 @@ UNPLANTED = "few healthy models have a tool in a body of its own, and a site for
 
 PLACE = re.compile(r"attach|flange|mount|tool|tcp", re.IGNORECASE)
 NEAR = 0.01  # m
-TURNS = ("euler", "axisangle", "xyaxes", "zaxis")
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -65,7 +65,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if len(sites) != 1 or element is None or _off(of, body) <= NEAR or _drawn_there(of, body, sites[0]):
             continue
         place, turn = written(of.row("site_pos", sites[0], 3)), written(of.row("site_quat", sites[0], 4))
-        written_turns = [remove_attribute(element, each) for each in TURNS if each in element.attributes]
+        written_turns = [remove_attribute(element, each) for each in ORIENTATIONS[1:] if each in element.attributes]
         edits = *written_turns, set_attribute(element, "pos", place), set_attribute(element, "quat", turn)
         site = of.name("site", sites[0])
         says = f"It hangs on the origin of {of.name('body', link)}, whose {site} is {100 * _off(of, body):.3g} cm away."

@@ -59,6 +59,7 @@ from clinic.diagnosis.probes.vector import Vector, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.twins._pair import EITHER
 from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.source import ORIENTATIONS
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A limb that is turned unlike its twin"
@@ -71,7 +72,6 @@ LEAST, LEFT, TURNED = 3, 0.2, 1e-3
 """How many must be astray, which share of them may stay so, and what tells a turn from none."""
 FEW = 8  # pairs that are looked at, of those that are astray
 MIRRORS = ((1, 1, -1, -1), (1, -1, 1, -1), (1, -1, -1, 1))  # a turn seen in a mirror across x, y or z
-OTHERS = ("euler", "axisangle", "xyaxes", "zaxis")
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -96,7 +96,7 @@ def _suspect(model: ReaderModel, body: int, twin: int, turn: Vector, left: int, 
     before = _astray(of, left)
     edits: tuple[Edit, ...] = ()
     if element is not None and model.source is not None and not model.source.urdf:
-        others = [name for name in OTHERS if element.get(name)]
+        others = [name for name in ORIENTATIONS[1:] if element.get(name)]
         edits = (set_attribute(element, "quat", written(turn)), *(remove_attribute(element, name) for name in others))
     names = of.name("body", body), of.name("body", twin)
     says = (

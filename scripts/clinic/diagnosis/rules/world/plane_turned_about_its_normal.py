@@ -35,6 +35,7 @@ from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.source import ORIENTATIONS
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A plane turned about its own normal"
@@ -43,7 +44,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "nothing changes in a healthy model whose floor is turned about its normal"
 
-TURNED = ("quat", "euler", "axisangle", "xyaxes", "zaxis")
 LEAST, LEVEL_ENOUGH = 1.0, 1e-6  # degrees; of the quaternion
 
 
@@ -51,7 +51,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Planes of the world with a turn about z alone."""
     of = model.simulation
     for geom, kind in enumerate(of.model("geom_type")):
-        written = next((name for name in TURNED if model.value("geom", geom, name)), None)
+        written = next((name for name in ORIENTATIONS if model.value("geom", geom, name)), None)
         patterned = of.model("geom_matid")[geom] >= 0 or of.model("geom_bodyid")[geom] > 0
         if int(kind) != PLANE or written is None or patterned or not solid(of, geom):
             continue

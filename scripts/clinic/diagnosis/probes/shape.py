@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from clinic.diagnosis.engine import FREE, HFIELD, PLANE, SLIDE
 from clinic.diagnosis.probes.vector import Vector, add, at, dot, norm, sub, times
 from clinic.diagnosis.simulation import Simulation, kept
@@ -109,6 +111,12 @@ def size(simulation: Simulation, body: int) -> float:
     radii = simulation.model("geom_rbound")
     own = [radii[geom] for geom in simulation.geoms_of(body)]
     return max([*own, 0.0]) or max([radii[geom] for geom in geoms_of_tree(simulation, body)], default=0.0)
+
+
+def boxes(simulation: Simulation, geoms: Iterable[int]) -> dict[int, tuple[Vector, Vector]]:
+    """The boxes around geoms along the world's axes, as the state is now: their centres and half sizes in m."""
+    positions, axes = tuple(simulation.data("geom_xpos")), tuple(simulation.data("geom_xmat"))
+    return {geom: box(simulation, positions, axes, geom) for geom in geoms}
 
 
 def box(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from clinic.diagnosis.probes.servo import Servo, hold, servos
-from clinic.diagnosis.probes.shape import box, geoms_of_tree, plane_heights, root_of
+from clinic.diagnosis.probes.shape import boxes, geoms_of_tree, plane_heights, root_of
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
@@ -68,10 +68,9 @@ def stance_after(simulation: Simulation, seconds: float) -> Stance:
 
 def _lowest(simulation: Simulation, root: int) -> float:
     """The lowest point of what collides of a tree, in m."""
-    places, axes = tuple(simulation.data("geom_xpos")), tuple(simulation.data("geom_xmat"))
     collides = simulation.model("geom_contype")
-    boxes = [box(simulation, places, axes, geom) for geom in geoms_of_tree(simulation, root) if collides[geom]]
-    return min((centre[2] - half[2] for centre, half in boxes), default=float("inf"))
+    found = boxes(simulation, [geom for geom in geoms_of_tree(simulation, root) if collides[geom]])
+    return min((centre[2] - half[2] for centre, half in found.values()), default=float("inf"))
 
 
 def _lost(simulation: Simulation, seconds: float) -> float:

@@ -47,10 +47,11 @@ When it is wrong: parts that another geom stands in for, such as a sphere of the
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from clinic.diagnosis.engine import CONTACTS_OFF, PLANE
-from clinic.diagnosis.probes.shape import box, in_pairs, masks_told, root_of, solid
+from clinic.diagnosis.probes.shape import boxes, in_pairs, masks_told, root_of, solid
+from clinic.diagnosis.probes.vector import Vector
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -120,25 +121,24 @@ def _untouched(of: Simulation) -> list[int]:
     ]
     paired = in_pairs(of)
     solids = [geom for geom in still if solid(of, geom) or geom in paired]
-    geoms, names = of.names("geom"), of.names("body")
+    geoms, names, every = of.names("geom"), of.names("body"), boxes(of, still)
     found = []
     for geom in still:
         called = f"{geoms[geom]} {names[int(bodies[geom])] if bodies[geom] else ''}"
         if geom in solids or int(kinds[geom]) == PLANE or not GROUND.search(called) or SEEN.search(called):
             continue
         mates = [each for each in solids if bodies[geom] and bodies[each] == bodies[geom]]
-        if of.row("geom_rgba", geom, 4)[3] >= 1 and not mates and not any(_around(of, each, geom) for each in solids):
+        clear = of.row("geom_rgba", geom, 4)[3] < 1
+        if not clear and not mates and not any(_around(of, every, each, geom) for each in solids):
             found.append(geom)
     return found
 
 
-def _around(of: Simulation, solid_: int, geom: int) -> bool:
+def _around(of: Simulation, every: Mapping[int, tuple[Vector, Vector]], solid_: int, geom: int) -> bool:
     """Whether something that collides reaches into the box around a geom; a plane does where it is not far below."""
-    positions, axes = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat"))
-    place, half = box(of, positions, axes, geom)
+    (there, extent), (place, half) = (every[each] for each in (solid_, geom))
     if int(of.model("geom_type")[solid_]) == PLANE:
-        return abs(place[2] + half[2] - positions[3 * solid_ + 2]) < THIN
-    there, extent = box(of, positions, axes, solid_)
+        return abs(place[2] + half[2] - of.data_row("geom_xpos", solid_, 3)[2]) < THIN
     return all(abs(a - b) < c + d - THIN for a, b, c, d in zip(place, there, half, extent, strict=True))
 
 

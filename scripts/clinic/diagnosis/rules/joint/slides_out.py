@@ -34,7 +34,7 @@ import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HFIELD, PLANE, SLIDE
-from clinic.diagnosis.probes.shape import box
+from clinic.diagnosis.probes.shape import boxes
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -105,10 +105,9 @@ def _gap(of: Simulation, joint: int, *, at_start: bool = False) -> float:
 
 def _extent(of: Simulation, bodies: list[int], axis: tuple[float, ...]) -> tuple[float, float] | None:
     """From where to where the geoms of bodies reach along a direction."""
-    positions, axes, kinds = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat")), of.model("geom_type")
-    ends = []
-    for geom in (geom for body in bodies for geom in of.geoms_of(body) if int(kinds[geom]) not in (PLANE, HFIELD)):
-        place, half = box(of, positions, axes, geom)
+    kinds, ends = of.model("geom_type"), list[float]()
+    geoms = (geom for body in bodies for geom in of.geoms_of(body) if int(kinds[geom]) not in (PLANE, HFIELD))
+    for place, half in boxes(of, geoms).values():
         middle = sum(a * b for a, b in zip(place, axis, strict=True))
         reach = sum(abs(a) * b for a, b in zip(axis, half, strict=True))
         ends += [middle - reach, middle + reach]

@@ -36,7 +36,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import HFIELD, PLANE, TRN_SITE
 from clinic.diagnosis.probes.key import reordered, start_at
-from clinic.diagnosis.probes.shape import box, plane_heights, solid
+from clinic.diagnosis.probes.shape import boxes, plane_heights, solid
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -79,8 +79,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _gap(of: Simulation, key: int) -> float:
     """How high the lowest moving geom is above what is below it and does not move, in sizes; 0 without a plane."""
     start_at(of, key)
-    bodies, moving = of.model("geom_bodyid"), set(of.moving_bodies)
-    low = min((_ends(of, geom)[0] for geom, body in enumerate(bodies) if int(body) in moving), default=0.0)
+    low = min((low for low, _ in _ends(of).values()), default=0.0)
     below = [height for height in (*plane_heights(of), *_tops(of)) if height <= low + NEAR]
     if not below or HFIELD in map(int, of.model("geom_type")):
         return 0.0
@@ -89,25 +88,22 @@ def _gap(of: Simulation, key: int) -> float:
 
 def _tops(of: Simulation) -> list[float]:
     """How high the tops of the geoms are that do not move and are below or above the middle of the free body."""
-    positions, axes, kinds = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat")), of.model("geom_type")
-    made, moving, middle = [], set(of.moving_bodies), of.data_row("xpos", of.free_bodies[0], 3)
-    for geom, body in enumerate(of.model("geom_bodyid")):
-        if int(body) not in moving and solid(of, geom) and int(kinds[geom]) not in (PLANE, HFIELD):
-            place, half = box(of, positions, axes, geom)
-            made += [place[2] + half[2]] if all(abs(middle[i] - place[i]) <= half[i] for i in (0, 1)) else []
-    return made
+    kinds, moving, middle = of.model("geom_type"), set(of.moving_bodies), of.data_row("xpos", of.free_bodies[0], 3)
+    still = [geom for geom, body in enumerate(of.model("geom_bodyid")) if int(body) not in moving and solid(of, geom)]
+    found = boxes(of, [geom for geom in still if int(kinds[geom]) not in (PLANE, HFIELD)]).values()
+    return [place[2] + half[2] for place, half in found if all(abs(middle[i] - place[i]) <= half[i] for i in (0, 1))]
 
 
 def _size(of: Simulation) -> float:
     """How tall the moving geoms together are, at least as much as the largest of them."""
-    bodies, moving = of.model("geom_bodyid"), set(of.moving_bodies)
-    ends = [(_ends(of, geom), of.model("geom_rbound")[geom]) for geom, body in enumerate(bodies) if int(body) in moving]
-    if not ends:
+    if not (ends := _ends(of)):
         return 0.0
-    tall = max(end[1] for end, _ in ends) - min(end[0] for end, _ in ends)
-    return max(tall, *(radius for _, radius in ends))
+    tall = max(high for _, high in ends.values()) - min(low for low, _ in ends.values())
+    return max(tall, *(of.model("geom_rbound")[geom] for geom in ends))
 
 
-def _ends(of: Simulation, geom: int) -> tuple[float, float]:
-    place, half = box(of, tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat")), geom)
-    return place[2] - half[2], place[2] + half[2]
+def _ends(of: Simulation) -> dict[int, tuple[float, float]]:
+    """How high the lowest and the highest point of the box around each moving geom are, in m."""
+    moving = set(of.moving_bodies)
+    found = boxes(of, [geom for geom, body in enumerate(of.model("geom_bodyid")) if int(body) in moving])
+    return {geom: (place[2] - half[2], place[2] + half[2]) for geom, (place, half) in found.items()}

@@ -37,7 +37,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import OBJ_SITE
-from clinic.diagnosis.probes.shape import box, root_of
+from clinic.diagnosis.probes.shape import boxes, root_of
 from clinic.diagnosis.probes.touched import RANGE
 from clinic.diagnosis.probes.vector import add
 from clinic.diagnosis.reader_model import ReaderModel
@@ -75,7 +75,7 @@ def _blind(of: Simulation) -> dict[int, tuple[int, float]]:
     """The geom of its own robot that each rangefinder sees at the start, and the reading in m."""
     of.begin()
     owner, made = root_of(of), {}
-    bodies, places, axes = of.model("geom_bodyid"), tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat"))
+    bodies = of.model("geom_bodyid")
     readings, kinds = of.data("sensordata"), of.model("sensor_objtype")
     for sensor, kind in enumerate(of.model("sensor_type")):
         reading = readings[int(of.model("sensor_adr")[sensor])]
@@ -84,10 +84,10 @@ def _blind(of: Simulation) -> dict[int, tuple[int, float]]:
         site = int(of.model("sensor_objid")[sensor])
         body = int(of.model("site_bodyid")[site])
         end = add(of.data_row("site_xpos", site, 3), of.data_row("site_xmat", site, 9)[2::3], reading)
-        for geom, other in enumerate(bodies):
-            centre, half = box(of, places, axes, geom)
+        for geom, (centre, half) in boxes(of, range(len(bodies))).items():
+            other = int(bodies[geom])
             inside = all(abs(x - c) <= h + NEAR for x, c, h in zip(end, centre, half, strict=True))
-            if inside and owner[body] and owner[int(other)] == owner[body] and int(other) != body:
+            if inside and owner[body] and owner[other] == owner[body] and other != body:
                 made[sensor] = (geom, reading)
                 break
     return made

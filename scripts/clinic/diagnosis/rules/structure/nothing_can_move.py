@@ -31,7 +31,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, insert, replace
 from clinic.diagnosis.engine import MESH, PLANE
-from clinic.diagnosis.probes.shape import box, plane_heights
+from clinic.diagnosis.probes.shape import boxes, plane_heights
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
@@ -86,12 +86,11 @@ def _own_body(model: ReaderModel, geom: Element) -> tuple[Edit, ...]:
 def _in_air(of: Simulation) -> set[int]:
     """Bodies of which all geoms are above every plane."""
     of.begin()
-    positions, axes = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat"))
     floor = max(plane_heights(of), default=float("-inf"))
+    lows = {geom: centre[2] - half[2] for geom, (centre, half) in boxes(of, range(of.count("geom"))).items()}
     made = set()
     for body in range(1, of.count("body")):
-        boxes = [box(of, positions, axes, geom) for geom in of.geoms_of(body)]
-        low = [centre[2] - half[2] for centre, half in boxes]
+        low = [lows[geom] for geom in of.geoms_of(body)]
         if low and min(low) > floor + 1e-3:
             made.add(body)
     return made

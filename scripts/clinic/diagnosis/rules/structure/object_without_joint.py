@@ -37,7 +37,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import insert
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.inertia import inertial
-from clinic.diagnosis.probes.shape import box
+from clinic.diagnosis.probes.shape import boxes
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -115,14 +115,14 @@ def _height(of: Simulation, body: int) -> float:
     if of.joints_of(body):
         return 0.0
     bodies, kinds, collides = of.model("geom_bodyid"), of.model("geom_type"), of.model("geom_contype")
-    positions, axes = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat"))
+    every = boxes(of, range(len(kinds)))
     moving, made = set(of.moving_bodies), float("inf")
     for geom in of.geoms_of(body):
-        place, half = box(of, positions, axes, geom)
+        place, half = every[geom]
         for other in range(len(kinds)) if collides[geom] else ():
             if int(bodies[other]) in (*moving, body) or not collides[other]:
                 continue
-            there, extent = box(of, positions, axes, other)
+            there, extent = every[other]
             if int(kinds[other]) == PLANE:
                 made = min(made, place[2] - half[2] - of.data_row("geom_xpos", other, 3)[2])
             elif all(abs(a - b) < c + d + NEAR for a, b, c, d in zip(place, there, half, extent, strict=True)):

@@ -45,7 +45,7 @@ import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import CYLINDER, HINGE, SPHERE
-from clinic.diagnosis.probes.shape import box, root_of, solid
+from clinic.diagnosis.probes.shape import boxes, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -152,7 +152,7 @@ def _bottom(of: Simulation, geom: int) -> float:
     kind, middle = int(of.model("geom_type")[geom]), of.data_row("geom_xpos", geom, 3)[2]
     if kind == SPHERE or (kind == CYLINDER and abs(of.data_row("geom_xmat", geom, 9)[8]) < LEVEL_ENOUGH):
         return middle - of.model("geom_size")[3 * geom]
-    centre, half = box(of, tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat")), geom)
+    centre, half = boxes(of, [geom])[geom]
     return centre[2] - half[2]
 
 

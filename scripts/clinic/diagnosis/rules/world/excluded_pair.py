@@ -39,7 +39,7 @@ from clinic.diagnosis.edit import delete
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.fall import below, fallen, limit
 from clinic.diagnosis.probes.key import start_at
-from clinic.diagnosis.probes.shape import box, falling, geoms_of_tree, root_of, solid
+from clinic.diagnosis.probes.shape import boxes, falling, geoms_of_tree, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
@@ -101,11 +101,10 @@ def _lowest(of: Simulation) -> set[int]:
     made, parents = set[int](), {int(each) for each in of.model("body_parentid")}
     for key in range(-1, min(1, of.count("key"))):
         start_at(of, key)
-        places, axes = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat"))
         for root in falling(of):
-            boxes = {geom: box(of, places, axes, geom) for geom in geoms_of_tree(of, root) if solid(of, geom)}
-            lows = {geom: centre[2] - half[2] for geom, (centre, half) in boxes.items()}
-            tops = [centre[2] + half[2] for centre, half in boxes.values()]
+            found = boxes(of, [geom for geom in geoms_of_tree(of, root) if solid(of, geom)])
+            lows = {geom: centre[2] - half[2] for geom, (centre, half) in found.items()}
+            tops = [centre[2] + half[2] for centre, half in found.values()]
             lowest = min(lows.values(), default=0.0)
             height = max(tops, default=0.0) - lowest
             for geom, low in lows.items():

@@ -85,6 +85,16 @@ class Comment:
     following: Element | None
 
 
+def stem(path: str) -> str:
+    """The name of a file without its folders and its ending."""
+    return posixpath.splitext(posixpath.basename(path))[0]
+
+
+def asset_name(element: Element) -> str:
+    """An asset's name; that of its file where none is written."""
+    return element.get("name") or stem(element.get("file"))
+
+
 class Source:
     """The texts of a model and their elements.
 

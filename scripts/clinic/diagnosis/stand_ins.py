@@ -10,7 +10,7 @@ from itertools import product
 
 from clinic.diagnosis.edit import Edit, apply, delete, remove_attribute, replace, set_attribute
 from clinic.diagnosis.engine import Compiled, CompileError, Engine
-from clinic.diagnosis.source import Element, read_source
+from clinic.diagnosis.source import Element, asset_name, read_source
 
 SIZE = 0.04  # m, the edge of a box: about a finger's or a small motor's
 FLAT = {"builtin": "flat", "rgb1": "0.5 0.5 0.5", "width": "8", "height": "8"}
@@ -84,7 +84,7 @@ class StandIns:
             yield from (remove_attribute(element, name) for name in (*named, "content_type", "gridsize", "gridlayout"))
             yield from (set_attribute(element, *each) for each in written.items())
             if not element.get("name"):
-                yield set_attribute(element, "name", posixpath.splitext(posixpath.basename(element.get("file")))[0])
+                yield set_attribute(element, "name", asset_name(element))
 
 
 def named_files(element: Element) -> dict[str, str]:

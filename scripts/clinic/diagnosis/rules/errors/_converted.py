@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import posixpath
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, insert, remove_attribute, replace, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.source import Element
+from clinic.diagnosis.source import Element, asset_name, stem
 
 AT_SITE = ("touch", "accelerometer", "velocimeter", "gyro", "force", "torque", "magnetometer", "rangefinder")
 FRAMES = {f"frame{each}" for each in ["pos", "quat", "xaxis", "yaxis", "zaxis", "linvel", "angvel", "linacc", "angacc"]}
@@ -38,7 +37,7 @@ def converted(model: ReaderModel, element: Element, attribute: str) -> Iterator[
     elif tag == "geom" and attribute in ("file", "filename"):
         yield from _mesh(model, element, attribute)
     elif tag == "geom" and attribute == "scale":
-        for mesh in [each for each in _all(model, "mesh") if _called(each) == element.get("mesh")]:
+        for mesh in [each for each in _all(model, "mesh") if asset_name(each) == element.get("mesh")]:
             yield (
                 (taken, set_attribute(mesh, "scale", now)),
                 f"scale={now!r} at the mesh",
@@ -61,10 +60,6 @@ def converted(model: ReaderModel, element: Element, attribute: str) -> Iterator[
 
 def _all(model: ReaderModel, *tags: str) -> list[Element]:
     return list(model.source.elements(*tags)) if model.source else []
-
-
-def _called(mesh: Element) -> str:
-    return mesh.get("name") or posixpath.splitext(posixpath.basename(mesh.get("file")))[0]
 
 
 def _body_of(model: ReaderModel, kind: str, name: str) -> Element | None:
@@ -109,11 +104,11 @@ def _other(model: ReaderModel, kind: str, name: str, wanted: str) -> Iterator[st
 def _mesh(model: ReaderModel, geom: Element, attribute: str) -> Iterator[Made]:
     """The mesh of a file, with an asset for it where there is none."""
     file = geom.get(attribute)
-    name = posixpath.splitext(posixpath.basename(file))[0]
+    name = stem(file)
     edits = [remove_attribute(geom, attribute), set_attribute(geom, "mesh", name), set_attribute(geom, "type", "mesh")]
     root = model.source.root if model.source else geom
     assets = root.first("asset")
-    if not any(_called(each) == name for each in _all(model, "mesh")):
+    if not any(asset_name(each) == name for each in _all(model, "mesh")):
         mesh = f'<mesh name="{name}" file="{file}"/>'
         edits.append(insert(assets, mesh) if assets else insert(root, f"<asset>{mesh}</asset>"))
     yield (

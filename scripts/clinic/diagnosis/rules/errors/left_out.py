@@ -39,7 +39,7 @@ from clinic.diagnosis.edit import delete, insert, remove_attribute, set_attribut
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, nearest, sentence, told
 from clinic.diagnosis.rules.errors._remedy import advised
-from clinic.diagnosis.source import Element
+from clinic.diagnosis.source import Element, asset_name
 from clinic.diagnosis.suspect import Suspect, rounded
 
 TITLE = "Something that must be there is left out"
@@ -211,7 +211,7 @@ def _names(model: ReaderModel, element: Element, attribute: str) -> list[str]:
     every = model.source.section(kind) if holder else model.source.elements(kind)
     used = set(element.attributes.values())
     there = [
-        name for each in every if (name := _called(each)) and name not in used and each.parent is not element.parent
+        name for each in every if (name := asset_name(each)) and name not in used and each.parent is not element.parent
     ]
     if element.parent is not None and element.parent.tag == "actuator":
         taken = {each.get(attribute) for each in model.source.section("actuator")}
@@ -220,11 +220,6 @@ def _names(model: ReaderModel, element: Element, attribute: str) -> list[str]:
     like = [name for word in own for name in there if name in word or word in name]
     like += [name for word in own for name in nearest(word, there)]
     return list(dict.fromkeys([*like, *(there if len(there) == 1 else [])]))[:3]
-
-
-def _called(each: Element) -> str:
-    """An element's name; that of a mesh without one is its file's."""
-    return each.get("name") or re.sub(r".*/|\.\w+$", "", each.get("file"))
 
 
 def _mass(inertial: Element | None) -> str:

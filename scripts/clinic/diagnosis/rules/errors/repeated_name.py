@@ -25,7 +25,6 @@ has, that is the one that was meant.
 
 from __future__ import annotations
 
-import posixpath
 import re
 from collections import Counter
 from collections.abc import Iterator
@@ -34,7 +33,7 @@ from difflib import SequenceMatcher
 from clinic.diagnosis.edit import Edit, delete, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import mends, sentence
-from clinic.diagnosis.source import Element, Source
+from clinic.diagnosis.source import Element, Source, stem
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A name that is used twice"
@@ -53,7 +52,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     classes = "class name" in found[0]
     attribute, kind = ("class", "default") if classes else ("name", found.group(2) or "")
     every = list(model.source.elements(*KINDS.get(kind, (kind,)))) if kind else []
-    names = {id(each): each.get(attribute) or _of_file(each, kind) for each in every}
+    of_file = kind in ("mesh", "texture", "hfield")
+    names = {id(each): each.get(attribute) or (stem(each.get("file")) if of_file else "") for each in every}
     if not classes and found.group(1) not in names.values():
         every = [each for each in model.source.root.walk() if each.get("name") == found.group(1)]
         names = {id(each): each.get("name") for each in every}
@@ -122,10 +122,3 @@ def _again(elements: list[Element], names: dict[int, str]) -> Element | None:
 def _alike(one: Element, other: Element) -> bool:
     same = (one.tag, one.attributes, len(one.children)) == (other.tag, other.attributes, len(other.children))
     return same and all(map(_alike, one.children, other.children))
-
-
-def _of_file(element: Element, kind: str) -> str:
-    """The name that an asset has from its file."""
-    return (
-        posixpath.splitext(posixpath.basename(element.get("file")))[0] if kind in ("mesh", "texture", "hfield") else ""
-    )

@@ -38,7 +38,7 @@ from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, nearest, sentence
 from clinic.diagnosis.rules.errors._remedy import advised
-from clinic.diagnosis.source import Element, Source
+from clinic.diagnosis.source import Element, Source, stem
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A reference to a name that does not exist"
@@ -69,9 +69,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     names = NAME.findall(said)
     every = list(model.source.root.walk())
     known = [each.get("name") or each.get("class" if each.tag == "default" else "name") for each in every]
-    known += [
-        re.sub(r".*/|\.\w+$", "", each.get("file")) for each in every if each.tag in ("mesh", "texture", "hfield")
-    ]
+    known += [stem(each.get("file")) for each in every if each.tag in ("mesh", "texture", "hfield")]
     for element in meant(model) or [each for each in every if set(each.attributes.values()) & set(names)]:
         for attribute, now in element.attributes.items():
             wrong = now in names or (not names and attribute in (*OPTIONAL, "target"))

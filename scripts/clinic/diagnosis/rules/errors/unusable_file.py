@@ -40,7 +40,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import folder_of, meant, mends, sentence
 from clinic.diagnosis.rules.errors._remedy import advised
 from clinic.diagnosis.rules.errors._scale import scaled_back
-from clinic.diagnosis.source import Element
+from clinic.diagnosis.source import Element, asset_name, stem
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A mesh or picture that MuJoCo cannot use"
@@ -185,7 +185,7 @@ def _without_volume(model: ReaderModel, said: str) -> Iterator[Suspect]:
             now="convex",
             value="shell",
         )
-        name = mesh.get("name") or posixpath.splitext(posixpath.basename(mesh.get("file")))[0]
+        name = asset_name(mesh)
         users = [each for each in model.source.elements("geom", "site") if each.get("mesh") == name]
         instead = "A box of 10 mm stands in its place" if users else "Nothing uses it, and it is taken out"
         says = f"{said}. {instead}."
@@ -204,7 +204,7 @@ def _in_urdf(model: ReaderModel, said: str) -> Iterator[Suspect]:
     assert model.source is not None
     found = re.search(r"mesh '([^']+)'|too small: (\S+)|Element name '([^']+)'", f"{said} {model.error}")
     name = next(filter(None, found.groups())) if found else ""
-    users = [each for each in model.source.elements("mesh") if _stem(each.get("filename")) == name]
+    users = [each for each in model.source.elements("mesh") if stem(each.get("filename")) == name]
     shown = [each for each in users if any(outer.tag == "visual" for outer in each.around())]
     hit = [each for each in users if each not in shown]
     visuals = [delete(outer) for each in shown for outer in each.around() if outer.tag == "visual"]
@@ -222,10 +222,6 @@ def _in_urdf(model: ReaderModel, said: str) -> Iterator[Suspect]:
                 now=users[0].get("filename"),
                 value="box" if hit else "removed",
             )
-
-
-def _stem(file: str) -> str:
-    return posixpath.splitext(posixpath.basename(file))[0]
 
 
 def _points(model: ReaderModel, said: str) -> Iterator[Suspect]:

@@ -235,9 +235,25 @@ class Simulation:
         """FREE, BALL, SLIDE or HINGE."""
         return int(self.model("jnt_type")[joint])
 
+    def body_of(self, kind: str, index: int) -> int:
+        """The body that a joint, geom or site is of."""
+        return int(self.model(REFERENCES[kind])[index])
+
+    def gear(self, actuator: int) -> float:
+        """The first number of an actuator's gear: for a joint or tendon all of it."""
+        return self.model("actuator_gear")[6 * actuator]
+
+    def place(self, joint: int) -> int:
+        """Where a joint begins in qpos."""
+        return int(self.model("jnt_qposadr")[joint])
+
+    def put(self, joint: int, position: float) -> None:
+        """Puts a hinge or slide elsewhere, in rad or m; what follows from it is not computed."""
+        self.engine.write("qpos", [position], self.place(joint))
+
     def position(self, joint: int) -> float:
         """The angle in rad or the way in m of a hinge or slide, as it is now."""
-        return self.data("qpos")[int(self.model("jnt_qposadr")[joint])]
+        return self.data("qpos")[self.place(joint)]
 
     def dof(self, joint: int) -> int:
         """The first degree of freedom of a joint."""

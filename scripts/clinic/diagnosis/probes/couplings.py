@@ -24,7 +24,7 @@ def couplings(simulation: Simulation) -> Iterator[tuple[int, Coupling]]:
 def led_over(simulation: Simulation, coupling: Coupling) -> list[float]:
     """Where the follower is led over the leader's range."""
     follower, leader, factors = coupling
-    begins = [simulation.model("qpos0")[int(simulation.model("jnt_qposadr")[joint])] for joint in (follower, leader)]
+    begins = [simulation.model("qpos0")[simulation.place(joint)] for joint in (follower, leader)]
     low, high = simulation.row("jnt_range", leader, 2)
     ways = [low + (high - low) * point / (POINTS - 1) - begins[1] for point in range(POINTS)]
     return [begins[0] + sum(factor * way**power for power, factor in enumerate(factors)) for way in ways]

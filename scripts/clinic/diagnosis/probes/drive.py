@@ -38,7 +38,7 @@ def _driven(simulation: Simulation, joint: int) -> float:
             command(simulation, own[actuator], begin + side * way)
         elif simulation.driven_joint(actuator) == joint and simulation.model("actuator_ctrllimited")[actuator]:
             ends = simulation.row("actuator_ctrlrange", actuator, 2)
-            turned = side * simulation.model("actuator_gear")[6 * actuator] > 0
+            turned = side * simulation.gear(actuator) > 0
             simulation.engine.write("ctrl", [ends[1] if turned else ends[0]], actuator)
     farthest = 0.0
     for _ in simulation.run(SECONDS, samples=20):

@@ -30,7 +30,7 @@ def by_mocap(of: Simulation, each: int) -> bool:
     """Whether what is connected or welded hangs on a mocap body, which code moves."""
     if kind_of(of, each) not in (CONNECT, WELD):
         return False
-    bodies = [int(of.model("site_bodyid")[one]) if sited(of, each) else one for one in held(of, each) if one >= 0]
+    bodies = [of.body_of("site", one) if sited(of, each) else one for one in held(of, each) if one >= 0]
     return any(of.model("body_mocapid")[int(of.model("body_weldid")[body])] >= 0 for body in bodies)
 
 

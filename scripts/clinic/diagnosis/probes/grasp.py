@@ -41,7 +41,7 @@ def _fingers(simulation: Simulation) -> list[int]:
     made = []
     for actuator in range(simulation.count("actuator")):
         joint = simulation.driven_joint(actuator)
-        body = int(simulation.model("jnt_bodyid")[joint]) if joint is not None else 0
+        body = simulation.body_of("joint", joint) if joint is not None else 0
         if joint is not None and body not in carriers and simulation.model("actuator_ctrllimited")[actuator]:
             made.append(actuator)
     return made if len(made) > 1 else []

@@ -162,7 +162,7 @@ def _parts(of: Simulation) -> list[tuple[int, int]]:
     free = True
     for joint in range(of.count("joint")):
         was, free = free, of.joint_type(joint) == FREE
-        at, width = int(of.model("jnt_qposadr")[joint]), WIDTH[of.joint_type(joint)][0]
+        at, width = of.place(joint), WIDTH[of.joint_type(joint)][0]
         if free or was:
             made.append((at, width))
         else:
@@ -178,7 +178,7 @@ def _turns(of: Simulation, qpos: Sequence[float]) -> bool:
 def _quaternions(of: Simulation) -> Iterator[int]:
     for joint in range(of.count("joint")):
         if of.joint_type(joint) in (FREE, BALL):
-            yield int(of.model("jnt_qposadr")[joint]) + 3 * (of.joint_type(joint) == FREE)
+            yield of.place(joint) + 3 * (of.joint_type(joint) == FREE)
 
 
 def _beyond_ranges(of: Simulation, qpos: Sequence[float]) -> int:
@@ -187,5 +187,5 @@ def _beyond_ranges(of: Simulation, qpos: Sequence[float]) -> int:
     for joint in range(of.count("joint")):
         if of.joint_type(joint) in (SLIDE, HINGE) and of.model("jnt_limited")[joint]:
             low, high = of.row("jnt_range", joint, 2)
-            made += not low - 0.01 <= qpos[int(of.model("jnt_qposadr")[joint])] <= high + 0.01
+            made += not low - 0.01 <= qpos[of.place(joint)] <= high + 0.01
     return made

@@ -16,7 +16,7 @@ def _unstopped(simulation: Simulation, joints: tuple[int, ...]) -> float:
             low, high = sorted(simulation.row("jnt_range", joint, 2))
             simulation.begin(forward=False)
             beyond = high + 0.1 * max(high - low, 0.1)
-            simulation.engine.write("qpos", [beyond], int(simulation.model("jnt_qposadr")[joint]))
+            simulation.put(joint, beyond)
             simulation.engine.forward()
             free = free or not simulation.data("qfrc_constraint")[simulation.dof(joint)] < 0
     return float(free)

@@ -27,7 +27,7 @@ def poses(simulation: Simulation) -> list[list[float]]:
             seed = (1103515245 * seed + 12345) % 2**31
             if simulation.joint_type(joint) not in (HINGE, SLIDE):
                 continue
-            place = int(simulation.model("jnt_qposadr")[joint])
+            place = simulation.place(joint)
             low, high = begin[place] - SPREAD, begin[place] + SPREAD
             if simulation.model("jnt_limited")[joint]:
                 low, high = simulation.row("jnt_range", joint, 2)

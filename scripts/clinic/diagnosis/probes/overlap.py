@@ -31,7 +31,7 @@ def _within(simulation: Simulation) -> State:
     for joint in range(simulation.count("joint")):
         if simulation.joint_type(joint) in (HINGE, SLIDE) and simulation.model("jnt_limited")[joint]:
             low, high = simulation.row("jnt_range", joint, 2)
-            place = int(simulation.model("jnt_qposadr")[joint])
+            place = simulation.place(joint)
             simulation.engine.write("qpos", [min(max(simulation.data("qpos")[place], low), high)], place)
     simulation.engine.forward()
     return state(simulation)
@@ -42,7 +42,7 @@ def _outside(simulation: Simulation) -> set[int]:
     before, after = beginning(simulation).qpos, _within(simulation).qpos
     joints = range(simulation.count("joint"))
     places = [int(each) for each in simulation.model("jnt_qposadr")]
-    return {int(simulation.model("jnt_bodyid")[j]) for j in joints if before[places[j]] != after[places[j]]}
+    return {simulation.body_of("joint", j) for j in joints if before[places[j]] != after[places[j]]}
 
 
 def relatives(simulation: Simulation) -> list[tuple[int, int, Contact]]:

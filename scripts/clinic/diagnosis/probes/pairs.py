@@ -84,7 +84,7 @@ class Pairs:
 
     def joint_sign(self, left: int, right: int) -> tuple[float, float]:
         """Whether equal angles are mirror images (1) or opposite ones (-1), and the axes' angle in degrees."""
-        body = int(self.of.model("jnt_bodyid")[left])
+        body = self.of.body_of("joint", left)
         image = self.images[body]
         mirrored = times(image.matrix, self.at("xaxis", left))
         if self.of.joint_type(left) != SLIDE:
@@ -175,7 +175,7 @@ class Pairs:
             made.append((times(image.matrix, inner[0]), inner[1]))
         inside = {left for left, _ in pairs}
         for left, right in self.pairs["joint"]:
-            bodies = [int(self.of.model("jnt_bodyid")[each]) for each in (left, right)]
+            bodies = [self.of.body_of("joint", each) for each in (left, right)]
             if bodies[0] in inside:
                 anchors = zip((left, right), bodies, strict=True)
                 inner = [sub(self.at("xanchor", joint), self.at("xpos", body)) for joint, body in anchors]
@@ -187,7 +187,7 @@ class Pairs:
         made = [(self.at("xpos", left), self.at("xpos", right)) for left, right in pairs]
         made += [(self.at("xipos", left), self.at("xipos", right)) for left, right in pairs]
         for left, right in self.pairs["joint"]:
-            if int(self.of.model("jnt_bodyid")[left]) in inside:
+            if self.of.body_of("joint", left) in inside:
                 made.append((self.at("xanchor", left), self.at("xanchor", right)))
         return made
 
@@ -215,7 +215,7 @@ class Pairs:
         of, lefts, parents = self.of, {left for left, _ in pairs}, self.of.model("body_parentid")
         inner = [(left, right) for left, right in pairs if int(parents[left]) in lefts]
         tops = [pair for pair in pairs if pair not in inner]
-        joints = [pair for pair in self.pairs["joint"] if int(of.model("jnt_bodyid")[pair[0]]) in lefts]
+        joints = [pair for pair in self.pairs["joint"] if of.body_of("joint", pair[0]) in lefts]
         fields = [("body_pos", 3, inner), ("body_quat", 4, inner), ("body_ipos", 3, pairs), ("jnt_axis", 3, joints)]
         apart = [norm(sub(*(of.row(name, each, n) for each in pair))) for name, n, some in fields for pair in some]
         if len(tops) != 1 or not inner or sum(each < SAME for each in apart) < SYMMETRIC * len(apart):

@@ -89,7 +89,7 @@ def limit_of(of: Simulation, joint: int) -> Limit | None:
     if len(own) > 1:
         return None
     for actuator in own:
-        gear, gain = abs(of.model("actuator_gear")[6 * actuator]), abs(of.gain(actuator)[0])
+        gear, gain = abs(of.gear(actuator)), abs(of.gain(actuator)[0])
         if of.model("actuator_forcelimited")[actuator]:
             most = of.row("actuator_forcerange", actuator, 2)[1]
             found.append(Limit("actuator", actuator, "forcerange", gear * most, gear))

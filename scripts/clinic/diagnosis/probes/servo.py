@@ -89,7 +89,7 @@ def feedback(simulation: Simulation) -> dict[int, tuple[float, float]]:
         joint = simulation.driven_joint(actuator)
         if joint is None or int(simulation.model("actuator_biastype")[actuator]) != AFFINE:
             continue
-        bias, gear = simulation.bias(actuator), simulation.model("actuator_gear")[6 * actuator]
+        bias, gear = simulation.bias(actuator), simulation.gear(actuator)
         kp, kv = made.get(joint, (0.0, 0.0))
         made[joint] = kp + max(0.0, -bias[1] * gear**2), kv + max(0.0, -bias[2] * gear**2)
     return made
@@ -101,7 +101,7 @@ def _servo(simulation: Simulation, actuator: int) -> Servo | None:
     if joint is None or kinds[0] != FIXED or kinds[1] != AFFINE or kinds[2] in (INTEGRATOR, DYN_MUSCLE):
         return None
     gain, bias = simulation.gain(actuator)[0], simulation.bias(actuator)
-    gear = simulation.row("actuator_gear", actuator, 6)[0]
+    gear = simulation.gear(actuator)
     if not gain or not gear or bias[1] >= 0:
         return None
     dof = simulation.dof(joint)

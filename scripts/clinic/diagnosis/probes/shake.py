@@ -26,13 +26,13 @@ def _shaken(simulation: Simulation) -> float:
     simulation.begin()
     joints = [joint for joint in range(simulation.count("joint")) if simulation.joint_type(joint) in (HINGE, SLIDE)]
     for joint in joints:
-        _put(simulation, joint, _off_the_limits(simulation, joint))
+        simulation.put(joint, _off_the_limits(simulation, joint))
     hold(simulation)
     for joint in joints:
         low, high = simulation.row("jnt_range", joint, 2)
         begin = simulation.position(joint)
         free = not simulation.model("jnt_limited")[joint] or begin + NUDGE < high
-        _put(simulation, joint, begin + NUDGE if free else max(low, begin - NUDGE))
+        simulation.put(joint, begin + NUDGE if free else max(low, begin - NUDGE))
     scale = [SLIDES if simulation.joint_type(joint) == SLIDE else 1.0 for joint in simulation.dof_joints]
     for _ in simulation.run(SECONDS, samples=20):
         if simulation.unstable():
@@ -51,10 +51,6 @@ def _shaken(simulation: Simulation) -> float:
     if simulation.unstable():
         return math.inf
     return max((each for each, often in zip(turned, turns, strict=True) if often > LOOKED_AT / 2), default=0.0)
-
-
-def _put(simulation: Simulation, joint: int, position: float) -> None:
-    simulation.engine.write("qpos", [position], int(simulation.model("jnt_qposadr")[joint]))
 
 
 def _off_the_limits(simulation: Simulation, joint: int) -> float:

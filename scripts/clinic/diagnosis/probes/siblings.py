@@ -87,7 +87,7 @@ def groups(simulation: Simulation, kind: str) -> list[list[int]]:
         joint = index if kind == "joint" else simulation.driven_joint(index)
         if joint is None or (kind == "joint" and simulation.joint_type(joint) < 2):
             continue
-        depth = len(simulation.ancestors(int(simulation.model("jnt_bodyid")[joint])))
+        depth = len(simulation.ancestors(simulation.body_of("joint", joint)))
         for found in WHICH.finditer(name):
             key = (*_called(name, found), simulation.joint_type(joint))
             made.setdefault(key, []).append((index, depth))

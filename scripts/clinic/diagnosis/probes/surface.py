@@ -33,7 +33,7 @@ def touched_off_surface(simulation: Simulation) -> dict[int, float]:
         return made
     owner, bodies = root_of(simulation), simulation.model("geom_bodyid")
     hung = _hung(simulation)
-    jointed = {owner[int(simulation.model("jnt_bodyid")[joint])] for joint in _inner_joints(simulation)}
+    jointed = {owner[simulation.body_of("joint", joint)] for joint in _inner_joints(simulation)}
     simulation.begin()
     for _ in simulation.run(simulation.begin_with.duration, SAMPLES):
         places, frames = simulation.data("geom_xpos"), simulation.data("geom_xmat")

@@ -60,7 +60,7 @@ def sampled(of: Simulation) -> list[tuple[float, ...]]:
             share = (0.5 + pose * (place + 1) * GOLDEN) % 1.0
             share = (pose >> place % 6) % 2 if pose % 3 == 0 else share
             low, high = of.row("jnt_range", joint, 2)
-            of.engine.write("qpos", [low + share * (high - low)], int(of.model("jnt_qposadr")[joint]))
+            of.put(joint, low + share * (high - low))
         of.engine.forward()
         made.append(tuple(of.data("ten_length")))
     return made
@@ -69,7 +69,7 @@ def sampled(of: Simulation) -> list[tuple[float, ...]]:
 def servo(of: Simulation, actuator: int) -> tuple[float, float] | None:
     """Of a position servo on a tendon: the length it asks for at control 0, and what a unit adds; else None."""
     kinds = [int(of.model(f"actuator_{kind}type")[actuator]) for kind in ("trn", "gain", "bias", "dyn")]
-    gain, bias, gear = of.gain(actuator)[0], of.bias(actuator), of.row("actuator_gear", actuator, 6)[0]
+    gain, bias, gear = of.gain(actuator)[0], of.bias(actuator), of.gear(actuator)
     if kinds[:3] != [TENDON, FIXED, AFFINE] or kinds[3] in (INTEGRATOR, DYN_MUSCLE) or bias[1] >= 0 or not gain * gear:
         return None
     return bias[0] / (-bias[1] * gear), gain / (-bias[1] * gear)

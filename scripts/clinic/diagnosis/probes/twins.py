@@ -97,7 +97,7 @@ class Twins(Pairs):
         if each.kind == "joint":
             return self.joint_sign(each.left, each.right)[0]
         joints = [self.of.driven_joint(actuator) or 0 for actuator in (each.left, each.right)]
-        gears = [self.of.row("actuator_gear", actuator, 6)[0] for actuator in (each.left, each.right)]
+        gears = [self.of.gear(actuator) for actuator in (each.left, each.right)]
         return self.joint_sign(joints[0], joints[1])[0] * math.copysign(1, gears[0] * gears[1])
 
     def _compared(self) -> Iterator[Comparison]:
@@ -105,7 +105,7 @@ class Twins(Pairs):
             if left in self.images:
                 yield from self._bodies(left, right)
         for left, right in self.pairs["joint"]:
-            if int(self.of.model("jnt_bodyid")[left]) in self.images:
+            if self.of.body_of("joint", left) in self.images:
                 yield from self._joints(left, right)
         kinds, bodies = self.of.model("geom_type"), self.of.model("geom_bodyid")
         named = self.of.names("geom")
@@ -114,8 +114,8 @@ class Twins(Pairs):
             if int(bodies[left]) in self.images and bodies[left] not in unordered:
                 yield from self._geoms(left, right)
         for left, right in self.pairs["site"]:
-            if (body := int(self.of.model("site_bodyid")[left])) in self.images:
-                unlike = self._offset(body, "site_xpos", left, right, int(self.of.model("site_bodyid")[right]))
+            if (body := self.of.body_of("site", left)) in self.images:
+                unlike = self._offset(body, "site_xpos", left, right, self.of.body_of("site", right))
                 yield Comparison("site", left, right, "pos", unlike, FITS * self.size[body], "m")
         for left, right in self.pairs["camera"]:
             if (body := int(self.of.model("cam_bodyid")[left])) in self.images:
@@ -135,7 +135,7 @@ class Twins(Pairs):
         """The geoms of the same body that have its type and size: which is which needs no order."""
         of = self.of
         kinds, size = of.model("geom_type"), norm(of.row("geom_size", geom, 3))
-        same = [each for each in of.geoms_of(int(of.model("geom_bodyid")[geom])) if kinds[each] == kinds[geom]]
+        same = [each for each in of.geoms_of(of.body_of("geom", geom)) if kinds[each] == kinds[geom]]
         return [each for each in same if apart(norm(of.row("geom_size", each, 3)), size) < 5]
 
     def _bodies(self, left: int, right: int) -> Iterator[Comparison]:
@@ -167,7 +167,7 @@ class Twins(Pairs):
 
     def _joints(self, left: int, right: int) -> Iterator[Comparison]:
         of, pair = self.of, partial(Comparison, "joint", left, right)
-        body = int(of.model("jnt_bodyid")[left])
+        body = of.body_of("joint", left)
         if of.joint_type(left) != of.joint_type(right):
             yield pair("type", 100, 1)
             return
@@ -178,7 +178,7 @@ class Twins(Pairs):
         for quantity in ("damping", "armature", "frictionloss"):
             field = of.model(f"dof_{quantity}")
             yield pair(quantity, apart(field[of.dof(left)], field[of.dof(right)]), 30)
-        other = int(of.model("jnt_bodyid")[right])
+        other = of.body_of("joint", right)
         yield pair("pos", self._offset(body, "xanchor", left, right, other), FITS * self.size[body], "m")
         limited = [bool(of.model("jnt_limited")[each]) for each in (left, right)]
         if of.joint_type(left) == BALL:
@@ -217,7 +217,7 @@ class Twins(Pairs):
         for common in set(self.common.values()):
             normals: dict[bool, list[tuple[int, int, float]]] = {True: [], False: []}
             for left, right in self.pairs["joint"]:
-                body = int(self.of.model("jnt_bodyid")[left])
+                body = self.of.body_of("joint", left)
                 if (
                     self.common.get(body) != common
                     or self.images[body].sign > 0
@@ -236,7 +236,7 @@ class Twins(Pairs):
 
     def _geoms(self, left: int, right: int) -> Iterator[Comparison]:
         of, pair = self.of, partial(Comparison, "geom", left, right)
-        body, other = (int(of.model("geom_bodyid")[each]) for each in (left, right))
+        body, other = (of.body_of("geom", each) for each in (left, right))
         size = self.size[body]
         if not any(of.model(field)[each] for field in ("geom_contype", "geom_conaffinity") for each in (left, right)):
             return
@@ -288,7 +288,7 @@ class Twins(Pairs):
             led = {frozenset((follower, leader)) for _, (follower, leader, _) in couplings(of)}
             either = frozenset((paired, joints[1])) in led  # of the two fingers of a gripper
             yield pair("joint", 100 * (paired != joints[1] and not either), 1)
-        if paired != joints[1] or int(of.model("jnt_bodyid")[joints[0]]) not in self.images:
+        if paired != joints[1] or of.body_of("joint", joints[0]) not in self.images:
             return
         for quantity in ("ctrl", "force"):
             limited = [bool(of.model(f"actuator_{quantity}limited")[each]) for each in (left, right)]

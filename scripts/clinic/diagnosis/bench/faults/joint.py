@@ -174,7 +174,7 @@ def free_joint_of_a_default(model: ReaderModel, random: Random) -> Fault | None:
     joint = random.choice(free)
     element = model.element("joint", joint)
     assert element is not None
-    mass = of.model("body_subtreemass")[int(of.model("jnt_bodyid")[joint])]
+    mass = of.model("body_subtreemass")[of.body_of("joint", joint)]
     attribute = random.choice(("damping", "frictionloss", "armature"))
     strength = between(random, 0.1, 10) * mass * (1 if attribute == "armature" else 9.81)
     if element.tag == "joint":

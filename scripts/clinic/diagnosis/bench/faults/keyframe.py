@@ -26,7 +26,7 @@ def key_outside_of_the_range(model: ReaderModel, random: Random) -> Fault | None
     low, high = simulation.row("jnt_range", joint, 2)
     way = share * (high - low)
     positions = list(simulation.model("qpos0"))
-    positions[int(simulation.model("jnt_qposadr")[joint])] = random.choice((low - way, high + way))
+    positions[simulation.place(joint)] = random.choice((low - way, high + way))
     xml = f'<key name="planted" qpos="{text_of(*positions)}"/>'
     return Fault(model.add("keyframe", xml), (), "qpos", share)
 
@@ -39,7 +39,7 @@ def key_in_the_floor(model: ReaderModel, random: Random) -> Fault | None:
         return None
     depth = model.simulation.model("stat.extent")[0] * between(random, 0.05, 1)
     positions = list(model.simulation.model("qpos0"))
-    positions[int(model.simulation.model("jnt_qposadr")[random.choice(free)]) + 2] -= depth
+    positions[model.simulation.place(random.choice(free)) + 2] -= depth
     xml = f'<key name="planted" qpos="{text_of(*positions)}"/>'
     return Fault(model.add("keyframe", xml), (), "qpos", depth)
 
@@ -51,7 +51,7 @@ def key_with_w_last(model: ReaderModel, random: Random) -> Fault | None:
     if not free or not _keyless(model):
         return None
     positions = list(model.simulation.model("qpos0"))
-    at = int(model.simulation.model("jnt_qposadr")[random.choice(free)]) + 3
+    at = model.simulation.place(random.choice(free)) + 3
     turn = random.uniform(0.3, 2.8)
     positions[at : at + 4] = [0.0, 0.0, math.sin(turn / 2), math.cos(turn / 2)]
     xml = f'<key name="planted" qpos="{text_of(*positions)}"/>'
@@ -62,7 +62,7 @@ def key_with_w_last(model: ReaderModel, random: Random) -> Fault | None:
 def key_with_free_joints_last(model: ReaderModel, random: Random) -> Fault | None:
     """A keyframe in which the numbers of the free joints stand behind those of all other joints."""
     simulation = model.simulation
-    at = [int(simulation.model("jnt_qposadr")[j]) for j in range(simulation.count("joint"))]
+    at = [simulation.place(j) for j in range(simulation.count("joint"))]
     free = [at[j] for j in range(simulation.count("joint")) if simulation.joint_type(j) == 0]
     hinges = [j for j in range(simulation.count("joint")) if simulation.joint_type(j) > 1]
     if not free or not hinges or free[0] > at[hinges[-1]] or not _keyless(model):

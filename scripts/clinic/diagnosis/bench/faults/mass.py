@@ -208,7 +208,7 @@ def freejoint_removed(model: ReaderModel, random: Random) -> Fault | None:
     joint = random.choice(free)
     element = model.element("joint", joint)
     assert element is not None
-    body = int(model.simulation.model("jnt_bodyid")[joint])
+    body = model.simulation.body_of("joint", joint)
     return Fault((delete(element),), (model.simulation.name("body", body),), "freejoint")
 
 
@@ -224,7 +224,7 @@ def joint_removed(model: ReaderModel, random: Random) -> Fault | None:
     joint = random.choice(joints)
     element = model.element("joint", joint)
     assert element is not None
-    body = model.simulation.name("body", int(model.simulation.model("jnt_bodyid")[joint]))
+    body = model.simulation.name("body", model.simulation.body_of("joint", joint))
     return Fault((delete(element),), (body, model.simulation.name("joint", joint)), "joint")
 
 
@@ -260,7 +260,7 @@ def geom_too_dense(model: ReaderModel, random: Random) -> Fault | None:
     geom, density = random.choice(found), between(random, 3e4, 1e6)
     element = model.element("geom", geom)
     assert element is not None
-    body = model.simulation.name("body", int(model.simulation.model("geom_bodyid")[geom]))
+    body = model.simulation.name("body", model.simulation.body_of("geom", geom))
     edit = set_attribute(element, "density", text_of(density))
     return Fault((edit,), (model.simulation.name("geom", geom), body), "density", density)
 

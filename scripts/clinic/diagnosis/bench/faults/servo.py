@@ -113,7 +113,7 @@ def _own(model: ReaderModel, random: Random, attribute: str, of_stiffness: float
         return None
     i, _, element = random.choice(joints)
     assert element is not None
-    gear = model.simulation.row("actuator_gear", i, 6)[0] or 1.0
+    gear = model.simulation.gear(i) or 1.0
     value = of_stiffness * _gain(model, i) * gear**2
     return Fault((set_attribute(element, attribute, text_of(value)),), _names(model, i), attribute, of_stiffness)
 
@@ -157,7 +157,7 @@ def force_range_small(model: ReaderModel, random: Random) -> Fault | None:
         return None
     i, load = random.choice(found)
     share = between(random, 0.02, 0.8)
-    gear = abs(model.simulation.row("actuator_gear", i, 6)[0]) or 1.0
+    gear = abs(model.simulation.gear(i)) or 1.0
     limit = share * load / gear
     element = model.element("actuator", i)
     assert element is not None
@@ -242,7 +242,7 @@ def gear_of_a_motor(model: ReaderModel, random: Random) -> Fault | None:
     i, factor = random.choice(found), random.choice((-1.0, between(random, 0.02, 0.5), between(random, 2, 50)))
     element = model.element("actuator", i)
     assert element is not None
-    gear = simulation.row("actuator_gear", i, 6)[0] * factor
+    gear = simulation.gear(i) * factor
     return Fault((set_attribute(element, "gear", text_of(gear)),), _names(model, i), "gear", factor)
 
 

@@ -65,7 +65,7 @@ def _changed(
         return None
     names = tuple(model.simulation.name(of, each) for each in pair)
     if of == "geom":
-        names += tuple(model.simulation.name("body", int(model.simulation.model("geom_bodyid")[each])) for each in pair)
+        names += tuple(model.simulation.name("body", model.simulation.body_of("geom", each)) for each in pair)
     if of == "actuator":
         joints = [model.simulation.driven_joint(each) for each in pair]
         names += tuple(model.simulation.name("joint", each) for each in joints if each is not None)
@@ -139,10 +139,10 @@ def twin_mass(model: ReaderModel, random: Random) -> Fault | None:
         return None
     pair = random.choice(pairs)
     i, factor = random.choice(pair), between(random, 1.3, 10) ** random.choice((-1, 1))
-    mass = model.simulation.model("body_mass")[int(model.simulation.model("geom_bodyid")[i])]
+    mass = model.simulation.model("body_mass")[model.simulation.body_of("geom", i)]
     element = model.element("geom", i)
     if element is None or not mass:
         return None
     names = tuple(model.simulation.name("geom", each) for each in pair)
-    names += tuple(model.simulation.name("body", int(model.simulation.model("geom_bodyid")[each])) for each in pair)
+    names += tuple(model.simulation.name("body", model.simulation.body_of("geom", each)) for each in pair)
     return Fault((set_attribute(element, "mass", text_of(mass * factor)),), names, "mass", factor)

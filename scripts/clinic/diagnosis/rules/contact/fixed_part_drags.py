@@ -112,7 +112,7 @@ def _wheels(of: Simulation) -> set[int]:
     free = set(of.free_bodies)
     owner, made = root_of(of), set()
     for joint in of.drivers:
-        body = int(of.model("jnt_bodyid")[joint])
+        body = of.body_of("joint", joint)
         endless = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
         level = abs(of.data_row("xaxis", joint, 3)[2]) < LEVEL_ENOUGH
         if endless and level and owner[body] in free and round_about(of, joint):

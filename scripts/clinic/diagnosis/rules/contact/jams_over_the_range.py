@@ -106,7 +106,7 @@ def _share(simulation: Simulation, *joints: int) -> float:
 
 def _jams(simulation: Simulation, joint: int) -> dict[tuple[int, int], float]:
     """The share of a joint's range in which two near relatives jam, for each pair that it moves against each other."""
-    place, body = int(simulation.model("jnt_qposadr")[joint]), int(simulation.model("jnt_bodyid")[joint])
+    place, body = simulation.place(joint), simulation.body_of("joint", joint)
     low, high = simulation.row("jnt_range", joint, 2)
     bodies = simulation.model("geom_bodyid")
     made: dict[tuple[int, int], float] = {}

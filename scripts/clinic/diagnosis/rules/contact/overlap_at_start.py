@@ -131,7 +131,7 @@ def _raised(model: ReaderModel, root: int, lift: float) -> tuple[Edit, ...]:
     joint = next(iter(simulation.joints_of(root)), -1)
     element = model.element("key", key)
     if key >= 0 and element is not None and "qpos" in element.attributes:  # one without begins as the model does
-        at = int(simulation.model("jnt_qposadr")[joint]) + 2
+        at = simulation.place(joint) + 2
         qpos = element.get("qpos").split()
         if len(qpos) <= at or simulation.joint_type(joint) != FREE:
             return ()

@@ -75,7 +75,7 @@ def _worst(of: Simulation) -> float:
 
 def _rollers(of: Simulation, joint: int) -> list[int]:
     """The only solid geoms of the bodies with joints that a hinge's body carries; none where one is of another type."""
-    hub = int(of.model("jnt_bodyid")[joint])
+    hub = of.body_of("joint", joint)
     if of.joint_type(joint) != HINGE or of.model("jnt_limited")[joint]:
         return []
     carried = [body for body in of.children.get(hub, []) if of.joints_of(body)]

@@ -57,7 +57,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each hinge of a body on a fixed one that touches it at every angle."""
     of = model.simulation
     for joint in range(of.count("joint")):
-        body = int(of.model("jnt_bodyid")[joint])
+        body = of.body_of("joint", joint)
         base = int(of.model("body_parentid")[body])
         fixed = base and not of.model("body_weldid")[base]
         if of.joint_type(joint) != HINGE or not fixed or _share(of, joint, body, base) < ALWAYS:
@@ -77,7 +77,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _share(of: Simulation, joint: int, body: int, base: int) -> float:
     """The share of poses of a joint in which its body and the one below are no further apart than FLUSH."""
     low, high = of.row("jnt_range", joint, 2) if of.model("jnt_limited")[joint] else (-math.pi, math.pi)
-    owners, place, margins = of.model("geom_bodyid"), int(of.model("jnt_qposadr")[joint]), list(of.model("geom_margin"))
+    owners, place, margins = of.model("geom_bodyid"), of.place(joint), list(of.model("geom_margin"))
     touched, condims = 0, of.model("geom_condim")
     of.begin(forward=False)
     of.engine.write_model("geom_margin", [max(margin, FLUSH) for margin in margins])

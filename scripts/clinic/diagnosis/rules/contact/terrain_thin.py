@@ -69,7 +69,7 @@ def _below(of: Simulation) -> float:
     """How far the first free body is below the base of the height field in m, 2 s after it was dropped."""
     (field,) = (geom for geom, kind in enumerate(of.model("geom_type")) if int(kind) == HFIELD)
     body = of.free_bodies[0]
-    place = int(of.model("jnt_qposadr")[next(iter(of.joints_of(body)))]) + 2
+    place = of.place(next(iter(of.joints_of(body)))) + 2
     of.begin()
     of.engine.write("qpos", [of.data("qpos")[place] + HIGH], place)
     for _ in of.run(SECONDS, samples=20):

@@ -150,7 +150,7 @@ def _bare(of: Simulation) -> list[int]:
     """The parts that should touch something, and cannot."""
     owner, names = root_of(of), of.names("body")
     touches = {body for body in range(1, of.count("body")) if any(solid(of, geom) for geom in of.geoms_of(body))}
-    paired = {int(of.model("geom_bodyid")[geom]) for geom in in_pairs(of)}
+    paired = {of.body_of("geom", geom) for geom in in_pairs(of)}
     carriers = {above for body in touches | paired for above in of.ancestors(body)[1:-1]}
     near = touches | paired | carriers
     robots = {owner[body] for body in touches if owner[body]}

@@ -85,7 +85,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _marks(of: Simulation, geom: int) -> bool:
     """Whether a geom is a place to be seen, on the world or moved by mocap, that things bump into."""
-    body = int(of.model("geom_bodyid")[geom])
+    body = of.body_of("geom", geom)
     called = MARK.search(f"{of.names('geom')[geom]} {of.names('body')[body]}")
     still = not int(of.model("body_weldid")[body]) or int(of.model("body_mocapid")[body]) >= 0
     if not called or not still or not 0 < of.model("geom_rgba")[4 * geom + 3] < OPAQUE:

@@ -103,7 +103,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _wheels(simulation: Simulation) -> Iterator[tuple[int, int]]:
     parents = {int(body) for body in simulation.model("body_parentid")[1:]}
     for joint in range(simulation.count("joint")):
-        body = int(simulation.model("jnt_bodyid")[joint])
+        body = simulation.body_of("joint", joint)
         if simulation.joint_type(joint) != HINGE or simulation.model("jnt_limited")[joint] or body in parents:
             continue
         geoms = [geom for geom in simulation.geoms_of(body) if solid(simulation, geom)]

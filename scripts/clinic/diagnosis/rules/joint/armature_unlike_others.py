@@ -80,7 +80,7 @@ def _left_out(model: ReaderModel) -> Iterator[Suspect]:
     """The hinges with a servo that have no armature where nearly all others with one do, all together."""
     of, owner = model.simulation, root_of(model.simulation)
     for root in roots(of):
-        own = [each for each in servos(of) if each.hinge and owner[int(of.model("jnt_bodyid")[each.joint])] == root]
+        own = [each for each in servos(of) if each.hinge and owner[of.body_of("joint", each.joint)] == root]
         driven = list(dict.fromkeys(each.joint for each in own))
         bare = [joint for joint in driven if not of.model("dof_armature")[of.dof(joint)]]
         have = len(driven) - len(bare)

@@ -91,7 +91,7 @@ def _lying(model: ReaderModel) -> Iterator[Suspect]:
         return
     for joint, name in enumerate(of.names("joint")):
         kind = of.joint_type(joint)
-        body = int(of.model("jnt_bodyid")[joint])
+        body = of.body_of("joint", joint)
         alone = sum(of.joint_type(each) == kind for each in of.joints_of(body)) == 1  # no ball of three hinges
         rolls = BASE.search(name) and any(of.joint_type(each) == SLIDE for each in _of_root(of, body))
         said = rolls or (kind in UPRIGHT and UPRIGHT[kind].search(name))

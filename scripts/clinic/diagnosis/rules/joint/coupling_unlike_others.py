@@ -120,5 +120,5 @@ def _relations(of: Simulation) -> dict[int, int | None]:
 
 def _line(of: Simulation, joint: int) -> list[int]:
     """A joint and those above it, the nearest first."""
-    bodies = of.ancestors(int(of.model("jnt_bodyid")[joint]))
+    bodies = of.ancestors(of.body_of("joint", joint))
     return [each for body in bodies for each in reversed(of.joints_of(body)) if each <= joint]

@@ -75,7 +75,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _panel(of: Simulation, joint: int) -> tuple[int, list[int]] | None:
     """The largest geom of a door and its axes, the shortest first; None where it is not flat."""
-    body, kinds = int(of.model("jnt_bodyid")[joint]), of.model("geom_type")
+    body, kinds = of.body_of("joint", joint), of.model("geom_type")
     geoms = [geom for geom in of.geoms_of(body) if int(kinds[geom]) in (BOX, MESH)]
     if not geoms:
         return None
@@ -101,7 +101,7 @@ def _off(of: Simulation, joint: int) -> float:
         return 0.0 if panel is not None else 1.0
     side = cross(_column(of, panel[0], panel[1][0]), of.data_row("xaxis", joint, 3))
     ends = []
-    for geom in of.geoms_of(int(of.model("jnt_bodyid")[joint])):
+    for geom in of.geoms_of(of.body_of("joint", joint)):
         box = of.row("geom_aabb", geom, 6)
         middle = add(of.data_row("geom_xpos", geom, 3), times(of.data_row("geom_xmat", geom, 9), box[:3]))
         aside = dot(add(middle, of.data_row("xanchor", joint, 3), -1), side)

@@ -136,7 +136,7 @@ def _uncoupled(model: ReaderModel) -> Iterator[Suspect]:
 
 def _fingers(of: Simulation, hand: int, joints: Sequence[int]) -> bool:
     """Whether two slides are fingers by name, with ranges that are alike and go to one side, and driven alike."""
-    bodies = [int(of.model("jnt_bodyid")[joint]) for joint in joints]
+    bodies = [of.body_of("joint", joint) for joint in joints]
     names = [of.engine.name("joint", joint) for joint in joints]
     names += [of.engine.name("body", body) for body in (hand, *bodies)]
     (low, high), other = (of.row("jnt_range", joint, 2) for joint in joints)
@@ -154,7 +154,7 @@ def _driven(of: Simulation, joints: Sequence[int]) -> bool:
     for each in range(of.count("actuator")):
         joint = of.driven_joint(each)
         if joint in sides:
-            sides[joint].append(math.copysign(1.0, of.gain(each)[0] * of.model("actuator_gear")[6 * each]))
+            sides[joint].append(math.copysign(1.0, of.gain(each)[0] * of.gear(each)))
     return sides[joints[0]] == sides[joints[1]]
 
 
@@ -162,7 +162,7 @@ def _aside(of: Simulation, one: int, other: int) -> float:
     """The share of their way that two slides go together, where they stand beside each other along it; else 0."""
     of.begin()
     axes = [of.data_row("xaxis", joint, 3) for joint in (one, other)]
-    bodies = [int(of.model("jnt_bodyid")[joint]) for joint in (one, other)]
+    bodies = [of.body_of("joint", joint) for joint in (one, other)]
     apart = sub(of.data_row("subtree_com", bodies[0], 3), of.data_row("subtree_com", bodies[1], 3))
     if abs(dot(axes[0], apart)) <= BESIDE * norm(apart):
         return 0.0

@@ -83,7 +83,7 @@ def _taken(simulation: Simulation, joint: int) -> dict[str, float]:
     """What a free joint takes of the weight of all that hangs on it, by attribute; 0 for another joint."""
     if simulation.joint_type(joint) != FREE:
         return dict.fromkeys(FIELDS, 0.0)
-    body, dof = int(simulation.model("jnt_bodyid")[joint]), simulation.dof(joint)
+    body, dof = simulation.body_of("joint", joint), simulation.dof(joint)
     mass, g = simulation.model("body_subtreemass")[body], math.hypot(*simulation.model("opt.gravity"))
     weight, far = max(mass * g, 1e-12), max(size(simulation, body), 1e-3)
     damping, friction, armature = (simulation.model(f"dof_{name}")[dof] for name in ("damping", *FIELDS[1::2]))

@@ -112,6 +112,6 @@ def _lost(of: Simulation, body: int) -> float:
     """1 where the axes of the first and the third hinge are one line with the second at 90 degrees."""
     first, second, third = _hinges(of, body)
     of.begin(forward=False)
-    of.engine.write("qpos", [math.pi / 2], int(of.model("jnt_qposadr")[second]))
+    of.put(second, math.pi / 2)
     of.engine.forward()
     return 1.0 - norm(cross(of.data_row("xaxis", first, 3), of.data_row("xaxis", third, 3)))

@@ -60,7 +60,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not away or len(away) > max(FEW, SHARE * of.count("joint")):
         return
     worst = max(away, key=lambda joint: max(found[joint]))
-    body = int(of.model("jnt_bodyid")[worst])
+    body = of.body_of("joint", worst)
     gaps, link = found[worst], of.name("body", body)
     if gaps[1] > gaps[0]:
         link = of.name("body", int(of.model("body_parentid")[body]))
@@ -89,7 +89,7 @@ def _gaps(of: Simulation) -> dict[int, tuple[float, float]]:
     made = {}
     places, turns = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat"))
     for joint in range(of.count("joint")):
-        body = int(of.model("jnt_bodyid")[joint])
+        body = of.body_of("joint", joint)
         own, above = links.get(int(welds[body]), []), links.get(int(welds[int(parents[body])]), [])
         size = 2 * max((of.model("geom_rbound")[geom] for geom in own), default=0.0)
         planar = any(of.joint_type(other) == SLIDE for other in of.joints_of(body))
@@ -106,7 +106,7 @@ def _gaps(of: Simulation) -> dict[int, tuple[float, float]]:
 
 def _as_in_world(of: Simulation, joint: int) -> bool:
     """Whether a joint's place in its body is that of the body in the world, written again."""
-    pos, body = of.row("jnt_pos", joint, 3), of.row("body_pos", int(of.model("jnt_bodyid")[joint]), 3)
+    pos, body = of.row("jnt_pos", joint, 3), of.row("body_pos", of.body_of("joint", joint), 3)
     return any(pos) and all(abs(a - b) < 1e-6 for a, b in zip(pos, body, strict=True))
 
 

@@ -159,13 +159,13 @@ def _cranked(of: Simulation) -> bool:
 
 
 def _push(of: Simulation, joint: int) -> float:
-    body = int(of.model("jnt_bodyid")[joint])
+    body = of.body_of("joint", joint)
     return PUSH + WEIGHTS * of.model("body_subtreemass")[body] * math.hypot(*of.model("opt.gravity"))
 
 
 def _reach(of: Simulation, joint: int) -> float:
     """The lever of a push in m; 1 for a slide, which has none."""
-    return max(LEVER, size(of, int(of.model("jnt_bodyid")[joint]))) if of.joint_type(joint) == HINGE else 1.0
+    return max(LEVER, size(of, of.body_of("joint", joint))) if of.joint_type(joint) == HINGE else 1.0
 
 
 def _beyond_effort(model: ReaderModel) -> Iterator[Suspect]:
@@ -208,7 +208,7 @@ def _held(simulation: Simulation) -> dict[int, float]:
     for joint in range(simulation.count("joint")):
         if joint in simulation.drivers or springs[joint] or simulation.joint_type(joint) not in (HINGE, SLIDE):
             continue
-        dof, body = simulation.dof(joint), int(simulation.model("jnt_bodyid")[joint])
+        dof, body = simulation.dof(joint), simulation.body_of("joint", joint)
         lever = size(simulation, body) if simulation.joint_type(joint) == HINGE else 1.0
         load = loads(simulation)[dof]
         if load > HEAVY * gravity * simulation.model("body_subtreemass")[body] * lever > 0:
@@ -231,7 +231,7 @@ def _forces(simulation: Simulation) -> dict[int, float]:
             continue
         if actuator not in known:
             ends = simulation.row("actuator_ctrlrange", actuator, 2)
-            gear = simulation.model("actuator_gear")[6 * actuator]
+            gear = simulation.gear(actuator)
             if not simulation.model("actuator_ctrllimited")[actuator]:
                 continue
             known[actuator] = abs(simulation.gain(actuator)[0] * gear) * max(map(abs, ends))

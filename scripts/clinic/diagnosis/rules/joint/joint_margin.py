@@ -97,7 +97,7 @@ def _pushed(of: Simulation, joint: int, low: float, high: float) -> float:
     with alone(of, limp=True):
         for point in range(1, POINTS // 2):
             of.begin(forward=False)
-            of.engine.write("qpos", [high - point / POINTS * (high - low)], int(of.model("jnt_qposadr")[joint]))
+            of.put(joint, high - point / POINTS * (high - low))
             of.engine.forward()
             if of.data("qfrc_constraint")[of.dof(joint)] >= 0:
                 break

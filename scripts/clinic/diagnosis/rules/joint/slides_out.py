@@ -90,7 +90,7 @@ def _unlimited(of: Simulation, joint: int) -> float:
 def _gap(of: Simulation, joint: int, *, at_start: bool = False) -> float:
     """How far what slides is from the body that carries it at the worse end of its range, in its own lengths."""
     of.begin()
-    body = int(of.model("jnt_bodyid")[joint])
+    body = of.body_of("joint", joint)
     parent = int(of.model("body_parentid")[body])
     axis, now = of.data_row("xaxis", joint, 3), of.position(joint)
     mine, guide = _extent(of, of.below(body), axis), _extent(of, [parent], axis)

@@ -123,7 +123,7 @@ def _past(of: Simulation, joint: int) -> float:
     """How far a joint goes past its upper limit in rad or m; nothing where the simulation breaks down."""
     high, far = of.row("jnt_range", joint, 2)[1], 0.0
     of.begin(forward=False)
-    of.engine.write("qpos", [high], int(of.model("jnt_qposadr")[joint]))
+    of.put(joint, high)
     of.engine.write("qvel", [SPEED[of.joint_type(joint)]], of.dof(joint))
     for _ in range(of.steps(SECONDS, STEPS)):
         of.engine.step()

@@ -92,7 +92,7 @@ def _springs(of: Simulation) -> list[int]:
 
 def _pressed(of: Simulation, joint: int) -> float:
     """The share of the way from the spring's rest to the limit; 0 where it moves, or the rest is outside."""
-    end, place = let_go(of).end, int(of.model("jnt_qposadr")[joint])
+    end, place = let_go(of).end, of.place(joint)
     low, high = of.row("jnt_range", joint, 2)
     rest = of.model("qpos_spring")[place]
     if end is None or not low < rest < high or abs(end.qvel[of.dof(joint)]) > STILL:

@@ -59,8 +59,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     edits: tuple[Edit, ...] = ()
     for joint in found:
-        edits += model.set("joint", [joint], "springref", f"{simulation.model('qpos0')[_place(simulation, joint)]:g}")
-    rest = simulation.model("qpos_spring")[_place(simulation, found[0])]
+        edits += model.set("joint", [joint], "springref", f"{simulation.model('qpos0')[simulation.place(joint)]:g}")
+    rest = simulation.model("qpos_spring")[simulation.place(found[0])]
     yield Suspect(
         tuple(simulation.name("joint", each) for each in found),
         "springref",
@@ -74,16 +74,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     )
 
 
-def _place(simulation: Simulation, joint: int) -> int:
-    return int(simulation.model("jnt_qposadr")[joint])
-
-
 def _off(simulation: Simulation) -> dict[int, float]:
     """How far the rest of each hinge's spring is beyond its range, in rad."""
     made = {}
     for joint, stiffness in enumerate(simulation.model("jnt_stiffness")):
         if stiffness > 0 and simulation.joint_type(joint) == HINGE:
-            rest, begin = (simulation.model(field)[_place(simulation, joint)] for field in ("qpos_spring", "qpos0"))
+            rest, begin = (simulation.model(field)[simulation.place(joint)] for field in ("qpos_spring", "qpos0"))
             low, high = begin - TURN + FAR, begin + TURN - FAR
             if simulation.model("jnt_limited")[joint]:
                 low, high = simulation.row("jnt_range", joint, 2)

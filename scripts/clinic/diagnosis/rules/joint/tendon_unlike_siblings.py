@@ -125,7 +125,7 @@ def _odd(of: Simulation) -> dict[int, list[int]]:
 
 def _shape(of: Simulation, tendon: int) -> Shape:
     parts = joints_of(of, tendon)
-    bodies = [int(of.model("jnt_bodyid")[joint]) for joint, _ in parts]
+    bodies = [of.body_of("joint", joint) for joint, _ in parts]
     lines = [of.ancestors(body) for body in bodies]
     first = lines[0]
     steps = [line.index(bodies[0]) if bodies[0] in line else None for line in lines]

@@ -84,7 +84,7 @@ def _sped(of: Simulation) -> set[int]:
         if joint is None or not speed_gain(of, actuator) or not of.model("actuator_ctrllimited")[actuator]:
             continue
         fastest = max(map(abs, of.row("actuator_ctrlrange", actuator, 2)))
-        fastest /= abs(of.model("actuator_gear")[6 * actuator]) or 1.0
+        fastest /= abs(of.gear(actuator)) or 1.0
         low, high = of.row("jnt_range", joint, 2)
         hinge = of.joint_type(joint) == HINGE and of.model("jnt_limited")[joint]
         if hinge and TURNED.search(of.names("joint")[joint]) and high - low < min(SHORT, AT_ONCE * fastest):
@@ -93,7 +93,7 @@ def _sped(of: Simulation) -> set[int]:
 
 
 def _wheel(of: Simulation, joint: int) -> bool:
-    body = int(of.model("jnt_bodyid")[joint])
+    body = of.body_of("joint", joint)
     name = f"{of.names('joint')[joint]} {of.names('body')[body]}"
     if of.joint_type(joint) != HINGE or not of.model("jnt_limited")[joint] or not is_wheel(name):
         return False

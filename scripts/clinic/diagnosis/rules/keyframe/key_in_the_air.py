@@ -60,7 +60,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     flies = any(int(kind) == TRN_SITE for kind in of.model("actuator_trntype")) or of.model("opt.gravity")[2] >= 0
     if len(of.free_bodies) != 1 or flies or (not of.count("key") or _gap(of, -1) > LOW):
         return
-    height = int(of.model("jnt_qposadr")[of.joints_of(of.free_bodies[0])[0]]) + 2
+    height = of.place(of.joints_of(of.free_bodies[0])[0]) + 2
     for key, name in enumerate(of.names("key")):
         gap, element = _gap(of, key), model.element("key", key)
         if gap <= HIGH or element is None or MEANT.search(name) or reordered(model, key):

@@ -51,7 +51,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if len(of.free_bodies) != 1:
         return
     joint = of.joints_of(of.free_bodies[0])[0]
-    height = int(of.model("jnt_qposadr")[joint]) + 2
+    height = of.place(joint) + 2
     for key in range(of.count("key")):
         if reordered(model, key):
             continue

@@ -76,9 +76,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         in_degrees = farther and all(_inside(of, joint, math.radians(of.position(joint))) for joint in off)
         for joint in range(of.count("joint")):
             if in_degrees and of.joint_type(joint) == HINGE:  # all of them were written alike
-                qpos[int(of.model("jnt_qposadr")[joint])] = math.radians(of.position(joint))
+                qpos[of.place(joint)] = math.radians(of.position(joint))
             elif joint in off:
-                qpos[int(of.model("jnt_qposadr")[joint])] = _meant(of, joint, off[joint])
+                qpos[of.place(joint)] = _meant(of, joint, off[joint])
         worst = max(off, key=lambda joint: weighed(of, joint, off[joint]))
         low, high = of.row("jnt_range", worst, 2)
         says = f"{of.name('joint', worst)} stands {abs(off[worst]):.3g} outside of {low:.3g} to {high:.3g}."

@@ -57,7 +57,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         start_at(of, key)
         qpos = list(of.data("qpos"))
         for body in of.free_bodies:
-            at = int(of.model("jnt_qposadr")[of.joints_of(body)[0]]) + 3
+            at = of.place(of.joints_of(body)[0]) + 3
             w, x, y, z = qpos[at : at + 4]
             start = of.model("qpos0")[at : at + 4]
             tilted = _tilt((w, x, y, z), start) > TILTED and _tilt((z, w, x, y), start) < UPRIGHT

@@ -108,7 +108,7 @@ def _exchanged(found: Mapping[int, tuple[float, float]], one: int, other: int) -
 
 def _holding(of: Simulation, actuator: int, at: float) -> float:
     """The control with which a servo stays where its joint is."""
-    return at * of.row("actuator_gear", actuator, 6)[0] * -of.bias(actuator)[1] / of.gain(actuator)[0]
+    return at * of.gear(actuator) * -of.bias(actuator)[1] / of.gain(actuator)[0]
 
 
 def _swap(

@@ -85,7 +85,7 @@ def _idle(simulation: Simulation, sensor: int, site: int) -> Suspect:
     """Such a sensor whose own body touched nothing: what it should read shows in no run."""
     names = tuple(
         simulation.name(kind, index)
-        for kind, index in (("sensor", sensor), ("site", site), ("body", int(simulation.model("site_bodyid")[site])))
+        for kind, index in (("sensor", sensor), ("site", site), ("body", simulation.body_of("site", site)))
     )
     says = "A free joint does not pass on what contacts press. A site in a body that hangs on this one reads it."
     probe = counted("sensors of a free body", 1)

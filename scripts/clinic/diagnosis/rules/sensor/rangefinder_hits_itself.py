@@ -82,7 +82,7 @@ def _blind(of: Simulation) -> dict[int, tuple[int, float]]:
         if int(kind) != RANGE or int(kinds[sensor]) != OBJ_SITE or reading < 0:
             continue
         site = int(of.model("sensor_objid")[sensor])
-        body = int(of.model("site_bodyid")[site])
+        body = of.body_of("site", site)
         end = add(of.data_row("site_xpos", site, 3), of.data_row("site_xmat", site, 9)[2::3], reading)
         for geom, (centre, half) in boxes(of, range(len(bodies))).items():
             other = int(bodies[geom])

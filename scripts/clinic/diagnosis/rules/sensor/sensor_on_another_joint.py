@@ -87,7 +87,7 @@ def _misnamed(of: Simulation) -> dict[int, tuple[str, int]]:
 
 def _holder(of: Simulation, sensor: int) -> str:
     """The name of the body of a sensor's site."""
-    return of.names("body")[int(of.model("site_bodyid")[int(of.model("sensor_objid")[sensor])])]
+    return of.names("body")[of.body_of("site", int(of.model("sensor_objid")[sensor]))]
 
 
 def _within(part: str, sensor: str) -> bool:

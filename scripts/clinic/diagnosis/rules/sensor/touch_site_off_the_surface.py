@@ -65,7 +65,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         site = int(of.model("sensor_objid")[sensor])
         if int(kind) != TOUCH or not (why := _why(of, site)):
             continue
-        body = of.name("body", int(of.model("site_bodyid")[site]))
+        body = of.name("body", of.body_of("site", site))
         inside = why == INSIDE
         yield Suspect(
             (of.name("sensor", sensor), of.name("site", site)),
@@ -86,7 +86,7 @@ def _off(of: Simulation, site: int) -> float:
 
 def _why(of: Simulation, site: int) -> str:
     """Why no contact can be inside of a site; empty where one can."""
-    body = int(of.model("site_bodyid")[site])
+    body = of.body_of("site", site)
     pairs = in_pairs(of)
     geoms = [geom for geom in of.geoms_of(body) if solid(of, geom) or geom in pairs]
     if any(int(of.model("geom_type")[geom]) not in (SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX) for geom in geoms):

@@ -109,6 +109,4 @@ def _dwarf(simulation: Simulation, site: int, sites: list[int]) -> bool:
 
 def _reach(simulation: Simulation, site: int) -> float:
     radii = simulation.model("geom_rbound")
-    return 2 * max(
-        (radii[geom] for geom in simulation.geoms_of(int(simulation.model("site_bodyid")[site]))), default=0.0
-    )
+    return 2 * max((radii[geom] for geom in simulation.geoms_of(simulation.body_of("site", site))), default=0.0)

@@ -70,7 +70,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = [each for each in servos(simulation) if missed(each) > MISSED and not meets(simulation, each)]
     held = {joint for key in range(simulation.count("key")) for joint in against_range(simulation, key)}
     found = [each for each in found if each.actuator not in shared and each.joint not in held]
-    gears = {each.actuator: simulation.model("actuator_gear")[6 * each.actuator] for each in found}
+    gears = {each.actuator: simulation.gear(each.actuator) for each in found}
     for geared in (True, False):
         some = [each for each in found if (abs(gears[each.actuator]) > GEARED) == geared]
         if not some:
@@ -108,7 +108,7 @@ def ungeared(model: ReaderModel, servo: Servo) -> tuple[Edit, ...]:
     Gains that another servo without a gear has as well were meant without one.
     """
     of, one = model.simulation, [servo.actuator]
-    gears = [of.model("actuator_gear")[6 * each] for each in range(of.count("actuator"))]
+    gears = [of.gear(each) for each in range(of.count("actuator"))]
     gear = gears[servo.actuator]
     written = {gain: model.value("actuator", servo.actuator, gain) for gain in ("kp", "kv")}
     others = [each for each, other in enumerate(gears) if other == 1]

@@ -89,7 +89,7 @@ def _farthest(simulation: Simulation, actuators: tuple[int, ...]) -> float:
 
 def _amplified(model: ReaderModel, servo: Servo) -> bool:
     """Whether the target is more than the control on purpose, by gain and bias that differ."""
-    return abs(abs(servo.scale * model.simulation.model("actuator_gear")[6 * servo.actuator]) - 1) > 0.05
+    return abs(abs(servo.scale * model.simulation.gear(servo.actuator)) - 1) > 0.05
 
 
 def _suspect(

@@ -75,7 +75,7 @@ def _pairs(of: Simulation) -> Iterator[tuple[int, int]]:
 
 
 def _force(of: Simulation, actuator: int) -> float:
-    return of.row("actuator_forcerange", actuator, 2)[1] * abs(of.model("actuator_gear")[6 * actuator])
+    return of.row("actuator_forcerange", actuator, 2)[1] * abs(of.gear(actuator))
 
 
 def _times(of: Simulation, actuator: int, joint: int) -> float:

@@ -135,7 +135,7 @@ def _stronger(model: ReaderModel, servo: Servo, force: float) -> tuple[Edit, ...
     """The edits of the limits that are below a force at the joint."""
     simulation = model.simulation
     edits: tuple[Edit, ...] = ()
-    gear = abs(simulation.model("actuator_gear")[6 * servo.actuator])
+    gear = abs(simulation.gear(servo.actuator))
     own = max(map(abs, simulation.row("actuator_forcerange", servo.actuator, 2))) * gear
     if simulation.model("actuator_forcelimited")[servo.actuator] and own < force:
         text = rounded(force / gear)

@@ -92,7 +92,7 @@ def meets(of: Simulation, servo: Servo) -> bool:
 
 def _ratio(of: Simulation, servo: Servo) -> float:
     """Where a servo rests, as the actuator's length, over its control."""
-    return servo.scale * of.row("actuator_gear", servo.actuator, 6)[0]
+    return servo.scale * of.gear(servo.actuator)
 
 
 def _off(of: Simulation, actuator: int) -> float:

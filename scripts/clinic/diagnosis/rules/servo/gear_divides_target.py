@@ -46,7 +46,7 @@ MOST = 1.5
 
 
 def _gear(simulation: Simulation, *actuators: int) -> float:
-    return max((abs(simulation.model("actuator_gear")[6 * each]) for each in actuators), default=0.0)
+    return max((abs(simulation.gear(each)) for each in actuators), default=0.0)
 
 
 def _divided(simulation: Simulation, servo: Servo) -> bool:

@@ -93,7 +93,7 @@ def _pairs(of: Simulation) -> list[list[int]]:
     """Two joints that are called alike but for a number, of two bodies that hang on one and weigh the same."""
     made: dict[tuple[object, ...], list[int]] = {}
     for joint, name in enumerate(of.names("joint")):
-        body = int(of.model("jnt_bodyid")[joint])
+        body = of.body_of("joint", joint)
         mass = round(of.model("body_subtreemass")[body], 6)
         key = (NUMBER.sub("#", name), of.model("body_parentid")[body], mass, of.row("jnt_range", joint, 2))
         if NUMBER.search(name) and len(of.joints_of(body)) == 1:
@@ -110,7 +110,7 @@ def _elsewhere(of: Simulation, joint: int, group: Collection[int]) -> bool:
 
 def _depth(of: Simulation, joint: int) -> int:
     """How many joints are above the body of a joint."""
-    return sum(len(of.joints_of(body)) for body in of.ancestors(int(of.model("jnt_bodyid")[joint]))[1:])
+    return sum(len(of.joints_of(body)) for body in of.ancestors(of.body_of("joint", joint))[1:])
 
 
 def _turns(of: Simulation, *joints: int) -> bool:

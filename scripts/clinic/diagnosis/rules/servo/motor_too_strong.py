@@ -55,7 +55,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not fast:
         return
     worst = max(fast, key=lambda each: fast[each])
-    gear = of.model("actuator_gear")[6 * worst]
+    gear = of.gear(worst)
     low, high = of.row("actuator_ctrlrange", worst, 2)
     attribute = "gear" if abs(gear) > max(abs(low), abs(high)) else "ctrlrange"
     numbers, less = ([gear] if attribute == "gear" else [low, high]), USUAL / fast[worst]
@@ -85,7 +85,7 @@ def _speeds(of: Simulation) -> dict[int, float]:
         force = abs(of.gain(each)[0]) * max(map(abs, of.row("actuator_ctrlrange", each, 2)))
         if of.model("actuator_forcelimited")[each]:
             force = min(force, max(map(abs, of.row("actuator_forcerange", each, 2))))
-        torque = force * abs(of.model("actuator_gear")[6 * each])
+        torque = force * abs(of.gear(each))
         dof = of.dof(joint)
         damping, inertia = of.model("dof_damping")[dof], of.mass_diagonal[dof]
         made[each] = min(SECONDS * torque / max(inertia, 1e-12), torque / damping if damping > 0 else float("inf"))

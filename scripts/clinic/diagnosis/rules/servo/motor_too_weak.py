@@ -61,7 +61,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     joint = max(slow, key=lambda each: slow[each])
     worst = next(each for each in found if of.driven_joint(each) == joint)
     hinge = of.joint_type(joint) == HINGE
-    gear, unit = of.model("actuator_gear")[6 * worst], "rad" if hinge else "m"
+    gear, unit = of.gear(worst), "rad" if hinge else "m"
     yield Suspect(
         tuple(of.name("actuator", each) for each in found),
         "gear",
@@ -108,7 +108,7 @@ def _burden(of: Simulation, actuator: int) -> float:
         return 0.0
     if of.model("jnt_stiffness")[joint] or of.count("equality") or of.count("tendon"):
         return 0.0
-    most = _strongest(of, actuator) * abs(of.row("actuator_gear", actuator, 6)[0])
+    most = _strongest(of, actuator) * abs(of.gear(actuator))
     held = loads(of)[of.dof(joint)] - of.model("dof_frictionloss")[of.dof(joint)]
     return held / most if most > 0 else 0.0
 
@@ -134,4 +134,4 @@ def _force(of: Simulation, actuator: int) -> float:
         limits.append(abs(gain) * max(map(abs, of.row("actuator_ctrlrange", actuator, 2))))
     if of.model("actuator_forcelimited")[actuator]:
         limits.append(max(map(abs, of.row("actuator_forcerange", actuator, 2))))
-    return min(limits) * abs(of.row("actuator_gear", actuator, 6)[0])
+    return min(limits) * abs(of.gear(actuator))

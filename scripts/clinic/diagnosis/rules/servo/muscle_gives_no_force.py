@@ -122,7 +122,7 @@ def _given(of: Simulation, actuator: int, share: float | None) -> float:
     for joint, limited in enumerate(of.model("jnt_limited")):
         if share is not None and limited and of.joint_type(joint) in (HINGE, SLIDE):
             low, high = of.row("jnt_range", joint, 2)
-            of.engine.write("qpos", [low + share * (high - low)], int(of.model("jnt_qposadr")[joint]))
+            of.put(joint, low + share * (high - low))
     of.engine.write("qvel", [0.0] * of.count("dof"))
     forces = []
     for excited in (0.0, _excited(of, actuator)):

@@ -78,7 +78,7 @@ def _lengths(of: Simulation, actuator: int) -> tuple[float, float] | None:
     """The ends of a muscle's length in m, where a tendon makes it and its joints have ranges."""
     if int(of.model("actuator_trntype")[actuator]) != TENDON:
         return None
-    gear = of.row("actuator_gear", actuator, 6)[0]
+    gear = of.gear(actuator)
     found = reach(of, int(of.model("actuator_trnid")[2 * actuator]))
     ends = sorted(gear * each for each in found) if found else []
     return (ends[0], ends[1]) if ends and ends[1] > ends[0] else None

@@ -67,7 +67,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         tendon = int(of.model("actuator_trnid")[2 * each])
         if push <= 0 or push < MOST * pull or PISTON.search(of.name("tendon", tendon) + of.name("actuator", each)):
             continue
-        gear = of.row("actuator_gear", each, 6)[0]
+        gear = of.gear(each)
         edits: tuple[Edit, ...] = model.set("actuator", [each], "gear", written([-gear]))
         yield Suspect(
             (of.name("actuator", each), of.name("tendon", tendon)),
@@ -96,6 +96,6 @@ def _forces(of: Simulation, actuator: int) -> tuple[float, float]:
         return 0.0, 0.0
     if joints_of(of, tendon):
         return 0.0, 0.0
-    factor = of.gain(actuator)[0] * of.row("actuator_gear", actuator, 6)[0]
+    factor = of.gain(actuator)[0] * of.gear(actuator)
     forces = [factor * ctrl for ctrl in of.row("actuator_ctrlrange", actuator, 2)]
     return max(0.0, *forces), max(0.0, *(-force for force in forces))

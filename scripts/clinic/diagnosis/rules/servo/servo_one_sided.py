@@ -68,7 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _one_sided(of: Simulation, servo: Servo, attribute: str) -> bool:
     if attribute == "gear":
-        return of.model("actuator_gear")[6 * servo.actuator] < 0
+        return of.gear(servo.actuator) < 0
     if attribute == "forcerange":
         low, high = of.row("actuator_forcerange", servo.actuator, 2)
         one = max(low, -high) > -LITTLE * max(-low, high)
@@ -88,7 +88,7 @@ def _told(of: Simulation, servo: Servo, attribute: str) -> tuple[str, str, str]:
     """What is written, what would work to both sides, and the sentence."""
     name = of.name("joint", servo.joint)
     if attribute == "gear":
-        gear = of.model("actuator_gear")[6 * servo.actuator]
+        gear = of.gear(servo.actuator)
         says = f"Its gear is negative: {name} goes to the other side than its control says."
         return f"{gear:g}", f"{-gear:g}", says
     if attribute == "forcerange":

@@ -111,7 +111,7 @@ def _wheels(of: Simulation) -> list[Wheel]:
         if joint is None or not limited or int(of.model("actuator_biastype")[actuator]) != AFFINE:
             continue
         gain = speed_gain(of, actuator)
-        gear = of.model("actuator_gear")[6 * actuator]
+        gear = of.gear(actuator)
         turns = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
         fastest = of.row("actuator_ctrlrange", actuator, 2)[1]
         if turns and gain and gear and fastest > 0:

@@ -83,7 +83,7 @@ def _most(of: Simulation, actuators: tuple[int, ...]) -> float:
 
 def _kept(of: Simulation, servo: Servo) -> float:
     """The share of the way from the spring's rest that is left when spring and servo are in balance."""
-    place = int(of.model("jnt_qposadr")[servo.joint])
+    place = of.place(servo.joint)
     rest = of.model("qpos_spring")[place]
     goal = _goal(servo, rest)
     with alone(of):

@@ -121,7 +121,7 @@ def _groups(of: Simulation) -> dict[Key, dict[int, float]]:
         if owners.count(owners[joint]) == 1:
             owners[joint] = -1 - like
     for actuator in range(of.count("actuator")):
-        driven, gear = of.driven_joint(actuator), abs(of.model("actuator_gear")[6 * actuator])
+        driven, gear = of.driven_joint(actuator), abs(of.gear(actuator))
         dynamic = int(of.model("actuator_dyntype")[actuator])
         if driven is None or not gear or dynamic == DYN_MUSCLE:
             continue

@@ -84,7 +84,7 @@ def _damped(model: ReaderModel, servo: Servo) -> tuple[Edit, ...]:
         joint = model.element("joint", servo.joint)
         value = 2 * math.sqrt(servo.stiffness * servo.inertia)
         return model.set("joint", [servo.joint], "damping", f"{value:.3g}") if joint is not None else ()
-    gear = model.simulation.row("actuator_gear", servo.actuator, 6)[0]
+    gear = model.simulation.gear(servo.actuator)
     value = 2 * math.sqrt(servo.stiffness * servo.inertia) / gear**2
     if written.tag == "general":
         bias = model.simulation.bias(servo.actuator)

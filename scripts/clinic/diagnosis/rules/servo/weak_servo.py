@@ -146,7 +146,7 @@ def _most(simulation: Simulation, servo: Servo) -> float:
 
 
 def _free(simulation: Simulation, servo: Servo) -> bool:
-    root = root_of(simulation)[int(simulation.model("jnt_bodyid")[servo.joint])]
+    root = root_of(simulation)[simulation.body_of("joint", servo.joint)]
     return root in simulation.free_bodies
 
 

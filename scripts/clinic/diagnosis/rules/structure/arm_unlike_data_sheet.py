@@ -145,7 +145,7 @@ def _off(of: Simulation, joints: tuple[int, ...], which: int, right: float) -> f
 def _moves(model: ReaderModel, joints: tuple[int, ...], longer: float, probe: Probe) -> Iterator[tuple[Edit, ...]]:
     """Edits of one coordinate of a body that give the length of the data sheet; those of the longest first."""
     of = model.simulation
-    bodies = [int(of.model("jnt_bodyid")[joint]) for joint in joints]
+    bodies = [of.body_of("joint", joint) for joint in joints]
     places = [(body, of.row("body_pos", body, 3)) for body in bodies]
     parts = [(abs(place[axis]), body, place, axis) for body, place in places for axis in range(3) if place[axis]]
     for part, body, place, axis in sorted(parts, reverse=True):
@@ -182,7 +182,7 @@ def _against(of: Simulation, joints: tuple[int, ...], which: int, right: str) ->
 def _base(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     """An arm whose shoulder is not where its base carries it."""
     of, height = model.simulation, arm.height
-    body = int(of.model("jnt_bodyid")[row.joints[0]])
+    body = of.body_of("joint", row.joints[0])
     parent = int(of.model("body_parentid")[body])
     urdf = model.source is not None and model.source.urdf  # looked at afloat
     carries = [each for each in range(1, of.count("body")) if of.model("body_parentid")[each] == parent]
@@ -207,7 +207,7 @@ def _away(of: Simulation, joints: tuple[int, ...], height: float) -> Vector:
     """From where the shoulder is to where the base has it, in m."""
     row = measured(of, joints)
     of.as_written()
-    parent = int(of.model("body_parentid")[int(of.model("jnt_bodyid")[joints[0]])])
+    parent = int(of.model("body_parentid")[of.body_of("joint", joints[0])])
     return sub(add(of.data_row("xpos", parent, 3), row.axes[0], height), row.shoulder)
 
 
@@ -217,7 +217,7 @@ def _sunk(of: Simulation, joints: tuple[int, ...], height: float) -> float:
 
 def _hand(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     """Fingers that slide another way than those of the arm's own hand: it is mounted at another angle."""
-    of, last = model.simulation, int(model.simulation.model("jnt_bodyid")[row.joints[-1]])
+    of, last = model.simulation, model.simulation.body_of("joint", row.joints[-1])
     fingers = [
         joint
         for joint, body in enumerate(of.model("jnt_bodyid"))
@@ -226,7 +226,7 @@ def _hand(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     if arm.grip is None or len(fingers) != 2 or _aside(of, row.joints, fingers[0], arm.grip) <= TURNED:
         return
     off = math.degrees(_aside(of, row.joints, fingers[0], arm.grip))
-    hand = of.name("body", int(of.model("body_parentid")[int(of.model("jnt_bodyid")[fingers[0]])]))
+    hand = of.name("body", int(of.model("body_parentid")[of.body_of("joint", fingers[0])]))
     says = f"Its fingers slide {off:.0f} degrees aside from where those of {arm.names[0]} do: it is mounted so."
     names, value = (hand, *(of.name("joint", joint) for joint in fingers)), f"turned by {off:.0f} degrees"
     probe = Probe("way of the fingers off", "rad", _aside, (row.joints, fingers[0], arm.grip), dynamic=False)
@@ -303,7 +303,7 @@ def _beyond(of: Simulation, joint: int, right: tuple[float, float]) -> float:
 
 
 def _links(of: Simulation, joints: tuple[int, ...]) -> list[int]:
-    return list(dict.fromkeys(int(of.model("jnt_bodyid")[joint]) for joint in joints))
+    return list(dict.fromkeys(of.body_of("joint", joint) for joint in joints))
 
 
 def _weight(of: Simulation, joints: tuple[int, ...]) -> float:

@@ -74,7 +74,7 @@ def _sunk(of: Simulation, geom: int) -> bool:
     half = height[1] if kind == CYLINDER else height[2]
     if kind not in (BOX, CYLINDER) or not solid(of, geom) or of.data_row("geom_xmat", geom, 9)[8] < UPRIGHT:
         return False
-    body = int(of.model("geom_bodyid")[geom])
+    body = of.body_of("geom", geom)
     moves = body in of.moving_bodies
     if moves and (body not in of.free_bodies or len(of.geoms_of(body)) != 1):
         return False

@@ -128,7 +128,7 @@ def _others_axis(of: Simulation, odd: int) -> Column:
     """The axis of the other hinges in the frame of a joint's body."""
     of.begin()
     other = next(each for each in range(of.count("joint")) if each != odd and of.joint_type(each) == HINGE)
-    body = int(of.model("jnt_bodyid")[odd])
+    body = of.body_of("joint", odd)
     axis = times(transpose(of.data_row("xmat", body, 9)), of.data_row("xaxis", other, 3))
     return tuple(round(x, 6) + 0.0 for x in axis)
 
@@ -181,7 +181,7 @@ def _columns(of: Simulation) -> list[Column]:
     rest, start = _gaps(of), list(of.data("qpos"))
     made: list[Column] = [(0.0,) * len(rest)] * of.count("dof")
     for joint in range(of.count("joint")):
-        kind, place = of.joint_type(joint), int(of.model("jnt_qposadr")[joint])
+        kind, place = of.joint_type(joint), of.place(joint)
         for each in range(WIDTH[kind][1]):
             of.engine.write("qpos", _moved(start[place : place + WIDTH[kind][0]], kind, each), place)
             of.engine.forward()

@@ -89,6 +89,6 @@ def _edits(model: ReaderModel, each: int) -> tuple[Edit, ...]:
     if not sited(of, each):
         return model.remove("equality", [each], "relpose")
     site = held(of, each)[1]
-    body = int(of.model("site_bodyid")[site])
+    body = of.body_of("site", site)
     seen = sub(ends(of, each)[0], of.data_row("xpos", body, 3))
     return model.set("site", [site], "pos", written(times(transpose(of.data_row("xmat", body, 9)), seen)))

@@ -130,7 +130,7 @@ def _wheels(of: Simulation) -> list[int]:
     kinds, moving, floors = of.model("geom_type"), set(of.moving_bodies), plane_heights(of)
     made = []
     for joint in range(of.count("joint")) if floors else ():
-        body = int(of.model("jnt_bodyid")[joint])
+        body = of.body_of("joint", joint)
         if of.joint_type(joint) != HINGE or of.model("jnt_limited")[joint]:
             continue
         if int(of.model("body_parentid")[body]) in moving or len(of.joints_of(body)) > 1:

@@ -95,7 +95,7 @@ def _called(of: Simulation, body: int) -> bool:
 def _anywhere(of: Simulation, joints: list[int]) -> bool:
     """Whether it can go anywhere: a free joint, or three slides without a spring or an equality that holds it."""
     slides = [joint for joint in joints if of.joint_type(joint) == SLIDE and not of.model("jnt_stiffness")[joint]]
-    body = int(of.model("jnt_bodyid")[joints[0]])
+    body = of.body_of("joint", joints[0])
     tied = any(body in held(of, each) for each in range(of.count("equality")) if not sited(of, each))
     return of.joint_type(joints[0]) == FREE or (len(slides) == 3 and not tied)
 

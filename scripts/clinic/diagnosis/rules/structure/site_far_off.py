@@ -64,7 +64,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if far <= FAR or beyond <= LEAST or name in used or MEANT.search(name) or model.element("site", site) is None:
             continue
         now = " ".join(f"{x:.4g}" for x in of.row("site_pos", site, 3))
-        body = of.name("body", int(of.model("site_bodyid")[site]))
+        body = of.name("body", of.body_of("site", site))
         says = f"It hangs on {body}, and is {beyond:.3g} m outside of all that hangs together with that."
         probe = Probe("distance outside of the box of its mechanism", "of its diagonal", _far, (site,), dynamic=False)
         yield Suspect((of.name("site", site),), "pos", now, "told from its body", (), probe, FAR, says, "below 0.3")
@@ -89,7 +89,7 @@ def _boxes(of: Simulation) -> dict[int, tuple[list[float], list[float]]]:
 
 def _outside(of: Simulation, boxes: dict[int, tuple[list[float], list[float]]], site: int) -> tuple[float, float]:
     """How far a site is outside of the box of its mechanism: as a share of its diagonal, and in m."""
-    root = root_of(of)[int(of.model("site_bodyid")[site])]
+    root = root_of(of)[of.body_of("site", site)]
     if root not in boxes:
         return 0.0, 0.0
     low, high = boxes[root]

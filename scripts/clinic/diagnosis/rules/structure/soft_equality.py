@@ -114,7 +114,7 @@ def _widest(of: Simulation, *equalities: int) -> float:
 
 def _reach(of: Simulation, each: int) -> float:
     """The radius of the smaller of two bodies that are held together; 0 where one has no geoms."""
-    bodies = [int(of.model("site_bodyid")[end]) if sited(of, each) else end for end in held(of, each)]
+    bodies = [of.body_of("site", end) if sited(of, each) else end for end in held(of, each)]
     return min(max((of.model("geom_rbound")[geom] for geom in of.geoms_of(body)), default=0.0) for body in bodies)
 
 

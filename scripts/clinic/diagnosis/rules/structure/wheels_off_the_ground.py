@@ -75,7 +75,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         others = [geom for geom in _others(of, root, wheels) if LEAST < ground - _bottom(of, geom) < radius]
         if others:
             low = min(others, key=lambda geom: _bottom(of, geom))
-            body = of.name("body", int(of.model("geom_bodyid")[low]))
+            body = of.name("body", of.body_of("geom", low))
             below = 1000 * (ground - _bottom(of, low))
             probe = Probe("below the wheels by", "m", _below, (root, low), dynamic=False)
             says = f"It reaches {below:.3g} mm lower than the wheels."
@@ -87,7 +87,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if aloft:
             high = max(aloft, key=lambda geom: _bottom(of, geom))
             above = 1000 * (_bottom(of, high) - ground)
-            bodies = dict.fromkeys(of.name("body", int(of.model("geom_bodyid")[geom])) for geom in (high, *wheels))
+            bodies = dict.fromkeys(of.name("body", of.body_of("geom", geom)) for geom in (high, *wheels))
             probe = Probe("above the ground by", "m", _above, (root, high), dynamic=False)
             says = f"It is {above:.3g} mm above the ground on which the wheels stand: the robot tips until it touches."
             yield Suspect(tuple(bodies), "pos", "", f"{above:.3g} mm lower", (), probe, ALOFT, says, "0")
@@ -106,7 +106,7 @@ def _wheels(of: Simulation) -> dict[int, list[int]]:
     """The round geoms of bodies on level hinges without limits, by the root of their robot; two and more."""
     made: dict[int, list[int]] = {}
     for joint in range(of.count("joint")):
-        body = int(of.model("jnt_bodyid")[joint])
+        body = of.body_of("joint", joint)
         if of.joint_type(joint) != HINGE or of.model("jnt_limited")[joint] or body in of.model("body_parentid"):
             continue
         if abs(of.data_row("xaxis", joint, 3)[2]) < LEVEL_ENOUGH:

@@ -130,10 +130,10 @@ def _place(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: 
 
 
 def _axis(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:
-    element, body = model.element("joint", side), int(model.simulation.model("jnt_bodyid")[side])
+    element, body = model.element("joint", side), model.simulation.body_of("joint", side)
     if element is None:
         return ()
-    image = found.image(int(model.simulation.model("jnt_bodyid")[each.left]), body)
+    image = found.image(model.simulation.body_of("joint", each.left), body)
     axis = times(transpose(found.at("xmat", body, 9)), times(image.matrix, found.at("xaxis", twin)))
     own = model.simulation.row("jnt_axis", side, 3)
     sign = 1.0 if sum(a * b for a, b in zip(axis, own, strict=True)) >= 0 else -1.0

@@ -40,12 +40,12 @@ def _strange(model: ReaderModel, each: Comparison, side: int) -> float:
         axes = [simulation.row("jnt_axis", joint, 3) for joint in _same_side(simulation, each, side)]
         return -sum(round(dot(axis, simulation.row("jnt_axis", side, 3))) for axis in axes)
     if each.quantity == "gear sign":
-        gears = [simulation.model("actuator_gear")[6 * index] for index in range(simulation.count("actuator"))]
+        gears = [simulation.gear(index) for index in range(simulation.count("actuator"))]
         return -float(sum(gear * gears[side] > 0 for gear in gears))
     if each.quantity == "ctrlrange" and len({_in_reach(simulation, one) for one in (each.left, each.right)}) > 1:
         return -_in_reach(simulation, side)
     if each.kind == "joint" and each.quantity == "range":
-        place, (low, high) = int(simulation.model("jnt_qposadr")[side]), simulation.row("jnt_range", side, 2)
+        place, (low, high) = simulation.place(side), simulation.row("jnt_range", side, 2)
         start = simulation.model("qpos0")[place]
         if not low - 0.01 <= start <= high + 0.01:
             return 1e6
@@ -77,7 +77,7 @@ def _signed(simulation: Simulation, body: int) -> tuple[float, ...]:
 
 def _strength(simulation: Simulation, actuator: int) -> float:
     """What an actuator gives at a control of 1."""
-    return abs(simulation.gain(actuator)[0] * simulation.model("actuator_gear")[6 * actuator])
+    return abs(simulation.gain(actuator)[0] * simulation.gear(actuator))
 
 
 def _value(model: ReaderModel, each: Comparison, index: int) -> tuple[object, ...]:

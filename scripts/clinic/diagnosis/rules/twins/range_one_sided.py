@@ -99,7 +99,7 @@ def _middle(of: Simulation) -> tuple[int, ...]:
         return ()
     made = []
     for joint in range(of.count("joint")):
-        mover = int(of.model("jnt_bodyid")[joint])
+        mover = of.body_of("joint", joint)
         lefts = [left for left in mirrored if mover not in of.ancestors(found.common[left])]
         if of.joint_type(joint) != HINGE or not of.model("jnt_limited")[joint] or not lefts:
             continue

@@ -110,7 +110,7 @@ def _sign(of: Simulation, one: int, other: int) -> float:
     """Whether equal angles of two twins are mirror images (1) or opposite ones (-1)."""
     found = twins(of)
     left, right = next(pair for pair in found.pairs["joint"] if one in pair and other in pair)
-    return found.joint_sign(left, right)[0] if int(of.model("jnt_bodyid")[left]) in found.images else 1.0
+    return found.joint_sign(left, right)[0] if of.body_of("joint", left) in found.images else 1.0
 
 
 def _unlike(of: Simulation, left: int, right: int) -> float:

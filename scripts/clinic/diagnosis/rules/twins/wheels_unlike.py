@@ -109,7 +109,7 @@ def _axles(of: Simulation) -> Iterator[tuple[int, int]]:
 
 
 def _is_wheel(of: Simulation, joint: int) -> bool:
-    body = int(of.model("jnt_bodyid")[joint])
+    body = of.body_of("joint", joint)
     free = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
     drives = len(of.drivers.get(joint, []))
     called = is_wheel(of.names("joint")[joint], of.names("body")[body])
@@ -125,7 +125,7 @@ def _tyre(of: Simulation, joint: int) -> int:
     """The largest round geom that collides, of a wheel's body; -1 for none."""
     round_ = [
         geom
-        for geom in of.geoms_of(int(of.model("jnt_bodyid")[joint]))
+        for geom in of.geoms_of(of.body_of("joint", joint))
         if int(of.model("geom_type")[geom]) in (SPHERE, CYLINDER, ELLIPSOID) and solid(of, geom)
     ]
     return max(round_, key=lambda geom: of.model("geom_size")[3 * geom], default=-1)
@@ -141,7 +141,7 @@ def _actuator(of: Simulation, joint: int) -> int | None:
 
 def _gear(of: Simulation, joint: int) -> float:
     motor = _actuator(of, joint)
-    return 1.0 if motor is None else of.model("actuator_gear")[6 * motor]
+    return 1.0 if motor is None else of.gear(motor)
 
 
 def _against(of: Simulation, one: int, other: int) -> float:

@@ -61,7 +61,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     written = [each for each in model.source.section("contact") if each.tag == "exclude"]
     for root, surface in fallen(simulation):
-        body = int(simulation.model("geom_bodyid")[surface])
+        body = simulation.body_of("geom", surface)
         meant = []
         for each in written:
             bodies = {names.index(each.get(side)) for side in ("body1", "body2") if each.get(side) in names}
@@ -108,7 +108,7 @@ def _lowest(of: Simulation) -> set[int]:
             lowest = min(lows.values(), default=0.0)
             height = max(tops, default=0.0) - lowest
             for geom, low in lows.items():
-                body = int(of.model("geom_bodyid")[geom])
+                body = of.body_of("geom", geom)
                 if low <= lowest + (NEAR if body in parents else END) * height:
                     made.add(body)
     return made

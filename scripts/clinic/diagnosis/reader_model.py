@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from clinic.diagnosis.edit import Edit, apply, insert, remove_attribute, set_attribute
 from clinic.diagnosis.engine import CompileError, Engine
@@ -67,6 +67,11 @@ class ReaderModel:
         found = self.with_edits(())
         assert isinstance(found, Simulation)
         return found
+
+    @property
+    def urdf(self) -> bool:
+        """Whether the text is URDF."""
+        return self.source is not None and self.source.urdf
 
     def with_edits(self, edits: Sequence[Edit]) -> Simulation | CompileError:
         """The model after edits of its text, compiled anew, or what the engine says against it."""
@@ -194,6 +199,10 @@ class ReaderModel:
                 target = holder[0]
             made[set_attribute(target, attribute, value)] = None
         return tuple(made)
+
+    def set_each(self, kind: str, attribute: str, values: Mapping[int, str]) -> tuple[Edit, ...]:
+        """Edits that give an attribute of elements a value of its own each; none for what has no place in the text."""
+        return tuple(edit for index, value in values.items() for edit in self.set(kind, [index], attribute, value))
 
     def _set_urdf(self, elements: Sequence[Element], attribute: str, value: str) -> tuple[Edit, ...]:
         """The same where the text is URDF, which has what is said of a joint in elements inside it."""

@@ -67,7 +67,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     xml = "".join(f'<exclude body1="{names[one]}" body2="{names[other]}"/>' for one, other in deep)
     named = all(names[body] for pair in deep for body in pair)
     bodies = tuple(simulation.name("body", body) for pair in sorted(deep, key=deep.__getitem__)[::-1] for body in pair)
-    based = model.source is not None and model.source.urdf and any(0 in pair for pair in deep)
+    based = model.urdf and any(0 in pair for pair in deep)
     if not deep or (based and (len(roots(simulation)) > 1 or longest_row(simulation) < ARM)):
         return  # what a URDF has for a base is often carried by something else, but for that of a single arm
     static = any(not root_of(simulation)[body] for pair in deep for body in pair)

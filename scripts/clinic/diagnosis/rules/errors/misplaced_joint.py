@@ -64,7 +64,7 @@ SAYS = {
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The joint that is too much, taken out; a plane in a moving body, made a box."""
     said = sentence(model)
-    if model.source is not None and model.source.urdf and said.startswith("free joint can only"):
+    if model.urdf and said.startswith("free joint can only"):
         yield from _floating(model, said)
         return
     for element in meant(model):

@@ -76,7 +76,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         "axis",
         written(of.row("jnt_axis", found[0], 3)),
         axes[found[0]],
-        tuple(edit for joint in found for edit in model.set("joint", [joint], "axis", axes[joint])),
+        model.set_each("joint", "axis", axes),
         Probe("angle to the axis of the name", "degrees", _at_start, (found[0], said[found[0]]), dynamic=False),
         FAR,
         f"{other[0]} goes along {'xyz'[_along(of, found[0])]}.",

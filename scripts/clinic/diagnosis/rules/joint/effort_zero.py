@@ -46,7 +46,7 @@ MINOR = True
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The joints of a URDF that may turn and may give nothing; they get the largest effort of the others."""
-    if model.source is None or not model.source.urdf:
+    if not model.urdf:
         return
     of = model.simulation
     joints = {joint: each for joint in range(of.count("joint")) if (each := model.element("joint", joint))}

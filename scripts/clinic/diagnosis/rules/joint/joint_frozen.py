@@ -170,7 +170,7 @@ def _reach(of: Simulation, joint: int) -> float:
 
 def _beyond_effort(model: ReaderModel) -> Iterator[Suspect]:
     """Joints of a URDF whose `<dynamics>` resists more than their effort gives, all together by what resists."""
-    if model.source is None or not model.source.urdf or model.simulation.count("actuator"):
+    if not model.urdf or model.simulation.count("actuator"):
         return
     of = model.simulation
     for attribute, resists in (("damping", SLOW), ("frictionloss", 1.0)):

@@ -27,7 +27,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -46,9 +45,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         found = {joint: value for joint, value in _values(simulation, field).items() if value < 0}
         if not found:
             continue
-        edits: tuple[Edit, ...] = ()
-        for joint, value in found.items():
-            edits += model.set("joint", [joint], attribute, f"{-value:g}")
+        edits = model.set_each("joint", attribute, {joint: f"{-value:g}" for joint, value in found.items()})
         first = next(iter(found.values()))
         yield Suspect(
             tuple(simulation.name("joint", each) for each in found),

@@ -53,7 +53,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The slides that leave the body which carries them, each."""
     of = model.simulation
     parents, bodies, names = of.model("body_parentid"), of.model("jnt_bodyid"), of.names("body")
-    urdf = model.source is not None and model.source.urdf  # which does not say what drives a joint
+    urdf = model.urdf  # which does not say what drives a joint
     for joint in range(of.count("joint")):
         body = int(bodies[joint])
         if of.joint_type(joint) != SLIDE or not parents[body] or joint in of.drivers or len(of.joints_of(body)) > 1:

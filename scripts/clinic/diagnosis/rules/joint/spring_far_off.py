@@ -31,7 +31,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -57,9 +56,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         found, limit = odd, ODD
     if not found:
         return
-    edits: tuple[Edit, ...] = ()
-    for joint in found:
-        edits += model.set("joint", [joint], "springref", f"{simulation.model('qpos0')[simulation.place(joint)]:g}")
+    begins = {joint: f"{simulation.model('qpos0')[simulation.place(joint)]:g}" for joint in found}
+    edits = model.set_each("joint", "springref", begins)
     rest = simulation.model("qpos_spring")[simulation.place(found[0])]
     yield Suspect(
         tuple(simulation.name("joint", each) for each in found),

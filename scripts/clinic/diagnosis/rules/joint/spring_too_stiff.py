@@ -29,7 +29,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.run import fastest
 from clinic.diagnosis.probes.shake import SHAKES, shake
@@ -59,15 +58,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     stiffest = max(found, key=lambda joint: found[joint])
     probe = next((each for each in (fastest(), shake()) if model.measured(each) > FAST), shake())
-    edits: list[Edit] = []
-    for joint, rate in found.items():
-        edits += model.set("joint", [joint], "stiffness", f"{stiffness[joint] * (0.2 / (step * rate)) ** 2:.1g}")
+    softer = {joint: f"{stiffness[joint] * (0.2 / (step * rate)) ** 2:.1g}" for joint, rate in found.items()}
+    edits = model.set_each("joint", "stiffness", softer)
     yield Suspect(
         tuple(simulation.name("joint", each) for each in found),
         "stiffness",
         f"{stiffness[stiffest]:g}",
         next((each.value for each in edits), ""),
-        tuple(edits),
+        edits,
         probe,
         FAST if probe == fastest() else SHAKES,
         f"{simulation.name('joint', stiffest)} alone swings at {found[stiffest]:.3g} rad/s; a timestep of {step:g} s "

@@ -67,7 +67,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     worst = grown[0]
     limit, length, most = of.row("tendon_range", worst, 2)[1], of.model("tendon_length0")[worst], _longest(of)[worst]
     says = f"It is {length:.3g} m long at the start and {most:.3g} m at most, and holds from {limit:g} m on."
-    edits = tuple(edit for each in grown for edit in model.set("tendon", [each], "range", _shortened(of, each)))
+    edits = model.set_each("tendon", "range", {each: _shortened(of, each) for each in grown})
     value = _shortened(of, worst)
     probe = Probe("upper limit over the greatest length", "", _slack, (worst,))
     names = tuple(of.name("tendon", tendon) for tendon in grown)

@@ -71,7 +71,7 @@ RIGHT, DOWN = (0.0, -1.0, 0.0), (0.0, 0.0, -1.0)
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The wheels, and the steering, where all of them turn against the convention."""
-    if model.source is None or not model.source.urdf:
+    if not model.urdf:
         return
     of = model.simulation
     hinges = [joint for joint in range(of.count("joint")) if of.joint_type(joint) == HINGE]

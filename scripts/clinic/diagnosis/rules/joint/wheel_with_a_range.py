@@ -68,7 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     names = tuple(of.name("joint", joint) for joint in found)
     says = f"{names[0]} turns from {low:.3g} to {high:.3g} rad and no farther."
     edits = model.set("joint", found, "limited", "false")
-    if model.source is not None and model.source.urdf:
+    if model.urdf:
         placed = [each for joint in found if (each := model.element("joint", joint)) is not None]
         edits = tuple(set_attribute(each, "type", "continuous") for each in placed)
     probe = counted("wheels that a range stops", len(found))

@@ -81,7 +81,7 @@ def _suspect(model: ReaderModel, bare: Sequence[Servo], says: str) -> Suspect:
     """Servos without a control range, each to be given the range of its joint."""
     of = model.simulation
     values = {each.actuator: f"{each.range[0]:.4g} {each.range[1]:.4g}" for each in bare if each.range}
-    edits = tuple(edit for each, value in values.items() for edit in model.set("actuator", [each], "ctrlrange", value))
+    edits = model.set_each("actuator", "ctrlrange", values)
     names = (*(of.name("actuator", each) for each in values), of.name("joint", bare[0].joint))
     probe = Probe("servos that take any target", "", _bare, dynamic=False)
     value = next(iter(values.values()))

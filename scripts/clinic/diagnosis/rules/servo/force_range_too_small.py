@@ -114,7 +114,7 @@ def _undriven(model: ReaderModel) -> Iterator[Suspect]:
         need = loads(simulation)[simulation.dof(worst)]
         yield Suspect(
             tuple(simulation.name("joint", joint) for joint in weak),
-            "effort" if model.source is not None and model.source.urdf else "actuatorfrcrange",
+            "effort" if model.urdf else "actuatorfrcrange",
             f"{limit:.3g}",
             rounded(3 * need),
             (),

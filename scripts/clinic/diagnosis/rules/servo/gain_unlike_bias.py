@@ -61,7 +61,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     gain, bias = of.gain(found[0])[0], of.bias(found[0])
     says = f"It rests at {ratios[found[0]]:.3g} times its control: gainprm {gain:g}, biasprm {bias[1]:g}."
-    edits = tuple(edit for each in found for edit in model.set("actuator", [each], "biasprm", _mended(of, each)))
+    edits = model.set_each("actuator", "biasprm", {each: _mended(of, each) for each in found})
     probe = Probe("where a servo rests over its control, off 1 by", "", _off, (found[0],), dynamic=False)
     names, now = tuple(of.name("actuator", each) for each in found), f"{bias[0]:g} {bias[1]:g} {bias[2]:g}"
     yield Suspect(names, "biasprm", now, _mended(of, found[0]), edits, probe, OFF, says, "1", level="hint")

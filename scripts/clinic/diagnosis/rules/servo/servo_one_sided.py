@@ -33,7 +33,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.servo.control_range_too_wide import inherited
@@ -58,9 +57,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         numbers = tuple(each.actuator for each in found)
         now, value, says = _told(of, found[0], attribute)
-        edits: tuple[Edit, ...] = ()
-        for each in found:
-            edits += model.set("actuator", [each.actuator], attribute, _told(of, each, attribute)[1])
+        values = {each.actuator: _told(of, each, attribute)[1] for each in found}
+        edits = model.set_each("actuator", attribute, values)
         names = tuple(of.name("actuator", each) for each in numbers)
         probe = Probe(f"servos of one side by their {attribute}", "", _count, (attribute, *numbers), dynamic=False)
         yield Suspect(names, attribute, now, value, edits, probe, 0, says, "both sides", level="hint")

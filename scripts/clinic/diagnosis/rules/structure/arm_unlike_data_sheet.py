@@ -184,7 +184,7 @@ def _base(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     of, height = model.simulation, arm.height
     body = of.body_of("joint", row.joints[0])
     parent = int(of.model("body_parentid")[body])
-    urdf = model.source is not None and model.source.urdf  # looked at afloat
+    urdf = model.urdf  # looked at afloat
     carries = [each for each in range(1, of.count("body")) if of.model("body_parentid")[each] == parent]
     own = not of.model("body_weldid")[parent] or (
         urdf and not any(of.joints_of(each) for each in carries if each != body)
@@ -276,7 +276,7 @@ def _ranges(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     worst = max(beyond, key=lambda joint: _beyond(of, joint, beyond[joint]))
     values = {joint: written([end / unit for end in right]) for joint, right in beyond.items()}
     now = written([end / unit for end in of.row("jnt_range", worst, 2)])
-    edits = tuple(edit for joint, value in values.items() for edit in model.set("joint", [joint], "range", value))
+    edits = model.set_each("joint", "range", values)
     low, high = (math.degrees(end) for end in beyond[worst])
     says = (
         f"{of.name('joint', worst)} turns {math.degrees(_beyond(of, worst, beyond[worst])):.0f} degrees farther than "

@@ -70,7 +70,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _hung(model: ReaderModel) -> list[int]:
     """The bodies with joints that hang on another body; in a URDF, whose root is the world, all."""
-    of, urdf = model.simulation, model.source is not None and model.source.urdf
+    of, urdf = model.simulation, model.urdf
     return [body for body in of.moving_bodies if of.joints_of(body) and (urdf or of.model("body_parentid")[body])]
 
 

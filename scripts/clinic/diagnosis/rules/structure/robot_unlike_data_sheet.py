@@ -172,7 +172,7 @@ def _ranges(model: ReaderModel, robot: Robot, ranges: dict[int, tuple[float, flo
         return
     worst = max(wrong, key=lambda joint: _elsewhere(of, joint, wrong[joint]))
     values = {joint: _written(model, joint, right) for joint, right in wrong.items()}
-    edits = tuple(edit for joint, value in values.items() for edit in model.set("joint", [joint], "range", value))
+    edits = model.set_each("joint", "range", values)
     now, value = _written(model, worst, of.row("jnt_range", worst, 2)), values[worst]
     probe = Probe("end of a range off the data sheet's", "rad", _elsewhere, (worst, wrong[worst]), dynamic=False)
     says = f"{of.name('joint', worst)} has {now}; that of {robot.names[0]} {value}, and {alike} others have theirs."

@@ -56,7 +56,7 @@ LEG = re.compile(r"(?<![a-z])[lr]?(hip|thigh|knee|calf|shin|ankle|leg|foot|femur
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The body without a joint that carries wheels on the floor, or legs."""
-    urdf = model.source is not None and model.source.urdf  # each has a fixed root: MuJoCo makes it the world
+    urdf = model.urdf  # each has a fixed root: MuJoCo makes it the world
     of = model.simulation
     wheels = _limbs(of, by_name=not urdf)
     roots = {of.ancestors(body)[-2] for body in wheels}

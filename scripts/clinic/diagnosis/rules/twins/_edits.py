@@ -74,7 +74,7 @@ def _range(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: 
     text, element = model.value(each.kind, twin, name), model.element(each.kind, side)
     if element is None:
         return ()
-    if model.source is not None and model.source.urdf:
+    if model.urdf:
         low, high = model.simulation.row("jnt_range", twin, 2)
         if found.interval_sign(each) < 0:
             low, high = -high, -low

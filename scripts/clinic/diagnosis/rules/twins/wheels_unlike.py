@@ -66,7 +66,7 @@ AGAINST, ALONG, LEVEL_ENOUGH, UNLIKE = 0.9, 0.95, 0.2, 0.002
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Axles whose two wheels turn against each other, and such as have two radii."""
     of = model.simulation
-    if not of.count("actuator") and not (model.source is not None and model.source.urdf):
+    if not of.count("actuator") and not model.urdf:
         return
     for one, other in _axles(of):
         names = tuple(of.name("joint", joint) for joint in (one, other))

@@ -77,7 +77,7 @@ def inertias_in_another_unit(model: ReaderModel, random: Random) -> Fault | None
 
 @kind("inertia-across-geoms", *INERTIA, harms=FELT)
 def inertia_not_turned(model: ReaderModel, random: Random) -> Fault | None:
-    """A body's principal moments without the rotation of their axes, or in another order."""
+    """A body's principal moments in another order."""
     inertia = {b: model.simulation.row("body_inertia", b, 3) for b in _bodies(model)}
     found = [b for b, (x, y, z) in inertia.items() if max(x, y, z) > 3 * min(x, y, z)]
     if not found:

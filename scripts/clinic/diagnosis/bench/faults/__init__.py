@@ -48,7 +48,7 @@ class Kind:
     Attributes:
         name: Its function's, with hyphens.
         text: What is planted.
-        rules: Those that should name it; the first is measured by it.
+        rules: Those that should name it; the first is measured by it, and names no rule where none tells such a fault.
         harms: What counts as harm by it, by names in `harm`; DOES_NOT_COMPILE for a text that is refused.
         servos: Whether motors are made to position servos first, where the model has none.
         plant: Makes it.

@@ -38,20 +38,20 @@ def _of_all(model: ReaderModel, geoms: list[int], strength: float, **values: str
     return Fault(tuple(edits), names, next(iter(values)), strength)
 
 
-@kind("condim-1", "condim", harms=MOVES)
+@kind("condim-1", harms=MOVES)
 def condim_1(model: ReaderModel, random: Random) -> Fault | None:
     """No friction between any two geoms: condim 1."""
     return _of_all(model, _colliding(model), 1, condim="1")
 
 
-@kind("friction-too-low", "no-friction", harms=MOVES)
+@kind("friction-too-low", harms=MOVES)
 def friction_lost(model: ReaderModel, random: Random) -> Fault | None:
     """Friction of all geoms next to nothing."""
     value = between(random, 1e-4, 0.05)
     return _of_all(model, _colliding(model), value, friction=text_of(value, 0.005, 0.0001))
 
 
-@kind("friction-too-low", "priority", harms=MOVES)
+@kind("friction-too-low", harms=MOVES)
 def priority_of_a_slippery_floor(model: ReaderModel, random: Random) -> Fault | None:
     """The floor has the last word on friction, and is slippery."""
     floors = [i for i in _colliding(model) if model.simulation.model("geom_type")[i] == PLANE]
@@ -59,7 +59,7 @@ def priority_of_a_slippery_floor(model: ReaderModel, random: Random) -> Fault | 
     return _of_all(model, floors[:1], value, friction=text_of(value, 0.005, 0.0001), priority="1")
 
 
-@kind("friction-too-high", "friction-beyond-cone", harms=MOVES)
+@kind("friction-too-high", harms=MOVES)
 def friction_huge(model: ReaderModel, random: Random) -> Fault | None:
     """Friction of all geoms far beyond what the pyramidal cone can bear."""
     value = between(random, 4, 500)
@@ -99,14 +99,14 @@ def contacts_weak(model: ReaderModel, random: Random) -> Fault | None:
     return _of_all(model, _colliding(model), value, solimp=text_of(value, value, 0.001))
 
 
-@kind("margin", "gap", harms=MOVES)
+@kind("margin", harms=MOVES)
 def margin_large(model: ReaderModel, random: Random) -> Fault | None:
     """Contacts push before anything touches: a margin of a part of the model's size."""
     value = model.simulation.model("stat.extent")[0] * between(random, 0.005, 0.3)
     return _of_all(model, _colliding(model), value, margin=text_of(value))
 
 
-@kind("overlap-at-start", "overlap", harms=("jumps", *MOVES))
+@kind("overlap-at-start", harms=("jumps", *MOVES))
 def start_in_the_floor(model: ReaderModel, random: Random) -> Fault | None:
     """A free body begins lower by a part of the model's size."""
     free = [b for b in model.simulation.free_bodies if model.element("body", b) is not None]
@@ -122,7 +122,7 @@ def start_in_the_floor(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((edit,), (model.simulation.name("body", body), *names), "pos", depth)
 
 
-@kind("overlap-of-relatives", "missing-exclude", "overlap-at-start", "overlap", harms=("jumps", "reaches", *MOVES))
+@kind("overlap-of-relatives", "overlap-at-start", harms=("jumps", "reaches", *MOVES))
 def exclude_removed(model: ReaderModel, random: Random) -> Fault | None:
     """Two bodies that may not collide with each other collide: their `<exclude>` is gone."""
     assert model.source is not None
@@ -165,7 +165,7 @@ def flag_disabled(model: ReaderModel, random: Random) -> Fault | None:
     return Fault(model.add("option", f'<flag {flag}="disable"/>'), (), flag)
 
 
-@kind("solver-iterations", "iterations", harms=MOVES)
+@kind("solver-iterations", harms=MOVES)
 def few_iterations(model: ReaderModel, random: Random) -> Fault | None:
     """The solver stops after one or two iterations."""
     count = random.choice((1, 2))

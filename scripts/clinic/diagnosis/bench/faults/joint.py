@@ -75,7 +75,7 @@ def start_outside_of_the_range(model: ReaderModel, random: Random) -> Fault | No
     return _range(model, joint, -way - (high - low), -way, share)
 
 
-@kind("range-too-narrow", "range-is-a-point", harms=ENDS)
+@kind("range-too-narrow", harms=ENDS)
 def range_narrow(model: ReaderModel, random: Random) -> Fault | None:
     """The range of a joint 0.1 to 10 % of what it was, about the start."""
     if not (found := _limited(model)):
@@ -129,7 +129,7 @@ def spring_stiff(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((*made.edits, *more.edits, *off.edits), (*made.elements, "the timestep"), "stiffness", factor)
 
 
-@kind("spring-far-off", "springref", "spring-too-stiff", harms=("strays", *BURSTS))
+@kind("spring-far-off", "spring-too-stiff", harms=("strays", *BURSTS))
 def spring_pulls_away(model: ReaderModel, random: Random) -> Fault | None:
     """A joint's spring that holds it away from its start, 2 to 200 times as strong as its load."""
     if not (found := _single(model)):
@@ -143,7 +143,7 @@ def spring_pulls_away(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((*made.edits, *more.edits), made.elements, "springref", factor)
 
 
-@kind("joint-frozen", "damping-too-high", "frozen-joint", harms=("strays", "commands"))
+@kind("joint-frozen", harms=("strays", "commands"))
 def joint_frozen(model: ReaderModel, random: Random) -> Fault | None:
     """A joint with so much damping or dry friction that it hardly moves."""
     if not (found := _single(model)):

@@ -31,7 +31,7 @@ def key_outside_of_the_range(model: ReaderModel, random: Random) -> Fault | None
     return Fault(model.add("keyframe", xml), (), "qpos", share)
 
 
-@kind("key-in-the-floor", "key-overlap", "overlap-at-start", "overlap", harms=("keys",))
+@kind("key-in-the-floor", "overlap-at-start", harms=("keys",))
 def key_in_the_floor(model: ReaderModel, random: Random) -> Fault | None:
     """A keyframe in which a free body stands lower by 5 to 100 % of the model's size."""
     free = [j for j in range(model.simulation.count("joint")) if model.simulation.joint_type(j) == 0]
@@ -44,7 +44,7 @@ def key_in_the_floor(model: ReaderModel, random: Random) -> Fault | None:
     return Fault(model.add("keyframe", xml), (), "qpos", depth)
 
 
-@kind("key-quaternion", "keyframe-quaternion", harms=("keys",))
+@kind("key-quaternion", harms=("keys",))
 def key_with_w_last(model: ReaderModel, random: Random) -> Fault | None:
     """A keyframe with the quaternion of a free body as x y z w."""
     free = [j for j in range(model.simulation.count("joint")) if model.simulation.joint_type(j) == 0]

@@ -228,7 +228,7 @@ def joint_removed(model: ReaderModel, random: Random) -> Fault | None:
     return Fault((delete(element),), (body, model.simulation.name("joint", joint)), "joint")
 
 
-@kind("gravity-compensated", "gravcomp", harms=("strays", "accelerates"))
+@kind("gravity-compensated", harms=("strays", "accelerates"))
 def gravity_compensated(model: ReaderModel, random: Random) -> Fault | None:
     """Every body floats: `gravcomp="1"`."""
     edits = tuple(e for b in written(model, "body") if b for e in model.set("body", [b], "gravcomp", "1"))

@@ -196,7 +196,7 @@ def control_range_wide(model: ReaderModel, random: Random) -> Fault | None:
     return _control_range(model, random, 1.5, 20)
 
 
-@kind("control-range-too-wide", "control-range-in-degrees", harms=GOES, servos=True)
+@kind("control-range-too-wide", harms=GOES, servos=True)
 def control_range_in_degrees(model: ReaderModel, random: Random) -> Fault | None:
     """A servo's control range in degrees."""
     return _control_range(model, random, 180 / math.pi, 180 / math.pi)
@@ -219,7 +219,7 @@ def control_range_of_one(model: ReaderModel, random: Random) -> Fault | None:
     return _controlled(model, i, ends, share)
 
 
-@kind("gear-divides-target", "gear", harms=("misses", *GOES), servos=True)
+@kind("gear-divides-target", harms=("misses", *GOES), servos=True)
 def gear_of_a_servo(model: ReaderModel, random: Random) -> Fault | None:
     """A gear of 3 to 300 on a position servo, which divides its target."""
     if not (found := _servos(model)):

@@ -25,7 +25,7 @@ def _elements(model: ReaderModel, *tags: str) -> list[Element]:
     return list(model.source.elements(*tags))
 
 
-@kind("unknown-attribute", "removed-attribute", harms=DOES_NOT_COMPILE)
+@kind("unknown-attribute", harms=DOES_NOT_COMPILE)
 def attribute_of_an_older_release(model: ReaderModel, random: Random) -> Fault | None:
     """An attribute of `<option>` or `<compiler>` that newer releases do not know."""
     tag, name, value = random.choice(OLD)

@@ -104,7 +104,7 @@ def twin_damping(model: ReaderModel, random: Random) -> Fault | None:
     return next((each for each in made if each), None)
 
 
-@kind("twin-actuator-differs", *TWINS, "gear-sign", harms=FELT)
+@kind("twin-actuator-differs", *TWINS, harms=FELT)
 def twin_gear(model: ReaderModel, random: Random) -> Fault | None:
     """One of a pair of actuators with another gear, of the other sign too."""
     return _changed(model, random, "actuator", "gear", [-1.0, 0.1, 0.5, 2.0, 10.0])

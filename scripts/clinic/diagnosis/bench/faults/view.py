@@ -10,7 +10,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.source import ORIENTATIONS, Element
 
 
-@kind("touch-site-too-small", "touch-site", harms=("reads",))
+@kind("touch-site-too-small", harms=("reads",))
 def touch_site_small(model: ReaderModel, random: Random) -> Fault | None:
     """The site of a touch sensor 0.01 to 0.5 of its size."""
     kinds, of = model.simulation.model("sensor_type"), model.simulation.model("sensor_objid")
@@ -59,13 +59,13 @@ def camera_upside_down(model: ReaderModel, random: Random) -> Fault | None:
     return _turned(model, random, 2)
 
 
-@kind("camera-sees-nothing", "camera-looks-away", harms=("looks",))
+@kind("camera-sees-nothing", harms=("looks",))
 def camera_looks_away(model: ReaderModel, random: Random) -> Fault | None:
     """A camera that looks the other way."""
     return _turned(model, random, random.choice((0, 1)))
 
 
-@kind("field-of-view", "camera-fovy", harms=("looks",))
+@kind("field-of-view", harms=("looks",))
 def camera_field_of_view(model: ReaderModel, random: Random) -> Fault | None:
     """A camera with a field of view of 0.2 to 5, or 150 to 179 degrees."""
     if (chosen := _camera(model, random)) is None:

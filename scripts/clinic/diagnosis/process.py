@@ -124,7 +124,7 @@ def _read(source: Any) -> tuple[str, str, str]:
 
 
 def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | None, str, str]:
-    """The answer of a process; or None, the rule that was being tried, and the clinic's own mistake or LATE."""
+    """The answer of a process; or None, the rule that was being tried, and the clinic's own mistake, LATE or KILLED."""
     found = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}  # what this process can import
     pipe = subprocess.PIPE
     child = subprocess.Popen(CHILD, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, env=found)

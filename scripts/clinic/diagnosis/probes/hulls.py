@@ -25,7 +25,7 @@ def closed_holes(simulation: Simulation) -> dict[tuple[int, int], float]:
     """The depth, as a share of the smaller one's radius, of pairs at the start whose surfaces do not meet.
 
     They are meshes, or a mesh and a ball, capsule or cylinder. Parts of one mechanism are left out: how they nest is
-    `overlap_of_relatives`'s.
+    `overlap_of_relatives`'s; and of two meshes those of which one does not move.
     """
     kinds, radii = simulation.model("geom_type"), simulation.model("geom_rbound")
     owner, bodies = root_of(simulation), simulation.model("geom_bodyid")

@@ -109,5 +109,5 @@ def _creeps(simulation: Simulation, body: int) -> float:
 
 
 def creeps(body: int) -> Probe:
-    """How fast what is held slides in the grasp, 2 s after letting go."""
+    """How fast what is held slides in the grasp once the model was let go."""
     return Probe("contacts slide on it after 2 s with", "radii a second", _creeps, (body,))

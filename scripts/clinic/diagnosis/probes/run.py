@@ -1,4 +1,4 @@
-"""Letting a model go: what happens within two seconds when nobody does anything."""
+"""Letting a model go: what happens when nobody does anything, for as long as the reader's start says."""
 
 from __future__ import annotations
 

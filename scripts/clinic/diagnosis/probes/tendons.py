@@ -48,7 +48,7 @@ def reach(of: Simulation, tendon: int) -> tuple[float, float] | None:
 def sampled(of: Simulation) -> list[tuple[float, ...]]:
     """The lengths of all tendons in poses between the ends of all ranges.
 
-    None where a hinge or slide has no range, or a joint follows another one.
+    No pose where a hinge or slide has no range, or a joint follows another one.
     """
     kinds = [of.joint_type(joint) for joint in range(of.count("joint"))]
     joints = [joint for joint, kind in enumerate(kinds) if kind in (HINGE, SLIDE)]

@@ -110,7 +110,7 @@ def _usual(model: ReaderModel, geom: int) -> bool:
 
 
 def _bodily(model: ReaderModel, tree: list[int]) -> list[int]:
-    """Of geoms that all collide with nothing, those that look made for it: no meshes, or a group that is hidden."""
+    """Of geoms that all collide with nothing, those that look made for it, in a group that is hidden; else all."""
     groups = model.simulation.model("geom_group")
     hidden = [geom for geom in tree if groups[geom] >= 3]
     return hidden or tree

@@ -1,1 +1,1 @@
-"""Rules about joints: ranges, axes, springs and the start."""
+"""Rules about joints: ranges, axes, springs, the start; and about tendons and couplings."""

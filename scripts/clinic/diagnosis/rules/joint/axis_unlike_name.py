@@ -93,7 +93,7 @@ def _lying(model: ReaderModel) -> Iterator[Suspect]:
         kind = of.joint_type(joint)
         body = of.body_of("joint", joint)
         alone = sum(of.joint_type(each) == kind for each in of.joints_of(body)) == 1  # no ball of three hinges
-        rolls = BASE.search(name) and any(of.joint_type(each) == SLIDE for each in _of_root(of, body))
+        rolls = BASE.search(name) and any(of.joint_type(each) == SLIDE for each in _joints_up_from(of, body))
         said = rolls or (kind in UPRIGHT and UPRIGHT[kind].search(name))
         if alone and said and _tilt(of, joint) > FAR:
             up = tuple(round(x, 6) + 0.0 for x in times(transpose(of.data_row("xmat", body, 9)), (0.0, 0.0, 1.0)))
@@ -104,8 +104,8 @@ def _lying(model: ReaderModel) -> Iterator[Suspect]:
             yield Suspect((of.name("joint", joint),), "axis", now, value, edits, probe, FAR, says, "upright")
 
 
-def _of_root(of: Simulation, body: int) -> list[int]:
-    """The joints above a body."""
+def _joints_up_from(of: Simulation, body: int) -> list[int]:
+    """The joints of a body and of all that it hangs on."""
     return [joint for each in of.ancestors(body) for joint in of.joints_of(each)]
 
 

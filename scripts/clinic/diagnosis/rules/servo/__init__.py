@@ -1,1 +1,1 @@
-"""Rules about actuators: gains, ranges, gears."""
+"""Rules about actuators: gains, ranges, gears; rotors and muscles too."""

@@ -1,1 +1,1 @@
-"""Rules about what hangs on what: bodies, free joints, loops, keyframes."""
+"""Rules about what hangs on what: bodies, free joints, loops."""

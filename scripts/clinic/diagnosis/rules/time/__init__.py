@@ -1,1 +1,1 @@
-"""Rules about time: the timestep and the integrator."""
+"""Rules about time: the timestep, the integrator and the solver."""

@@ -68,8 +68,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "no pair of limbs in the bench's healthy models is written with a turn of its own"
 
-LEAST, LEFT, TURNED = 3, 0.2, 1e-3
-"""How many must be astray, which share of them may stay so, and what tells a turn from none."""
+LEAST, LEFT, TURNED = 3, 0.2, 1e-3  # so many astray; the share that may stay so; what tells a turn from none
 FEW = 8  # pairs that are looked at, of those that are astray
 MIRRORS = ((1, 1, -1, -1), (1, -1, 1, -1), (1, -1, -1, 1))  # a turn seen in a mirror across x, y or z
 

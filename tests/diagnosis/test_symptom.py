@@ -10,8 +10,8 @@ from clinic.diagnosis.diagnose import read_file
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.process import diagnose
 from clinic.diagnosis.simulation import Start
-from clinic.diagnosis.source import read_texts
 from clinic.diagnosis.symptom import code_of, measure
+from clinic.diagnosis.texts import read_texts
 from clinic.record.case import load_case
 from clinic.record.checkout import cache_folder
 from clinic.record.families import families

@@ -11,7 +11,7 @@ from clinic.commands.diagnosis_options import STDIN, OptionError
 from clinic.commands.github import workflow_command, workflow_commands
 from clinic.commands.sarif import sarif
 from clinic.diagnosis.finding import Diagnosis
-from clinic.diagnosis.source import decoded
+from clinic.diagnosis.texts import decoded
 
 
 def check_output(models: Sequence[str], form: str, fix: str | None, force: bool) -> None:

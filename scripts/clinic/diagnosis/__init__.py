@@ -3,7 +3,7 @@
 All but `native`, `process`, `symptom` and `bench` needs nothing but Python's standard library, so that it runs in a
 browser too.
 
-source, edit            the model's text with places; changes of it
+texts, source, edit     the model's texts; their elements with places; changes of them
 engine, native, browser what is asked of a physics engine; MuJoCo's Python binding as one, its WebAssembly as another
 simulation, probes      a compiled model, and what is done to it so that a fault shows
 reader_model            the text beside what was compiled of it, and every edited copy that was tried

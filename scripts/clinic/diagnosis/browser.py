@@ -13,7 +13,7 @@ from clinic.diagnosis.edit import apply
 from clinic.diagnosis.engine import Compiled, CompileError, Contact
 from clinic.diagnosis.finding import ending
 from clinic.diagnosis.rules import rules
-from clinic.diagnosis.source import read_texts
+from clinic.diagnosis.texts import read_texts
 
 FATAL = ("RuntimeError", "RangeError")  # JavaScript's, after which the module cannot be trusted
 

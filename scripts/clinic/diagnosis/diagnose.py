@@ -17,9 +17,10 @@ from clinic.diagnosis.judge import Judged, grouped, judge, order, suspects_of, w
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import Rule, rules
 from clinic.diagnosis.simulation import Start
-from clinic.diagnosis.source import decoded, read_source
+from clinic.diagnosis.source import read_source
 from clinic.diagnosis.stand_ins import StandIns
 from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.texts import decoded
 
 LIMIT = 20.0  # s for a start, after which no further rule is tried
 OF_SHAPES = {"contact", "mass", "parts-coincide"}  # rules, by area or id, that boxes in the place of meshes mislead
@@ -42,7 +43,7 @@ def examine(
 
     Args:
         engine: What compiles and runs it.
-        texts: The model's text by its name, then those that it includes (`source.read_texts`).
+        texts: The model's text by its name, then those that it includes (`texts.read_texts`).
         symptom: The family of symptoms that the reader sees; its causes come first.
         start: Keyframe and controls; where left out, the model's start, and then its first keyframe.
         select: Rules to try; all where empty.

@@ -16,7 +16,7 @@ from typing import Any
 from clinic.diagnosis.diagnose import examine, read_file
 from clinic.diagnosis.finding import KILLED, LATE, Diagnosis, ending
 from clinic.diagnosis.simulation import Start, StartError
-from clinic.diagnosis.source import decoded, read_texts
+from clinic.diagnosis.texts import decoded, read_texts
 
 LIMIT = 60.0  # s, for one process
 MEMORY = 4 * 2**30  # bytes

@@ -27,7 +27,8 @@ from clinic.diagnosis.native import NativeEngine, NativeModel
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import rules
 from clinic.diagnosis.simulation import Start
-from clinic.diagnosis.source import Source, read_texts
+from clinic.diagnosis.source import Source
+from clinic.diagnosis.texts import read_texts
 
 ATTEMPTS = 8  # models tried for a plant that does harm
 STRIDE = 4  # robots from one plant of a kind to the next

@@ -37,17 +37,17 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import delete, insert, remove_attribute, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.errors._ball import MOMENTS, ball_in, mass_of_a_ball, moments_of_a_ball
 from clinic.diagnosis.rules.errors._message import meant, mends, nearest, sentence, told
 from clinic.diagnosis.rules.errors._remedy import advised
 from clinic.diagnosis.source import Element, asset_name
-from clinic.diagnosis.suspect import Suspect, rounded
+from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Something that must be there is left out"
 FAMILIES = ("will-not-compile",)
 SINCE = "0.1"
 UNPLANTED = "models of which something was left out do not compile, and no healthy one is without what it needs"
 
-BALL = 0.4 * 0.05**2  # m2: inertia for each kg of a ball of 50 mm radius
 VALUES = {  # by element and attribute; what stands for any element has no tag
     "joint.coef": "1",
     "replicate.count": "2",
@@ -66,7 +66,6 @@ VALUES = {  # by element and attribute; what stands for any element has no tag
     "color.rgba": "0.5 0.5 0.5 1",
     "key.time": "0",
 }
-MOMENTS = {"ixx": 1, "iyy": 1, "izz": 1, "ixy": 0, "ixz": 0, "iyz": 0}
 OTHERWISE = {"height": "length", "name": "link", "rpy": "xyz", "r": "radius", "file": "filename", "url": "filename"}
 OTHERWISE |= {"mass": "value", "body": "objname", "site": "objname", "joint": "joint1", "body1": "body2"}
 KINDS = (
@@ -146,7 +145,7 @@ def _attribute(model: ReaderModel, element: Element, name: str) -> Iterator[Susp
     tag = element.tag
     says = f"<{tag}> needs {name}."
     if tag == "inertia" and name in MOMENTS:
-        yield _moments(element)
+        yield moments_of_a_ball(element)
         return
     for other in (each for each, better in OTHERWISE.items() if better == name and each in element.attributes):
         now = element.get(other)
@@ -163,7 +162,7 @@ def _attribute(model: ReaderModel, element: Element, name: str) -> Iterator[Susp
         yield _put(element, name, kind, f"{says} {element.get('objname')!r} is a {kind}.")
     values = [VALUES[f"{tag}.{name}"]] if f"{tag}.{name}" in VALUES else _names(model, element, name)
     if (tag, name) in (("inertial", "mass"), ("mass", "value")):
-        values = [_mass(element if tag == "inertial" else element.parent)]
+        values = [mass_of_a_ball(element if tag == "inertial" else element.parent)]
     elif tag == "joint" and name == "type":
         values = (
             ["fixed"] if element.first("axis") is None else ["revolute" if element.first("limit") else "continuous"]
@@ -222,50 +221,12 @@ def _names(model: ReaderModel, element: Element, attribute: str) -> list[str]:
     return list(dict.fromkeys([*like, *(there if len(there) == 1 else [])]))[:3]
 
 
-def _mass(inertial: Element | None) -> str:
-    """The mass of a ball of 50 mm radius that has the inertia which is written, in kg."""
-    inertia = inertial.first("inertia") if inertial else None
-    written = [inertia.get(name) for name in ("ixx", "iyy", "izz")] if inertia else []
-    if inertial and not written:
-        written = (inertial.get("diaginertia") or inertial.get("fullinertia")).split()[:3]
-    mean = sum(float(each or "0") for each in written) / 3
-    return rounded(mean / BALL) if mean > 0 else "0.01"
-
-
-def _moments(inertia: Element) -> Suspect:
-    """All moments that an inertia of URDF lacks: those off the diagonal are zero."""
-    mass = inertia.parent.first("mass") if inertia.parent else None
-    own = [float(inertia.get(name)) for name in ("ixx", "iyy", "izz") if inertia.get(name)]
-    ball = max(own) if own else float(mass.get("value", "0.01") if mass else "0.01") * BALL
-    lacking = [name for name in MOMENTS if name not in inertia.attributes]
-    edits = [set_attribute(inertia, name, f"{ball * MOMENTS[name]:.2g}") for name in lacking]
-    says = f"An <inertia> of URDF has six numbers, and this one lacks {', '.join(lacking)}."
-    return mends(inertia, edits, says, attribute=lacking[0], now="nothing", value=edits[0].value)
-
-
 def _child(model: ReaderModel, element: Element, tag: str) -> Iterator[Suspect]:
     """An element of a URDF that has to be inside of another."""
     owner = f' of {element.parent.tag} "{element.parent.get("name")}"' if element.parent is not None else ""
     says = f"<{element.tag}>{owner if element.tag != 'joint' else ''} needs a <{tag}>"
-    if tag == "mass":
-        value = _mass(element)
-        inertia = element.first("inertia")
-        extra = "" if inertia else _inertia(float(value))
-        edits = (insert(element, f'<mass value="{value}"/>{extra}'),)
-        says += f": {value} kg is that of a ball of 50 mm radius with this inertia."
-        yield mends(element, edits, says, attribute="mass", now="nothing", value=value)
-    elif tag == "inertia":
-        mass = element.first("mass")
-        kg = float(mass.get("value", "0.01")) if mass else 0.01
-        edits = (insert(element, _inertia(kg)),)
-        yield mends(
-            element,
-            edits,
-            f"{says}: that of a ball of 50 mm radius.",
-            attribute="inertia",
-            now="nothing",
-            value=f"{kg * BALL:.2g}",
-        )
+    if tag in ("mass", "inertia"):
+        yield ball_in(element, tag, says)
     elif tag in ("parent", "child"):
         for name in _free_links(model, element, tag):
             edits = (insert(element, f'<{tag} link="{name}"/>'),)
@@ -273,11 +234,6 @@ def _child(model: ReaderModel, element: Element, tag: str) -> Iterator[Suspect]:
         yield advised(element, f"{says}, which names a link.")
     else:
         yield advised(element, f"{says}.")
-
-
-def _inertia(mass: float) -> str:
-    own = f"{mass * BALL:.2g}"
-    return f'<inertia ixx="{own}" iyy="{own}" izz="{own}" ixy="0" ixz="0" iyz="0"/>'
 
 
 def _free_links(model: ReaderModel, joint: Element, tag: str) -> list[str]:

@@ -35,8 +35,8 @@ from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.compiled import COMPILES
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._tags import closed
-from clinic.diagnosis.source import well_formed
 from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.texts import well_formed
 
 TITLE = "Malformed XML"
 FAMILIES = ("will-not-compile",)

@@ -1,0 +1,89 @@
+"""A model's texts before they are read as XML: their bytes, what they include, and what MuJoCo lets pass."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Callable
+
+PART = re.compile(rb"""<!--(?P<comment>.*?)-->|(?P<head><[^\s!?/>](?:"[^"]*"|'[^']*'|[^"'<>])*>)""", re.DOTALL)
+VALUE = re.compile(rb"""=\s*(?P<value>"[^"]*"|'[^']*')(?P<near>(?=[^\s/>]))?""")
+DASH = re.compile(rb"-(?=-)")
+BARE = re.compile(rb"<|&(?!(?:amp|lt|gt|quot|apos|#\d+|#x[0-9A-Fa-f]+);)")
+CONTROL = bytes.maketrans(bytes(range(1, 32)), bytes(each if each in b"\t\n\r" else 63 for each in range(1, 32)))
+FRONT = re.compile(rb"(?:\xef\xbb\xbf)?[^<]*(?:<\?xml.*?\?>)?", re.DOTALL)
+
+
+def well_formed(text: bytes) -> tuple[bytes, list[int]]:
+    """A text without what MuJoCo's parser lets pass and XML does not, and where bytes were added.
+
+    `--` in a comment, attributes without a blank between, a bare `&` or `<` in a value, a control character, something
+    before the declaration. All else stays where it is.
+    """
+    made, added, seen = bytearray(), list[int](), 0
+    text = text.translate(CONTROL)
+
+    def add(piece: bytes) -> None:
+        added.extend(range(len(made), len(made) + len(piece)))
+        made.extend(piece)
+
+    front = FRONT.match(text)
+    if front:
+        seen = front.end()
+        made += re.sub(rb"[^\n]", b" ", front.group())
+    for part in PART.finditer(text, seen):
+        made += text[seen : part.start()]
+        seen = part.end()
+        if part["comment"] is not None:
+            made += b"<!--" + DASH.sub(b" ", part["comment"] + b"-")[:-1] + b"-->"
+            continue
+        head, read = part["head"], 0
+        for value in VALUE.finditer(head):
+            for bare in BARE.finditer(head, value.start("value"), value.end("value")):
+                made += head[read : bare.start()]
+                made += b"&"
+                add(b"lt;" if bare.group() == b"<" else b"amp;")
+                read = bare.end()
+            made += head[read : value.end()]
+            read = value.end()
+            if value["near"] is not None:
+                add(b" ")
+        made += head[read:]
+    return bytes(made + text[seen:]), added
+
+
+def decoded(content: bytes) -> tuple[str, str]:
+    """A text in UTF-8, or byte by byte where it is none, as MuJoCo reads it; and its encoding.
+
+    Raises:
+        ValueError: If it is no text: it has a byte 0.
+    """
+    if 0 in content:
+        line = content[: content.index(0)].count(b"\n") + 1
+        raise ValueError(f"byte 0x00 in line {line}")
+    try:
+        text, encoding = content.decode("utf-8-sig"), "utf-8"
+    except UnicodeDecodeError:
+        text, encoding = content.decode("latin-1"), "latin-1"
+    return text.replace("\r\n", "\n").replace("\r", "\n"), encoding
+
+
+def read_texts(main: str, name: str, read: Callable[[str], str | None]) -> dict[str, str]:
+    """The text of a model and those that it includes, by the names that are written.
+
+    Args:
+        main: The model's text.
+        name: What to call it.
+        read: Gives a file's text by its path, as seen from the model's folder; None where there is none.
+    """
+    texts, left = {name: main}, [(name, main)]
+    while left:
+        around, text = left.pop()
+        for found in re.findall(r"<include\s[^>]*?file\s*=\s*[\"']([^\"']+)[\"']", text):
+            beside = posixpath.join(posixpath.dirname(around), found) if around != name else found
+            inner = read(found)
+            inner = read(beside) if inner is None else inner
+            if inner is not None and found not in texts:
+                texts[found] = inner
+                left.append((found, inner))
+    return texts

@@ -30,7 +30,7 @@ of its joints' ranges, there is only a hint.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import BOX, FREE, HINGE, PLANE, SLIDE, Contact
@@ -57,26 +57,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = {root: each for root, each in buried(simulation, holes).items() if each[0] > MOST}
     if not found or (model.start.key < 0 and simulation.count("key")):
         return  # where there are keyframes, what begins is begun from one
-    bodies, owner, kinds = simulation.model("geom_bodyid"), root_of(simulation), simulation.model("geom_type")
-    start = beginning(simulation)
-    edits: tuple[Edit, ...] = ()
-    raised: dict[int, float] = {}
-    for root in found:
-        for contact in start.contacts:
-            trees = [owner[int(bodies[geom])] for geom in contact.geoms]
-            if root not in trees or trees[0] == trees[1] or contact.distance >= 0:
-                continue
-            mine, theirs = contact.geoms if trees[0] == root else contact.geoms[::-1]
-            if int(kinds[theirs]) == PLANE:
-                lift = -contact.distance
-            else:
-                below, above = (box(simulation, start.geom_xpos, start.geom_xmat, geom) for geom in (theirs, mine))
-                if owner[int(bodies[theirs])] in found and (below[0][2], theirs) > (above[0][2], mine):
-                    continue
-                lift = below[0][2] + below[1][2] - above[0][2] + above[1][2]
-            raised[root] = max(raised.get(root, 0.0), lift)
-    for root, lift in raised.items():
-        edits += _raised(model, root, lift + 1e-4 * lift)
+    raised = _lifts(simulation, found)
+    edits = tuple(edit for root, lift in raised.items() for edit in _raised(model, root, lift + 1e-4 * lift))
     names = tuple(simulation.name("body", root) for root in raised)
     depth = max(-contact.distance for _, contact in found.values())
     lifted = ", ".join(f"{each:.3g} m higher" for each in raised.values())
@@ -94,6 +76,27 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         else:
             level: Level = "hint" if any(_posed(simulation, root) for root in _trees(simulation, found)) else "cause"
             yield Suspect((*names, *geoms), "pos", "", lifted, edits, at_start(), MOST, says, excess=2.0, level=level)
+
+
+def _lifts(simulation: Simulation, found: Collection[int]) -> dict[int, float]:
+    """By how much in m a mechanism has to be raised until it is out of what it is in; of two the upper one."""
+    bodies, owner, kinds = simulation.model("geom_bodyid"), root_of(simulation), simulation.model("geom_type")
+    start, raised = beginning(simulation), dict[int, float]()
+    for root in found:
+        for contact in start.contacts:
+            trees = [owner[int(bodies[geom])] for geom in contact.geoms]
+            if root not in trees or trees[0] == trees[1] or contact.distance >= 0:
+                continue
+            mine, theirs = contact.geoms if trees[0] == root else contact.geoms[::-1]
+            if int(kinds[theirs]) == PLANE:
+                lift = -contact.distance
+            else:
+                below, above = (box(simulation, start.geom_xpos, start.geom_xmat, geom) for geom in (theirs, mine))
+                if owner[int(bodies[theirs])] in found and (below[0][2], theirs) > (above[0][2], mine):
+                    continue
+                lift = below[0][2] + below[1][2] - above[0][2] + above[1][2]
+            raised[root] = max(raised.get(root, 0.0), lift)
+    return raised
 
 
 def _trees(simulation: Simulation, found: dict[int, tuple[float, Contact]]) -> set[int]:

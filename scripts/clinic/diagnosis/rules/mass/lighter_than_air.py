@@ -53,18 +53,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     if unit_of_lengths(of) or math.hypot(*of.model("opt.gravity")) > CENTIMETRES:
         return
-    masses, owner = of.model("body_mass"), root_of(of)
-    trees: dict[int, list[int]] = {}
-    for body in of.moving_bodies:
-        trees.setdefault(owner[body], []).append(body)
+    masses = of.model("body_mass")
     in_metres = METRES[0] < math.hypot(*of.model("opt.gravity")) < METRES[1]
     most = LIGHT if in_metres and not of.model("opt.density")[0] else LIMIT  # in a fluid it may float
-    light = [body for body in of.moving_bodies if of.joints_of(body) and _air(of, body) > LIMIT]
-    groups = list(trees.items())
-    if len(light) <= 2:  # a link of a tree that is heavy enough
-        groups += [(body, [body]) for body in light if trees.get(body) != [body]]
     yield from _links(model, most)
-    for root, bodies in groups:
+    for root, bodies in _groups(of):
         geoms = [geom for body in bodies for geom in of.geoms_of(body)]
         if not any(solid(of, geom) for geom in geoms):
             continue
@@ -92,6 +85,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "wood has 500 kg/m3, air 1.2",
             level="cause" if times > LIMIT else "hint",
         )
+
+
+def _groups(of: Simulation) -> list[tuple[int, list[int]]]:
+    """What moves together by its root, and a light link or two by themselves, of a tree that is heavy enough."""
+    owner, trees = root_of(of), dict[int, list[int]]()
+    for body in of.moving_bodies:
+        trees.setdefault(owner[body], []).append(body)
+    light = [body for body in of.moving_bodies if of.joints_of(body) and _air(of, body) > LIMIT]
+    alone = [(body, [body]) for body in light if trees.get(body) != [body]]
+    return [*trees.items(), *(alone if len(light) <= 2 else [])]
 
 
 def _links(model: ReaderModel, most: float) -> Iterator[Suspect]:

@@ -55,18 +55,7 @@ def _away(simulation: Simulation, actuators: tuple[int, ...]) -> float:
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Actuators of joints with an affine bias of nothing, or of the wrong sign."""
-    simulation = model.simulation
-    found = []
-    for actuator in range(simulation.count("actuator")):
-        if int(simulation.model("actuator_biastype")[actuator]) != AFFINE or simulation.driven_joint(actuator) is None:
-            continue
-        if int(simulation.model("actuator_dyntype")[actuator]) in (INTEGRATOR, DYN_MUSCLE):
-            continue
-        if (placed := model.element("actuator", actuator)) is not None and placed.tag == "cylinder":
-            continue  # whose force is that of a pressure
-        gain, bias = simulation.gain(actuator)[0], simulation.bias(actuator)
-        if gain and (not any(bias[:3]) or bias[1] / gain > 0):
-            found.append((actuator, gain, bias))
+    simulation, found = model.simulation, _found(model)
     if not found:
         return
     edits: tuple[Edit, ...] = ()
@@ -101,3 +90,19 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         + ("pushes the joint away from its target." if bias[1] else "does not depend on where the joint is."),
         "biasprm[1] = -gainprm[0], as <position> has it",
     )
+
+
+def _found(model: ReaderModel) -> list[tuple[int, float, tuple[float, ...]]]:
+    """The actuators that do not pull towards their target, with the gain and the bias of each."""
+    simulation, made = model.simulation, []
+    for actuator in range(simulation.count("actuator")):
+        if int(simulation.model("actuator_biastype")[actuator]) != AFFINE or simulation.driven_joint(actuator) is None:
+            continue
+        if int(simulation.model("actuator_dyntype")[actuator]) in (INTEGRATOR, DYN_MUSCLE):
+            continue
+        if (placed := model.element("actuator", actuator)) is not None and placed.tag == "cylinder":
+            continue  # whose force is that of a pressure
+        gain, bias = simulation.gain(actuator)[0], simulation.bias(actuator)
+        if gain and (not any(bias[:3]) or bias[1] / gain > 0):
+            made.append((actuator, gain, bias))
+    return made

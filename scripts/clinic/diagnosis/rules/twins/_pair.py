@@ -188,19 +188,11 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
     level: Level = "cause" if clear and edits else "hint"
     if not sure and not (level == "cause" and first.quantity in INERTIAL and not _copied(simulation, first)):
         edits, level = (), "hint"  # the one that an edit would spoil may be the healthy one
-    quantities = " and ".join(dict.fromkeys(each.quantity for each in found))
     names = [simulation.name(first.kind, side) for side in sides]
     others = [
         simulation.name(first.kind, each.left + each.right - side) for each, side in zip(found, sides, strict=True)
     ]
-    compared = twins(simulation).comparisons
-    like = (first.kind, "stiffness" if first.quantity == "type" else first.quantity)
-    alike = sum(
-        (each.kind, each.quantity) == like and not (each.odd and like[1] == first.quantity) for each in compared
-    )
-    says = f"It differs from its twin, {others[0]}" + f", in a model where {alike} other pairs agree" * (alike > 0)
-    says += f" in their {quantities}." if alike else f", in its {quantities}."
-    says += SWAPPED * digits + TURNED * turned + EITHER * (not sure)
+    says = _differs(simulation, found, others[0]) + SWAPPED * digits + TURNED * turned + EITHER * (not sure)
     return Suspect(
         tuple(dict.fromkeys(names if sure else names + others)),
         "axis" if turned else first.quantity,
@@ -213,6 +205,18 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
         f"at most {limit:.3g} {first.unit}: of the models of 14 robots all but a few pairs agree to less",
         level=level,
     )
+
+
+def _differs(of: Simulation, found: Sequence[Comparison], other: str) -> str:
+    """The sentence on what differs from the twin, and how many pairs agree in that."""
+    first, quantities = found[0], " and ".join(dict.fromkeys(each.quantity for each in found))
+    like = (first.kind, "stiffness" if first.quantity == "type" else first.quantity)
+    alike = sum(
+        (each.kind, each.quantity) == like and not (each.odd and like[1] == first.quantity)
+        for each in twins(of).comparisons
+    )
+    says = f"It differs from its twin, {other}" + f", in a model where {alike} other pairs agree" * (alike > 0)
+    return says + (f" in their {quantities}." if alike else f", in its {quantities}.")
 
 
 def _copied(of: Simulation, each: Comparison) -> bool:

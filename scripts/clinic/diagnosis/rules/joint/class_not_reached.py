@@ -56,11 +56,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of, source = model.simulation, model.source
     if source is None or source.urdf or not (classes := _classes(source)):
         return
-    bare = [
-        joint
-        for joint in sorted(of.drivers)
-        if (e := model.element("joint", joint)) is not None and _unreached(source, e)
-    ]
+    driven = sorted(of.drivers)
+    bare = [joint for joint in driven if (e := model.element("joint", joint)) is not None and _unreached(source, e)]
     users = Counter(name for each in source.elements("joint") if (name := _class(each)) in classes)
     if not bare or (users and users.total() <= len(bare)):
         return

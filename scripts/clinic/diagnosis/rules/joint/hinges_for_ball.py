@@ -103,9 +103,8 @@ def _held(of: Simulation, joint: int) -> bool:
     """Whether something but inertia acts on a joint."""
     dof = of.dof(joint)
     fields = ("dof_damping", "dof_frictionloss", "dof_armature")
-    return (
-        joint in of.drivers or bool(of.model("jnt_stiffness")[joint]) or any(of.model(field)[dof] for field in fields)
-    )
+    held = joint in of.drivers or bool(of.model("jnt_stiffness")[joint])
+    return held or any(of.model(field)[dof] for field in fields)
 
 
 def _lost(of: Simulation, body: int) -> float:

@@ -44,7 +44,10 @@ def test_a_family_has_its_causes_the_procedure_and_what_it_prints(tmp_path: Path
     assert "rows = [  # the case" in page
     assert "falling-box = 0\nit is falling-box: masks\n" in page
     assert "after the repair `share-a-bit`. No motor." in page
-    assert "](../rules/masks.md)" in page
+    rules = page.partition("{ #rules }")[2].partition("<details markdown>")
+    assert "too.\n\n- [" in rules[0]  # a blank line before it, or Markdown takes the list for more of the sentence
+    assert "](../rules/masks.md)" in rules[0]
+    assert "](../rules/soft-contact.md)" in rules[2]  # whose first family is another
 
 
 def test_a_case_links_to_its_family_in_the_open_and_tells_its_row_folded(tmp_path: Path) -> None:

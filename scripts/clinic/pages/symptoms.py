@@ -32,6 +32,7 @@ def symptom_pages(shown: Sequence[CasePage], told: Differentials) -> Files:
 
 def _page(name: str, causes: list[CasePage], told: Differentials) -> str:
     found = told[name]
+    likeliest = sorted((rule for rule in rules().values() if name in rule.families), key=lambda rule: -rule.odds)
     measured = [one for one in causes if found and one.case.slug in found.answers]
     return render(
         "family",
@@ -42,7 +43,8 @@ def _page(name: str, causes: list[CasePage], told: Differentials) -> str:
         measured=measured,
         matrix=[_row(one, measured, told) for one in measured],
         printed=found.answers[measured[0].case.slug].printed if found and measured else "",
-        rules=[rule for rule in rules().values() if name in rule.families],
+        rules=likeliest,
+        rarer=[rule for rule in likeliest if rule.families[0] != name],
     )
 
 

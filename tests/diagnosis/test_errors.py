@@ -310,7 +310,7 @@ def test_a_text_that_was_cut_off_is_told_as_such(end, tmp_path, monkeypatch):
 def test_a_number_beyond_all_bounds_is_told_and_nothing_else_is_written(tmp_path, monkeypatch):
     found = diagnosed(ARM.format("", '<light dir="0 1e400 -1"/>', ""), tmp_path, monkeypatch)
     (cause,) = found.causes
-    assert (cause.rule, cause.attribute, cause.value) == ("malformed-number", "dir", "none")
+    assert (cause.rule, cause.attribute, cause.value) == ("malformed-number", "dir", "left out")
     assert "largest number" in cause.says
 
 

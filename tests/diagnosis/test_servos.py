@@ -118,6 +118,13 @@ def test_a_part_for_another_model_is_told_of_its_units_in_a_hint():
     assert (causes(part), [each.rule for each in part.hints]) == ([], ["range-in-the-wrong-unit"])
 
 
+def test_ranges_in_degrees_are_mended_one_by_one_where_other_angles_are_in_radians():
+    text = ARM.format(above='<compiler angle="radian"/>', joint='range="-90 90"', actuator="")
+    alone, turned = diagnosed(text), diagnosed(text.replace("<body ", '<body euler="0 0.5 0" ', 1))
+    assert [(each.attribute, each.now, each.value) for each in alone.causes] == [("angle", "radian", "degree")]
+    assert [(each.attribute, each.now, each.value) for each in turned.causes] == [("range", "-90 90", "-1.571 1.571")]
+
+
 def test_a_urdf_is_mended_in_its_mimic_or_in_its_limit():
     text = """
 <robot name="gripper">

@@ -230,3 +230,22 @@ def test_a_tool_that_is_not_at_the_site_for_it_is_told(hand: str, told: bool) ->
     for each in found:
         edited = apply({"model.xml": text}, each.edit)
         assert NativeEngine().compile(edited["model.xml"], {}).count("body") == 3
+
+
+@pytest.mark.parametrize(
+    ("axis", "shin", "told"),
+    [
+        pytest.param("0 1 0", "0 0 -0.4", True, id="across"),
+        pytest.param("1 0 0", "0 0 -0.4", False, id="as it should"),
+        pytest.param("0 1 0", "0 0.4 -0.1", False, id="a thigh that stands off, as a spider's"),
+    ],
+)
+def test_a_knee_that_swings_its_shin_sideways_is_told(axis: str, shin: str, told: bool) -> None:
+    bad = rules()["knee-turns-sideways"].example("Bad")
+    text = bad.replace('_knee" axis="0 1 0"', f'_knee" axis="{axis}"').replace('pos="0 0 -0.4"', f'pos="{shin}"')
+    found = examine(NativeEngine(), {"model.xml": text}).hints
+    knees = [each for each in found if each.rule == "knee-turns-sideways"]
+    assert bool(knees) is told
+    if knees:
+        assert knees[0].elements == ('joint "left_knee"', 'joint "right_knee"')
+        assert knees[0].value == "1 0 0"

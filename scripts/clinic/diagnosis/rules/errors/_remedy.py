@@ -48,7 +48,7 @@ def _row(model: ReaderModel, row: Remedy, groups: list[str], element: Element | 
         assert element is not None
         first = edits[0]
         owner = next(each for each in element.walk() if each.start == first.start and each.file == first.file)
-        value = {"set": first.value, "remove": "none"}.get(first.action, "removed")
+        value = {"set": first.value, "remove": "left out"}.get(first.action, "removed")
         now = owner.get(first.attribute) if first.attribute else ""
         yield mends(owner, edits, says, attribute=first.attribute, now=now, value=value)
     if not any(made):

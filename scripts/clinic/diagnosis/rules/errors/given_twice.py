@@ -97,7 +97,9 @@ def _ends(element: Element, name: str, said: str) -> Iterator[Suspect]:
         says = (
             f"{said}. Something cannot be held to itself; without {attribute} it is held to the world or to a constant."
         )
-        yield mends(element, (remove_attribute(element, attribute),), says, attribute=attribute, now=name, value="none")
+        yield mends(
+            element, (remove_attribute(element, attribute),), says, attribute=attribute, now=name, value="left out"
+        )
 
 
 def _parents(joints: list[Element]) -> Iterator[Suspect]:

@@ -66,7 +66,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 if attribute in inertial.attributes:
                     taken = (remove_attribute(inertial, attribute),)
                     now = inertial.get(attribute)
-                    yield mends(inertial, taken, f"{said}. {ONCE}", attribute=attribute, now=now, value="none")
+                    yield mends(inertial, taken, f"{said}. {ONCE}", attribute=attribute, now=now, value="left out")
             yield from _put(inertial, "fullinertia", said)
         elif "diaginertia" in inertial.attributes:
             yield from _put(inertial, "diaginertia", said)

@@ -94,7 +94,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for element in model.source.elements("compiler") if "but not `" in said else ():
         if element.get("autolimits") == "false":
             taken = (remove_attribute(element, "autolimits"),)
-            yield mends(element, taken, f"{said}.", attribute="autolimits", now="false", value="none")
+            yield mends(element, taken, f"{said}.", attribute="autolimits", now="false", value="left out")
     if "flex elasticity is no longer integrated" in said:
         edits = model.option("integrator", "discrete")
         for element in model.source.elements("option") if edits else ():
@@ -116,7 +116,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield from remedied(model, VALUES)
     for element in meant(model):
         for edit, now in _edits(said, element):
-            value = edit.value if edit.action == "set" else "none"
+            value = edit.value if edit.action == "set" else "left out"
             says = f"{said.rstrip('.')}. {_advice(said, element, edit)}".strip()
             yield mends(element, (edit,), says, attribute=edit.attribute, now=now, value=value)
 

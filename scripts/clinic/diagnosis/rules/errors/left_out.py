@@ -105,7 +105,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                     says,
                     attribute=name,
                     now=element.get(name),
-                    value="none",
+                    value="left out",
                 )
         elif said.startswith("Parent body must have name") and element.parent is not None:
             body = next((each for each in element.around() if each.tag == "body"), element.parent)

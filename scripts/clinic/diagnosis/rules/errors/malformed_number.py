@@ -70,7 +70,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         else:
             without = (remove_attribute(element, attribute),)
             if not _refused(model, without, attribute):
-                yield mends(element, without, says, attribute=attribute, now=now, value="none")
+                yield mends(element, without, says, attribute=attribute, now=now, value="left out")
 
 
 def _guesses(attribute: str, now: str, short: bool) -> Iterator[str]:

@@ -54,7 +54,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         for name in [each for each in element.attributes if each in words and each != "name"]:
             without = (remove_attribute(element, name),)
             says = f"{said}. Without {name} MuJoCo comes further."
-            yield mends(element, without, says, attribute=name, now=element.get(name), value="none")
+            yield mends(element, without, says, attribute=name, now=element.get(name), value="left out")
         if element.tag not in NEEDED and (not element.children or _compiles(model, element)):
             says = f"{said}. Without this <{element.tag}> MuJoCo comes further."
             yield mends(element, (delete(element),), says, value="removed")

@@ -232,7 +232,7 @@ def _shell(model: ReaderModel, geom: Element, said: str) -> Iterator[Suspect]:
     meshes = [each for each in model.source.elements("mesh") if each.get("name") == geom.get("mesh")]
     edits = [*taken, *(set_attribute(each, "inertia", "shell") for each in meshes)]
     says = f'{said}, as inertia="shell".'
-    yield mends(geom, edits, says, attribute="shellinertia", now=geom.get("shellinertia"), value="none")
+    yield mends(geom, edits, says, attribute="shellinertia", now=geom.get("shellinertia"), value="left out")
 
 
 def _include(model: ReaderModel) -> Iterator[Suspect]:

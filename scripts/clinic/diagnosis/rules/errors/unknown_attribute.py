@@ -98,7 +98,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 yield mends(element, edits, says, attribute=attribute, now=now, value=f"{name}={now!r}")
                 return
         says = f"This MuJoCo knows no {attribute!r} at <{element.tag}>."
-        yield mends(element, (remove_attribute(element, attribute),), says, attribute=attribute, now=now, value="none")
+        yield mends(
+            element, (remove_attribute(element, attribute),), says, attribute=attribute, now=now, value="left out"
+        )
         return
 
 

@@ -123,7 +123,7 @@ def _nearest(model: ReaderModel, element: Element, attribute: str, now: str, kno
     if attribute in OPTIONAL:
         edits = (remove_attribute(element, attribute),)
         says = f"Nothing of that kind is called {now!r}."
-        return mends(element, edits, says, attribute=attribute, now=now, value="none")
+        return mends(element, edits, says, attribute=attribute, now=now, value="left out")
     return None
 
 

@@ -65,7 +65,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = f"No class and no childclass gives it anything; class {name} has {_given(source, name)}."
     probe = counted("driven joints that no class reaches", len(bare))
     names = tuple(of.name("joint", joint) for joint in bare)
-    yield Suspect(names, "class", "none", name, (), probe, 0, says, "damping and armature of a class")
+    yield Suspect(names, "class", "left out", name, (), probe, 0, says, "damping and armature of a class")
 
 
 def _classes(source: Source) -> list[str]:

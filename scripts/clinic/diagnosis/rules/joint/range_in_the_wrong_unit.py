@@ -78,7 +78,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if not meant:
             continue
         most = len(meant) == len(few) and (2 * len(few) > len(spans) or len(spans) == 1)
-        most = most and not (unit == "radian" and _in_degrees(model))
+        others = max(_angles(model), default=0.0)  # what is right in the unit that the file says stays right
+        most = most and not (others > 2 * math.pi if unit == "radian" else 0 < others <= 2 * math.pi)
         in_degrees = model.angle_unit != 1.0
         if most and unit == ("degree" if in_degrees else "radian"):
             continue  # it is in that unit already
@@ -92,8 +93,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield Suspect(
             tuple(simulation.name("joint", each) for each in meant),
             "angle" if most else "range",
-            "degree" if unit == "radian" else "radian",
-            unit,
+            ("degree" if unit == "radian" else "radian") if most else model.value("joint", meant[0], "range") or "",
+            unit if most else next((edit.value for edit in edits), ""),
             edits,
             Probe(
                 "times a range is narrower than 0.3 rad or wider than 6.5 rad", "", _off, (tuple(meant),), dynamic=False
@@ -107,10 +108,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         )
 
 
-def _in_degrees(model: ReaderModel) -> bool:
-    """Whether an orientation is written whose angles are no radians."""
-    texts = [each.get("euler") for each in model.source.root.walk()] if model.source else []
-    return any(abs(float(number)) > 2 * math.pi for text in texts for number in text.split() if _number(number))
+def _angles(model: ReaderModel) -> list[float]:
+    """The sizes of the angles of all orientations as they are written, but for those that are 0."""
+    texts = [each.get("euler") or "" for each in model.source.root.walk()] if model.source else []
+    return [abs(float(number)) for text in texts for number in text.split() if _number(number) and float(number)]
 
 
 def _number(text: str) -> bool:

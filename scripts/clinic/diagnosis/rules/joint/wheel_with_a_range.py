@@ -73,7 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         edits = tuple(set_attribute(each, "type", "continuous") for each in placed)
     probe = counted("wheels that a range stops", len(found))
     now = f"{low / model.angle_unit:.3g} {high / model.angle_unit:.3g}"
-    yield Suspect(names, "range", now, "none", edits, probe, 0.5, says, "a wheel without a range")
+    yield Suspect(names, "range", now, "left out", edits, probe, 0.5, says, "a wheel without a range")
 
 
 def _sped(of: Simulation) -> set[int]:

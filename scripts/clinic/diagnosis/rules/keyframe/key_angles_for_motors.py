@@ -80,7 +80,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 (of.name("key", key),),
                 "ctrl",
                 element.get("ctrl"),
-                "none",
+                "left out",
                 (remove_attribute(element, "ctrl"),),
                 probe,
                 FEW,

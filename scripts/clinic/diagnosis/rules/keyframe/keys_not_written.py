@@ -56,7 +56,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     probe = Probe("keyframes that are not written", "", _unwritten, (written,), dynamic=False)
     says = f"nkey {size.get('nkey')} keeps room for more keyframes than the {written} that are written."
     edits = (remove_attribute(size, "nkey"),)
-    yield Suspect(("<size>",), "nkey", size.get("nkey"), "none", edits, probe, 0, says, "as many as are written")
+    yield Suspect(("<size>",), "nkey", size.get("nkey"), "left out", edits, probe, 0, says, "as many as are written")
 
 
 def _unwritten(of: Simulation, written: int) -> float:

@@ -73,5 +73,5 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             edits = (remove_attribute(element, "cutoff"),) if element is not None and has else ()
             says = f"It reads {cutoff:g} and no more."
             yield Suspect(
-                (simulation.name("sensor", sensor),), "cutoff", f"{cutoff:g}", "none", edits, probe, MOST, says
+                (simulation.name("sensor", sensor),), "cutoff", f"{cutoff:g}", "left out", edits, probe, MOST, says
             )

@@ -85,7 +85,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         names = [
             name for body, joints in found.items() for name in (of.name("body", body), of.name("joint", joints[0]))
         ]
-        yield Suspect(tuple(names), "joint", "", "none", edits, probe, 0.5, says, "scenery has no joint")
+        yield Suspect(tuple(names), "joint", "", "left out", edits, probe, 0.5, says, "scenery has no joint")
 
 
 def _called(of: Simulation, body: int) -> bool:

@@ -15,6 +15,9 @@ FIXED, AFFINE = 0, 1  # mjtGain; mjtBias: none, affine
 INTEGRATOR = 1  # mjtDyn
 STEP = {True: 0.1, False: 0.01}  # of a hinge in rad, of a slide in m
 
+BEARS = {0: 2.0, 1: 2.79}  # the largest stable h d / M of a damper, by mjtIntegrator: explicit Euler, RK4
+EULERDAMP_OFF = 1 << 15  # mjtDisableBit
+
 
 @dataclass(frozen=True)
 class Servo:
@@ -93,6 +96,33 @@ def feedback(simulation: Simulation) -> dict[int, tuple[float, float]]:
         kp, kv = made.get(joint, (0.0, 0.0))
         made[joint] = kp + max(0.0, -bias[1] * gear**2), kv + max(0.0, -bias[2] * gear**2)
     return made
+
+
+def damping_is_implicit(simulation: Simulation) -> bool:
+    """Whether Euler takes the damping of joints implicitly."""
+    return (
+        not int(simulation.model("opt.integrator")[0])
+        and not int(simulation.model("opt.disableflags")[0]) & EULERDAMP_OFF
+    )
+
+
+def explicit_damping(simulation: Simulation) -> dict[int, float]:
+    """The damping that is explicit, of joints and of their servos, by degree of freedom, in N m s/rad or N s/m."""
+    if int(simulation.model("opt.integrator")[0]) not in BEARS:
+        return {}
+    implicit = damping_is_implicit(simulation)
+    damping = {dof: 0.0 if implicit else each for dof, each in enumerate(simulation.model("dof_damping"))}
+    for joint, (_, kv) in feedback(simulation).items():
+        damping[simulation.dof(joint)] += kv
+    return damping
+
+
+def damped_beyond(simulation: Simulation) -> dict[int, float]:
+    """The step's share h d / M of the degrees of freedom whose explicit damping is more than the integrator bears."""
+    limit = BEARS.get(int(simulation.model("opt.integrator")[0]), 0.0)
+    masses = simulation.mass_diagonal
+    shares = {dof: simulation.timestep * d / max(masses[dof], 1e-12) for dof, d in explicit_damping(simulation).items()}
+    return {dof: share for dof, share in shares.items() if share > limit}
 
 
 def _servo(simulation: Simulation, actuator: int) -> Servo | None:

@@ -14,6 +14,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 
 ENDS = ("reaches", "jumps", "strays")
 BURSTS = ("unstable", "faster", "jumps")
+BY_TIME = ("the integrator", "the timestep")
 
 
 def _single(model: ReaderModel, attribute: str = "") -> list[int]:
@@ -182,3 +183,17 @@ def free_joint_of_a_default(model: ReaderModel, random: Random) -> Fault | None:
     name = f' name="{element.get("name")}"' if element.get("name") else ""
     edit = replace_element(element, f'<joint{name} type="free" {attribute}="{text_of(strength)}"/>')
     return Fault((edit,), (of.name("joint", joint),), attribute, strength)
+
+
+@kind("damping-explicit", "timestep-too-long", "no-armature", harms=("unstable", "faster"))
+def damping_under_rk4(model: ReaderModel, random: Random) -> Fault | None:
+    """RK4, and a hinge or slide with 1.5 to 300 times the damping that slows it down within a step."""
+    joints = _single(model)
+    if not joints:
+        return None
+    joint, share = random.choice(joints), between(random, 1.5, 300)
+    damping = share * model.simulation.mass_diagonal[model.simulation.dof(joint)] / model.simulation.timestep
+    fault = _set(model, joint, "damping", text_of(damping), share)
+    return replace(
+        fault, edits=(*fault.edits, *model.option("integrator", "RK4")), elements=(*fault.elements, *BY_TIME)
+    )

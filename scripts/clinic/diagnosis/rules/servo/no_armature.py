@@ -41,7 +41,7 @@ from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.probes.matter import explicit
 from clinic.diagnosis.probes.run import fastest
-from clinic.diagnosis.probes.servo import feedback
+from clinic.diagnosis.probes.servo import damped_beyond, feedback
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -104,6 +104,7 @@ def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
     shown = {above for body in of.model("geom_bodyid") for above in of.ancestors(int(body))}
     bare = [joint for joint in bare if bodies[joint] not in thin and int(bodies[joint]) in shown]
     light = sorted(joint for joint in bare if inertia[of.dof(joint)] < ROTOR and not of.model("jnt_stiffness")[joint])
+    light = [] if any(of.dof(joint) in damped_beyond(of) for joint in light) else light  # the integrator is the fault
     probe = _symptom(model)
     if probe == commanded() and math.isfinite(model.measured(probe)):  # so fast may a wheel be, and a propeller
         light = [joint for joint in light if of.model("jnt_limited")[joint]]

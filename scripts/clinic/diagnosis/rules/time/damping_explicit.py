@@ -37,56 +37,36 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.probes.run import fastest
-from clinic.diagnosis.probes.servo import feedback
+from clinic.diagnosis.probes.servo import BEARS, damped_beyond, damping_is_implicit, explicit_damping
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Damping that the integrator cannot follow"
 FAMILIES = ("explodes", "oscillates")
 SINCE = "0.1"
-LEVEL = "hint"
-UNPLANTED = "few healthy models are integrated by RK4 and strongly damped"
+CASE = "finger-explodes-at-once"
 
-BEARS = {0: 2.0, 1: 2.79}  # h d / M, by mjtIntegrator: Euler, RK4
-EULERDAMP_OFF = 1 << 15  # mjtDisableBit
 FAST, TENTH = 100.0, 0.1  # rad/s; of the symptom is left
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The integrator, where it takes damping explicitly that the timestep does not bear."""
     of = model.simulation
-    integrator, damping = int(of.model("opt.integrator")[0]), _explicit(of)
-    ratios = {dof: of.timestep * each / max(of.mass_diagonal[dof], 1e-12) for dof, each in damping.items()}
-    dof = max(ratios, key=lambda each: ratios[each], default=None)
+    integrator, damping, shares = int(of.model("opt.integrator")[0]), explicit_damping(of), damped_beyond(of)
     edits = model.option("integrator", "implicitfast")
-    if dof is None or ratios[dof] <= BEARS[integrator] or not edits:
+    if not shares or not edits:
         return
+    dof = max(shares, key=lambda each: shares[each])
     for probe, limit in ((fastest(), FAST), (shake(), SHAKES), (commanded(), FAST)):
         before = model.measured(probe)
         if before > limit and model.measured(probe, edits) <= max(limit, TENTH * before):
             name = of.name("joint", of.dof_joints[dof])
             says = f"At {name}: explicit damping {damping[dof]:.3g} on an inertia of {of.mass_diagonal[dof]:.2g}, "
-            says += f"h d / M is {ratios[dof]:.3g}."
+            says += f"h d / M is {shares[dof]:.3g}."
             well = f"h d / M < {BEARS[integrator]:g}"
-            now = "RK4" if integrator else "Euler" if _implicit(of) else "Euler without eulerdamp"
+            now = "RK4" if integrator else "Euler" if damping_is_implicit(of) else "Euler without eulerdamp"
             yield Suspect(
                 ("the integrator", name), "integrator", now, "implicitfast", edits, probe, limit, says, well, TENTH
             )
             return
-
-
-def _explicit(of: Simulation) -> dict[int, float]:
-    """The damping that is explicit, of joints and of their servos, by degree of freedom."""
-    if int(of.model("opt.integrator")[0]) not in BEARS:
-        return {}
-    damping = {dof: 0.0 if _implicit(of) else each for dof, each in enumerate(of.model("dof_damping"))}
-    for joint, (_, kv) in feedback(of).items():
-        damping[of.dof(joint)] += kv
-    return damping
-
-
-def _implicit(of: Simulation) -> bool:
-    """Whether Euler takes the damping of joints implicitly."""
-    return not int(of.model("opt.integrator")[0]) and not int(of.model("opt.disableflags")[0]) & EULERDAMP_OFF

@@ -80,9 +80,18 @@ def test_angles_are_no_control_of_a_motor_or_a_velocity_servo(kind: str, says: s
     assert found.says.endswith(says)
 
 
-@pytest.mark.parametrize(("at", "told"), [(-0.05, False), (-0.02, False), (0.0, True)])
-def test_a_slide_is_outside_of_its_range_from_four_centimetres_on(at: float, told: bool) -> None:
-    cart = '<body><joint name="x" type="slide" axis="1 0 0" range="-1 -0.05"/><geom size="0.1"/></body>'
+@pytest.mark.parametrize(
+    ("low", "at", "told"),
+    [
+        pytest.param(-1, -0.05, False, id="at its end"),
+        pytest.param(-1, -0.02, False, id="by 3 cm"),
+        pytest.param(-1, 0.0, True, id="by 5 cm"),
+        pytest.param(-0.08, -0.04, False, id="by a third of its width"),
+        pytest.param(-0.08, -0.03, True, id="by two thirds of its width"),
+    ],
+)
+def test_a_slide_is_outside_of_its_range_by_four_centimetres_or_half_its_width(low: float, at: float, told: bool):
+    cart = f'<body><joint name="x" type="slide" axis="1 0 0" range="{low} -0.05"/><geom size="0.1"/></body>'
     text = f'<mujoco><worldbody>{cart}</worldbody><keyframe><key qpos="{at}"/></keyframe></mujoco>'
     found = examine(NativeEngine(), {"model.xml": text}, select=["key-outside-range"])
     assert bool([*found.causes, *found.hints]) is told

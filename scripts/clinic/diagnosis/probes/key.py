@@ -13,6 +13,7 @@ from clinic.diagnosis.simulation import WIDTH, Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 SLIDES = 2.5  # rad, as which a slide's metre counts
+WIDTHS = 0.2  # rad, as which the width of its range counts
 AGREE = 0.05  # rad or m
 UNIT = 0.02  # how far from 1 the length of a quaternion may be
 MOST_PARTS = 5  # of a keyframe that are tried in every order
@@ -90,8 +91,10 @@ def beyond(simulation: Simulation, key: int) -> dict[int, float]:
 
 
 def weighed(simulation: Simulation, joint: int, off: float) -> float:
-    """How far a joint is outside of its range, in rad; for a slide SLIDES a metre."""
-    return abs(off) * (SLIDES if simulation.joint_type(joint) == SLIDE else 1.0)
+    """How far a joint is outside of its range, in rad; of a slide SLIDES a metre, or WIDTHS a width of its range."""
+    low, high = simulation.row("jnt_range", joint, 2)
+    slides = simulation.joint_type(joint) == SLIDE
+    return abs(off) * (max(SLIDES, WIDTHS / max(high - low, 1e-3)) if slides else 1.0)
 
 
 @kept

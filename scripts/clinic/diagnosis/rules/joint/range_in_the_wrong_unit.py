@@ -86,15 +86,20 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if not most and unit == "radian" and (not in_degrees or any(_round(model, each) for each in meant)):
             continue  # a narrow range in whole degrees is one
         edits: tuple[Edit, ...] = model.option("angle", unit, "compiler") if most else ()
-        for joint in () if most else meant:
-            now = [each * factor / model.angle_unit for each in simulation.row("jnt_range", joint, 2)]
-            edits += model.set("joint", [joint], "range", " ".join(f"{each:.4g}" for each in now))
+        ranges = {
+            joint: " ".join(f"{each * factor / model.angle_unit:.4g}" for each in simulation.row("jnt_range", joint, 2))
+            for joint in meant
+        }
+        edits += () if most else model.set_each("joint", "range", ranges)
         low, high = simulation.row("jnt_range", meant[0], 2)
+        now = {"radian": "degree", "degree": "radian"}[unit]
+        if not most:
+            now = f"{low / model.angle_unit:g} {high / model.angle_unit:g}"
         yield Suspect(
             tuple(simulation.name("joint", each) for each in meant),
             "angle" if most else "range",
-            ("degree" if unit == "radian" else "radian") if most else model.value("joint", meant[0], "range") or "",
-            unit if most else next((edit.value for edit in edits), ""),
+            now,
+            unit if most else ranges[meant[0]],
             edits,
             Probe(
                 "times a range is narrower than 0.3 rad or wider than 6.5 rad", "", _off, (tuple(meant),), dynamic=False

@@ -249,3 +249,36 @@ def test_a_knee_that_swings_its_shin_sideways_is_told(axis: str, shin: str, told
     if knees:
         assert knees[0].elements == ('joint "left_knee"', 'joint "right_knee"')
         assert knees[0].value == "1 0 0"
+
+
+@pytest.mark.parametrize(("place", "told"), [("0.35 0 1", False), ("0.9 0.3 1", True)])
+def test_a_cable_that_does_not_reach_what_it_is_connected_to_is_told(place: str, told: bool) -> None:
+    text = f"""<mujoco><worldbody>
+      <body name="first" pos="0 0 1"><geom type="capsule" fromto="0 0 0 0.15 0 0" size="0.01"/>
+        <body name="end" pos="0.15 0 0"><joint axis="0 1 0" damping="1"/>
+          <geom type="capsule" fromto="0 0 0 0.15 0 0" size="0.01"/></body></body>
+      <body name="box" pos="{place}"><geom type="box" size="0.05 0.05 0.05"/></body></worldbody>
+    <equality><connect body1="box" body2="end" anchor="-0.05 0 0"/></equality></mujoco>"""
+    found = [each for each in examine(NativeEngine(), {"model.xml": text}).hints if each.rule == "anchor-far-off"]
+    assert bool(found) is told
+    assert not found or 'Put body "end" where it is to be held' in found[0].says
+
+
+@pytest.mark.parametrize(
+    ("shape", "told"),
+    [
+        pytest.param('type="ellipsoid" size="0.05 0.03 0.05"', False, id="on the hinge"),
+        pytest.param('type="ellipsoid" size="0.05 0.03 0.05" pos="0.004 0 0.003"', True, id="beside it"),
+        pytest.param('type="ellipsoid" size="0.05 0.05 0.03"', True, id="flat"),
+        pytest.param('type="sphere" size="0.05" pos="0 0 0.001"', False, id="a little beside it"),
+    ],
+)
+def test_a_wheel_whose_middle_is_beside_its_hinge_is_told(shape: str, told: bool) -> None:
+    wheels = "".join(
+        f'<body name="wheel_{i}" pos="{x} {y} 0"><joint name="steer_{i}" axis="0 0 1" range="-30 30"/>'
+        f'<joint name="wheel_{i}" axis="0 1 0"/><geom {shape}/></body>'
+        for i, (x, y) in enumerate(((0.1, 0.1), (0.1, -0.1), (-0.1, 0.1), (-0.1, -0.1)))
+    )
+    car = f'<body pos="0 0 0.05"><freejoint/><geom type="box" size="0.1 0.05 0.02"/>{wheels}</body>'
+    text = f'<mujoco><worldbody><geom type="plane" size="5 5 0.1"/>{car}</worldbody></mujoco>'
+    assert bool(examine(NativeEngine(), {"model.xml": text}, select=["wheel-not-round"]).hints) is told

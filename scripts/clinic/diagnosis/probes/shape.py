@@ -8,6 +8,8 @@ from clinic.diagnosis.engine import FREE, HFIELD, PLANE, SLIDE
 from clinic.diagnosis.probes.vector import Vector, add, at, dot, norm, sub, times
 from clinic.diagnosis.simulation import Simulation, kept
 
+CLEAR = 0.05  # of the opacity
+
 
 def roots(simulation: Simulation) -> list[int]:
     """The moving bodies that hang on nothing that moves."""
@@ -85,6 +87,11 @@ def plane_heights(simulation: Simulation) -> list[float]:
     """How high the planes are, as the state is now, in m."""
     kinds, places = simulation.model("geom_type"), simulation.data("geom_xpos")
     return [places[3 * geom + 2] for geom, kind in enumerate(kinds) if int(kind) == PLANE]
+
+
+def clear(simulation: Simulation, geom: int) -> bool:
+    """Whether nobody sees a geom: it has next to no opacity."""
+    return simulation.row("geom_rgba", geom, 4)[3] < CLEAR
 
 
 def thickness(simulation: Simulation, geom: int) -> float:

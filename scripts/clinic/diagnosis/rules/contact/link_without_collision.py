@@ -47,7 +47,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.shape import in_pairs, masks_told, root_of, solid
+from clinic.diagnosis.probes.shape import clear, in_pairs, masks_told, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, how_many
@@ -83,7 +83,8 @@ def _bare(of: Simulation) -> list[int]:
     owner, welds, parents = root_of(of), of.model("body_weldid"), of.model("body_parentid")
     links: dict[int, list[int]] = {}
     for geom, body in enumerate(of.model("geom_bodyid")):
-        links.setdefault(int(welds[int(body)]), []).append(geom)
+        if not clear(of, geom) or solid(of, geom):
+            links.setdefault(int(welds[int(body)]), []).append(geom)
     paired = in_pairs(of)
     hard = {link for link, geoms in links.items() if any(solid(of, geom) or geom in paired for geom in geoms)} | {0}
     size = {link: max(of.model("geom_rbound")[geom] for geom in geoms) for link, geoms in links.items()}

@@ -50,7 +50,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from clinic.diagnosis.engine import CONTACTS_OFF, PLANE
-from clinic.diagnosis.probes.shape import boxes, in_pairs, masks_told, root_of, solid
+from clinic.diagnosis.probes.shape import boxes, clear, in_pairs, masks_told, root_of, solid
 from clinic.diagnosis.probes.vector import Vector
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -156,6 +156,7 @@ def _bare(of: Simulation) -> list[int]:
     robots = {owner[body] for body in touches if owner[body]}
     welds = of.model("body_weldid")
     stiff = {int(welds[body]) for body in touches}  # a pad is often the skin of what it is fixed to; a caster is not
-    parts = [body for body in of.moving_bodies if PART.search(names[body]) and of.geoms_of(body)]
+    parts = [body for body in of.moving_bodies if PART.search(names[body])]
+    parts = [body for body in parts if not all(clear(of, geom) for geom in of.geoms_of(body))]
     parts = [body for body in parts if int(welds[body]) not in stiff or CASTER.search(names[body])]
     return [body for body in parts if body not in near and owner[body] in robots]

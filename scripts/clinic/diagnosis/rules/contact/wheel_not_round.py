@@ -1,7 +1,7 @@
-"""A wheel is not round about its hinge: its cylinder lies across the axis, or its shape is a box or a bumpy mesh.
+"""A wheel is not round about its hinge: its shape lies across the axis or beside it, or is a box or a bumpy mesh.
 
 A cylinder's axis is its own z, whatever the hinge's is. A wheel whose cylinder stands across its hinge bumps along, or
-does not turn at all; so does a box.
+does not turn at all; so does a box. A round shape fitted to a mesh whose middle is not the hinge hops at every turn.
 
 Bad:
 
@@ -30,7 +30,8 @@ Good:
 
 The number: how much the wheel's radius varies over a turn about its hinge, as a share of its mean; above 10 % is told.
 A wheel is the last body of a mechanism on a hinge without limits, whose one colliding cylinder, box or mesh is centred
-on the hinge; a box only where it is called so. A cylinder is turned; for a box or a mesh there is only a hint.
+on the hinge; a box, a ball and an ellipsoid only where they are called so. A cylinder is turned; for another shape
+there is only a hint.
 
 When it is wrong: a cam, a propeller, a stirrer.
 """
@@ -42,7 +43,7 @@ from collections.abc import Iterator
 from itertools import product
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
-from clinic.diagnosis.engine import BOX, CYLINDER, HINGE, MESH
+from clinic.diagnosis.engine import BOX, CYLINDER, ELLIPSOID, HINGE, MESH, SPHERE
 from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.probes.vector import (
     Vector,
@@ -84,7 +85,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if kind == CYLINDER and not _level(of, joint):  # the hinge is what stands across
             axle = written(tuple(of_quaternion(of.row("geom_quat", geom, 4))[2::3]))
             edits = model.set("joint", [joint], "axis", axle)
-        what = {CYLINDER: "cylinder lies across the hinge", BOX: "shape is a box", MESH: "mesh is not round"}[kind]
+        what = {CYLINDER: "cylinder lies across the hinge", BOX: "shape is a box", MESH: "mesh is not round"}
+        what |= dict.fromkeys((SPHERE, ELLIPSOID), "middle is beside the hinge, or it is not round")
         yield Suspect(
             (of.name("geom", geom), of.name("joint", joint)),
             edits[-1].attribute if edits else "zaxis",
@@ -95,7 +97,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 "radius over a turn about the hinge, varies by", "of its mean", _varies, (joint, geom), dynamic=False
             ),
             VARIES,
-            f"Its {what}: over a turn its radius varies by {100 * varies:.0f} %.",
+            f"Its {what[kind]}: over a turn its radius varies by {100 * varies:.0f} %.",
             "the cylinder's z along the hinge",
         )
 
@@ -108,14 +110,14 @@ def _wheels(simulation: Simulation) -> Iterator[tuple[int, int]]:
             continue
         geoms = [geom for geom in simulation.geoms_of(body) if solid(simulation, geom)]
         kinds = [int(simulation.model("geom_type")[geom]) for geom in geoms]
-        if len(simulation.joints_of(body)) == 1 and len(geoms) == 1 and kinds[0] in (CYLINDER, BOX, MESH):
+        called = is_wheel(f"{simulation.name('body', body)} {simulation.name('joint', joint)}")
+        shapes = (CYLINDER, BOX, MESH, SPHERE, ELLIPSOID) if called else (CYLINDER, MESH)
+        single = called or len(simulation.joints_of(body)) == 1  # a wheel that steers has two
+        if single and len(geoms) == 1 and kinds[0] in shapes:
             off = sub(simulation.row("geom_pos", geoms[0], 3), simulation.row("jnt_pos", joint, 3))
             axis = simulation.row("jnt_axis", joint, 3)
             aside = norm(sub(off, tuple(dot(off, axis) * x for x in axis)))
             level = _level(simulation, joint) or (kinds[0] == CYLINDER and _lies(simulation, geoms[0]))
-            called = f"{simulation.name('body', body)} {simulation.name('joint', joint)}"
-            if kinds[0] == BOX and not is_wheel(called):
-                continue
             if aside < CENTRED * simulation.model("geom_rbound")[geoms[0]] and level:
                 yield joint, geoms[0]
 
@@ -149,6 +151,11 @@ def _points(simulation: Simulation, geom: int) -> list[Vector]:
         return [at(points, vertex) for vertex in range(first, first + count)]
     if int(simulation.model("geom_type")[geom]) == BOX:
         return [(x * a, y * b, z * c) for x, y, z in product((-1, 1), repeat=3)]
+    if int(simulation.model("geom_type")[geom]) in (SPHERE, ELLIPSOID):
+        b, c = (b, c) if int(simulation.model("geom_type")[geom]) == ELLIPSOID else (a, a)
+        ways = [(*way[:2], 0.0) for way in around((0.0, 0.0, 1.0), 2 * ANGLES)]
+        turns = [math.pi * i / ANGLES for i in range(-ANGLES // 2, ANGLES // 2 + 1)]
+        return [(a * x * math.cos(up), b * y * math.cos(up), c * math.sin(up)) for x, y, _ in ways for up in turns]
     rim = [2 * math.pi * i / (2 * ANGLES) for i in range(2 * ANGLES)]
     return [(a * math.cos(angle), a * math.sin(angle), z) for angle in rim for z in (-b, b)]
 

@@ -28,6 +28,8 @@ Good:
 The number: the distance of the anchor from the nearer of the two bodies over that body's own size; more than 0.3, or
 more than 3 on the line between the two, and from the world. Of 289 healthy models 12 connect bodies, and all have 0.
 Where the same numbers, read as a place in the world, lie on a body, the edit is that place in the first body's frame.
+An anchor on one body is told too where the other is more than 3 times its size away from it: the two did not meet at
+the start, and the second is held by a place in the air.
 
 When it is wrong: a rod that was left out of the drawing on purpose.
 """
@@ -59,6 +61,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     for each in range(of.count("equality")):
         if (far := _far(of, each)) <= FAR:
+            yield from _phantom(of, each)
             continue
         bodies = held(of, each)
         most = AWAY if 0 in bodies or _between(of, each, bodies) else FAR
@@ -76,6 +79,27 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"The anchor is {far:.3g} times the size of the nearer body away from it; it is in the frame of the first.",
             "on one of the two bodies",
         )
+
+
+def _phantom(of: Simulation, each: int) -> Iterator[Suspect]:
+    """A connection that holds one body by a place that is far from all of it: the two did not meet at the start."""
+    if (farther := _farther(of, each)) <= AWAY:
+        return
+    point = ends(of, each)[0]
+    bodies = sorted(held(of, each), key=lambda body: _apart(of, point, (body,)), reverse=True)
+    names = tuple(of.name("body", body) for body in bodies)
+    probe = Probe("distance of an anchor from the farther body", "times its size", _farther, (each,), dynamic=False)
+    says = f"At the start the anchor is {farther:.3g} times the size of {names[0]} away from it: the connection "
+    says += f"keeps them so far apart. Put {names[0]} where it is to be held, or {names[1]} there."
+    now = written(_anchor(of, each))
+    yield Suspect(names, "anchor", now, "where both are", (), probe, AWAY, says, "on both bodies at the start")
+
+
+def _farther(of: Simulation, each: int) -> float:
+    if kind_of(of, each) != CONNECT or sited(of, each):
+        return 0.0
+    of.begin()
+    return max(_apart(of, ends(of, each)[0], (body,)) for body in held(of, each))
 
 
 def _anchor(simulation: Simulation, each: int) -> Vector:

@@ -63,7 +63,7 @@ def test_every_case_named_exists(root: Path) -> None:
 
 
 def test_the_page_says_what_was_heard(tmp_path: Path, said: dict[str, str]) -> None:
-    case = tiny_case(tmp_path)
+    case = tiny_case(tmp_path, ("tags: [contact]", "tags: [contact]\nfamily: sinks"))
     named = MESSAGES[0].model_copy(update={"case": case.slug})
     page = messages_page(
         [named, *MESSAGES[1:]],
@@ -72,7 +72,8 @@ def test_the_page_says_what_was_heard(tmp_path: Path, said: dict[str, str]) -> N
         Heard(said={named.id: {"3.9.0": "once", "3.10.0": "once", "3.11.0": ""}}),
     )
     assert "WARNING: said today" in page
-    assert f"[1. A box falls through the floor](cases/{case.slug}/index.md#answer)" in page
+    shown = f"[1. A box falls through the floor](cases/{case.slug}/index.md#answer)"
+    assert f"{shown}, or [another cause of it](symptoms/sinks.md).\n" in page
     assert page.count("\n### ") == len(MESSAGES)
     assert "mjWARN_BADQACC" in page
     assert "Not provoked here." in page

@@ -232,3 +232,16 @@ def test_a_ball_inside_a_solid_mesh_is_in_no_hole():
     )
     found = examine(NativeEngine(), {"model.xml": text}, select=["hull-over-hole", "overlap-at-start"])
     assert [each.rule for each in found.causes] == ["overlap-at-start"]
+
+
+def test_friction_is_given_to_geoms_and_pairs_in_their_own_form():
+    named = (
+        rules()["grasp-slips"]
+        .example("Bad")
+        .replace("<geom type", '<geom name="pad" type', 2)
+        .replace('"pad"', '"floor"', 1)
+    )
+    pair = '<contact><pair geom1="cube" geom2="pad" friction="0.15 0.15 0.005 0.0001 0.0001"/></contact>'
+    found = examine(NativeEngine(), {"model.xml": named.replace("</worldbody>", f"</worldbody>{pair}")})
+    (told,) = [each for each in (*found.causes, *found.hints) if each.rule == "grasp-slips"]
+    assert {edit.value for edit in told.edit} == {"1 0.005 0.0001", "1 1 0.005 0.0001 0.0001"}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 from clinic.diagnosis.edit import Edit
@@ -12,6 +12,8 @@ from clinic.diagnosis.probes.shape import pair_of, solid, thickness
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe
+
+DRY = {"geom": "1 0.005 0.0001", "pair": "1 1 0.005 0.0001 0.0001"}  # the friction of geoms and pairs by default
 
 
 @dataclass(frozen=True)
@@ -54,13 +56,16 @@ def with_like(simulation: Simulation, found: Iterable[Deciding], is_like: Callab
     return [*made, Deciding(3, 0.0, "geom", like)] if like and geoms else made
 
 
-def edits_of(model: ReaderModel, of: Iterable[Deciding], attribute: str, value: str) -> tuple[Edit, ...]:
-    """Gives an attribute of all deciding elements a value; empty where one has no place in the text."""
+def edits_of(
+    model: ReaderModel, of: Iterable[Deciding], attribute: str, value: str | Mapping[str, str]
+) -> tuple[Edit, ...]:
+    """Gives an attribute of all deciding elements a value, or one by their kind; empty where one has no place."""
     found = {(each.kind, index) for each in of for index in each.elements}
     made: tuple[Edit, ...] = ()
     for kind in ("geom", "pair"):
         indices = sorted(index for other, index in found if other == kind)
-        edits = model.set(kind, indices, attribute, value) if indices else ()
+        given = value if isinstance(value, str) else value[kind]
+        edits = model.set(kind, indices, attribute, given) if indices else ()
         if indices and not edits:
             return ()
         made += edits

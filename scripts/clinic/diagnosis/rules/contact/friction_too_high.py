@@ -30,7 +30,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.touch import depth, edits_of, names_of, resting, with_like
+from clinic.diagnosis.probes.touch import DRY, depth, edits_of, names_of, resting, with_like
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -52,7 +52,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     most = max(each.friction for each in high)
     says = f"Friction {most:g} leans the pyramid's edges so far that they carry next to nothing."
     high = with_like(simulation, high, lambda geom: frictions[3 * geom] > HIGH)
-    edits = edits_of(model, high, "friction", "1 0.005 0.0001")
+    edits = edits_of(model, high, "friction", DRY)
     yield Suspect(
         names_of(simulation, high), "friction", f"{most:g}", "1", edits, depth(), MOST, says,
         'at most 3, or <option cone="elliptic"/>', excess=most / HIGH,

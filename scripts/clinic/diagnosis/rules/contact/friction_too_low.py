@@ -29,13 +29,13 @@ When it is wrong: ice.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from itertools import combinations
 
 from clinic.diagnosis.engine import CONTACTS_OFF
 from clinic.diagnosis.probes.push import slides_on
 from clinic.diagnosis.probes.shape import collides, pair_of
-from clinic.diagnosis.probes.touch import Deciding, edits_of, names_of, resting, with_like
+from clinic.diagnosis.probes.touch import DRY, edits_of, names_of, resting, with_like
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -81,14 +81,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             return
     says = f"Friction {least:g} holds nothing on a slope of {100 * least:.2g} %."
     low = with_like(simulation, low, lambda geom: frictions[3 * geom] < LOW)
-    edits = edits_of(model, low, "friction", _value(low))
+    edits = edits_of(model, low, "friction", DRY)
     yield Suspect(
         names, "friction", f"{least:g}", "1", edits, slides_on(), MOST, says, healthy, excess=LOW / max(least, 1e-6)
     )
-
-
-def _value(low: Iterable[Deciding]) -> str:
-    return "1 1 0.005 0.0001 0.0001" if all(each.kind == "pair" for each in low) else "1 0.005 0.0001"
 
 
 def _none(model: ReaderModel) -> Iterator[Suspect]:

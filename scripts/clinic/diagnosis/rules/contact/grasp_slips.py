@@ -43,7 +43,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.grasp import grasps, needed
-from clinic.diagnosis.probes.touch import edits_of, names_of
+from clinic.diagnosis.probes.touch import DRY, edits_of, names_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -68,8 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"The fingers press with {found.force:.3g} N in all, of which friction {least:g} carries "
             f"{found.carries:.3g} N; {of.name('body', found.body)} weighs {found.weight:.3g} N."
         )
-        value = "1 1 0.005 0.0001 0.0001" if any(each.kind == "pair" for each in low) else "1 0.005 0.0001"
-        edits = edits_of(model, low, "friction", value)
+        edits = edits_of(model, low, "friction", DRY)
         yield Suspect(
             names_of(of, low),
             "friction",

@@ -76,7 +76,9 @@ def test_the_truth_names_what_is_there(kind, healthy, with_position_servos):
         for of in ("body", "joint", "geom", "site", "camera", "actuator", "sensor")
         for i in range(model.simulation.count(of))
     }
-    fresh = {'geom "planted"', "the timestep"} | {f"geom {i} of {name}" for i in range(20) for name in there}
+    fresh = {'geom "planted"', "the timestep", "the integrator"} | {
+        f"geom {i} of {name}" for i in range(20) for name in there
+    }
     assert set(fault.elements) <= there | fresh
 
 

@@ -67,6 +67,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             well = f"h d / M < {BEARS[integrator]:g}"
             now = "RK4" if integrator else "Euler" if damping_is_implicit(of) else "Euler without eulerdamp"
             yield Suspect(
-                ("the integrator", name), "integrator", now, "implicitfast", edits, probe, limit, says, well, TENTH
+                ("the integrator", name),
+                "integrator",
+                now,
+                "implicitfast",
+                edits,
+                probe,
+                limit,
+                says,
+                well,
+                TENTH,
+                level="cause" if integrator else "hint",  # under Euler it is as much the servo's gain
             )
             return

@@ -32,7 +32,6 @@ def symptom_pages(shown: Sequence[CasePage], told: Differentials) -> Files:
 
 def _page(name: str, causes: list[CasePage], told: Differentials) -> str:
     found = told[name]
-    likeliest = sorted((rule for rule in rules().values() if name in rule.families), key=lambda rule: -rule.odds)
     measured = [one for one in causes if found and one.case.slug in found.answers]
     return render(
         "family",
@@ -43,8 +42,7 @@ def _page(name: str, causes: list[CasePage], told: Differentials) -> str:
         measured=measured,
         matrix=[_row(one, measured, told) for one in measured],
         printed=found.answers[measured[0].case.slug].printed if found and measured else "",
-        rules=likeliest,
-        rarer=[rule for rule in likeliest if rule.families[0] != name],
+        rules=sorted((rule for rule in rules().values() if name in rule.families), key=lambda rule: -rule.odds),
     )
 
 

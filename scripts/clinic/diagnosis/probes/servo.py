@@ -106,23 +106,20 @@ def damping_is_implicit(simulation: Simulation) -> bool:
     )
 
 
-def explicit_damping(simulation: Simulation) -> dict[int, float]:
-    """The damping that is explicit, of joints and of their servos, by degree of freedom, in N m s/rad or N s/m."""
-    if int(simulation.model("opt.integrator")[0]) not in BEARS:
+def damped_beyond(simulation: Simulation) -> dict[int, float]:
+    """The step's share h d / M of the degrees of freedom whose explicit damping is more than the integrator bears.
+
+    Explicit is the damping of servos, and that of joints where Euler does not take it implicitly.
+    """
+    if (limit := BEARS.get(int(simulation.model("opt.integrator")[0]))) is None:
         return {}
     implicit = damping_is_implicit(simulation)
-    damping = {dof: 0.0 if implicit else each for dof, each in enumerate(simulation.model("dof_damping"))}
+    damping = [0.0 if implicit else each for each in simulation.model("dof_damping")]
     for joint, (_, kv) in feedback(simulation).items():
         damping[simulation.dof(joint)] += kv
-    return damping
-
-
-def damped_beyond(simulation: Simulation) -> dict[int, float]:
-    """The step's share h d / M of the degrees of freedom whose explicit damping is more than the integrator bears."""
-    limit = BEARS.get(int(simulation.model("opt.integrator")[0]), 0.0)
-    masses = simulation.mass_diagonal
-    shares = {dof: simulation.timestep * d / max(masses[dof], 1e-12) for dof, d in explicit_damping(simulation).items()}
-    return {dof: share for dof, share in shares.items() if share > limit}
+    pairs = zip(damping, simulation.mass_diagonal, strict=True)
+    shares = [simulation.timestep * each / max(mass, 1e-12) for each, mass in pairs]
+    return {dof: share for dof, share in enumerate(shares) if share > limit}
 
 
 def _servo(simulation: Simulation, actuator: int) -> Servo | None:

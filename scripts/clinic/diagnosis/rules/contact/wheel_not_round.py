@@ -151,13 +151,13 @@ def _points(simulation: Simulation, geom: int) -> list[Vector]:
         return [at(points, vertex) for vertex in range(first, first + count)]
     if int(simulation.model("geom_type")[geom]) == BOX:
         return [(x * a, y * b, z * c) for x, y, z in product((-1, 1), repeat=3)]
-    if int(simulation.model("geom_type")[geom]) in (SPHERE, ELLIPSOID):
-        b, c = (b, c) if int(simulation.model("geom_type")[geom]) == ELLIPSOID else (a, a)
-        ways = [(*way[:2], 0.0) for way in around((0.0, 0.0, 1.0), 2 * ANGLES)]
-        turns = [math.pi * i / ANGLES for i in range(-ANGLES // 2, ANGLES // 2 + 1)]
-        return [(a * x * math.cos(up), b * y * math.cos(up), c * math.sin(up)) for x, y, _ in ways for up in turns]
-    rim = [2 * math.pi * i / (2 * ANGLES) for i in range(2 * ANGLES)]
-    return [(a * math.cos(angle), a * math.sin(angle), z) for angle in rim for z in (-b, b)]
+    rim = around((0.0, 0.0, 1.0), 2 * ANGLES)
+    if int(simulation.model("geom_type")[geom]) == CYLINDER:
+        return [(a * x, a * y, z) for x, y, _ in rim for z in (-b, b)]
+    if int(simulation.model("geom_type")[geom]) == SPHERE:
+        b = c = a
+    turns = [math.pi * i / ANGLES for i in range(-ANGLES // 2, ANGLES // 2 + 1)]
+    return [(a * x * math.cos(up), b * y * math.cos(up), c * math.sin(up)) for x, y, _ in rim for up in turns]
 
 
 def _edits(model: ReaderModel, joint: int, geom: int) -> tuple[Edit, ...]:

@@ -95,22 +95,24 @@ def _phantom(of: Simulation, each: int) -> Iterator[Suspect]:
     yield Suspect(names, "anchor", now, "where both are", (), probe, AWAY, says, "on both bodies at the start")
 
 
-def _farther(of: Simulation, each: int) -> float:
-    if kind_of(of, each) != CONNECT or sited(of, each):
-        return 0.0
-    of.begin()
-    return max(_apart(of, ends(of, each)[0], (body,)) for body in held(of, each))
-
-
 def _anchor(simulation: Simulation, each: int) -> Vector:
     return simulation.equality_data(each)[:3]
 
 
-def _far(simulation: Simulation, each: int) -> float:
-    if kind_of(simulation, each) != CONNECT or sited(simulation, each):
-        return 0.0
-    simulation.begin()
-    return _apart(simulation, ends(simulation, each)[0], held(simulation, each))
+def _distances(of: Simulation, each: int) -> list[float]:
+    """How far the anchor is at the start from each body that it holds, as in `_apart`; none where it holds sites."""
+    if kind_of(of, each) != CONNECT or sited(of, each):
+        return []
+    of.begin()
+    return [_apart(of, ends(of, each)[0], (body,)) for body in held(of, each) if body]
+
+
+def _far(of: Simulation, each: int) -> float:
+    return min(_distances(of, each), default=0.0)
+
+
+def _farther(of: Simulation, each: int) -> float:
+    return max(_distances(of, each), default=0.0)
 
 
 def _between(of: Simulation, each: int, bodies: tuple[int, int]) -> bool:

@@ -37,7 +37,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.probes.run import fastest
-from clinic.diagnosis.probes.servo import BEARS, damped_beyond, damping_is_implicit, explicit_damping
+from clinic.diagnosis.probes.servo import BEARS, damped_beyond, damping_is_implicit
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -53,7 +53,7 @@ FAST, TENTH = 100.0, 0.1  # rad/s; of the symptom is left
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The integrator, where it takes damping explicitly that the timestep does not bear."""
     of = model.simulation
-    integrator, damping, shares = int(of.model("opt.integrator")[0]), explicit_damping(of), damped_beyond(of)
+    integrator, shares = int(of.model("opt.integrator")[0]), damped_beyond(of)
     edits = model.option("integrator", "implicitfast")
     if not shares or not edits:
         return
@@ -62,8 +62,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         before = model.measured(probe)
         if before > limit and model.measured(probe, edits) <= max(limit, TENTH * before):
             name = of.name("joint", of.dof_joints[dof])
-            says = f"At {name}: explicit damping {damping[dof]:.3g} on an inertia of {of.mass_diagonal[dof]:.2g}, "
-            says += f"h d / M is {shares[dof]:.3g}."
+            inertia, share = of.mass_diagonal[dof], shares[dof]
+            says = f"At {name}: explicit damping {share * inertia / of.timestep:.3g} on an inertia of {inertia:.2g}, "
+            says += f"h d / M is {share:.3g}."
             well = f"h d / M < {BEARS[integrator]:g}"
             now = "RK4" if integrator else "Euler" if damping_is_implicit(of) else "Euler without eulerdamp"
             yield Suspect(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from clinic.diagnosis.probes.overlap import relatives
 from clinic.diagnosis.probes.vector import at
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
@@ -26,12 +27,13 @@ class Read:
 
 @kept
 def touched(simulation: Simulation) -> dict[int, Read]:
-    """Each touch, force and torque sensor, over the time after letting go."""
+    """Each touch, force and torque sensor, over the time after letting go; parts that overlap at the start do not count."""
     kinds, of, places = (simulation.model(f"sensor_{name}") for name in ("type", "objid", "adr"))
     made = {i: Read() for i, kind in enumerate(kinds) if int(kind) in (TOUCH, FORCE, TORQUE)}
     if not made:
         return made
     bodies, owners = simulation.model("geom_bodyid"), simulation.model("site_bodyid")
+    within = {(one, other) for one, other, _ in relatives(simulation)}
     simulation.begin()
     for _ in simulation.run(simulation.begin_with.duration):
         contacts, data = simulation.engine.contacts(), simulation.data("sensordata")
@@ -42,8 +44,8 @@ def touched(simulation: Simulation) -> dict[int, Read]:
             seen.reading = max(seen.reading, math.hypot(*values))
             carried = 0.0
             for contact in contacts:
-                on = min(contact.geoms) >= 0 and owners[site] in [bodies[geom] for geom in contact.geoms]
-                if on and contact.force > 0:
+                pair = tuple(int(bodies[geom]) for geom in contact.geoms) if min(contact.geoms) >= 0 else ()
+                if owners[site] in pair and pair not in within and contact.force > 0:
                     carried += contact.force
                     seen.reach = max(seen.reach, math.dist(contact.position, at(centres, site)))
             seen.carried = max(seen.carried, carried)

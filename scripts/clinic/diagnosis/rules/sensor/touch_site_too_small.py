@@ -35,7 +35,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.overlap import of_relatives
 from clinic.diagnosis.probes.touched import TOUCH, touched, unread
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -49,8 +48,8 @@ CASE = "touch-sensor-reads-zero"
 
 MOST = 0.95
 SMALL = 20.0  # times the size of a site that a body has across
-AWAY = 3.0  # sizes of the site; nearer contacts may be beside it on purpose
-OVERLAP = 0.1  # forces of parts that overlap mean nothing
+AWAY = 3.0  # sizes of the site; nearer contacts may be beside it on purpose,
+NEAR = 2.0  # unless no contact at all is read
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -59,14 +58,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     kinds, of, owners = (simulation.model(name) for name in ("sensor_type", "sensor_objid", "site_bodyid"))
     sites = [int(of[i]) for i, kind in enumerate(kinds) if int(kind) == TOUCH]
     bodies = [owners[site] for site in sites]
-    if model.measured(of_relatives()) > OVERLAP:
-        return
     yield from _none_of_many(model)
     for sensor, seen in touched(simulation).items():
         site = int(of[sensor])
         if int(kinds[sensor]) != TOUCH or (bodies.count(owners[site]) > 1 and not _dwarf(simulation, site, sites)):
             continue
-        if seen.reach < AWAY * max(simulation.row("site_size", site, 3)):
+        if seen.reach < (AWAY if seen.reading > 0 else NEAR) * max(simulation.row("site_size", site, 3)):
             continue
         if seen.carried > 0 and model.measured(unread(sensor)) > MOST and seen.reach < 2 * _reach(simulation, site):
             size = f"{1.1 * seen.reach:.3g}"

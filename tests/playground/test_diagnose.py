@@ -175,6 +175,7 @@ def test_of_several_models_one_is_chosen(page: Page, served: str, tmp_path: Path
         ("bomb.zip", "", "bomb.zip: more than 300 MB"),
         ("empty.xml", "", "empty.xml does not compile"),
     ],
+    ids=["deep", "binary", "huge", "notes", "torn", "bomb", "empty"],
 )
 def test_what_cannot_be_diagnosed_is_said_in_a_sentence(
     page: Page, served: str, tmp_path: Path, name: str, content: str | bytes, said: str

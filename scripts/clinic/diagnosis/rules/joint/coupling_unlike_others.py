@@ -56,6 +56,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.equalities import COUPLED, held, kind_of
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.structure.equality_copied import copied_ends
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
@@ -71,7 +72,7 @@ ENOUGH = 3
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The one coupling that stands apart."""
     of = model.simulation
-    if (each := _odd(of)) is None:
+    if (each := _odd(of)) is None or (each, 0) in copied_ends(of):
         return
     follower, leader = held(of, each)
     others = [one for one in _relations(of) if one != each]

@@ -28,7 +28,8 @@ Good:
     +     <jointpos name="elbow_angle" joint="elbow"/>
 
 The number: how many sensors read what another one reads: written alike but for `name` and `user`. Where the name of one
-has the name of something that no sensor of its kind reads, that is what is meant.
+has the name of something that no sensor of its kind reads, that is what is meant; else what is called like that which
+both read, but for what sets their names apart: `toe_R` beside `toe_L`, which reads `L_toe`.
 
 When it is wrong: one reading under two names, for two readers.
 """
@@ -37,6 +38,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.copied import Line, misled
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
@@ -91,19 +93,18 @@ def _alike(of: Simulation, one: int, other: int) -> float:
 
 def _meant(model: ReaderModel, sensors: tuple[int, int]) -> tuple[int, str, str]:
     """Which of two sensors is meant for something that none of its kind reads, by its name: it, by what, and that."""
-    of = model.simulation
+    of, element = model.simulation, model.element("sensor", sensors[1])
+    assert element is not None
+    attribute = next((each for each in KINDS if element.get(each)), "")
+    if not attribute:
+        return sensors[1], "", ""
+    same = [model.element("sensor", each) for each in range(of.count("sensor"))]
+    read = {each.get(attribute) for each in same if each is not None and each.tag == element.tag}
+    free = [each for each in of.names(KINDS[attribute]) if each and each not in read]
     for sensor in sensors[::-1]:
-        element = model.element("sensor", sensor)
-        assert element is not None
-        attribute = next((each for each in KINDS if element.get(each)), "")
-        if not attribute:
-            continue
-        same = [model.element("sensor", each) for each in range(of.count("sensor"))]
-        read = {each.get(attribute) for each in same if each is not None and each.tag == element.tag}
-        name = (of.engine.name("sensor", sensor) or "").lower()
-        found = [each for each in of.names(KINDS[attribute]) if each and each not in read and each.lower() in name]
+        name = of.names("sensor")[sensor].lower()
+        found = [each for each in free if each.lower() in name]
         if len(found) == 1:
             return sensor, attribute, found[0]
-    element = model.element("sensor", sensors[1])
-    assert element is not None
-    return sensors[1], next((each for each in KINDS if element.get(each)), ""), ""
+    lines = {each: Line(element.get(attribute), (of.names("sensor")[each],)) for each in sensors}
+    return next(((each, attribute, name) for each, name in misled(lines, free).items()), (sensors[1], attribute, ""))

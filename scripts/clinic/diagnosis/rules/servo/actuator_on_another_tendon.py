@@ -36,7 +36,7 @@ Good:
     +     <motor name="ring_curl" tendon="ring_pull" ctrlrange="0 1"/>
 
 The number: actuators on a tendon that another one pulls as well, where one tendon is pulled by none and has a word of
-the actuator's name that its own has not.
+the actuator's name that its own has not, or is called like its own but for what sets the two actuators apart.
 
 When it is wrong: two actuators on one tendon, beside a tendon that only limits.
 """
@@ -47,6 +47,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.copied import Line, misled
 from clinic.diagnosis.probes.tendons import TENDON
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -81,9 +82,12 @@ def _misled(of: Simulation) -> dict[int, tuple[int, int]]:
     }
     times, words = Counter(pulls.values()), [_words(name) for name in of.names("tendon")]
     idle = [tendon for tendon in range(of.count("tendon")) if tendon not in times]
-    made = {}
+    names, tendons = of.names("actuator"), of.names("tendon")
+    lines = {each: Line(tendons[pulled], (names[each],)) for each, pulled in pulls.items()}
+    copied = misled(lines, [tendons[each] for each in idle])
+    made = {each: (pulls[each], tendons.index(name)) for each, name in copied.items()}
     for actuator, pulled in pulls.items():
-        own = _words(of.names("actuator")[actuator]) - words[pulled]
+        own = _words(names[actuator]) - words[pulled]
         meant = [tendon for tendon in idle if any(_called(word, own) for word in words[tendon])]
         if times[pulled] > 1 and len(meant) == 1:
             made[actuator] = (pulled, meant[0])

@@ -45,6 +45,7 @@ from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.equalities import CONNECT, WELD, by_mocap, ends, gap, held, kind_of, sited
 from clinic.diagnosis.probes.vector import sub, times, transpose, written
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.structure.equality_copied import copied_ends
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
@@ -61,9 +62,14 @@ APART, PUSHED = 0.01, 0.1  # of the model's extent; where mocap moves one of the
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Connections and welds that hold together what is apart."""
     of = model.simulation
+    copied = {each for each, _ in copied_ends(of)}
     for each in range(of.count("equality")):
         apart, pulled = _gap(of, each), by_mocap(of, each)
-        if apart <= (PUSHED if pulled else APART) or (pulled and not model.value("equality", each, "relpose")):
+        if (
+            each in copied
+            or apart <= (PUSHED if pulled else APART)
+            or (pulled and not model.value("equality", each, "relpose"))
+        ):
             continue
         edits = _edits(model, each) if of.begin_with.key < 0 else ()
         kind = "site" if sited(of, each) else "body"

@@ -1,0 +1,90 @@
+"""Lines that were copied and half adapted: two name one thing, and another is named by none."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import Diagnosis, examine
+from clinic.diagnosis.edit import apply
+from clinic.diagnosis.native import NativeEngine
+
+FINGER = """
+<body pos="0 {y} 1">
+  <joint name="{one}J1" axis="0 1 0" range="0 90" damping="0.1"/>
+  <geom type="capsule" fromto="0.01 0 0 0.05 0 0" size="0.008"/>
+  <body pos="0.06 0 0">
+    <joint name="{one}J0" axis="0 1 0" range="0 90" damping="0.1"/>
+    <geom type="capsule" fromto="0.01 0 0 0.03 0 0" size="0.008"/>
+    <site name="{one}tip" pos="0.03 0 0"/>
+    <site name="{one}pad" pos="0.03 0 0"/>
+  </body>
+</body>
+"""
+FINGERS = "".join(FINGER.format(one=one, y=0.04 * place) for place, one in enumerate(("ff", "mf", "rf")))
+PULL = '<fixed name="{one}pull"><joint joint="{one}J1" coef="1"/><joint joint="{one}J0" coef="1"/></fixed>'
+PULLS = "".join(PULL.format(one=one) for one in ("ff", "mf", "rf"))
+
+
+def hand(**lines: str) -> str:
+    """Three fingers, each with a line of its own in some sections: `A` stands for the finger's name."""
+    sections = ""
+    for section, line in lines.items():
+        each = [line.replace("A", one) for one in ("ff", "mf", "rf")]
+        sections += f"<{section}>{''.join(each)}</{section}>"
+    return f"<mujoco><worldbody>{FINGERS}</worldbody><tendon>{PULLS}</tendon>{sections}</mujoco>"
+
+
+def told(text: str, *rules: str) -> Diagnosis:
+    return examine(NativeEngine(), {"model.xml": text}, select=rules)
+
+
+@pytest.mark.parametrize(
+    ("rule", "lines", "right", "wrong"),
+    [
+        (
+            "actuator-on-another-tendon",
+            {"actuator": '<motor name="M_AJ1" tendon="Apull"/>'},
+            'tendon="rfpull"',
+            'tendon="mfpull"',
+        ),
+        ("sensor-twice", {"sensor": '<touch name="A_touch" site="Atip"/>'}, 'site="rftip"', 'site="mftip"'),
+        (
+            "sensor-twice",
+            {"sensor": '<jointpos name="A_way" joint="AJ1"/>'},
+            '"ff_way" joint="ffJ1"',
+            '"ff_way" joint="mfJ1"',
+        ),
+        (
+            "equality-copied",
+            {"equality": '<joint name="A" joint1="AJ0" joint2="AJ1"/>'},
+            'joint1="rfJ0"',
+            'joint1="mfJ0"',
+        ),
+        ("equality-copied", {"equality": '<connect site1="Atip" site2="Apad"/>'}, 'site2="rfpad"', 'site2="ffpad"'),
+    ],
+)
+def test_what_a_line_is_called_tells_what_it_was_meant_for(rule, lines, right, wrong):
+    text = hand(**lines)
+    assert text.count(right) == 1
+    broken = told(text.replace(right, wrong), rule)
+    (found,) = broken.hints
+    assert [each.value for each in found.edit] == [right.split('"')[-2]]
+    assert apply(broken.texts, found.edit)["model.xml"] == text
+    assert not told(text, rule).hints
+
+
+@pytest.mark.parametrize("rule", ["coupling-unlike-others", "loop-not-assembled"])
+def test_what_follows_from_a_copied_end_of_an_equality_is_not_told(rule):
+    line = '<joint name="A" joint1="AJ0" joint2="AJ1"/><connect site1="Atip" site2="Apad"/>'
+    text = hand(equality=line).replace('joint1="rfJ0"', 'joint1="mfJ0"').replace('site2="rfpad"', 'site2="ffpad"')
+    assert not told(text, rule).hints
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        '<joint name="A" joint1="AJ0" joint2="ffJ1"/>',  # the leader of all
+        '<joint name="A" joint1="AJ0" joint2="AJ1"/><joint name="A_again" joint1="AJ0" joint2="AJ1"/>',
+    ],
+)
+def test_one_leader_of_all_fingers_is_no_copied_line(line):
+    assert not [each for each in told(hand(equality=line), "equality-copied").hints if each.edit]

@@ -88,3 +88,28 @@ def test_what_follows_from_a_copied_end_of_an_equality_is_not_told(rule):
 )
 def test_one_leader_of_all_fingers_is_no_copied_line(line):
     assert not [each for each in told(hand(equality=line), "equality-copied").hints if each.edit]
+
+
+@pytest.mark.parametrize(
+    ("sensors", "meant"),
+    [
+        ('<jointvel name="enc_l" joint="wheel_l"/><jointvel name="enc_r" joint="wheel_l"/>', ("joint", "wheel_r")),
+        ('<touch name="rim_l" site="hub_r"/><touch name="rim_r" site="hub_r"/>', ("site", "hub_l")),
+        (
+            '<framepos name="at_l" objtype="site" objname="hub_l"/>'
+            '<framepos name="at_r" objtype="site" objname="hub_l"/>',
+            ("objname", "hub_r"),
+        ),
+    ],
+)
+def test_the_name_of_a_sensor_tells_which_of_a_pair_reads_the_wrong_side(sensors, meant):
+    pairs = "".join(
+        f'<body name="{part}_{side}" pos="{x} {y} 0"><joint name="{part}_{side}" axis="0 1 0"/><geom size="0.05"/>'
+        f'<site name="{hub}_{side}"/></body>'
+        for part, hub, x in (("wheel", "hub", 0.2), ("arm", "hand", 0), ("leg", "toe", -0.2), ("ear", "tip", -0.3))
+        for side, y in (("l", 0.2), ("r", -0.2))
+    )
+    text = f"<mujoco><worldbody><body pos='0 0 1'><freejoint/><geom size='0.1'/>{pairs}</body></worldbody>"
+    (found,) = told(f"{text}<sensor>{sensors}</sensor></mujoco>", "twin-sensor-differs").hints
+    assert [(each.attribute, each.value) for each in found.edit] == [meant]
+    assert found.attribute == meant[0]

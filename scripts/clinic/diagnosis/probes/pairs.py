@@ -71,7 +71,8 @@ class Pairs:
     def partner(self, kind: str, index: int) -> int | None:
         """The twin of an element; None for one without."""
         return next(
-            (right if left == index else left for left, right in self.pairs[kind] if index in (left, right)), None
+            (right if left == index else left for left, right in self.pairs.get(kind, ()) if index in (left, right)),
+            None,
         )
 
     def image(self, left: int, side: int) -> Image:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from clinic.diagnosis.engine import BALL, FREE, HINGE, MESH, SLIDE
+from clinic.diagnosis.probes.attached import attached
 from clinic.diagnosis.probes.couplings import couplings
 from clinic.diagnosis.probes.pairs import FITS, SYMMETRIC, Pairs
 from clinic.diagnosis.probes.vector import Vector, add, apart, diagonal, dot, norm, sub, times, turned
@@ -304,12 +305,10 @@ class Twins(Pairs):
         of, pair = self.of, partial(Comparison, "sensor", left, right)
         if of.model("sensor_objtype")[left] != of.model("sensor_objtype")[right]:
             return
-        kind = {1: "body", 2: "body", 3: "joint", 5: "geom", 6: "site", 7: "camera", 19: "actuator"}
-        found = kind.get(int(of.model("sensor_objtype")[left]))
-        targets = [int(of.model("sensor_objid")[each]) for each in (left, right)]
-        partner = self.partner(found, targets[0]) if found else None
-        if partner is not None or targets[0] == targets[1]:
-            yield pair("target", 100 * (partner != targets[1]), 1)
+        one, other = (attached(of, "sensor", each) for each in (left, right))
+        partner = self.partner(*one) if one else None
+        if one and other and (partner is not None or one == other):
+            yield pair("target", 100 * (partner != other[1]), 1)
 
 
 def _intervals(left: Vector, right: Vector, sign: float) -> float:

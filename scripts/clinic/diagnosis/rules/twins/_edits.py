@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
+from clinic.diagnosis.probes.attached import attached
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
 from clinic.diagnosis.probes.twins import Comparison, Twins, twins
 from clinic.diagnosis.probes.vector import sub, times, transpose, turned, written
@@ -39,8 +40,8 @@ def edits_of(model: ReaderModel, each: Comparison, side: int) -> tuple[Edit, ...
         return copied(model, each.kind, side, twin, COPIED[each.quantity])
     if each.quantity in ("range", "ctrlrange", "forcerange", "limited"):
         return _range(model, found, each, side, twin)
-    if each.quantity == "joint":
-        return _other_joint(model, found, side, twin)
+    if each.quantity in ("joint", "target"):
+        return _attached(model, found, each.kind, side, twin)
     if each.kind == "body" and each.quantity in ("mass", "center of mass", "inertia"):
         return _inertial(model, found, each, side, twin)
     if each.quantity == "pos":
@@ -93,12 +94,14 @@ def _range(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: 
     return tuple(made)
 
 
-def _other_joint(model: ReaderModel, found: Twins, side: int, twin: int) -> tuple[Edit, ...]:
-    driven, element = model.simulation.driven_joint(twin), model.element("actuator", side)
-    partner = found.partner("joint", driven) if driven is not None else None
-    if partner is None or element is None:
+def _attached(model: ReaderModel, found: Twins, kind: str, side: int, twin: int) -> tuple[Edit, ...]:
+    """What the twin drives or reads, of this side."""
+    of, element, other = model.simulation, model.element(kind, side), attached(model.simulation, kind, twin)
+    partner = found.partner(*other) if other else None
+    if other is None or partner is None or element is None:
         return ()
-    return (set_attribute(element, "joint", model.simulation.engine.name("joint", partner)),)
+    attribute = "objname" if element.get("objname") else other[0]
+    return (set_attribute(element, attribute, of.names(other[0])[partner]),)
 
 
 def _inertial(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: int) -> tuple[Edit, ...]:

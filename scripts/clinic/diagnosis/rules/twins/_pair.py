@@ -193,10 +193,13 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
         simulation.name(first.kind, each.left + each.right - side) for each, side in zip(found, sides, strict=True)
     ]
     says = _differs(simulation, found, others[0]) + SWAPPED * digits + TURNED * turned + EITHER * (not sure)
+    attribute = "axis" if turned else first.quantity
+    if edits and first.quantity == "target":
+        attribute = edits[0].attribute
     return Suspect(
         tuple(dict.fromkeys(names if sure else names + others)),
-        "axis" if turned else first.quantity,
-        (model.value("joint", sides[0], "axis") or "") if turned else _told(model, first, sides[0]),
+        attribute,
+        _told(model, first.kind, sides[0], attribute),
         edits[0].value if edits else f"that of {others[0]}",
         edits,
         probe,
@@ -270,8 +273,6 @@ def _unlike(simulation: Simulation, *pairs: tuple[str, str, int, int]) -> float:
     )
 
 
-def _told(model: ReaderModel, each: Comparison, side: int) -> str:
-    return next(
-        (text for name in COPIED.get(each.quantity, (each.quantity,)) if (text := model.value(each.kind, side, name))),
-        "",
-    )
+def _told(model: ReaderModel, kind: str, side: int, attribute: str) -> str:
+    names = COPIED.get(attribute, (attribute,))
+    return next((text for name in names if (text := model.value(kind, side, name))), "")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 
+from clinic.diagnosis.probes.attached import attached
 from clinic.diagnosis.probes.inertia import inertial
 from clinic.diagnosis.probes.matter import matter
 from clinic.diagnosis.probes.siblings import FIELDS, LIKE, odd_ones
@@ -49,12 +50,9 @@ def _strange(model: ReaderModel, each: Comparison, side: int) -> float:
         start = simulation.model("qpos0")[place]
         if not low - 0.01 <= start <= high + 0.01:
             return 1e6
-    if each.quantity == "joint":
-        joint = simulation.driven_joint(side)
-        names = (
-            simulation.engine.name("actuator", side),
-            "" if joint is None else simulation.engine.name("joint", joint),
-        )
+    if each.quantity in ("joint", "target"):
+        to = attached(simulation, each.kind, side)
+        names = simulation.names(each.kind)[side], simulation.names(to[0])[to[1]] if to else ""
         return len(set(_pieces(names[0])) ^ set(_pieces(names[1])))
     alike = (one for one in twins(simulation).comparisons if (one.kind, one.quantity) == (each.kind, each.quantity))
     both = [index for one in alike for index in (one.left, one.right)]

@@ -127,6 +127,37 @@ def test_what_people_write_is_mended(top, body, end, rule, attribute, value, tmp
     assert not examine(NativeEngine(), dict(found.fixed)).error
 
 
+CLAW = "<body name='{0}_finger'><joint name='{0}_claw' type='slide'/><geom size='0.1'/><site name='{0}_tip'/></body>"
+CLAWS = CLAW.format("left") + CLAW.format("right")
+THROUGH = "<tendon><fixed><joint joint='{0}_claw' coef='1'/><joint joint='{0}_claw' coef='1'/></fixed></tendon>"
+
+
+@pytest.mark.parametrize(
+    ("end", "attribute", "value"),
+    [
+        (THROUGH.format("left"), "joint", "right_claw"),
+        (THROUGH.format("right"), "joint", "left_claw"),
+        ("<equality><joint joint1='left_claw' joint2='left_claw'/></equality>", "joint2", "right_claw"),
+        ("<equality><weld body1='left_finger' body2='left_finger'/></equality>", "body2", "right_finger"),
+        (
+            "<tendon><spatial><site site='tip'/><site site='left_tip'/><site site='left_tip'/></spatial></tendon>",
+            "site",
+            "right_tip",
+        ),
+        (
+            THROUGH.format("left").replace("</tendon>", "<fixed><joint joint='right_claw' coef='1'/></fixed></tendon>"),
+            "",
+            "removed",
+        ),
+    ],
+)
+def test_what_is_there_twice_is_given_its_twin_where_none_has_that(end, attribute, value, tmp_path, monkeypatch):
+    found = diagnosed(ARM.format("", CLAWS, end), tmp_path, monkeypatch)
+    first = found.causes[0]
+    assert (first.rule, first.attribute, first.value) == ("given-twice", attribute, value), found.text()
+    assert not examine(NativeEngine(), dict(found.fixed)).error
+
+
 URDF = """<robot name="r">{top}
   <link name="base"/>
   <link name="wheel">

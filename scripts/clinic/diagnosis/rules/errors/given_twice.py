@@ -19,7 +19,8 @@ Good:
 
     -       <inertial pos="0 0 0" mass="2" diaginertia="0.02 0.02 0.02"/>
 
-The number: none; the text compiles with the edit, which keeps the first.
+The number: none; the text compiles with the edit, which keeps the first. A tendon or an equality that has one of a pair
+twice, left and right, is given the other, where no line of its kind has that.
 
 When it is wrong: the second may be the right one.
 """
@@ -29,10 +30,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import delete, remove_attribute
+from clinic.diagnosis.edit import delete, remove_attribute, set_attribute
+from clinic.diagnosis.probes.sides import right_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence, told
-from clinic.diagnosis.source import Element
+from clinic.diagnosis.source import Element, Source
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Something given twice"
@@ -53,7 +55,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield from _children(model, found[1] or found[2])
     elif found := REPEATED.search(said):
         for element in meant(model):
-            yield from _path(element, said) if found[1] else _ends(element, found[3], said)
+            yield from _path(source, element, said) if found[1] else _ends(source, element, found[3], said)
     elif "multiple parents" in said:
         yield from _parents(list(source.elements("joint")))
     elif found := re.search(r"File '([^']*)' already included", said):
@@ -78,28 +80,47 @@ def _children(model: ReaderModel, tag: str) -> Iterator[Suspect]:
                 return
 
 
-def _path(tendon: Element, said: str) -> Iterator[Suspect]:
+def _path(source: Source, tendon: Element, said: str) -> Iterator[Suspect]:
     """The elements of a tendon's path that stand there before."""
     seen = set[tuple[str, str]]()
     for each in tendon.children:
-        key = (each.tag, each.get(each.tag))
-        if key in seen:
-            yield mends(
-                each, (delete(each),), f"{said}. {told(tendon)} goes through {key[1]!r} already.", value="removed"
+        tag, name = each.tag, each.get(each.tag)
+        if (tag, name) in seen:
+            says, twin = f"{said}. {told(tendon)} goes through {name!r} already", _twin(source, "tendon", tag, name)
+            yield (
+                _given(each, tag, name, twin, says)
+                if twin
+                else mends(each, (delete(each),), f"{says}.", value="removed")
             )
-        seen.add(key)
+        seen.add((tag, name))
 
 
-def _ends(element: Element, name: str, said: str) -> Iterator[Suspect]:
+def _ends(source: Source, element: Element, name: str, said: str) -> Iterator[Suspect]:
     """The second of two equal ends of an equality."""
     same = [key for key, value in element.attributes.items() if value == name and key != "name"]
     for attribute in same[1:]:
-        says = (
-            f"{said}. Something cannot be held to itself; without {attribute} it is held to the world or to a constant."
-        )
+        says = f"{said}. Something cannot be held to itself"
+        if twin := _twin(source, "equality", attribute.rstrip("2"), name):
+            yield _given(element, attribute, name, twin, says)
+            continue
+        says += f"; without {attribute} it is held to the world or to a constant."
         yield mends(
             element, (remove_attribute(element, attribute),), says, attribute=attribute, now=name, value="left out"
         )
+
+
+def _given(element: Element, attribute: str, name: str, twin: str, says: str) -> Suspect:
+    """The suspect that names the twin in the place of what is there twice."""
+    edits = (set_attribute(element, attribute, twin),)
+    return mends(element, edits, f"{says}, and none has {twin!r}.", attribute=attribute, now=name, value=twin)
+
+
+def _twin(source: Source, section: str, kind: str, name: str) -> str:
+    """The other one of a pair, left and right, where no line of a section has it; empty where there is none."""
+    taken = {value for line in source.section(section) for each in line.walk() for value in each.attributes.values()}
+    every = source.bodies() if kind == "body" else source.of_bodies(kind)
+    free = (other for each in every if (other := each.get("name")) and other not in taken)
+    return next((each for each in free if each in right_of(name) or name in right_of(each)), "")
 
 
 def _parents(joints: list[Element]) -> Iterator[Suspect]:

@@ -158,6 +158,23 @@ def test_what_is_there_twice_is_given_its_twin_where_none_has_that(end, attribut
     assert not examine(NativeEngine(), dict(found.fixed)).error
 
 
+@pytest.mark.parametrize(
+    ("right", "attribute", "value"),
+    [
+        ("<body name='left_foot'><joint name='right_ankle'/>", "name", "right_foot"),
+        ("<body name='right_leg'><geom name='left_foot' size='0.1'/>", "name", "left_foot_2"),
+        ("<body name='left_foot'><joint name='right_toe'/>", "name", "left_foot_2"),
+        ("<body name='left_foot'><joint/>", "name", "left_foot_2"),
+    ],
+)
+def test_a_name_that_was_copied_is_changed_as_what_is_in_it_was(right, attribute, value, tmp_path, monkeypatch):
+    left = "<body name='left_foot'><joint name='left_ankle'/><geom name='left_foot' size='0.1'/></body>"
+    text = f"<mujoco><worldbody>{left}{right}<geom size='0.1'/></body></worldbody></mujoco>"
+    found = diagnosed(text, tmp_path, monkeypatch)
+    first = found.causes[0]
+    assert (first.rule, first.attribute, first.value) == ("repeated-name", attribute, value), found.text()
+
+
 URDF = """<robot name="r">{top}
   <link name="base"/>
   <link name="wheel">

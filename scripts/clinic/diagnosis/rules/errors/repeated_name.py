@@ -20,7 +20,8 @@ Good:
 The number: none; the text compiles with the edit.
 
 When it is wrong: what refers to the name now means the first of both. Where something refers to a name that nothing
-has, that is the one that was meant.
+has, that is the one that was meant. A body whose joints are called as the first one's but for a word gets that word,
+not a number: `left_foot` with `left_ankle` and with `right_ankle` in it.
 """
 
 from __future__ import annotations
@@ -41,6 +42,7 @@ FAMILIES = ("will-not-compile",)
 SINCE = "0.1"
 
 MESSAGE = re.compile(r".*repeated (?:default )?(?:name|class name)(?: '([^']+)')?(?: in (\w+))?")
+WORD = re.compile(r"([A-Za-z]+|\d+)")
 KINDS = {"joint": ("joint", "freejoint"), "key": ("key",)}
 
 
@@ -75,7 +77,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         name = names[id(element)]
         if name and used[name]:
             number = next(n for n in range(used[name] + 1, 10_000) if f"{name}_{n}" not in names.values())
-            edits.append(set_attribute(element, attribute, f"{name}_{number}"))
+            before = next(each for each in every if names[id(each)] == name)
+            like = (other for other in _like_its_parts(name, before, element) if other not in names.values())
+            edits.append(set_attribute(element, attribute, next(like, f"{name}_{number}")))
             first = first or element
         used[name] += 1
     if first:
@@ -107,6 +111,18 @@ def _like(element: Element, name: str) -> float:
     around = [each.get("name") for each in element.around() if each.get("name")][:1]
     around += [each.get("name") for each in element.children if each.get("name")]
     return max((SequenceMatcher(None, name, each).ratio() for each in around), default=0.0)
+
+
+def _like_its_parts(name: str, before: Element, again: Element) -> Iterator[str]:
+    """The name with the one word changed by which names in and around the second differ from those of the first."""
+    parts = [[each.parent, *each.children] for each in (before, again)]
+    for one, other in zip(*parts, strict=False):
+        if one is None or other is None or one.tag != other.tag:
+            continue
+        words = [WORD.split(each.get("name")) for each in (one, other)]
+        apart = [pair for pair in zip(*words, strict=False) if pair[0] != pair[1]]
+        if len(words[0]) == len(words[1]) and len(apart) == 1 and apart[0][0] in WORD.split(name):
+            yield "".join(apart[0][1] if word == apart[0][0] else word for word in WORD.split(name))
 
 
 def _again(elements: list[Element], names: dict[int, str]) -> Element | None:

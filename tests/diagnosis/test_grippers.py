@@ -39,6 +39,7 @@ USUAL = {
     "more": "",
 }
 TENDON = '<tendon><fixed><joint joint="a" coef="0.5"/><joint joint="b" coef="-0.5"/></fixed></tendon>'
+COUPLED = ('joint1="a" joint2="b"', 'joint1="b" joint2="a"')
 LINKS = """
 <mujoco>
   <worldbody>
@@ -82,6 +83,22 @@ def told(text: str, rule: str) -> list[tuple[str, str, str]]:
 def test_fingers_that_nothing_couples_go_to_one_side(change, ill):
     found = told(HAND.format(**(USUAL | change)), "fingers-move-together")
     assert found == ([("hint", "axis", "-1 0 0")] if ill else [])
+
+
+@pytest.mark.parametrize("more", ["", *(f"<equality><joint {ends}/></equality>" for ends in COUPLED)])
+@pytest.mark.parametrize(
+    ("change", "wrong"),
+    [
+        ({}, "b"),
+        ({"axis": "-1 0 0", "place": 'pos="-0.03 0 0" quat="0 0 0 1"'}, "b"),
+        ({"range": "-0.04 0", "other": "-0.04 0"}, "a"),
+        ({"range": "0 0.02", "other": "0 0.02"}, ""),  # opens or closes
+    ],
+)
+def test_the_finger_that_crosses_the_middle_is_the_one_to_turn(more, change, wrong):
+    found = examine(NativeEngine(), {"model.xml": HAND.format(**(USUAL | change | {"more": more}))})
+    (told,) = (each for each in found.hints if each.rule == "fingers-move-together")
+    assert told.elements[0] == f'joint "{wrong or ("a" if COUPLED[0] in more else "b")}"'
 
 
 @pytest.mark.parametrize(

@@ -28,7 +28,8 @@ Good:
     +       <joint name="right" type="slide" axis="-1 0 0" range="0 0.04"/>
 
 The number: how far the two move the same way, as a share of how far they move; 0 for fingers that close, 1 for two that
-keep their distance. The axis is turned where the coupling leads within the range, and else the factor.
+keep their distance. The axis is turned where the coupling leads within the range, and else the factor. It is the
+axis of the finger whose range leads it past the middle between the two, or else of the one that follows.
 Without a coupling it is two slides of one hand, one called a finger or the like, that begin at the same end of ranges
 which are alike and go to one side, and stand beside each other along their axes.
 
@@ -71,11 +72,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         kinds = {of.joint_type(joint) for joint in (follower, leader)}
         if len(hang) > 1 or kinds != {SLIDE} or _together(of, each) <= MOST:
             continue
-        element, joint = model.element("equality", each), model.element("joint", follower)
+        wrong = _crossing(of, follower, leader)
+        element, joint = model.element("equality", each), model.element("joint", wrong)
         axis = joint.first("axis") if joint is not None else None  # of URDF, whose <mimic> has no place of its own
         if joint is None or (element is None and axis is None):
             continue
-        turned = written([-x for x in of.row("jnt_axis", follower, 3)])
+        turned = written([-x for x in of.row("jnt_axis", wrong, 3)])
         coefficients = written([factors[0], *(-x for x in factors[1:])])
         within = lost(of, (coupling,)) <= 0.5
         edit = set_attribute(joint, "axis", turned)
@@ -84,7 +86,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         elif element is not None and not within:
             edit = set_attribute(element, "polycoef", coefficients)
         yield Suspect(
-            tuple(of.name("joint", joint) for joint in (follower, leader)),
+            tuple(of.name("joint", joint) for joint in (wrong, follower + leader - wrong)),
             edit.attribute,
             "",
             edit.value,
@@ -119,19 +121,13 @@ def _uncoupled(model: ReaderModel) -> Iterator[Suspect]:
     for hand, joints in hands.items():
         if len(joints) != 2 or not _fingers(of, hand, joints) or _aside(of, *joints) <= MOST:
             continue
-        other = joints[1]
-        axis = written([-x for x in of.row("jnt_axis", other, 3)])
-        yield Suspect(
-            tuple(of.name("joint", joint) for joint in joints),
-            "axis",
-            "",
-            axis,
-            model.set("joint", [other], "axis", axis),
-            Probe("share of their way that two fingers go together", "", _aside, tuple(joints), dynamic=False),
-            MOST,
-            f"{of.name('joint', other)} goes to the side of {of.name('joint', joints[0])}, and their ranges are alike.",
-            "fingers that close",
-        )
+        wrong = _crossing(of, *joints[::-1])
+        axis = written([-x for x in of.row("jnt_axis", wrong, 3)])
+        names = of.name("joint", wrong), of.name("joint", sum(joints) - wrong)
+        edits = model.set("joint", [wrong], "axis", axis)
+        probe = Probe("share of their way that two fingers go together", "", _aside, tuple(joints), dynamic=False)
+        says = f"{names[0]} goes to the side of {names[1]}, and their ranges are alike."
+        yield Suspect(names, "axis", "", axis, edits, probe, MOST, says, "fingers that close")
 
 
 def _fingers(of: Simulation, hand: int, joints: Sequence[int]) -> bool:
@@ -168,6 +164,19 @@ def _aside(of: Simulation, one: int, other: int) -> float:
         return 0.0
     together = norm(add(axes[0], axes[1]))
     return together / max(together + norm(sub(axes[0], axes[1])), 1e-9)
+
+
+def _crossing(of: Simulation, one: int, other: int) -> int:
+    """The one of two fingers that its range leads past the middle between them; the first where both or none are."""
+    of.as_written()
+    places = [of.data_row("subtree_com", of.body_of("joint", joint), 3) for joint in (one, other)]
+    found = []
+    for joint, (own, there) in ((one, places), (other, places[::-1])):
+        way = max((end - of.model("qpos0")[of.place(joint)] for end in of.row("jnt_range", joint, 2)), key=abs)
+        between = sub(there, own)
+        if way * dot(of.data_row("xaxis", joint, 3), between) > dot(between, between) / 2:
+            found.append(joint)
+    return found[0] if len(found) == 1 else one
 
 
 def _together(simulation: Simulation, equality: int) -> float:

@@ -8,7 +8,7 @@ from clinic.diagnosis.edit import apply
 from clinic.diagnosis.finding import Finding
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.probes.siblings import odd_ones
-from clinic.diagnosis.probes.sides import right_of
+from clinic.diagnosis.probes.sides import by_name, right_of
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.rules import rules
 from clinic.diagnosis.simulation import Simulation, Start
@@ -154,6 +154,54 @@ def test_one_finger_of_three_is_odd_and_links_of_a_chain_are_no_siblings():
     for i in (3, 2, 1, 0):
         chain = finger.format(i=i, d=0.1 if i != 2 else 3, inner=chain)
     assert not list(odd_ones(simulated(f"<mujoco><worldbody>{chain}</worldbody></mujoco>"), "joint"))
+
+
+CLASSES = """
+<default>
+  <joint damping="0.05" armature="0.002"/>
+  <default class="knuckle"><joint axis="0 0 1" range="-20 20"/><position kp="2" ctrlrange="-0.35 0.35"/></default>
+  <default class="link"><joint axis="0 -1 0" range="-15 90"/><position kp="2" ctrlrange="-0.26 1.57"/></default>
+</default>
+"""
+
+
+def fingers(mend: str = "", class_of_first: str = "knuckle") -> str:
+    """A hand whose knuckles and links have classes of their own; `mend` is written at the first knuckle."""
+    made, servos = "", ""
+    for place, name in enumerate(("ff", "mf", "rf", "lf")):
+        first = f'class="{class_of_first}" {mend}' if name == "ff" else 'class="knuckle"'
+        made += (
+            f'<body name="{name}knuckle" pos="0.09 {0.03 - 0.02 * place} 0"><joint name="{name}J3" {first}/>'
+            f'<geom size="0.009"/><body name="{name}link"><joint name="{name}J2" class="link"/>'
+            '<geom type="capsule" fromto="0.01 0 0 0.04 0 0" size="0.008"/></body></body>'
+        )
+        servos += f'<position joint="{name}J3" class="knuckle"/><position joint="{name}J2" class="link"/>'
+    palm = f'<body name="palm" pos="0 0 1">{PALM}{made}</body>'
+    return f"<mujoco>{CLASSES}<worldbody>{palm}</worldbody><actuator>{servos}</actuator></mujoco>"
+
+
+@pytest.mark.parametrize(
+    ("mend", "class_of_first", "told"),
+    [
+        ("", "knuckle", []),
+        ("", "link", [("class", "knuckle")]),
+        ('axis="0 0 1"', "link", [("class", "knuckle")]),
+        ('range="-15 90"', "link", [("range", "-20 20"), ("axis", "0 0 1")]),
+        ('range="-15 90"', "knuckle", [("range", "-20 20")]),
+    ],
+)
+def test_a_finger_of_another_class_than_its_siblings_gets_theirs(mend, class_of_first, told):
+    found = diagnosed(fingers(mend, class_of_first))
+    assert not found.causes
+    odd_ones = [each for each in found.hints if each.rule == "twin-joint-differs"]
+    assert sorted((each.attribute, each.value) for each in odd_ones) == sorted(told)
+    assert {each.elements for each in odd_ones} <= {('joint "ffJ3"',)}
+    ranged = [each for each in found.hints if each.rule == "control-range-unlike-range"]
+    assert [(each.elements[0], each.attribute) for each in ranged] == [('joint "ffJ3"', "range")] * bool(told)
+
+
+def test_the_little_finger_and_the_ring_finger_are_no_pair():
+    assert by_name(simulated(fingers()), "joint") == []
 
 
 def legs(calf: str = "0.02 0.02 0.06", mass: str = "0.2", knee: str = "0 0 -0.21") -> str:

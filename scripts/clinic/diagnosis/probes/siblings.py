@@ -12,7 +12,7 @@ from clinic.diagnosis.suspect import Probe
 
 WHICH = re.compile(
     r"\d+|(?i:(?:front|rear|hind)_?(?P<side>left|right))|(?:FF|MF|RF|LF)(?=J|[a-z_])|"
-    r"(?<![a-z])(?:ff|mf|rf|lf)(?=j\d|[a-z_])|(?i:index|middle|ring|little|pinky)|"
+    r"(?<![a-z])(?:ff|mf|rf|lf)(?=[jJ]\d|[a-z_])|(?i:index|middle|ring|little|pinky)|"
     r"(?<![A-Za-z])(?:[fr][lr]|[FR][LR]|[hH][lrLR])(?![a-z])|(?i:front|rear|hind)"
 )
 FIELDS = {  # attribute: field, width of a row, columns compared

@@ -14,8 +14,9 @@ WORDS = (("left", "right"), ("Left", "Right"), ("LEFT", "RIGHT"))
 EXCHANGED = {"l": "r", "r": "l", "L": "R", "R": "L"}
 TOKEN = re.compile(r"[A-Z](?=[A-Z][a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 FIRST_LETTER = re.compile(r"(?<![A-Za-z])[lL](?=[a-z]{3})")  # lfemur beside rfemur
-FIRST_FINGER = re.compile(r"(?<![a-z])ff(?![a-z])", re.IGNORECASE)  # beside it lf and rf are the little and ring finger
-LITTLE_FINGER, RING_FINGER = (re.compile(rf"(?<![a-z]){name}(?![a-z])", re.IGNORECASE) for name in ("lf", "rf"))
+FIRST_FINGER, LITTLE_FINGER, RING_FINGER = (  # beside the first one lf and rf are the little and ring finger
+    re.compile(rf"(?<![A-Za-z])(?:{name}|{name.upper()})(?![a-z])") for name in ("ff", "lf", "rf")
+)
 
 
 def right_of(name: str) -> Iterator[str]:

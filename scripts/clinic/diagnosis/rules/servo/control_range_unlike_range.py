@@ -42,7 +42,7 @@ Good:
 
 The number: the share of the joint's range by which the two differ. Three servos at least, and two in three of all, have
 both alike to 1 %; one or two differ by 3 to 90 %, each in its own way: what is written twice alike is meant. Where the
-twin of the joint has the range of the targets, it is the joint's range that is the odd one.
+twin of the joint has the range of the targets, or its siblings have, it is the joint's range that is the odd one.
 
 When it is wrong: a servo that is kept away from a limit on purpose. Only intent knows which of the two is right:
 a hint.
@@ -53,6 +53,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.servo import Servo, greatest, servos
+from clinic.diagnosis.probes.siblings import LIKE, odd_ones
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -87,12 +88,20 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         )
         names = model.simulation.name("actuator", each.actuator), model.simulation.name("joint", each.joint)
         told = "ctrlrange", f"{low:.4g} {high:.4g}", f"{least:.4g} {most:.4g}"
-        twin = twins(model.simulation).partner("joint", each.joint)
-        if twin is not None and _same(model.simulation.row("jnt_range", twin, 2), each.targets):
+        if (like := ranged_like(model.simulation, each)) is not None:
             told = "range", told[2], told[1]
             names = names[::-1]
-            says += f" {model.simulation.name('joint', twin)} has the range of the targets."
+            says += f" {model.simulation.name('joint', like)} has the range of the targets."
         yield Suspect(names, *told, (), probe, UNLIKE, says, 'inheritrange="1"', level="hint")
+
+
+def ranged_like(of: Simulation, servo: Servo) -> int | None:
+    """The twin of a servo's joint, or a sibling where all others agree, that has the range of the targets."""
+    odd = (each.siblings[0] for each in odd_ones(of, "joint", 2 * LIKE)
+           if (each.attribute, each.index) == ("range", servo.joint))  # fmt: skip
+    others = twins(of).partner("joint", servo.joint), next(odd, None)
+    same = (each for each in others if each is not None and servo.targets)
+    return next((each for each in same if _same(of.row("jnt_range", each, 2), servo.targets or (0, 0))), None)
 
 
 def _same(one: tuple[float, ...], other: tuple[float, float]) -> bool:

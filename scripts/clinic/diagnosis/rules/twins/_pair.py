@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
-from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.inertia import inertial
-from clinic.diagnosis.probes.siblings import FIELDS, LIKE, SOME, Odd, odd_ones, swapped
-from clinic.diagnosis.probes.siblings import unlike as alike
+from clinic.diagnosis.probes.siblings import FIELDS, SOME, odd_ones, swapped
 from clinic.diagnosis.probes.twins import Comparison, Twins, twins
 from clinic.diagnosis.probes.vector import dot
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.twins._edits import COPIED, copied, edits_of
+from clinic.diagnosis.rules.twins._edits import COPIED, edits_of
 from clinic.diagnosis.rules.twins._side import INERTIAL, odd_side
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Level, Probe, Suspect
@@ -102,61 +101,6 @@ def _only(found: Twins, trusted: Sequence[Comparison], odd: Comparison) -> bool:
         placed = False
     beside = [each for each in trusted if found.group(each) == group and each is not odd]
     return not placed and len(beside) >= ENOUGH and all(each.unlike <= each.limit / 5 for each in beside)
-
-
-def siblings(model: ReaderModel, kind: str, attributes: Collection[str] = ()) -> Iterator[Suspect]:
-    """One of three or more that are alike but for a number or a finger in their names, where its twin tells nothing."""
-    of = model.simulation
-    told = [each for found, _ in odd(model, (kind,), (*FIELDS[kind], "gear sign")) for each in found]
-    paired = {(each.quantity.removesuffix(" sign"), side) for each in told for side in (each.left, each.right)}
-    found = [
-        each
-        for each in odd_ones(of, kind, 2 * LIKE)
-        if each.attribute in (attributes or FIELDS[kind])
-        and (each.attribute, each.index) not in paired
-        and (each.clear or (each.little and len(each.siblings) >= 3 and each.unlike > SOME) or _swapped(model, each))
-    ]
-    heavier = {each.index for each in found if each.attribute == "mass"}
-    found = [each for each in found if each.attribute != "inertia" or each.index not in heavier]
-    if len({each.index for each in found}) > 1:  # two that differ alike, left and right, are meant
-        return
-    for each in found:
-        names = COPIED.get(each.attribute, (each.attribute,))
-        edits = copied(model, kind, each.index, each.siblings[0], names)
-        if each.attribute == "inertia":
-            edits = _moments_of(model, each)
-        if edits and not model.measured(alike(each), edits) <= LIKE:
-            edits = ()
-        others = ", ".join(of.name(kind, other) for other in each.siblings[:3])
-        now = next((text for name in names if (text := model.value(kind, each.index, name))), "")
-        says = f"{others} agree in their {each.attribute}, and it differs by {each.unlike:.3g} %."
-        probe, value = alike(each), edits[0].value if edits else "that of its siblings"
-        digits = _swapped(model, each)
-        says += SWAPPED * digits
-        level: Level = "cause" if edits and (each.clear or digits) and not _none(of, each) else "hint"
-        healthy = "siblings alike"
-        elements = (of.name(kind, each.index),)
-        yield Suspect(elements, each.attribute, now, value, edits, probe, LIKE, says, healthy, level=level)
-
-
-def _moments_of(model: ReaderModel, each: Odd) -> tuple[Edit, ...]:
-    """The edit that gives a body the moments of its sibling, where both are written alike."""
-    bodies = [model.element("body", body) for body in (each.index, each.siblings[0])]
-    own, other = (body.first("inertial") if body is not None else None for body in bodies)
-    if own is None or other is None or not other.get("diaginertia") or "diaginertia" not in own.attributes:
-        return ()
-    return (set_attribute(own, "diaginertia", other.get("diaginertia")),)
-
-
-def _swapped(model: ReaderModel, each: Odd) -> bool:
-    """Whether a number of the odd one has the digits of its sibling's in another order."""
-    texts = [model.value(each.kind, index, each.attribute) or "" for index in (each.index, each.siblings[0])]
-    return swapped(*texts)
-
-
-def _none(of: Simulation, each: Odd) -> bool:
-    """Whether the one or the others have none of it."""
-    return each.unlike >= 99.9 and each.attribute in ("damping", "armature", "frictionloss", "stiffness")
 
 
 def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Suspect:

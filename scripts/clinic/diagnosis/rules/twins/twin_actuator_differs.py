@@ -65,7 +65,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.twins._pair import odd, siblings, suspect
+from clinic.diagnosis.rules.twins._pair import odd, suspect
+from clinic.diagnosis.rules.twins._siblings import siblings
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The actuator of a pair is unlike its twin"

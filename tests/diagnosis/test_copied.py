@@ -113,3 +113,22 @@ def test_the_name_of_a_sensor_tells_which_of_a_pair_reads_the_wrong_side(sensors
     (found,) = told(f"{text}<sensor>{sensors}</sensor></mujoco>", "twin-sensor-differs").hints
     assert [(each.attribute, each.value) for each in found.edit] == [meant]
     assert found.attribute == meant[0]
+
+
+@pytest.mark.parametrize(
+    ("sensors", "meant"),
+    [
+        ('<force site="a"/><torque site="b"/><framepos objtype="site" objname="a"/>', "b"),
+        ('<gyro site="b"/><accelerometer site="a"/><framequat objtype="site" objname="b"/><touch site="a"/>', "b"),
+        ('<gyro site="b"/><accelerometer site="a"/>', ""),  # which is elsewhere, no other sensor tells
+        ('<force site="a"/><torque site="a"/><touch site="a"/><gyro site="b"/>', ""),
+        ('<gyro site="b"/><accelerometer site="b"/><accelerometer site="a"/><touch site="a"/>', ""),  # a second one
+        ('<gyro site="far"/><accelerometer site="a"/><touch site="a"/>', ""),
+    ],
+)
+def test_a_sensor_alone_at_the_site_of_another_kind_belongs_to_its_unit(sensors, meant):
+    link = '<body pos="0 0 1"><joint/><geom size="0.1"/>{0}</body>'
+    chain = link.format('<site name="a"/>' + link.format('<site name="b"/>' + link.format('<site name="far"/>')))
+    text = f"<mujoco><worldbody>{chain}</worldbody><sensor>{sensors}</sensor></mujoco>"
+    found = told(text, "sensor-off-its-unit").hints
+    assert [each.value for one in found for each in one.edit] == [meant] * bool(meant)

@@ -6,6 +6,7 @@ import pytest
 from clinic.diagnosis.diagnose import Diagnosis, examine
 from clinic.diagnosis.edit import apply
 from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.rules import rules
 
 FINGER = """
 <body pos="0 {y} 1">
@@ -132,3 +133,24 @@ def test_a_sensor_alone_at_the_site_of_another_kind_belongs_to_its_unit(sensors,
     text = f"<mujoco><worldbody>{chain}</worldbody><sensor>{sensors}</sensor></mujoco>"
     found = told(text, "sensor-off-its-unit").hints
     assert [each.value for one in found for each in one.edit] == [meant] * bool(meant)
+
+
+SHANK = rules()["tendon-through-anothers-site"].example("Bad")
+
+
+@pytest.mark.parametrize(
+    ("change", "found"),
+    [
+        (("", ""), ["tib_i"]),
+        (('"tib_i"', '"toe"'), []),
+        (('"heel" pos', '"tib_heel" pos'), []),  # the tendon's own, which another one shares
+        (('<site name="heel"', '<site name="tib_j"/><site name="heel"'), []),
+        (('<site site="tib_via"/>', ""), []),  # one other site says too little
+        (('<site site="sol_o"/>\n      <site site="heel"/>', '<site site="sol_o"/><site site="tib_i"/>'), []),
+    ],
+)
+def test_a_tendon_of_two_sites_of_its_own_ends_in_a_third(change, found):
+    assert change[0] in SHANK
+    text = SHANK.replace(*change) if change[0] else SHANK
+    text = text.replace('site="heel"', 'site="tib_heel"') if "tib_heel" in text else text
+    assert [each.value for each in told(text, "tendon-through-anothers-site").hints] == found

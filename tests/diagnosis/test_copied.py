@@ -31,7 +31,8 @@ def hand(**lines: str) -> str:
     for section, line in lines.items():
         each = [line.replace("A", one) for one in ("ff", "mf", "rf")]
         sections += f"<{section}>{''.join(each)}</{section}>"
-    return f"<mujoco><worldbody>{FINGERS}</worldbody><tendon>{PULLS}</tendon>{sections}</mujoco>"
+    palm = f'<body><joint name="wrist"/><geom size="0.03"/>{FINGERS}</body>'
+    return f"<mujoco><worldbody>{palm}</worldbody><tendon>{PULLS}</tendon>{sections}</mujoco>"
 
 
 def told(text: str, *rules: str) -> Diagnosis:
@@ -46,6 +47,12 @@ def told(text: str, *rules: str) -> Diagnosis:
             {"actuator": '<motor name="M_AJ1" tendon="Apull"/>'},
             'tendon="rfpull"',
             'tendon="mfpull"',
+        ),
+        (
+            "driven-twice",
+            {"actuator": '<motor name="A_turn" joint="AJ1"/>'},
+            '"rf_turn" joint="rfJ1"',
+            '"rf_turn" joint="mfJ1"',
         ),
         ("sensor-twice", {"sensor": '<touch name="A_touch" site="Atip"/>'}, 'site="rftip"', 'site="mftip"'),
         (

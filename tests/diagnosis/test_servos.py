@@ -277,7 +277,7 @@ def test_rollers_that_stand_by_themselves_are_compared():
     assert rollers() == []
     assert rollers(m3='joint="r3" kv="0.001" ctrlrange="-5 5"')[0] == ("strength-unlike-others", ('actuator "m3"',))
     ((rule, elements), *_) = rollers(m3='joint="r2" kv="1" ctrlrange="-5 5"')
-    assert (rule, elements) == ("driven-twice", ('actuator "m2"', 'actuator "m3"', 'joint "r2"'))
+    assert (rule, elements) == ("driven-twice", ('actuator "m3"', 'actuator "m2"', 'joint "r2"'))
 
 
 def test_an_actuator_that_is_called_like_the_beginning_of_an_idle_joint_was_meant_for_it():

@@ -28,16 +28,19 @@ Good:
     +     <position name="lower" joint="knee" kp="200" dampratio="1"/>
 
 The number: how many other actuators of the same gain, bias and dynamics drive the joint, where a joint of its mechanism
-is driven by none.
+is driven by none. One that is called like the driven joint, but for what sets the names of the actuators apart, was
+meant.
 
 When it is wrong: two motors on one axle, or a pair of muscles that a joint stands for.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import DYN_MUSCLE, HINGE, SLIDE
+from clinic.diagnosis.probes.copied import Line, misled
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.siblings import of_a_row
 from clinic.diagnosis.reader_model import ReaderModel
@@ -57,12 +60,24 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each joint that is driven twice, beside one that is not driven."""
     of = model.simulation
     for joint, driving in twice(of).items():
-        names = tuple(of.name("actuator", each) for each in driving)
+        meant, idle = _meant(of, joint, driving), [of.name("joint", each) for each in _idle(of, joint)[:3]]
+        wrong, value, edits = driving[-1], ", ".join(idle), tuple[Edit, ...]()
+        for wrong, other in meant.items():
+            value, idle = of.names("joint")[other], [of.name("joint", other)]
+            edits = model.set("actuator", [wrong], "joint", value)
+        names = tuple(of.name("actuator", each) for each in sorted(driving, key=lambda each: each not in meant))
         probe = Probe("actuators of one kind on one joint, beyond one", "", _more, (joint,), dynamic=False)
-        idle = ", ".join(of.name("joint", each) for each in _idle(of, joint)[:3])
-        says = f"{' and '.join(names)} drive {of.name('joint', joint)}, and nothing drives {idle}."
-        at = model.element("actuator", driving[-1])
-        yield Suspect((*names, of.name("joint", joint)), "joint", "", idle, (), probe, 0.0, says, "one each", at=at)
+        says = f"{' and '.join(names)} drive {of.name('joint', joint)}, and nothing drives {', '.join(idle)}."
+        now, at = of.names("joint")[joint] * bool(meant), model.element("actuator", wrong)
+        yield Suspect((*names, of.name("joint", joint)), "joint", now, value, edits, probe, 0, says, "one each", at=at)
+
+
+def _meant(of: Simulation, joint: int, driving: Sequence[int]) -> dict[int, int]:
+    """The one of the actuators of a joint that is called after an idle one, and that; empty where it is not one."""
+    names, actuators = of.names("joint"), of.names("actuator")
+    lines = {each: Line(names[joint], (actuators[each],)) for each in driving}
+    found = misled(lines, [names[each] for each in _idle(of, joint)])
+    return {each: names.index(name) for each, name in found.items()} if len(found) == 1 else {}
 
 
 def twice(of: Simulation) -> dict[int, list[int]]:

@@ -449,3 +449,22 @@ def test_servos_that_damping_mends_are_told_without_one_that_it_does_not():
     )
     (found,) = examine(NativeEngine(), {"model.xml": text}, select=["undamped-servo"]).causes
     assert found.elements == ('actuator "s0"', 'actuator "s1"')
+
+
+@pytest.mark.parametrize(
+    ("hip", "knee", "mended"),
+    [
+        ('position class="leg"', 'motor class="leg"', ['<position class="leg" joint="knee" ctrlrange="-0.5 1.4"/>']),
+        ('position kp="20"', "motor", []),
+        ('position class="leg" kp="20"', 'motor class="leg"', []),
+    ],
+)
+def test_a_motor_of_a_class_that_gives_the_gains_of_servos_is_written_as_one(hip, knee, mended):
+    link = '<body pos="0 0 1"><joint name="{0}" axis="0 1 0" range="{1}"/><geom size="0.1" mass="1"/>{2}</body>'
+    text = (
+        '<mujoco><compiler angle="radian"/><default><default class="leg"><position kp="20" kv="1"/></default></default>'
+        f"<worldbody>{link.format('hip', '-1.1 0.7', link.format('knee', '-0.5 1.4', ''))}</worldbody><actuator>"
+        f'<{hip} joint="hip" ctrlrange="-1.1 0.7"/><{knee} joint="knee" ctrlrange="-0.5 1.4"/></actuator></mujoco>'
+    )
+    (told,) = examine(NativeEngine(), {"model.xml": text}, select=["motor-for-position"]).hints
+    assert [each.value for each in told.edit] == mended

@@ -32,6 +32,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.edit import Edit, replace
 from clinic.diagnosis.probes.servo import servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -57,7 +58,19 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = f"Its controls go from {ends.replace(' ', ' to ')}, the range of {of.name('joint', joint or 0)}, as N m."
     probe = how_many("motors whose control range is the range of the joint", _told)
     names = tuple(of.name("actuator", actuator) for actuator in found)
-    yield Suspect(names, "ctrlrange", ends, "<position>", (), probe, 0, says, "<position> for angles", level="hint")
+    edits = tuple(edit for actuator in found for edit in _as_servo(model, actuator))
+    yield Suspect(names, "ctrlrange", ends, "<position>", edits, probe, 0, says, "<position> for angles")
+
+
+def _as_servo(model: ReaderModel, actuator: int) -> tuple[Edit, ...]:
+    """A `<position>` in the place of a motor whose class gives the gains of servos; none where that is not known."""
+    element = model.element("actuator", actuator)
+    if element is None or model.source is None or element.tag != "motor" or not element.get("class"):
+        return ()
+    alike = [each for each in model.source.section("actuator") if each.get("class") == element.get("class")]
+    servos_of_class = [each for each in alike if each.tag == "position" and "kp" not in each.attributes]
+    text = model.text_of(element).replace("<motor", "<position", 1)
+    return (replace(element, text),) if element.empty and servos_of_class else ()
 
 
 def _told(of: Simulation) -> list[int]:

@@ -282,3 +282,30 @@ def test_a_wheel_whose_middle_is_beside_its_hinge_is_told(shape: str, told: bool
     car = f'<body pos="0 0 0.05"><freejoint/><geom type="box" size="0.1 0.05 0.02"/>{wheels}</body>'
     text = f'<mujoco><worldbody><geom type="plane" size="5 5 0.1"/>{car}</worldbody></mujoco>'
     assert bool(examine(NativeEngine(), {"model.xml": text}, select=["wheel-not-round"]).hints) is told
+
+
+@pytest.mark.parametrize(
+    ("name", "attributes", "tool", "told"),
+    [
+        pytest.param("cube", "", "gripper", True, id="before a gripper"),
+        pytest.param("cube", "", "pusher", False, id="before something else"),
+        pytest.param("cube", 'mass="0.1"', "pusher", True, id="with a mass"),
+        pytest.param("table", 'mass="9"', "gripper", False, id="a table"),
+    ],
+)
+def test_an_object_that_lies_on_something_and_has_no_joint_is_told(
+    name: str, attributes: str, tool: str, told: bool
+) -> None:
+    text = f"""<mujoco><worldbody><geom type="plane" size="2 2 0.1"/>
+      <body name="first" pos="1 0 0.1"><freejoint/><geom size="0.1"/></body>
+      <body name="{name}" pos="0.3 0 0.02" euler="0 0 90">
+        <geom type="box" size="0.02 0.02 0.02" {attributes}/></body>
+      <body name="{tool}" pos="0.3 0 0.3"><joint type="slide" damping="1"/><geom size="0.02"/></body></worldbody>
+    <keyframe><key qpos="1 0 0.1 1 0 0 0 0.05" qvel="0 0 0 0 0 0 0.1"/></keyframe></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["object-without-joint"]).hints
+    assert [each.elements for each in found] == [(f'body "{name}"',)] * told
+    for each in found:
+        mended = apply({"model.xml": text}, each.edit)["model.xml"]
+        pose = "0.3 0 0.02 0.707107 0 0 0.707107"
+        assert f'<key qpos="1 0 0.1 1 0 0 0 {pose} 0.05" qvel="{"0 " * 12}0.1"/>' in mended
+        assert NativeEngine().compile(mended, {})

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from itertools import combinations, permutations
+from collections.abc import Collection, Iterator, Sequence
+from itertools import combinations, permutations, product
 
+from clinic.diagnosis.edit import Edit, insert, set_attribute
 from clinic.diagnosis.engine import BALL, FREE, HINGE, PLANE, SLIDE
 from clinic.diagnosis.probes import servo
+from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import WIDTH, Simulation, kept
 from clinic.diagnosis.suspect import Probe
@@ -192,3 +194,20 @@ def _beyond_ranges(of: Simulation, qpos: Sequence[float]) -> int:
             low, high = of.row("jnt_range", joint, 2)
             made += not low - 0.01 <= qpos[of.place(joint)] <= high + 0.01
     return made
+
+
+def freed(model: ReaderModel, bodies: Collection[int]) -> tuple[Edit, ...]:
+    """The edits that put bodies of the world on free joints, and their places into the keyframes."""
+    of = model.simulation
+    made = [insert(element, "<freejoint/>") for body in bodies if (element := model.element("body", body))]
+    of.as_written()
+    keys = [element for key in range(of.count("key")) if (element := model.element("key", key))]
+    for element, (attribute, which) in product(keys, (("qpos", 0), ("qvel", 1))):
+        numbers = element.get(attribute).split()
+        for body in sorted(bodies, reverse=True) if numbers else ():
+            before = [joint for joint in range(of.count("joint")) if of.body_of("joint", joint) < body]
+            first = sum(WIDTH[of.joint_type(joint)][which] for joint in before)
+            pose = (*of.data_row("xpos", body, 3), *of.data_row("xquat", body, 4))
+            numbers[first:first] = written([0.0] * 6 if which else pose).split()
+        made += [set_attribute(element, attribute, " ".join(numbers))] if numbers else []
+    return tuple(made)

@@ -1,4 +1,4 @@
-"""An object hangs in the air while the rest of the model moves.
+"""An object hangs in the air, or lies before a gripper, and nothing can move it.
 
 A body without a joint is part of the world: gravity does nothing to it, and a robot that grasps it cannot lift it.
 
@@ -22,9 +22,11 @@ Good:
           <body name="parcel" pos="0.6 0 0.8">
     +       <freejoint/>
 
-The number: the height in m of what hangs above the floor. Told are bodies of the world without joints and without
-others on them that collide, that reach neither a plane nor another thing that stands still, and whose mass somebody
-wrote down (the mass of what cannot move has no effect), or that are called a cube, a ball, a bottle and the like.
+The number: bodies of the world without joints and without others on them that collide, and whose mass somebody wrote
+down (the mass of what cannot move has no effect), or that are called a cube, a ball, a bottle and the like: those that
+hang in the air, and reach neither a plane nor another thing that stands still. What lies on something is told where it
+is called so, is smaller than 30 cm, and has a mass that is written, or the model a gripper; and what looks like another
+that can move.
 
 When it is wrong: a lamp, or an obstacle that is meant to stay where it is.
 """
@@ -34,13 +36,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import insert
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.inertia import inertial
+from clinic.diagnosis.probes.key import freed
 from clinic.diagnosis.probes.shape import boxes
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "An object without a joint"
 FAMILIES = ("stuck",)
@@ -48,44 +50,52 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "only intent knows what is to stay where it is"
 
-HANGS, NEAR = 0.005, 0.001  # m above the floor, and from other things
+HANGS, NEAR, SMALL = 0.005, 0.001, 0.15  # m above the floor, and from other things; half of what a gripper holds
 OBJECT = re.compile(
     r"(?<![a-z])(cube|block|ball|object|brick|can|bottle|mug|dice|die|parcel|apple|banana)s?(?![a-z])", re.IGNORECASE
 )
+GRIPPER = re.compile(r"finger|grip|jaw|claw|suction|vacuum", re.IGNORECASE)
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Bodies of the world in the air that have a mass and no joint, all together."""
-    of, parents = model.simulation, model.simulation.model("body_parentid")
+    """Bodies of the world that are meant to move and have no joint, all together."""
+    of = model.simulation
     if not of.count("dof") or model.source is None or model.source.urdf or not any(of.model("opt.gravity")):
         return
-    carries = {int(parent) for parent in parents} | {int(body) for body in of.model("cam_bodyid")}
-    mocap, collides, found = of.model("body_mocapid"), of.model("geom_contype"), {}
-    for body in range(1, of.count("body")):
-        element = model.element("body", body)
-        if parents[body] or body in carries or of.joints_of(body) or mocap[body] >= 0 or element is None:
-            continue
-        geoms = [geom for geom in of.geoms_of(body) if collides[geom]]
-        weighed = any((model.value("geom", geom, "mass") or "0") != "0" for geom in geoms)
-        weighed |= len(geoms) == 1 and bool(OBJECT.search(of.names("body")[body]))
-        if geoms and (weighed or inertial(model, body)) and _height(of, body) > HANGS:
-            found[body] = element
-    found |= {body: element for body in _like_free(of) if (element := model.element("body", body)) is not None}
+    alike = _like_free(of)
+    found = [body for body in (*_weighed(model), *alike) if model.element("body", body) is not None]
+    found = list(dict.fromkeys(found))
     if found:
-        most = HANGS
-        first = next(iter(found))
+        first = found[0]
         says = f"{of.name('body', first)} has {of.model('body_mass')[first]:.3g} kg and no joint: nothing can move it."
-        edits = tuple(insert(element, "<freejoint/>") for element in found.values())
-        probe = Probe("height above the floor at which it hangs", "m", _highest, tuple(found), dynamic=False)
-        if _highest(of, *found) <= HANGS:
-            says += " Others of the same shape and size can move."
-            probe, most = Probe("objects that stand still beside others", "", _still, tuple(found), dynamic=False), 0.0
+        says += " Others of the same shape and size can move." * (first in alike)
+        probe = how_many("objects that nothing can move", _still, *found)
         names = tuple(of.name("body", body) for body in found)
-        yield Suspect(names, "freejoint", "left out", "<freejoint/>", edits, probe, most, says, "a joint")
+        yield Suspect(
+            names, "freejoint", "left out", "<freejoint/>", freed(model, found), probe, 0, says, "a joint each"
+        )
 
 
-def _still(of: Simulation, *bodies: int) -> float:
-    return float(sum(not of.joints_of(body) for body in bodies))
+def _weighed(model: ReaderModel) -> Iterator[int]:
+    """The bodies without a joint that have a mass, or the name of an object: in the air, or before a gripper."""
+    of, parents = model.simulation, model.simulation.model("body_parentid")
+    carries = {int(parent) for parent in parents} | {int(body) for body in of.model("cam_bodyid")}
+    names = (name for kind in ("body", "joint", "actuator", "geom") for name in of.names(kind))
+    gripper = any(map(GRIPPER.search, names))
+    for body in range(1, of.count("body")):
+        if parents[body] or body in carries or of.joints_of(body) or of.model("body_mocapid")[body] >= 0:
+            continue
+        geoms = [geom for geom in of.geoms_of(body) if of.model("geom_contype")[geom]]
+        weighed = any((model.value("geom", geom, "mass") or "0") != "0" for geom in geoms)
+        weighed = weighed or inertial(model, body) is not None
+        called = len(geoms) == 1 and bool(OBJECT.search(of.names("body")[body]))
+        held = called and (weighed or gripper) and of.model("geom_rbound")[geoms[0]] < SMALL
+        if geoms and (held or ((weighed or called) and _height(of, body) > HANGS)):
+            yield body
+
+
+def _still(of: Simulation, *bodies: int) -> list[int]:
+    return [body for body in bodies if not of.joints_of(body)]
 
 
 def _like_free(of: Simulation) -> list[int]:
@@ -105,15 +115,9 @@ def _like_free(of: Simulation) -> list[int]:
     return [body for body in solids if looks(body) in free]
 
 
-def _highest(of: Simulation, *bodies: int) -> float:
-    return max(_height(of, body) for body in bodies)
-
-
 def _height(of: Simulation, body: int) -> float:
     """How far a body that stands still is above all planes, 0 for one that reaches another one that does."""
     of.begin()
-    if of.joints_of(body):
-        return 0.0
     bodies, kinds, collides = of.model("geom_bodyid"), of.model("geom_type"), of.model("geom_contype")
     every = boxes(of, range(len(kinds)))
     moving, made = set(of.moving_bodies), float("inf")

@@ -38,8 +38,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import insert
 from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, HINGE, SPHERE
+from clinic.diagnosis.probes.key import freed
 from clinic.diagnosis.probes.shape import plane_heights, root_of
 from clinic.diagnosis.probes.vector import dot, norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
@@ -63,8 +63,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if len(roots) != 1:
         return
     root = roots.pop()
-    element = model.element("body", root)
-    edits = (insert(element, "<freejoint/>"),) if element is not None and not urdf else ()
+    edits = () if urdf else freed(model, [root])
     says = f"{len(wheels)} wheels or legs hang on it, and no joint lets it move."
     probe = Probe("wheels and legs of a fixed body", "", _count, (not urdf,), dynamic=False)
     yield Suspect((of.name("body", root),), "freejoint", "left out", "<freejoint/>", edits, probe, 1.5, says, "none")

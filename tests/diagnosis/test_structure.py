@@ -309,3 +309,21 @@ def test_an_object_that_lies_on_something_and_has_no_joint_is_told(
         pose = "0.3 0 0.02 0.707107 0 0 0.707107"
         assert f'<key qpos="1 0 0.1 1 0 0 0 {pose} 0.05" qvel="{"0 " * 12}0.1"/>' in mended
         assert NativeEngine().compile(mended, {})
+
+
+@pytest.mark.parametrize(
+    ("joint", "actuator", "told"),
+    [
+        pytest.param('name="slider" range="-1 1"', "pull", True, id="joint"),
+        pytest.param('name="cart" range="-1 1"', "slide", True, id="actuator"),
+        pytest.param('name="slider" type="slide" range="-1 1"', "slide", False, id="slide"),
+        pytest.param('name="slider_crank" type="hinge"', "crank", False, id="hinge"),
+        pytest.param('name="cart"', "pull", False, id="other-names"),
+    ],
+)
+def test_a_hinge_that_is_called_a_slide_is_told(joint: str, actuator: str, told: bool) -> None:
+    cart = f'<body name="cart"><joint {joint} axis="1 0 0"/><geom size="0.1"/></body>'
+    motor = f'<motor name="{actuator}" joint="{joint.split(chr(34))[1]}"/>'
+    text = f"<mujoco><worldbody>{cart}</worldbody><actuator>{motor}</actuator></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["hinge-for-slide"]).hints
+    assert [(each.attribute, each.value) for each in found] == [("type", "slide")] * told

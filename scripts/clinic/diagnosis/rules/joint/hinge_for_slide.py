@@ -1,6 +1,7 @@
-"""A driven hinge has the range of a slide: its `type` was left out.
+"""A hinge has the range or the name of a slide: its `type` was left out.
 
-A joint without `type` is a hinge. A range of 0 to 0.04 is then no way of 4 cm but an angle of 2 degrees.
+A joint without `type` is a hinge. A range of 0 to 0.04 is then no way of 4 cm but an angle of 2 degrees, and a cart on
+a joint `slider` turns about its rail.
 
 Bad:
 
@@ -22,8 +23,8 @@ Good:
     -       <joint name="finger" axis="0 1 0" range="0 0.04" damping="1"/>
     +       <joint name="finger" type="slide" axis="0 1 0" range="0 0.04" damping="1"/>
 
-The number: by how much the narrowest range is below 0.15 rad, of the hinges for which nobody wrote a type, which
-something drives or a spring holds, and whose range is so narrow as it is written, too.
+The number: hinges for which nobody wrote a type, and which are called a slide, or their actuator is; or which something
+drives or a spring holds, in a range below 0.15 rad that is so narrow as it is written, too.
 
 When it is wrong: a hinge that bends by a few degrees, such as a flexure.
 """
@@ -36,33 +37,49 @@ from collections.abc import Iterator
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, how_many
 
-TITLE = "A hinge with the range of a slide"
+TITLE = "A hinge with the range or the name of a slide"
 FAMILIES = ("stuck", "passes-limit", "drifts")
 SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "a joint of another type is planted as that of a pair"
 
 NARROW = 0.15  # rad
+SLIDES = re.compile(r"(?<![a-z])(slide|slider|sliding|prismatic|linear|rail)(?![a-z])", re.IGNORECASE)
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """The hinges that hardly turn, all together."""
+    """The hinges that are meant to slide, all together."""
     of, source = model.simulation, model.source
     if source is None or source.urdf:
         return
-    narrow = [joint for joint, wide in _ranges(of).items() if wide < NARROW and _in_metres(model, joint)]
-    if not narrow:
+    ranges = _ranges(of)
+    narrow = [joint for joint, wide in ranges.items() if wide < NARROW and _in_metres(model, joint)]
+    called = {joint: said for joint in range(of.count("joint")) if (said := _called(model, joint))}
+    found = sorted({*narrow, *called})
+    if not found:
         return
-    edits = model.set("joint", narrow, "type", "slide")
-    low, high = of.row("jnt_range", narrow[0], 2)
-    says = f"No type is written for it, so that it is a hinge, which turns from {low:.3g} to {high:.3g} rad."
-    probe = Probe(
-        "narrowest range of hinges without a type", "of 0.15 rad, below it", _below, tuple(narrow), dynamic=False
+    low, high = of.row("jnt_range", found[0], 2)
+    says = (
+        f"{called.get(found[0], f'It turns from {low:.3g} to {high:.3g} rad')}: it is a hinge, for no type is written."
     )
-    names = tuple(of.name("joint", joint) for joint in narrow)
-    yield Suspect(names, "type", "left out", "slide", edits, probe, 0, says, "a slide, or a wider range", level="hint")
+    names, edits = tuple(of.name("joint", joint) for joint in found), model.set("joint", found, "type", "slide")
+    probe = how_many("hinges with the range or the name of a slide", _hinges, *found)
+    yield Suspect(names, "type", "left out", "slide", edits, probe, 0, says, "a slide", level="hint")
+
+
+def _called(model: ReaderModel, joint: int) -> str:
+    """What calls a joint without a type a slide, in words: it or each of its actuators; empty where nothing does."""
+    of = model.simulation
+    if of.joint_type(joint) != HINGE or model.value("joint", joint, "type") or model.element("joint", joint) is None:
+        return ""
+    if SLIDES.search(of.names("joint")[joint]):
+        return "It is called a slide"
+    drivers = of.drivers.get(joint, [])
+    if drivers and all(SLIDES.search(of.names("actuator")[each]) for each in drivers):
+        return f"{of.name('actuator', drivers[0])} drives it"
+    return ""
 
 
 def _in_metres(model: ReaderModel, joint: int) -> bool:
@@ -72,10 +89,8 @@ def _in_metres(model: ReaderModel, joint: int) -> bool:
     return small and not model.value("joint", joint, "type")
 
 
-def _below(of: Simulation, *joints: int) -> float:
-    """By which share of the limit the narrowest of some joints is below it; slides are not."""
-    found = _ranges(of)
-    return max(0.0, 1 - min((found[joint] for joint in joints if joint in found), default=NARROW) / NARROW)
+def _hinges(of: Simulation, *joints: int) -> list[int]:
+    return [joint for joint in joints if of.joint_type(joint) == HINGE]
 
 
 def _ranges(of: Simulation) -> dict[int, float]:

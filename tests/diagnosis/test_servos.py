@@ -81,6 +81,12 @@ def test_a_model_that_only_looks_ill_has_no_cause(actuator, joint):
         ),
         ("joint-frozen", '<motor joint="shoulder" ctrlrange="-1 1" gear="5"/>', 'frictionloss="8"'),
         ("target-not-held", '<general joint="shoulder" biastype="affine" gainprm="9" biasprm="0 9 -1"/>', ""),
+        (
+            "target-not-held",
+            '<general tendon="cable" biastype="affine" gainprm="9" biasprm="0 9 -1"/></actuator>'
+            '<tendon><fixed name="cable"><joint joint="shoulder" coef="0.5"/></fixed></tendon><actuator>',
+            "",
+        ),
     ],
 )
 def test_a_fault_is_named_however_the_actuator_is_written(rule, actuator, joint):

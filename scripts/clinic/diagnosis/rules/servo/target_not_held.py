@@ -23,7 +23,8 @@ Good:
     +     <general joint="finger" biastype="affine" ctrlrange="0 1.57" gainprm="10" biasprm="0 -10 -0.1"/>
 
 The number: how the force changes when the joint is moved by 0.1 rad, over what the gain asks for; 1 where it does not.
-A position gain whose sign is the gain's, so that the joint is pushed away from its target, is told as well.
+A position gain whose sign is the gain's, so that the joint is pushed away from its target, is told as well, and of a
+tendon and all else that an actuator pulls one that grows with the length.
 
 When it is wrong: a velocity servo, which has biasprm[2] alone, is left alone.
 """
@@ -54,7 +55,7 @@ def _away(simulation: Simulation, actuators: tuple[int, ...]) -> float:
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Actuators of joints with an affine bias of nothing, or of the wrong sign."""
+    """Actuators with an affine bias of the wrong sign, and those of joints with one of nothing."""
     simulation, found = model.simulation, _found(model)
     if not found:
         return
@@ -62,7 +63,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for actuator, gain, bias in found:
         element = model.element("actuator", actuator)
         if element is not None and element.tag == "general":
-            mass = simulation.mass_diagonal[simulation.dof(simulation.driven_joint(actuator) or 0)]
+            joint = simulation.driven_joint(actuator)
+            mass = simulation.mass_diagonal[simulation.dof(joint)] if joint is not None else 0.0
             damping = abs(bias[2]) or min(0.1 * abs(gain), 2 * (abs(gain) * mass) ** 0.5)
             text = f"{bias[0]:g} {-(abs(bias[1]) or gain):g} {-damping:g}"
             edits += model.set("actuator", [actuator], "biasprm", text)
@@ -87,7 +89,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         ),
         0.9,
         f"With gainprm {gain:g} and biasprm {now} the force "
-        + ("pushes the joint away from its target." if bias[1] else "does not depend on where the joint is."),
+        + ("pushes away from the target." if bias[1] else "does not depend on where the joint is."),
         "biasprm[1] = -gainprm[0], as <position> has it",
     )
 
@@ -96,13 +98,17 @@ def _found(model: ReaderModel) -> list[tuple[int, float, tuple[float, ...]]]:
     """The actuators that do not pull towards their target, with the gain and the bias of each."""
     simulation, made = model.simulation, []
     for actuator in range(simulation.count("actuator")):
-        if int(simulation.model("actuator_biastype")[actuator]) != AFFINE or simulation.driven_joint(actuator) is None:
+        if int(simulation.model("actuator_biastype")[actuator]) != AFFINE:
             continue
         if int(simulation.model("actuator_dyntype")[actuator]) in (INTEGRATOR, DYN_MUSCLE):
             continue
         if (placed := model.element("actuator", actuator)) is not None and placed.tag == "cylinder":
             continue  # whose force is that of a pressure
         gain, bias = simulation.gain(actuator)[0], simulation.bias(actuator)
-        if gain and (not any(bias[:3]) or bias[1] / gain > 0):
+        if simulation.driven_joint(actuator) is None:
+            away = gain > 0 < bias[1]
+        else:
+            away = bool(gain) and (not any(bias[:3]) or bias[1] / gain > 0)
+        if away:
             made.append((actuator, gain, bias))
     return made

@@ -24,8 +24,8 @@ Good:
     -       <site name="pad"/>
     +       <site name="pad" type="box" size="0.014 0.01 0.032"/>
 
-The number: 1 for a site of which all of 7 x 7 x 7 points lie more than 1 mm inside of the same geom, or outside of all
-geoms of its body that collide. Bodies with meshes or planes are left alone.
+The number: 1 for a site of which all of 7 x 7 x 7 points lie more than 1 mm inside of the same geom, or that is farther
+from all geoms of its body that collide. Bodies with meshes or planes are left alone.
 
 When it is wrong: geoms that code lets collide later.
 """
@@ -39,7 +39,7 @@ from itertools import product
 from clinic.diagnosis.engine import BOX, CAPSULE, CYLINDER, ELLIPSOID, SPHERE
 from clinic.diagnosis.probes.shape import in_pairs, solid
 from clinic.diagnosis.probes.touched import TOUCH
-from clinic.diagnosis.probes.vector import Vector, add, norm, sub, times, transpose
+from clinic.diagnosis.probes.vector import Vector, add, sub, times, transpose
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -51,7 +51,8 @@ LEVEL = "hint"
 UNPLANTED = "what the sensor is to feel, only intent knows"
 
 NEAR, SHARE = 1e-3, 0.1  # m; of the geom's smallest half size
-FINE = 3  # points to each side
+TINY = 1e-9
+FINE, HALVINGS = 3, 7  # points to each side; of the way between two, in search of the nearest
 INSIDE, OUTSIDE = (
     "lies inside of its geom, and contacts are at the surface",
     "touches no geom of its body that collides",
@@ -92,15 +93,13 @@ def _why(of: Simulation, site: int) -> str:
     if any(int(of.model("geom_type")[geom]) not in (SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX) for geom in geoms):
         return ""
     of.begin()
-    points, spacing = _points(of, site)
     hidden = False
     for geom in geoms:
-        far = [_distance(of, geom, point) for point in points]
+        nearest, farthest = _distances(of, site, geom)
         slack = min(NEAR, SHARE * min(of.row("geom_aabb", geom, 6)[3:])) + of.model("geom_margin")[geom]
-        middle = sub(of.data_row("geom_xpos", geom, 3), of.data_row("site_xpos", site, 3))
-        if max(far) < -slack:
+        if farthest < -slack:
             hidden = True
-        elif min(far) <= slack + spacing or norm(middle) <= max(_half(of, "site", site)):
+        elif nearest <= slack:
             return ""
     return INSIDE if hidden else OUTSIDE
 
@@ -113,16 +112,38 @@ def _half(of: Simulation, kind: str, index: int) -> Vector:
     return (a, b, c)
 
 
-def _points(of: Simulation, site: int) -> tuple[list[Vector], float]:
-    """Points all over a site, in the world, and how far apart they are."""
+def _distances(of: Simulation, site: int, geom: int) -> tuple[float, float]:
+    """How far the nearest and the farthest point of a site are outside of a geom, in m.
+
+    Both are convex: steps that grow smaller from the nearest point of a grid lead to the nearest of all.
+    """
     half, frame, place = _half(of, "site", site), of.data_row("site_xmat", site, 9), of.data_row("site_xpos", site, 3)
     shape = int(of.model("site_type")[site])
-    steps = [step / FINE for step in range(-FINE, FINE + 1)]
-    made = []
-    for x, y, z in product(steps, repeat=3):
-        if shape == BOX or (shape == CYLINDER and math.hypot(x, y) <= 1) or math.hypot(x, y, z) <= 1:
-            made.append(add(place, times(frame, (x * half[0], y * half[1], z * half[2]))))
-    return made, max(half) / FINE
+
+    def far(shares: Vector) -> float:
+        x, y, z = (share * size for share, size in zip(shares, half, strict=True))
+        return _distance(of, geom, add(place, times(frame, (x, y, z))))
+
+    def around(middle: Vector, step: float, many: int) -> list[Vector]:
+        steps = [step * each for each in range(-many, many + 1)]
+        near = (add(middle, shares) for shares in product(steps, repeat=3))
+        return [shares for shares in near if _within(shape, half, shares)]
+
+    grid = {shares: far(shares) for shares in around((0.0, 0.0, 0.0), 1 / FINE, FINE)}
+    nearest = min(grid, key=lambda shares: grid[shares])
+    for halving in range(1, HALVINGS + 1):
+        nearest = min(around(nearest, 0.5**halving / FINE, 1), key=far)
+    return far(nearest), max(grid.values())
+
+
+def _within(shape: int, half: Vector, shares: Vector) -> bool:
+    """Whether a point, in half sizes from the middle, is in a box, cylinder, capsule or ellipsoid."""
+    x, y, z = shares
+    if shape == CAPSULE:
+        return math.hypot(x, y, max(0.0, 1 - half[2] / half[0] * (1 - abs(z)))) <= 1 + TINY
+    if shape in (BOX, CYLINDER):
+        return max(map(abs, shares)) <= 1 + TINY and (shape == BOX or math.hypot(x, y) <= 1 + TINY)
+    return math.hypot(x, y, z) <= 1 + TINY
 
 
 def _distance(of: Simulation, geom: int, point: Vector) -> float:

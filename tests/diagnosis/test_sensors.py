@@ -1,0 +1,32 @@
+"""Sensors: rangefinders that look astray, cutoffs, and touch sites that nothing touches."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.finding import Finding
+from clinic.diagnosis.native import NativeEngine
+
+
+def told(rule: str, inside: str, sensors: str) -> list[Finding]:
+    floor = '<geom type="plane" size="5 5 0.1"/>'
+    text = f"<mujoco><worldbody>{floor}{inside}</worldbody><sensor>{sensors}</sensor></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=[rule])
+    return [*found.causes, *found.hints]
+
+
+@pytest.mark.parametrize(
+    ("site", "count"),
+    [
+        pytest.param('type="box" size="0.12 0.12 0.015" pos="0 0 0.035"', 1, id="5-mm-above"),
+        pytest.param('type="box" size="0.12 0.12 0.015" pos="0 0 0.03"', 0, id="at-the-surface"),
+        pytest.param('type="box" size="0.12 0.12 0.015" pos="0 0 0.15"', 1, id="13-cm-above"),
+        pytest.param('type="capsule" size="0.01 0.1" pos="0 0 0.129"', 1, id="capsule-4-mm-above"),
+        pytest.param('type="capsule" size="0.01 0.1" pos="0 0 0.124" euler="0 90 0"', 1, id="capsule-that-lies"),
+        pytest.param('type="capsule" size="0.01 0.1" pos="0.2 0 0" euler="0 90 0"', 0, id="capsule-that-reaches-in"),
+        pytest.param('type="sphere" size="0.5"', 0, id="all-around"),
+    ],
+)
+def test_a_touch_site_that_does_not_reach_its_geom_is_told(site: str, count: int) -> None:
+    body = f'<body pos="0 0 1"><freejoint/><geom type="box" size="0.1 0.1 0.015"/><site name="pad" {site}/></body>'
+    assert len(told("touch-site-off-the-surface", body, '<touch site="pad"/>')) == count

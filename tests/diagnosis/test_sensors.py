@@ -16,6 +16,21 @@ def told(rule: str, inside: str, sensors: str) -> list[Finding]:
 
 
 @pytest.mark.parametrize(
+    ("cutoffs", "values"),
+    [
+        pytest.param((0.3, 6, 6), ["6"], id="one-of-three"),
+        pytest.param((0.3, 0.3, 0.3), [], id="all-alike"),
+        pytest.param((0.3, 6, 4), [], id="others-that-differ"),
+        pytest.param((2, 6, 6), [], id="a-third"),
+    ],
+)
+def test_a_rangefinder_that_reads_its_cutoff_is_told_beside_others(cutoffs: tuple[float, ...], values: list[str]):
+    sites = '<body pos="0 0 1"><freejoint/><geom size="0.1"/><site name="eye" pos="0 0 -0.1" euler="180 0 0"/></body>'
+    sensors = "".join(f'<rangefinder site="eye" cutoff="{cutoff}"/>' for cutoff in cutoffs)
+    assert [each.value for each in told("cutoff-reached", sites, sensors)] == values
+
+
+@pytest.mark.parametrize(
     ("site", "count"),
     [
         pytest.param('type="box" size="0.12 0.12 0.015" pos="0 0 0.035"', 1, id="5-mm-above"),

@@ -24,16 +24,17 @@ Good:
     +     <accelerometer name="imu" site="imu" cutoff="100"/>
 
 The number: the share of the time after letting go in which some value of the sensor is at its cutoff; below 0.8 is
-well.
+well. A rangefinder is told where two others and more have one cutoff, at least 5 times as much: else nothing is in its
+reach.
 
-When it is wrong: a rangefinder with nothing in reach, which is left alone.
+When it is wrong: a bumper among rangefinders that look far.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import remove_attribute
+from clinic.diagnosis.edit import Edit, remove_attribute
 from clinic.diagnosis.probes.touched import RANGE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -44,7 +45,7 @@ FAMILIES = ("sensor-reads-zero",)
 SINCE = "0.1"
 UNPLANTED = "one healthy model has a sensor with a cutoff"
 
-MOST = 0.8
+MOST, MUCH = 0.8, 5.0
 
 
 def _clipped(simulation: Simulation, sensor: int) -> float:
@@ -64,14 +65,24 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     simulation = model.simulation
     kinds = simulation.model("sensor_type")
     for sensor, cutoff in enumerate(simulation.model("sensor_cutoff")):
-        if cutoff <= 0 or int(kinds[sensor]) == RANGE:
+        usual = _usual(simulation, sensor) if int(kinds[sensor]) == RANGE else 0.0
+        if cutoff <= 0 or (int(kinds[sensor]) == RANGE and cutoff * MUCH > usual):
             continue
         probe = Probe("time at its cutoff", "of the run", _clipped, (sensor,))
         if model.measured(probe) > MOST:
             element = model.element("sensor", sensor)
             has = element is not None and "cutoff" in element.attributes
-            edits = (remove_attribute(element, "cutoff"),) if element is not None and has else ()
-            says = f"It reads {cutoff:g} and no more."
-            yield Suspect(
-                (simulation.name("sensor", sensor),), "cutoff", f"{cutoff:g}", "left out", edits, probe, MOST, says
-            )
+            edits: tuple[Edit, ...] = (remove_attribute(element, "cutoff"),) if element is not None and has else ()
+            says, value = f"It reads {cutoff:g} and no more.", "left out"
+            if usual:
+                edits, value = model.set("sensor", [sensor], "cutoff", f"{usual:g}"), f"{usual:g}"
+                says += f" The other rangefinders read up to {usual:g}."
+            names = (simulation.name("sensor", sensor),)
+            yield Suspect(names, "cutoff", f"{cutoff:g}", value, edits, probe, MOST, says)
+
+
+def _usual(of: Simulation, sensor: int) -> float:
+    """The cutoff that all other rangefinders have, two and more; 0 where they have none or differ."""
+    kinds, cutoffs = of.model("sensor_type"), of.model("sensor_cutoff")
+    others = [cutoffs[each] for each, kind in enumerate(kinds) if int(kind) == RANGE and each != sensor]
+    return others[0] if len(others) > 1 and len(set(others)) == 1 else 0.0

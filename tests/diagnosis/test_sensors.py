@@ -16,6 +16,26 @@ def told(rule: str, inside: str, sensors: str) -> list[Finding]:
 
 
 @pytest.mark.parametrize(
+    ("joint", "site", "values"),
+    [
+        pytest.param("<freejoint/>", 'pos="0 0 -0.06"', ["0 0 -1"], id="height-that-looks-up"),
+        pytest.param("<freejoint/>", 'pos="0 0 -0.06" euler="180 0 0"', [], id="height"),
+        pytest.param("<freejoint/>", 'pos="0 0.21 0" zaxis="0 -1 0"', ["0 1 0"], id="through-its-body"),
+        pytest.param("<freejoint/>", 'pos="0 0.21 0" zaxis="0 1 0"', [], id="outward"),
+        pytest.param("<freejoint/>", 'pos="0.21 0 0" euler="0 90 0"', [], id="into-the-open"),
+        pytest.param("<freejoint/>", 'pos="0 0 0.06"', ["to what it is to see"], id="on-top"),
+        pytest.param('<joint axis="0 1 0"/>', 'pos="0 0 0.06"', [], id="on-what-tilts"),
+        pytest.param("", 'pos="0.1 0.1 0.1"', ["to what it is to see"], id="of-the-world"),
+    ],
+)
+def test_a_rangefinder_that_looks_up_or_through_its_body_is_told(joint: str, site: str, values: list[str]) -> None:
+    shape = '<geom type="box" size="0.2 0.2 0.05"/>' if joint else ""
+    body = f'<body pos="0 0 0.5">{joint}{shape}<site name="eye" {site}/></body>'
+    found = told("rangefinder-looks-away", body, '<rangefinder site="eye"/>')
+    assert [each.value for each in found] == values
+
+
+@pytest.mark.parametrize(
     ("cutoffs", "values"),
     [
         pytest.param((0.3, 6, 6), ["6"], id="one-of-three"),

@@ -95,3 +95,22 @@ def test_a_slide_is_outside_of_its_range_by_four_centimetres_or_half_its_width(l
     text = f'<mujoco><worldbody>{cart}</worldbody><keyframe><key qpos="{at}"/></keyframe></mujoco>'
     found = examine(NativeEngine(), {"model.xml": text}, select=["key-outside-range"])
     assert bool([*found.causes, *found.hints]) is told
+
+
+@pytest.mark.parametrize(
+    ("qpos", "other", "meant"),
+    [
+        pytest.param("0.2 180 30", "0 0.3 0", "0.2 3.14159 0.523599", id="degrees"),
+        pytest.param("0.2 3.14 0.5", "0 0.3 0", "", id="radians"),
+        pytest.param("0.2 180 0", "0 -50.3 0", "", id="of-a-hinge-that-turns-for-ever"),
+        pytest.param("0.2 181.3 0", "0 0.3 0", "", id="no-whole-number"),
+    ],
+)
+def test_a_keyframe_in_degrees_is_told_of_hinges_without_a_range(qpos: str, other: str, meant: str):
+    pole = '<body name="pole"><joint name="hinge" axis="0 1 0"/><geom size="0.1" pos="0 0 0.5"/>{}</body>'
+    tip = '<body name="tip"><joint axis="0 1 0"/><geom size="0.1" pos="0 0 0.9"/></body>'
+    cart = f'<body><joint type="slide" axis="1 0 0"/><geom size="0.1"/>{pole.format(tip)}</body>'
+    keys = f'<key name="down" qpos="{qpos}"/><key name="other" qpos="{other}"/>'
+    text = f"<mujoco><worldbody>{cart}</worldbody><keyframe>{keys}</keyframe></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["key-outside-range"]).hints
+    assert [each.value for each in found] == [meant] * bool(meant)

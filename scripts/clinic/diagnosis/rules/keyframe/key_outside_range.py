@@ -28,7 +28,8 @@ Good:
 
 The number: how far the worst joint is outside: 0.1 rad or 4 cm, and more. Where the joint's servo is told to hold it
 there, and may be, the joint's range is what is told. What would be inside in degrees, or far inside with the other
-sign, is written so; else it is put to the end of the range.
+sign, is written so; else it is put to the end of the range. Of hinges without a range a whole multiple of 15 from 30 on
+is told as a hint, where no other keyframe turns them by more than once.
 
 When it is wrong: a limit that is soft on purpose.
 """
@@ -44,7 +45,8 @@ from clinic.diagnosis.probes.key import against_range, beyond, outside, reordere
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.source import Element
+from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A keyframe is outside of the joints' ranges"
 FAMILIES = ("jumps-at-start", "explodes")
@@ -52,6 +54,7 @@ SINCE = "0.1"
 CASE = "arm-jumps-at-reset"
 
 LIMIT = 0.1  # rad
+LEAST, WHOLE = 30, 15  # degrees that are no angle in rad
 TURNED = 0.25  # of the range: farther outside, and inside with the other sign
 
 
@@ -63,6 +66,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         off = {joint: each for joint, each in beyond(of, key).items() if weighed(of, joint, each) > LIMIT}
         element = model.element("key", key)
+        if element is not None and not off:
+            yield from _degrees(model, key, element)
         if not off or element is None:
             continue
         held = {joint: reach for joint, reach in against_range(of, key).items() if joint in off}
@@ -94,6 +99,43 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "inside of the ranges",
             excess=weighed(of, worst, off[worst]) / LIMIT,
         )
+
+
+def _degrees(model: ReaderModel, key: int, element: Element) -> Iterator[Suspect]:
+    """A keyframe in degrees, as hinges without a range tell."""
+    of = model.simulation
+    if not (found := _whole(of, key)):
+        return
+    start_at(of, key)
+    qpos = list(of.data("qpos"))
+    for joint in range(of.count("joint")):
+        if of.joint_type(joint) == HINGE:
+            qpos[of.place(joint)] = math.radians(of.position(joint))
+    at = of.position(found[0])
+    says = (
+        f"{of.name('joint', found[0])} stands at {at:g} rad, {at / (2 * math.pi):.3g} turns. As degrees it is {at:g}."
+    )
+    names = (of.name("key", key), *(of.name("joint", joint) for joint in found))
+    edits = (set_attribute(element, "qpos", written(qpos)),)
+    probe = how_many("hinges at whole degrees for radians", _whole, key)
+    now, healthy = element.get("qpos"), "angles in rad"
+    yield Suspect(names, "qpos", now, written(qpos), edits, probe, 0, says, healthy, level="hint")
+
+
+def _whole(of: Simulation, key: int) -> list[int]:
+    """The hinges without a range that stand at a multiple of 15 in one keyframe, and at no angle beyond a turn else."""
+    made = []
+    for joint in range(of.count("joint")):
+        if of.joint_type(joint) != HINGE or of.model("jnt_limited")[joint]:
+            continue
+        angles = {}
+        for each in range(-1, of.count("key")):
+            of.engine.reset(each)
+            angles[each] = abs(of.position(joint))
+        at = angles.pop(key)
+        if at >= LEAST and at % WHOLE == 0 and max(angles.values()) <= 2 * math.pi:
+            made.append(joint)
+    return made
 
 
 def _ranges(model: ReaderModel, key: int, held: Mapping[int, tuple[float, float]]) -> Iterator[Suspect]:

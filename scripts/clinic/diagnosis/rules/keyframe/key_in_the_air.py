@@ -23,7 +23,8 @@ Good:
     +     <key name="home" qpos="0 0 0.1 1 0 0 0"/>
 
 The number: how far the lowest geom of the one free robot is above the plane, or what stands there, at the keyframe, in
-sizes of the robot; told from 1 on, where it starts at less than a quarter without the keyframe.
+sizes of the robot; told from 1 on, where it starts at less than a quarter without the keyframe, and from 0.05 on where
+servos move its legs and it starts on the floor.
 
 When it is wrong: a drop or a flight, if its name does not say so.
 """
@@ -36,7 +37,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import HFIELD, PLANE, TRN_SITE
 from clinic.diagnosis.probes.key import reordered, start_at
-from clinic.diagnosis.probes.shape import boxes, plane_heights, solid
+from clinic.diagnosis.probes.shape import boxes, plane_heights, root_of, solid
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -48,7 +49,9 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "from where a robot should fall, only intent knows"
 
-HIGH, LOW, NEAR = 1.0, 0.25, 0.02  # sizes of the robot; m that a foot may be in the floor
+HIGH, LOW = 1.0, 0.25  # sizes of the robot
+DROP, ON_FLOOR, LEAST = 0.05, 0.01, 4  # the same of one that stands; its driven joints
+NEAR = 0.02  # m that a foot may be in the floor
 MEANT = re.compile(
     r"jump|air|fly|flight|drop|fall|hover|high|above|take|throw|toss|launch|land|hang|flip", re.IGNORECASE
 )
@@ -60,20 +63,23 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     flies = any(int(kind) == TRN_SITE for kind in of.model("actuator_trntype")) or of.model("opt.gravity")[2] >= 0
     if len(of.free_bodies) != 1 or flies or (not of.count("key") or _gap(of, -1) > LOW):
         return
-    height = of.place(of.joints_of(of.free_bodies[0])[0]) + 2
+    root, begin = root_of(of), of.free_bodies[0]
+    legs = sum(root[of.body_of("joint", joint)] == begin for joint in of.drivers)
+    most = DROP if legs >= LEAST and _gap(of, -1) < ON_FLOOR else HIGH
+    height = of.place(of.joints_of(begin)[0]) + 2
     for key, name in enumerate(of.names("key")):
         gap, element = _gap(of, key), model.element("key", key)
-        if gap <= HIGH or element is None or MEANT.search(name) or reordered(model, key):
+        if gap <= most or element is None or MEANT.search(name) or reordered(model, key):
             continue
         start_at(of, key)
         qpos = list(of.data("qpos"))
         now, lower = qpos[height], gap * _size(of)
         qpos[height] = now - lower
         probe = Probe("height above the floor at the keyframe", "sizes of the robot", _gap, (key,), dynamic=False)
-        says = f"At the keyframe {of.name('body', of.free_bodies[0])} begins {lower:.3g} m above the floor, and falls."
+        says = f"At the keyframe {of.name('body', begin)} begins {lower:.3g} m above the floor, and falls."
         edits = (set_attribute(element, "qpos", written(qpos)),)
         told, value = (of.name("key", key),), f"height {qpos[height]:.4g}"
-        yield Suspect(told, "qpos", f"height {now:.4g}", value, edits, probe, HIGH, says, "on the floor")
+        yield Suspect(told, "qpos", f"height {now:.4g}", value, edits, probe, most, says, "on the floor")
 
 
 def _gap(of: Simulation, key: int) -> float:

@@ -474,3 +474,18 @@ def test_a_motor_of_a_class_that_gives_the_gains_of_servos_is_written_as_one(hip
     )
     (told,) = examine(NativeEngine(), {"model.xml": text}, select=["motor-for-position"]).hints
     assert [each.value for each in told.edit] == mended
+
+
+@pytest.mark.parametrize(
+    ("friction", "force", "kp", "value"),
+    [
+        pytest.param(10, 24, 60, "0.24", id="a-good-part-of-the-force"),
+        pytest.param(1, 24, 60, None, id="a-little"),
+        pytest.param(10, 24, 600, None, id="of-a-stiff-servo"),
+        pytest.param(10, 200, 60, None, id="of-a-strong-servo"),
+    ],
+)
+def test_friction_that_takes_a_good_part_of_a_servos_force_is_told(friction, force, kp, value):
+    servo = f'<position joint="shoulder" kp="{kp}" kv="3" forcerange="-{force} {force}"/>'
+    found = [each for each in arm(servo, f'frictionloss="{friction}"').hints if each.rule == "joint-frozen"]
+    assert [(each.attribute, each.value) for each in found] == [("frictionloss", value)] * (value is not None)

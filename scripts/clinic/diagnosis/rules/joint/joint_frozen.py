@@ -23,9 +23,11 @@ Good:
     +       <joint name="elbow" axis="0 1 0" range="-90 90" damping="0.5"/>
 
 The number: driven for 2 s with all that its actuators give, without gravity and contacts, more than 80 % of the way to
-1 rad (0.1 m), or to the far limit, is left. In a URDF, whose efforts no actuator gives yet, friction above the effort,
-or damping above it at half a rad/s (m/s), is told. So is a door or a drawer that nothing drives, its weight does not
-load, and a push of 50 N and twice its weight at its far end moves at less than 0.1 rad/s (0.1 m/s).
+1 rad (0.1 m), or to the far limit, is left. A position servo is told, too, of which friction takes more than 0.2 of the
+force and 0.05 rad (m) of the way: of 38 models with dry friction at their servos none has more than 0.05. In a URDF,
+whose efforts no actuator gives yet, friction above the effort, or damping above it at half a rad/s (m/s), is told. So
+is a door or a drawer that nothing drives, its weight does not load, and a push of 50 N and twice its weight at its far
+end moves at less than 0.1 rad/s (0.1 m/s).
 
 When it is wrong: a brake, or a worm gear that is meant to hold.
 """
@@ -39,11 +41,11 @@ from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE, SLIDE, TRN_IN_PARENT
 from clinic.diagnosis.probes.drive import way_left
 from clinic.diagnosis.probes.load import loads
-from clinic.diagnosis.probes.servo import servos
+from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.probes.shape import size
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "Damping or friction holds a joint"
 FAMILIES = ("stuck", "sags")
@@ -53,6 +55,7 @@ LEVEL = "hint"
 FIELDS = ("damping", "frictionloss")
 SLOW = 0.5  # rad/s or m/s that full force reaches
 LEFT = 0.7
+TAKEN, SHORT = 0.2, 0.05  # of a servo's force; rad or m of its way
 STILL = 0.03  # rad/s or m/s that its own weight gives what nothing drives
 HEAVY = 0.05  # of weight times size: a joint that is balanced has less
 LEVER = 0.1  # m: a knob is turned by what is longer than it
@@ -89,9 +92,36 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"which moves it with {can}.",
             "full force that reaches 1 rad/s and more",
         )
+    yield from _rubbed(model)
     yield from _hung(model)
     yield from _shut(model)
     yield from _beyond_effort(model)
+
+
+def _rubbed(model: ReaderModel) -> Iterator[Suspect]:
+    """The position servos that friction takes a good part of the force of, all together."""
+    of = model.simulation
+    rubbed = {each.joint: each for each in servos(of) if _taken(of, each) > TAKEN}
+    if not rubbed:
+        return
+    worst, joints = next(iter(rubbed.values())), list(rubbed)
+    friction, value = of.model("dof_frictionloss")[worst.dof], rounded(worst.force / 100)
+    says = f"Friction takes {friction:.3g} of the {worst.force:.3g} {worst.force_unit} that its servo can give, and "
+    says += f"lets it stop up to {friction / worst.stiffness:.2g} {worst.unit} short of its target."
+    names, edits = tuple(of.name("joint", each) for each in joints), model.set("joint", joints, "frictionloss", value)
+    probe = Probe("share of a servo's force that friction takes", "", _most_taken, tuple(joints), dynamic=False)
+    yield Suspect(names, "frictionloss", f"{friction:.3g}", value, edits, probe, TAKEN, says, "below 0.05 in 38 models")
+
+
+def _taken(of: Simulation, servo: Servo) -> float:
+    """The share of a servo's force that dry friction takes; 0 where it stops near its target, or never moves."""
+    friction = of.model("dof_frictionloss")[servo.dof]
+    stops = friction > SHORT * servo.stiffness and math.isfinite(servo.force)
+    return friction / servo.force if stops and friction <= servo.force else 0.0
+
+
+def _most_taken(of: Simulation, *joints: int) -> float:
+    return max((_taken(of, each) for each in servos(of) if each.joint in joints), default=0.0)
 
 
 def _hung(model: ReaderModel) -> Iterator[Suspect]:

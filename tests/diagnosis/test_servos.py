@@ -489,3 +489,19 @@ def test_friction_that_takes_a_good_part_of_a_servos_force_is_told(friction, for
     servo = f'<position joint="shoulder" kp="{kp}" kv="3" forcerange="-{force} {force}"/>'
     found = [each for each in arm(servo, f'frictionloss="{friction}"').hints if each.rule == "joint-frozen"]
     assert [(each.attribute, each.value) for each in found] == [("frictionloss", value)] * (value is not None)
+
+
+@pytest.mark.parametrize(
+    ("kv", "force", "told"),
+    [
+        pytest.param(0.02, 'forcerange="-8 8"', True, id="a-weak-gain-of-a-strong-servo"),
+        pytest.param(0.02, 'forcerange="-1 1"', False, id="of-a-weak-one"),
+        pytest.param(0.02, "", False, id="of-one-without-limits"),
+        pytest.param(0.2, 'forcerange="-8 8"', False, id="a-gain-that-is-strong-enough"),
+    ],
+)
+def test_a_wheel_that_needs_seconds_to_its_speed_is_told(kv, force, told):
+    text = rules()["speed-not-reached"].example("Good").replace('kv="0.2"', f'kv="{kv}" {force}')
+    text = text.replace('damping="0.01"', 'damping="0.001"').replace('mass="3"', 'mass="12"')
+    found = examine(NativeEngine(), {"model.xml": text}, select=["speed-not-reached"]).hints
+    assert [(each.attribute, each.value) for each in found] == [("kv", "0.4")] * told

@@ -36,7 +36,8 @@ Good:
     +         <joint name="right_wheel" axis="0 1 0" damping="0.01"/>
 
 The number: all velocity servos of hinges without limits are told half of their greatest speed; the share of it that is
-missing after 2 s, of the fastest wheel. Above 0.8 is told.
+missing after 2 s, of the fastest wheel. Above 0.8 is told, and above 0.4 where kv asks for less than a fifth of the
+force that the servo can give, from the greatest speed back to the same.
 
 When it is wrong: a robot that stands against something, or wheels that are meant to be slow.
 """
@@ -60,6 +61,7 @@ LEVEL = "hint"
 UNPLANTED = "nearly no healthy model has velocity servos of wheels"
 
 MISSING, HALF, SECONDS, MORE = 0.8, 0.5, 2.0, 20.0
+LATE, ASKED = 0.4, 0.2  # of the speed, of the force: less is asked of a servo that needs seconds
 
 
 @dataclass(frozen=True)
@@ -76,7 +78,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The wheels of a model, where none comes near to what it is told."""
     of = model.simulation
     wheels = _wheels(of)
-    if not wheels or _missing(of) <= MISSING:
+    allowed = LATE if wheels and all(_asked(of, each) < ASKED for each in wheels) else MISSING
+    if not wheels or _missing(of) <= allowed:
         return
     damping = of.model("dof_damping")[of.dof(wheels[0].joint)]
     joints, actuators = [each.joint for each in wheels], [each.actuator for each in wheels]
@@ -94,8 +97,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         ("forcerange", most, text := rounded(MORE * most), _forces(model, actuators, text) if limited else ()),
     ):
         helps = edits and (attribute != "damping" or damping > wheels[0].gain)
-        if helps and model.measured(probe, edits) <= MISSING:  # else something else holds it
-            yield Suspect(names, attribute, f"{now:.3g}", value, edits, probe, MISSING, says, "next to nothing")
+        if helps and model.measured(probe, edits) <= allowed:  # else something else holds it
+            yield Suspect(names, attribute, f"{now:.3g}", value, edits, probe, allowed, says, "next to nothing")
             return
 
 
@@ -117,6 +120,13 @@ def _wheels(of: Simulation) -> list[Wheel]:
         if turns and gain and gear and fastest > 0:
             made.append(Wheel(actuator, joint, gain * gear**2, fastest / abs(gear)))
     return made
+
+
+def _asked(of: Simulation, wheel: Wheel) -> float:
+    """The share of its greatest force that a servo asks for at most; 1 where nothing limits it."""
+    most = max(map(abs, of.row("actuator_forcerange", wheel.actuator, 2))) * abs(of.gear(wheel.actuator))
+    limited = of.model("actuator_forcelimited")[wheel.actuator] and most > 0
+    return 2 * wheel.gain * wheel.fastest / most if limited else 1.0
 
 
 def _missing(of: Simulation) -> float:

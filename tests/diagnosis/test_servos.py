@@ -505,3 +505,23 @@ def test_a_wheel_that_needs_seconds_to_its_speed_is_told(kv, force, told):
     text = text.replace('damping="0.01"', 'damping="0.001"').replace('mass="3"', 'mass="12"')
     found = examine(NativeEngine(), {"model.xml": text}, select=["speed-not-reached"]).hints
     assert [(each.attribute, each.value) for each in found] == [("kv", "0.4")] * told
+
+
+@pytest.mark.parametrize(
+    ("waist", "count", "told"),
+    [
+        pytest.param('range="-40 60"', 8, True, id="alone-among-eight"),
+        pytest.param('range="-40 60"', 5, False, id="among-five"),
+        pytest.param("", 8, False, id="without-a-range"),
+        pytest.param('range="-40 60" stiffness="9"', 8, False, id="on-a-spring"),
+    ],
+)
+def test_the_only_joint_of_a_robot_that_nothing_drives_is_told(waist: str, count: int, told: bool) -> None:
+    names = ["neck", "hip", "knee", "ankle", "elbow", "shoulder", "wrist", "jaw"][:count]
+    limbs = "".join(f'<body><joint name="{name}" axis="1 0 0"/><geom size="0.05"/></body>' for name in names)
+    torso = f'<body><joint name="waist" axis="0 1 0" {waist}/><geom size="0.1"/></body>'
+    servos = "".join(f'<position joint="{name}" kp="50"/>' for name in names)
+    trunk = f'<body pos="0 0 1"><freejoint/><geom size="0.1"/>{torso}{limbs}</body>'
+    text = f"<mujoco><worldbody>{trunk}</worldbody><actuator>{servos}</actuator></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["joint-not-driven"]).hints
+    assert [each.elements for each in found] == [('joint "waist"',)] * told

@@ -30,8 +30,8 @@ Good:
 
 The number: joints that no actuator, tendon, coupling or spring moves, where the twin of left and right is moved, or all
 others of three and more that are called alike but for a number or a finger, unless those hang as deep as each other and
-it does not; or the one other that is called so and hangs on the same body, with the same range and mass. More than two
-are meant so.
+it does not; or the one other that is called so and hangs on the same body, with the same range and mass. So is the only
+loose joint with a range of a robot that has eight others and more. More than two are meant so.
 
 When it is wrong: a mechanism that is driven on one side, and whose other side the load closes.
 """
@@ -43,6 +43,7 @@ from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.engine import HINGE, SLIDE, TRN_IN_PARENT, WRAP_JOINT
 from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, WELD, held, kind_of, sited
+from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.siblings import groups
 from clinic.diagnosis.probes.tendons import TENDON
 from clinic.diagnosis.probes.twins import twins
@@ -56,7 +57,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "no kind of fault in the bench takes an actuator away"
 
-MOST, NUMBER = 2, re.compile(r"\d+")
+MOST, MANY, NUMBER = 2, 8, re.compile(r"\d+")
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -86,6 +87,18 @@ def _loose(of: Simulation) -> dict[int, int]:
         still = [joint for joint in group if joint not in moved]
         if len(still) == 1 and _turns(of, *group) and not _elsewhere(of, still[0], group):
             made[still[0]] = next(joint for joint in group if joint in moved)
+    return made or _only_one(of, moved)
+
+
+def _only_one(of: Simulation, moved: Collection[int]) -> dict[int, int]:
+    """The one hinge or slide of a robot that nothing moves, where it has a range, and one that is moved."""
+    roots, made = root_of(of), {}
+    for root in set(roots):
+        joints = [each for each in range(of.count("joint")) if roots[of.body_of("joint", each)] == root]
+        joints = [each for each in joints if _turns(of, each)]
+        loose = [each for each in joints if each not in moved]
+        if root and len(joints) > MANY and len(loose) == 1 and of.model("jnt_limited")[loose[0]]:
+            made[loose[0]] = next(each for each in joints if each in moved)
     return made
 
 

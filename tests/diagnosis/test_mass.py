@@ -98,3 +98,24 @@ def test_links_in_grams_for_each_cubic_centimetre_are_told_beside_a_heavy_trunk(
     text += f'<body name="trunk" pos="0 0 1">{trunk}{shins}</body></worldbody></mujoco>'
     (found,) = examine(NativeEngine(), {"model.xml": text}, select=["lighter-than-air", "mass-unlike-links"]).hints
     assert (found.rule, found.attribute, found.value, len(found.edit)) == ("lighter-than-air", "density", "900", 1)
+
+
+@pytest.mark.parametrize(
+    ("second", "third", "told"),
+    [
+        pytest.param("8.4 0.21", "8.4 0.21", True, id="copied"),
+        pytest.param("8.4 0.21", "2.3 0.17", False, id="its-own"),
+        pytest.param("8.4 0", "8.4 0", False, id="placeholders"),
+        pytest.param("3.1 0.1", "3.1 0.1", False, id="others-that-are-alike-too"),
+    ],
+)
+def test_a_link_with_mass_centre_and_inertia_of_the_one_it_hangs_on_is_told(second: str, third: str, told: bool):
+    text, links = "", ["3.1 0.1", "3.1 0.1" if second == "3.1 0.1" else "5.2 0.3", second, third, "0.9 0.05"]
+    for number, numbers in reversed(list(enumerate(links))):
+        mass, z = numbers.split()
+        inertial = f'<inertial pos="0 0 {z}" mass="{mass}" diaginertia="0.13 0.12 0.015"/>'
+        geom = f'<geom type="capsule" fromto="0 0 0 0 0 0.4" size="0.0{number + 2}"/>'
+        text = f'<body name="link{number}" pos="0 0 0.4">{inertial}<joint axis="0 1 0"/>{geom}{text}</body>'
+    text = f"<mujoco><worldbody>{text}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["inertial-copied"]).hints
+    assert [each.elements for each in found] == [('body "link3"', 'body "link2"')] * told

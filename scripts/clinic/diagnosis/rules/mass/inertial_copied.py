@@ -28,7 +28,8 @@ Good:
 
 The number: the mass of the links that share mass and principal inertia, to four digits, with one before them that has
 other geoms and another name but for numbers and sides. A mass of fewer than four digits is a placeholder, and left
-alone.
+alone, but where a link has the centre too of the one that it hangs on, off its joint, and every other link has an
+inertial of its own.
 
 When it is wrong: one part under two names.
 """
@@ -53,12 +54,15 @@ LEVEL = "hint"
 UNPLANTED = "which of two links an inertial is of stands nowhere"
 
 SIDE = re.compile(r"left|right|front|rear|back|upper|lower|(?<![a-z])(?:[lrfb]|[fhrblm][lrfhb])(?![a-z])|[\W\d_]+")
-DIGITS = 4
+DIGITS, OTHERS = 4, 3
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each group of links of one inertial that are not one part, but for its first."""
     of = model.simulation
+    if pair := _next_of_kin(model):
+        yield _told(model, pair[0], [pair[1]], ", centre")
+        return
     groups: dict[tuple[float, ...], list[int]] = {}
     for body in of.moving_bodies:
         element = inertial(model, body)
@@ -73,15 +77,33 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             parts.setdefault(_part(of, body), body)
             names.setdefault(_plain(of.engine.name("body", body)), body)
         copies = [body for body in bodies[1:] if body in parts.values() and body in names.values()]
-        if not copies:
-            continue
-        first, mass = of.name("body", bodies[0]), of.model("body_mass")[bodies[0]]
-        says = f"Mass and principal inertia are those of {first}, {mass:.4g} kg, to four digits."
-        told = tuple(of.name("body", body) for body in copies)
-        at = model.element("body", copies[0])
-        healthy = "each link its own"
-        probe = mass_of(tuple(copies))
-        yield Suspect((*told, first), "inertial", f"{mass:.4g} kg", "its own", (), probe, 0.0, says, healthy, at=at)
+        if copies:
+            yield _told(model, bodies[0], copies)
+
+
+def _told(model: ReaderModel, body: int, copies: list[int], more: str = "") -> Suspect:
+    of = model.simulation
+    first, mass = of.name("body", body), of.model("body_mass")[body]
+    says = f"Mass{more} and principal inertia are those of {first}, {mass:.4g} kg, to four digits."
+    told, at = tuple(of.name("body", each) for each in copies), model.element("body", copies[0])
+    healthy, probe = "each link its own", mass_of(tuple(copies))
+    return Suspect((*told, first), "inertial", f"{mass:.4g} kg", "its own", (), probe, 0.0, says, healthy, at=at)
+
+
+def _next_of_kin(model: ReaderModel) -> tuple[int, int] | None:
+    """The one link that has mass, centre and inertia of the link that it hangs on, where no others have them alike."""
+    of = model.simulation
+    groups: dict[tuple[float, ...], list[int]] = {}
+    for body in of.moving_bodies:
+        if inertial(model, body) is not None:
+            fields = (("body_ipos", 3), ("body_inertia", 3), ("body_mass", 1))
+            groups.setdefault(tuple(x for name, width in fields for x in of.row(name, body, width)), []).append(body)
+    alike = [(key, bodies) for key, bodies in groups.items() if len(bodies) > 1]
+    if len(alike) != 1 or len(alike[0][1]) != 2 or len(groups) <= OTHERS:
+        return None
+    numbers, (above, below) = alike[0]
+    hangs, placeholder = of.model("body_parentid")[below] == above, not any(numbers[:3]) or len(set(numbers[3:6])) == 1
+    return (above, below) if hangs and not placeholder and _part(of, above) != _part(of, below) else None
 
 
 def _digits(element: Element) -> int:

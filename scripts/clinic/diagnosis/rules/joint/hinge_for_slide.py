@@ -66,7 +66,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     )
     names, edits = tuple(of.name("joint", joint) for joint in found), model.set("joint", found, "type", "slide")
     probe = how_many("hinges with the range or the name of a slide", _hinges, *found)
-    yield Suspect(names, "type", "left out", "slide", edits, probe, 0, says, "a slide", level="hint")
+    yield Suspect(names, "type", "left out", "slide", edits, probe, 0, says, "a slide")
 
 
 def _called(model: ReaderModel, joint: int) -> str:

@@ -327,3 +327,16 @@ def test_a_hinge_that_is_called_a_slide_is_told(joint: str, actuator: str, told:
     text = f"<mujoco><worldbody>{cart}</worldbody><actuator>{motor}</actuator></mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["hinge-for-slide"]).hints
     assert [(each.attribute, each.value) for each in found] == [("type", "slide")] * told
+
+
+@pytest.mark.parametrize(
+    ("young", "value"), [("30", "30000"), ("3e4", None)], ids=["in-kilopascal", "that-keeps-its-shape"]
+)
+def test_a_soft_body_that_goes_flat_is_told(young: str, value: str | None) -> None:
+    foam = f"""<flexcomp name="foam" type="grid" count="3 3 3" spacing="0.07 0.07 0.07" pos="0 0 0.09" dim="3"
+        mass="1.2" radius="0.012"><elasticity young="{young}" poisson="0.2" damping="0.02"/>
+        <contact solref="0.01 1" selfcollide="none"/></flexcomp>"""
+    floor = '<geom type="plane" size="1 1 0.1"/>'
+    text = f'<mujoco><option timestep="0.002"/><worldbody>{floor}{foam}</worldbody></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text}, select=["flex-falls-apart"]).hints
+    assert [(each.attribute, each.value) for each in found] == [("young", value)] * (value is not None)

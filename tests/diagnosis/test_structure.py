@@ -340,3 +340,24 @@ def test_a_soft_body_that_goes_flat_is_told(young: str, value: str | None) -> No
     text = f'<mujoco><option timestep="0.002"/><worldbody>{floor}{foam}</worldbody></mujoco>'
     found = examine(NativeEngine(), {"model.xml": text}, select=["flex-falls-apart"]).hints
     assert [(each.attribute, each.value) for each in found] == [("young", value)] * (value is not None)
+
+
+@pytest.mark.parametrize(
+    ("axis", "links", "attribute"),
+    [
+        pytest.param("", 4, "type", id="left-out"),
+        pytest.param('axis="0 0 1"', 4, "axis", id="written"),
+        pytest.param('axis="0 1 0"', 4, None, id="across"),
+        pytest.param("", 2, None, id="two"),
+    ],
+)
+def test_a_chain_whose_hinges_are_on_one_line_is_told(axis: str, links: int, attribute: str | None) -> None:
+    text = ""
+    for each in range(links):
+        shape = '<geom type="capsule" fromto="0 0 0 0 0 -0.1" size="0.01"/>'
+        text = f'<body name="b{each}" pos="0 0 -0.1"><joint name="j{each}" {axis}/>{shape}{text}</body>'
+    text = f"<mujoco><worldbody>{text}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["joints-on-one-line"]).hints
+    assert [each.attribute for each in found] == [attribute] * (attribute is not None)
+    if attribute == "type":
+        assert 'type="ball"' in apply({"model.xml": text}, found[0].edit)["model.xml"]

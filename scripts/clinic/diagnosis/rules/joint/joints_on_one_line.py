@@ -20,7 +20,8 @@ Good:
     -       <joint name="hinge_high" axis="0 0 1" pos="0 0 0.4"/>
 
 The number: joints of a body that move it as one before them does: hinges whose axes lie within 1 % of the model's size
-on one line, and slides that are parallel.
+on one line, and slides that are parallel. Three links and more of a chain, each with one hinge, that all turn about one
+line are told as a hint: the chain twists and does not bend. Where no axis is written, z is the axis, along the links.
 
 When it is wrong: two motors on one shaft, each with an armature of its own.
 """
@@ -32,21 +33,23 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import delete
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.run import let_go
-from clinic.diagnosis.probes.vector import cross, norm, sub
+from clinic.diagnosis.probes.vector import Vector, cross, norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
-TITLE = "Two joints that make the same motion"
+TITLE = "Joints that turn about one line"
 FAMILIES = ("explodes", "drifts")
 SINCE = "0.1"
 UNPLANTED = "a second joint on the line of the first is a fault at every strength"
 
+LINKS = 3
 NEAR, PARALLEL = 0.01, 0.001  # of the model's extent; the sine of an angle
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """The joints that move their bodies as one before them, all together."""
+    """The joints that move their bodies as one before them, and the hinges of a chain on one line, all together."""
+    yield from _twisted(model)
     of, source = model.simulation, model.source
     again = _again(of)
     if not again:
@@ -61,6 +64,43 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield Suspect(names, "", "", value, edits, probe, 0.0, says, level="cause" if singular else "hint")
 
 
+def _twisted(model: ReaderModel) -> Iterator[Suspect]:
+    """The hinges of a chain that only twists: balls are meant where nobody wrote their axes and nothing drives them."""
+    of = model.simulation
+    if not (found := _in_line(of)):
+        return
+    bare = all(model.value("joint", joint, "axis") is None and joint not in of.drivers for joint in found)
+    edits = model.set("joint", found, "type", "ball") if bare and not model.urdf else ()
+    names = tuple(of.name("joint", joint) for joint in found)
+    says = f"{len(found)} links of a chain turn about one line, that of {names[0]}: it twists and does not bend."
+    attribute, now, value = ("type", "hinge", "ball") if bare else ("axis", "along the chain", "across it")
+    probe = how_many("hinges of a chain on one line", _in_line)
+    yield Suspect(names, attribute, now, value, edits, probe, 0, says, "a chain that bends", level="hint")
+
+
+def _in_line(of: Simulation) -> list[int]:
+    """The hinges of three links and more that hang on each other, each with this joint alone, on one line."""
+    of.begin()
+    chains: dict[int, list[int]] = {}
+    for body in of.moving_bodies:
+        joints, above = of.joints_of(body), chains.get(int(of.model("body_parentid")[body]), [])
+        if len(joints) == 1 and of.joint_type(joints[0]) == HINGE:
+            on_line = above and _same_line(of, joints[0], above[-1], NEAR * norm(_apart(of, joints[0], above[-1])))
+            chains[body] = [*(above if on_line else []), joints[0]]
+    return sorted({joint for chain in chains.values() if len(chain) >= LINKS for joint in chain})
+
+
+def _same_line(of: Simulation, joint: int, other: int, near: float) -> bool:
+    """Whether a joint has the axis of another one, and is nearer to it than `near`, in m; a slide wherever it is."""
+    axis = of.data_row("xaxis", joint, 3)
+    parallel = norm(cross(axis, of.data_row("xaxis", other, 3))) < PARALLEL
+    return parallel and (of.joint_type(joint) == SLIDE or norm(cross(axis, _apart(of, joint, other))) < near)
+
+
+def _apart(of: Simulation, joint: int, other: int) -> Vector:
+    return sub(of.data_row("xanchor", joint, 3), of.data_row("xanchor", other, 3))
+
+
 def _again(of: Simulation) -> dict[int, int]:
     """The joints that move their bodies as one before them, with that."""
     of.begin()
@@ -69,11 +109,7 @@ def _again(of: Simulation) -> dict[int, int]:
         joints = [joint for joint in of.joints_of(body) if of.joint_type(joint) in (HINGE, SLIDE)]
         for place, joint in enumerate(joints):
             for other in joints[:place]:
-                axis = of.data_row("xaxis", joint, 3)
-                apart = sub(of.data_row("xanchor", joint, 3), of.data_row("xanchor", other, 3))
-                parallel = norm(cross(axis, of.data_row("xaxis", other, 3))) < PARALLEL
-                on_line = of.joint_type(joint) == SLIDE or norm(cross(axis, apart)) < near
-                if parallel and on_line and of.joint_type(joint) == of.joint_type(other):
+                if of.joint_type(joint) == of.joint_type(other) and _same_line(of, joint, other, near):
                     made.setdefault(joint, other)
     return made
 

@@ -135,3 +135,20 @@ def test_a_robot_that_stands_is_told_where_its_keyframe_drops_it(name: str, heig
     text = f"<mujoco>{world}<actuator>{servos}</actuator><keyframe>{key}</keyframe></mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["key-in-the-air"]).hints
     assert [each.value for each in found] == ["height 0.5"] * told
+
+
+@pytest.mark.parametrize(
+    ("acts", "ctrl", "told"),
+    [
+        pytest.param("0.1 0.1 1 0.1 0.2", "0.1 0.1 0.1 0.1 0.2", "0.1", id="one-of-five"),
+        pytest.param("0.1 0.1 0.1 0.1 0.2", "0.1 0.1 0.1 0.1 0.2", None, id="all-alike"),
+        pytest.param("0.1 1 1 0.1 0.2", "0.1 0.1 0.1 0.1 0.2", None, id="two"),
+    ],
+)
+def test_the_one_state_of_a_keyframe_that_is_not_its_control_is_told(acts: str, ctrl: str, told: str | None):
+    links = "".join(f'<body><joint name="j{i}" axis="0 1 0"/><geom size="0.1"/></body>' for i in range(5))
+    muscles = "".join(f'<muscle joint="j{i}" lengthrange="0.1 1"/>' for i in range(5))
+    key = f'<key qpos="0 0 0 0 0" act="{acts}" ctrl="{ctrl}"/>'
+    body = f"<worldbody>{links}</worldbody><actuator>{muscles}</actuator><keyframe>{key}</keyframe>"
+    found = examine(NativeEngine(), {"model.xml": f"<mujoco>{body}</mujoco>"}, select=["key-targets-elsewhere"]).hints
+    assert [(each.attribute, each.value) for each in found] == [("act", told)] * (told is not None)

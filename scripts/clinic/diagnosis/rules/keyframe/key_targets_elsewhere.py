@@ -32,7 +32,8 @@ Good:
 The number: the distance between target and joint that three quarters of the position servos keep, in rad or m; 0.1 and
 more tells a cause, for keyframes in which at least two servos and half of them are off. Where there is no `ctrl`, two
 servos that go 0.5 away are told in a hint. Two that are each told the other's place are told as such. So is a servo on
-a tendon, a gripper's, that goes more than half of the tendon's way.
+a tendon, a gripper's, that goes more than half of the tendon's way. Of five actuators with a state and more the one
+whose `act` is not its `ctrl`, as it is of all others, is told in a hint.
 
 When it is wrong: a keyframe that is meant to start a motion.
 Whether `ctrl` is left out on purpose, only its author knows: all zero and no `ctrl` is a hint.
@@ -49,7 +50,7 @@ from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
-from clinic.diagnosis.suspect import Probe, Suspect, rounded
+from clinic.diagnosis.suspect import Probe, Suspect, how_many, rounded
 
 TITLE = "A keyframe's targets are not its pose"
 FAMILIES = ("drifts", "jumps-at-start", "sags")
@@ -58,6 +59,7 @@ UNPLANTED = "no healthy model has a keyframe with controls"
 
 LIMIT, FAR = 0.1, 0.5  # rad or m
 WAY = 0.5  # of a tendon's
+STATES, SAME = 5, 1e-6
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -65,6 +67,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     for key in range(of.count("key")):
         yield from _tendons(model, key)
+        yield from _states(model, key)
         if reordered(model, key):
             continue
         found = servos(of, key)
@@ -125,6 +128,30 @@ def _swap(
     healthy = "the targets of a pose are its joints' positions"
     now, value = element.get("ctrl"), written(ctrl)
     return Suspect((of.name("key", key), *names), "ctrl", now, value, edits, farthest_target(key), LIMIT, says, healthy)
+
+
+def _states(model: ReaderModel, key: int) -> Iterator[Suspect]:
+    """The one actuator whose state in a keyframe is not its control, where it is of all others."""
+    of, element = model.simulation, model.element("key", key)
+    if element is None or not element.get("act") or not element.get("ctrl") or len(off := _unlike(of, key)) != 1:
+        return
+    start_at(of, key)
+    (actuator,), acts = off, list(of.data("act"))
+    place, ctrl = int(of.model("actuator_actadr")[actuator]), of.data("ctrl")[actuator]
+    now, acts[place] = acts[place], ctrl
+    says = f"{of.name('actuator', actuator)} begins at {now:g} and is told {ctrl:g}; of all others the two are equal."
+    probe = how_many("actuators whose state is not their control", _unlike, key)
+    names, edits = (of.name("key", key), of.name("actuator", actuator)), (set_attribute(element, "act", written(acts)),)
+    yield Suspect(names, "act", f"{now:g}", f"{ctrl:g}", edits, probe, 0, says, "its control", level="hint")
+
+
+def _unlike(of: Simulation, key: int) -> list[int]:
+    """The actuators whose state is not their control, of five and more that have one."""
+    start_at(of, key)
+    places, acts, ctrl = of.model("actuator_actadr"), of.data("act"), of.data("ctrl")
+    having = [actuator for actuator, place in enumerate(places) if place >= 0]
+    off = [each for each in having if abs(acts[int(places[each])] - ctrl[each]) > SAME]
+    return off if len(having) >= STATES else []
 
 
 def _tendons(model: ReaderModel, key: int) -> Iterator[Suspect]:

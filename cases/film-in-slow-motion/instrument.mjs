@@ -1,0 +1,42 @@
+export const about = "Film the ball for two simulated seconds, and read what the film is like.";
+
+export const controls = [
+  { name: "rate", label: "images a second", min: 10, max: 100, step: 10, value: 50 },
+  { name: "steps", label: "steps for an image", min: 1, max: 50, step: 1, value: 1 },
+];
+
+const DURATION = 2; // s, simulated
+
+export default class {
+  constructor(mujoco, files) {
+    this.mujoco = mujoco;
+    this.model = mujoco.MjModel.from_xml_string(files["ball.xml"]);
+    this.rate = 50;
+    this.steps = 1;
+  }
+
+  use(name, value) {
+    this[name] = value;
+  }
+
+  read() {
+    const { mujoco, model, rate, steps } = this;
+    const data = new mujoco.MjData(model);
+    mujoco.mj_resetDataKeyframe(model, data, 0);
+    let [images, bounce, step] = [0, null, 0];
+    while (data.time < DURATION) {
+      mujoco.mj_step(model, data);
+      step += 1;
+      if (step % steps === 0) images += 1;
+      if (bounce === null && data.qvel[0] > 0) bounce = step / steps / rate;
+    }
+    const [length, pace] = [step / steps / rate, (data.time * steps * rate) / step];
+    data.delete();
+    return [
+      ["images to draw", `${images}`],
+      ["length of the film", `${length.toFixed(2)} s`],
+      ["first bounce in the film", `${bounce.toFixed(2)} s`],
+      ["pace", pace.toFixed(3), Math.abs(pace - 1) < 0.001 ? "same" : "differs"],
+    ];
+  }
+}

@@ -49,6 +49,16 @@ QUERIES = {
     ],
     "grasp-slips": ["gripper drops the object", "can't pick up object with gripper", "friction coefficient ignored"],
     "gravity-ignores-forearm": ["arm does not fall under gravity", "pendulum does not swing", "hinge axis wrong"],
+    "small-stack-is-slow": [
+        "mj_step slow many contacts",
+        "visual geoms collide too",
+        "too many contacts simulation slower than real time",
+    ],
+    "film-in-slow-motion": [
+        "video plays in slow motion",
+        "rendered video too slow fps timestep",
+        "rendering every step takes long",
+    ],
     "camera-upside-down": ["camera upside down", "rendered image is flipped", "how to orient camera xyaxes"],
     "ball-passes-through-shelf": [
         "ball goes through thin wall",

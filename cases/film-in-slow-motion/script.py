@@ -27,6 +27,7 @@ if __name__ == "__main__":
     length = len(images) / FPS
     bounces = next(k for k in range(len(images)) if images[k + 1] > images[k]) / FPS
     print(f"images = {len(images)}")
+    print(f"images a second = {FPS}")
     print(f"length of the film = {length:.4f} s")
     print(f"simulated = {duration:.4f} s")
     print(f"first bounce = {bounces:.4f} s")

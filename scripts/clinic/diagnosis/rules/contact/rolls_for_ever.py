@@ -56,12 +56,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         if simulation.model("dof_damping")[simulation.dof(simulation.joints_of(body)[0])] > 0:
             continue
-        meant = [
-            decides
+        found = [
+            (decides, [owner[int(bodies[geom])] for geom in contact.geoms])
             for contact, decides in resting(simulation)
-            if body in [int(bodies[geom]) for geom in contact.geoms] and decides.dim > 1
+            if decides.dim > 1
         ]
-        if meant and all(each.dim < 6 for each in meant):
+        meant = [decides for decides, trees in found if body in trees]
+        on_ground = any(body in trees and 0 in trees for _, trees in found)  # not in a hand
+        if meant and on_ground and all(each.dim < 6 for each in meant):
             says = f"With condim {meant[0].dim} a contact has no rolling friction."
             edits = edits_of(model, meant, "condim", "6")
             yield Suspect(

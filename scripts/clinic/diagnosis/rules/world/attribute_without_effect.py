@@ -76,6 +76,7 @@ class Idle(NamedTuple):
     says: str
 
 
+NOTHING = 0.05  # of friction, as people write who want none
 IDLE = {
     Idle("actuator", "biasprm", ("biastype", "affine"), "Without biastype it is not read, and the control is a force."),
     Idle("actuator", "lengthrange", ("", ""), "It is no muscle, and nothing else reads its lengthrange."),
@@ -136,5 +137,6 @@ def _read(of: Simulation, attribute: str, each: int) -> bool:
 
 
 def _slick(of: Simulation, geom: int) -> bool:
-    """Whether a geom decides by its priority that its contacts have no friction."""
-    return solid(of, geom) and of.model("geom_priority")[geom] > 0 and of.model("geom_condim")[geom] == 1
+    """Whether a geom decides by its priority that its contacts have no friction, and its own says that it has."""
+    decides = of.model("geom_priority")[geom] > 0 and of.model("geom_condim")[geom] == 1
+    return solid(of, geom) and decides and of.row("geom_friction", geom, 3)[0] > NOTHING

@@ -65,7 +65,7 @@ class Simulation:
         return self._names[kind]
 
     def name(self, kind: str, index: int) -> str:
-        """`joint "wrist"`, or `joint 3 of body "hand"` for one without a name."""
+        """`joint "wrist"`; without a name `joint of body "hand"`, or `joint 2 of 3 of body "hand"`."""
         if index < 0:
             return f"no {kind}"
         if kind == "body" and index == 0:
@@ -73,7 +73,10 @@ class Simulation:
         if name := self.engine.name(kind, index):
             return f'{kind} "{name}"'
         if kind in REFERENCES and kind != "body":
-            return f"{kind} {index} of {self.name('body', int(self.model(REFERENCES[kind])[index]))}"
+            owners = self.model(REFERENCES[kind])
+            alike = [each for each, owner in enumerate(owners) if owner == owners[index]]
+            which = f" {alike.index(index) + 1} of {len(alike)}" if len(alike) > 1 else ""
+            return f"{kind}{which} of {self.name('body', int(owners[index]))}"
         return f"{kind} {index}"
 
     def model(self, field: str) -> Sequence[float]:

@@ -72,7 +72,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     geoms = [geom for body in found for geom in of.geoms_of(body)]
     probe = how_many("links without a geom that collides", _bare)
     names = (*(of.name("body", body) for body in found), *(of.name("geom", geom) for geom in geoms))
-    says = f"{of.name('body', found[0])} has no geom that can touch anything, and the other links have."
+    says = f"{of.name('body', found[0])} has no geom that can touch anything, and the other links have one."
     masks = masks_told(of, geoms[0])
     wanted = "a geom that collides"
     yield Suspect(names, "contype, conaffinity", masks, "1, 1", (), probe, 0, says, wanted, level="hint")

@@ -106,7 +106,8 @@ def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
     light = sorted(joint for joint in bare if inertia[of.dof(joint)] < ROTOR and not of.model("jnt_stiffness")[joint])
     light = [] if any(of.dof(joint) in damped_beyond(of) for joint in light) else light  # the integrator is the fault
     probe = _symptom(model)
-    if probe == commanded() and math.isfinite(model.measured(probe)):  # so fast may a wheel be, and a propeller
+    bounded = probe == commanded() and math.isfinite(model.measured(probe))
+    if bounded:  # so fast may a wheel be, and a propeller
         light = [joint for joint in light if of.model("jnt_limited")[joint]]
     if not light or probe is None or of.timestep > 5 * USUAL:
         return
@@ -124,6 +125,7 @@ def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
         "0.01 kg m2 and more for the joint of a walking robot",
         share=0.1,
         excess=2.0,
+        level="hint" if bounded else "cause",
     )
 
 

@@ -245,3 +245,14 @@ def test_friction_is_given_to_geoms_and_pairs_in_their_own_form():
     found = examine(NativeEngine(), {"model.xml": named.replace("</worldbody>", f"</worldbody>{pair}")})
     (told,) = [each for each in (*found.causes, *found.hints) if each.rule == "grasp-slips"]
     assert {edit.value for edit in told.edit} == {"1 0.005 0.0001", "1 1 0.005 0.0001 0.0001"}
+
+
+def test_halves_that_a_weld_holds_in_each_other_want_an_exclude_and_stay_where_they_are():
+    half = '<body name="{0}" pos="0 0 {1}"><freejoint/><geom type="capsule" size=".03 .02"/></body>'
+    halves = f"<worldbody>{FLOOR}{half.format('low', 0.06)}{half.format('top', 0.1)}</worldbody>"
+    weld = '<equality><weld body1="low" body2="top" solref="0.004 1"/></equality>'
+    found = examine(NativeEngine(), {"model.xml": f"<mujoco>{halves}{weld}</mujoco>"})
+    assert not found.causes
+    assert [(each.rule, each.elements) for each in found.hints] == [
+        ("overlap-of-relatives", ('body "low"', 'body "top"'))
+    ]

@@ -26,6 +26,15 @@ def held(of: Simulation, each: int) -> tuple[int, int]:
     return int(of.model("eq_obj1id")[each]), int(of.model("eq_obj2id")[each])
 
 
+def tied(of: Simulation) -> set[frozenset[int]]:
+    """The pairs of bodies that a connection or a weld holds together from the start."""
+    made = set()
+    for each, active in enumerate(of.model("eq_active0")):
+        if active and kind_of(of, each) in (CONNECT, WELD):
+            made.add(frozenset(of.body_of("site", one) if sited(of, each) else max(one, 0) for one in held(of, each)))
+    return made
+
+
 def by_mocap(of: Simulation, each: int) -> bool:
     """Whether what is connected or welded hangs on a mocap body, which code moves."""
     if kind_of(of, each) not in (CONNECT, WELD):

@@ -6,6 +6,7 @@ import math
 from collections.abc import Collection
 
 from clinic.diagnosis.engine import HINGE, SLIDE, Contact
+from clinic.diagnosis.probes.equalities import tied
 from clinic.diagnosis.probes.run import State, state
 from clinic.diagnosis.probes.shape import falling, geoms_of_tree, root_of, roots, thickness
 from clinic.diagnosis.probes.vector import at
@@ -46,7 +47,7 @@ def _outside(simulation: Simulation) -> set[int]:
 
 
 def relatives(simulation: Simulation) -> list[tuple[int, int, Contact]]:
-    """Bodies of one mechanism that overlap at the start, put inside of the joints' ranges, with the contact."""
+    """Bodies of one mechanism, or held together, that overlap at the start inside of the joints' ranges, by contact."""
     bodies, owner, falls = simulation.model("geom_bodyid"), root_of(simulation), falling(simulation)
     made = []
     for contact in _within(simulation).contacts:
@@ -65,8 +66,8 @@ def relatives(simulation: Simulation) -> list[tuple[int, int, Contact]]:
             return []  # folded up: nobody starts like that
         moved = any(body in _outside(simulation) for line in lines for body in line[: line.index(common)])
         # two links at the end of their range often touch; a parent and its child by design do not
-        near = links <= (1 if moved else LINKS)
-        if contact.distance < 0 and near and (same or bolted or siblings):
+        near = links <= (1 if moved else LINKS) and (same or bolted or siblings)
+        if contact.distance < 0 and (near or frozenset((one, other)) in tied(simulation)):
             made.append((one, other, contact))
     return made
 
@@ -102,13 +103,14 @@ def extent(simulation: Simulation, root: int) -> float:
 def buried(simulation: Simulation, holes: Collection[tuple[int, int]] = ()) -> dict[int, tuple[float, Contact]]:
     """For each tree that can fall its deepest overlap at the start with something else, as a share of its extent.
 
-    Pairs of geoms in `holes` are passed over.
+    Pairs of geoms in `holes` are passed over, and bodies that an equality holds together: these are relatives.
     """
     bodies, owner = simulation.model("geom_bodyid"), root_of(simulation)
     made: dict[int, tuple[float, Contact]] = {}
     falls = falling(simulation)
     for contact in beginning(simulation).contacts:
-        if contact.geoms in holes:
+        pair = frozenset(int(bodies[geom]) for geom in contact.geoms)
+        if contact.geoms in holes or pair in tied(simulation):
             continue
         trees = {owner[int(bodies[geom])] for geom in contact.geoms}
         for root in trees & set(falls) if len(trees) > 1 else ():

@@ -27,7 +27,7 @@ class Read:
 
 @kept
 def touched(simulation: Simulation) -> dict[int, Read]:
-    """Each touch, force and torque sensor, over the time after letting go; parts that overlap at the start do not count."""
+    """Each touch, force and torque sensor, over the time after letting go, but for parts that overlap at the start."""
     kinds, of, places = (simulation.model(f"sensor_{name}") for name in ("type", "objid", "adr"))
     made = {i: Read() for i, kind in enumerate(kinds) if int(kind) in (TOUCH, FORCE, TORQUE)}
     if not made:

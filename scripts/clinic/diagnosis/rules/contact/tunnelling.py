@@ -31,6 +31,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import PLANE
+from clinic.diagnosis.probes.equalities import tied
 from clinic.diagnosis.probes.fall import below, fallen, limit
 from clinic.diagnosis.probes.overlap import buried
 from clinic.diagnosis.probes.shape import collides, geoms_of_tree
@@ -53,8 +54,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if buried(simulation).get(root, (0.0,))[0] > BURIED:
             continue
         own = [geom for geom in geoms_of_tree(simulation, root) if collides(simulation, geom, surface)]
+        pairs = (frozenset(simulation.body_of("geom", one) for one in (geom, surface)) for geom in own)
         if not own or int(simulation.model("geom_type")[surface]) == PLANE or len(own) > 8:
             continue
+        if not tied(simulation).isdisjoint(pairs):
+            continue  # an equality keeps the one in the other
         probe, most = below(root, surface), limit(simulation, root)
         for divisor in (2, 4, 8):
             step = simulation.timestep / divisor

@@ -49,7 +49,7 @@ CASE = "touch-sensor-reads-zero"
 MOST = 0.95
 SMALL = 20.0  # times the size of a site that a body has across
 AWAY = 3.0  # sizes of the site; nearer contacts may be beside it on purpose,
-NEAR = 2.0  # unless no contact at all is read
+NEAR = 2.5  # unless no contact at all is read
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -496,3 +496,26 @@ def test_seven_numbers_more_that_begin_with_a_pose_are_those_of_a_lost_free_join
     (cause,) = diagnosed(text.format(""), tmp_path, monkeypatch).causes
     assert (cause.attribute, cause.elements) == ("freejoint", ('<body name="trunk">',))
     assert not diagnosed(text.format("<freejoint/>"), tmp_path, monkeypatch).causes
+
+
+LEG = '<body><joint axis="0 1 0"/><geom size="0.1"/></body>'
+
+
+@pytest.mark.parametrize(
+    ("around", "beside", "value"),
+    [
+        ("", "", 'moved into <body name="frame">'),
+        (
+            '<geom size="0.1"/>',
+            '<body><joint axis="0 1 0"/><geom size="0.1"/></body>',
+            'moved into <body name="frame">',
+        ),
+        ('<geom size="0.1"/>', "", "removed"),  # a table with a cube on it does not fly
+        ('<joint axis="0 1 0"/><geom size="0.1"/>', "", "removed"),
+    ],
+)
+def test_a_free_joint_is_put_into_the_body_that_carries_its_own(around, beside, value, tmp_path, monkeypatch):
+    inner = '<body name="inner"><freejoint/><geom size="0.1"/></body>'
+    text = f'<mujoco><worldbody><body name="frame" pos="0 0 1">{around}{inner}{beside}</body></worldbody></mujoco>'
+    (cause,) = diagnosed(text, tmp_path, monkeypatch).causes
+    assert (cause.rule, cause.value) == ("misplaced-joint", value)

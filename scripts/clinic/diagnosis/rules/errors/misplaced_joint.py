@@ -30,9 +30,10 @@ Good:
     </mujoco>
 
 The number: none; the text compiles with the edit, which puts the joint into the body that it stands before, where that
-has none, and takes it out elsewhere.
+has none, a free one into the body below the world where that is a bare frame, or part of one mechanism with the body,
+and takes it out elsewhere.
 
-When it is wrong: where the body is meant to move: move it below the world instead.
+When it is wrong: where the body is meant to move alone: move it below the world instead.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from clinic.diagnosis.edit import delete, remove_attribute, set_attribute
+from clinic.diagnosis.edit import delete, insert, remove_attribute, set_attribute
 from clinic.diagnosis.edit import replace as written_anew
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence, told
@@ -78,6 +79,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                     says = f"{said}. Its class has {kind}."
                     taken = (remove_attribute(joint, "type"),)
                     yield mends(joint, taken, says, attribute="type", now="free", value=kind)
+            yield from (each for joint in joints if _free(joint) for each in _raised(model, joint, said))
             for joint in [each for each in joints if _free(each)] + joints[::-1]:
                 yield mends(joint, (delete(joint),), f"{said}. {SAYS[said.split()[0]]}", value="removed")
         elif said.startswith("plane only allowed"):
@@ -104,6 +106,21 @@ def _moved(model: ReaderModel, joints: list[Element], said: str) -> Iterator[Sus
         edits = (delete(joint), written_anew(first, f"{own}\n{margin if not margin.strip() else ''}{its}"))
         says = f"{said}. It stands right before {told(body)}, which has none: it is put in there."
         yield mends(joint, edits, says, value=f"moved into {told(body)}")
+
+
+def _raised(model: ReaderModel, joint: Element, said: str) -> Iterator[Suspect]:
+    """A free joint put into the body below the world that carries its own: a bare frame, or one with other joints."""
+    bodies = [each for each in joint.around() if each.tag == "body"]
+    if len(bodies) < 2 or any(each.tag in ("joint", "freejoint") for each in bodies[-1].children):
+        return
+    bare = not any(each.tag in ("geom", "inertial") for body in bodies[1:] for each in body.children)
+    others = [each for each in bodies[-1].walk() if each.tag == "joint" and not _free(each)]
+    if (bare and len([each for each in bodies[-1].children if each.tag == "body"]) == 1) or any(
+        bodies[0] not in each.around() for each in others
+    ):
+        own = model.texts[joint.file].encode()[joint.start : joint.end].decode()
+        says = f"{said}. Only a child of the world can be free: the joint is put into {told(bodies[-1])}."
+        yield mends(joint, (delete(joint), insert(bodies[-1], own)), says, value=f"moved into {told(bodies[-1])}")
 
 
 def _floating(model: ReaderModel, said: str) -> Iterator[Suspect]:

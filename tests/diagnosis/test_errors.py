@@ -519,3 +519,19 @@ def test_a_free_joint_is_put_into_the_body_that_carries_its_own(around, beside, 
     text = f'<mujoco><worldbody><body name="frame" pos="0 0 1">{around}{inner}{beside}</body></worldbody></mujoco>'
     (cause,) = diagnosed(text, tmp_path, monkeypatch).causes
     assert (cause.rule, cause.value) == ("misplaced-joint", value)
+
+
+@pytest.mark.parametrize(
+    ("geom", "attribute", "value"),
+    [
+        pytest.param('<geom class="hub"/>', "class", "tyre", id="another-class"),
+        pytest.param('<geom class="tyre" mass="0"/>', "mass", "left out", id="mass-taken"),
+    ],
+)
+def test_a_body_without_mass_gets_that_of_those_written_alike(geom, attribute, value, tmp_path, monkeypatch):
+    text = '<mujoco><default><default class="tyre"><geom size="0.1" mass="1"/></default>'
+    text += '<default class="hub"><geom size="0.1" mass="0"/></default><geom size="0.1"/></default><worldbody>'
+    wheels = [geom, '<geom class="tyre"/>', '<geom class="tyre"/>']
+    text += "".join(f'<body name="w{n}" pos="{n} 0 1"><joint/>{each}</body>' for n, each in enumerate(wheels))
+    (cause,) = diagnosed(f"{text}</worldbody></mujoco>", tmp_path, monkeypatch).causes
+    assert (cause.rule, cause.attribute, cause.value) == ("massless-body", attribute, value)

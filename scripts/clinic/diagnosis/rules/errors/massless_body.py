@@ -23,16 +23,17 @@ Good:
 The number: mjMINVAL is 1e-15. The edit gives a body without mass 10 g, and a body without
 inertia that of a ball of 50 mm radius. A body whose geoms do have mass is too small: a box of 0.1 mm has an inertia
 of 2e-18 kg m2; the compiler then gives all bodies the least that it takes, and lengths in mm are better. Where a mesh
-has a `scale` below 0.01, it is taken for one that was in metres already: a thousand times as much is tried first.
+has a `scale` below 0.01, it is taken for one that was in metres already: a thousand times as much is tried first. Where
+two bodies and more are written alike but for the class or mass of one geom, a wheel among wheels, it gets theirs.
 
 When it is wrong: the body may not be meant to move: then its joint is too much.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from clinic.diagnosis.edit import Edit, delete, insert, replace, set_attribute
+from clinic.diagnosis.edit import Edit, delete, insert, remove_attribute, replace, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence
 from clinic.diagnosis.rules.errors._scale import scaled_back
@@ -43,6 +44,7 @@ TITLE = "A moving body without mass"
 FAMILIES = ("will-not-compile",)
 SINCE = "0.1"
 
+WEIGH = ("class", "mass", "density")
 LEAST, MASS = "1e-13", "1e-9"  # kg m2, kg: what the compiler gives bodies that are too small
 
 
@@ -54,6 +56,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         inertial = element.first("inertial")
         mass = _mass(inertial) if inertial else 0.0
         named, said = f'{element.tag} "{element.get("name")}"', sentence(model)
+        yield from _as_others(model, element, f"{named} moves and has no mass: {said}.")
         if inertial is None and _matter(model, element):
             back, now, value = scaled_back(model)
             if back:
@@ -70,6 +73,34 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             says = f"{named} moves and has a mass of {mass:g} kg without inertia: {said}."
             edits = (replace(inertial, _inertial(mass, model.source.urdf, inertial)),)
             yield mends(element, edits, says, attribute="inertia", now="0", value=f"{_ball(mass):.2g}")
+
+
+def _as_others(model: ReaderModel, body: Element, says: str) -> Iterator[Suspect]:
+    """The geom that gives other bodies, which are written alike, their mass, with their class or their number."""
+    assert model.source is not None
+    own = [each for each in body.children if each.tag == "geom"]
+    like = [each for each in model.source.bodies()[1:] if each is not body and _joints(each) == _joints(body)]
+    others = [[each for each in one.children if each.tag == "geom"] for one in like]
+    for rank, geom in enumerate(own):
+        for name in WEIGH:
+            same = [some[rank] for some in others if len(some) == len(own) and _alike(own, some, rank, name)]
+            if len(same) > 1 and len(theirs := {each.get(name) for each in same}) == 1 and theirs != {geom.get(name)}:
+                (value,) = theirs
+                edits = (set_attribute(geom, name, value) if value else remove_attribute(geom, name),)
+                told = f"{says} {len(same)} bodies are written alike but for this {name}."
+                now, value = geom.get(name) or "left out", value or "left out"
+                yield mends(geom, edits, told, attribute=name, now=now, value=value)
+
+
+def _alike(own: Sequence[Element], some: Sequence[Element], rank: int, name: str) -> bool:
+    """Whether the geoms of two bodies agree in all that weighs, but for an attribute of one of them."""
+    pairs = [(at, each) for at in range(len(own)) for each in (*WEIGH, "type") if (at, each) != (rank, name)]
+    return all(own[at].get(each) == some[at].get(each) for at, each in pairs)
+
+
+def _joints(body: Element) -> list[tuple[str, str, str]]:
+    found = [each for each in body.children if each.tag in ("joint", "freejoint", "inertial", "body")]
+    return [(each.tag, each.get("class"), each.get("type")) for each in found]
 
 
 def _bounds(root: Element) -> tuple[Edit, ...]:

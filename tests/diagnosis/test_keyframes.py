@@ -49,12 +49,22 @@ def test_a_keyframe_within_all_ranges_is_well():
     [
         pytest.param("20 70 0", "0.349066 1.22173 0", id="degrees"),
         pytest.param("0.3 -1.2 0.4", "0.3 1.2 0.4", id="sign"),
+        pytest.param("2 -0.5 0.4", "-0.5 2 0.4", id="two-in-each-others-place"),
         pytest.param("1.75 1.2 0.4", "1.5708 1.2 0.4", id="a-little-too-far"),
     ],
 )
 def test_a_pose_outside_of_its_ranges_is_mended_by_what_was_meant(qpos, meant):
-    (found,) = (each for each in told(qpos, meant) if each.rule == "key-outside-range")
-    assert (found.attribute, found.value) == ("qpos", meant)
+    (found,) = told(qpos, meant)
+    assert (found.rule, found.attribute, found.value) == ("key-outside-range", "qpos", meant)
+
+
+@pytest.mark.parametrize(("second", "causes"), [("0.3 0.5 0.2", 1), ("0.3 2.6 0.2", 0), ("0.3 -0.5 0.2", 2)])
+def test_where_no_keyframe_keeps_to_a_range_it_is_the_range_that_is_told(second: str, causes: int) -> None:
+    text = ARM.format(range="0 57", qpos="0.3 2.6 0.2", ctrl="0.3 0.5 0.2")
+    text = text.replace("<key ", f'<key qpos="{second}"/><key ', 1)
+    found = examine(NativeEngine(), {"model.xml": text}, select=["key-outside-range"])
+    assert [each.attribute for each in found.causes] == ["qpos"] * causes
+    assert [each.attribute for each in found.hints] == ["range"] * (not causes)
 
 
 def test_where_keyframe_and_control_agree_the_range_is_the_wrong_one():

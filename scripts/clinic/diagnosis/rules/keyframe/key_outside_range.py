@@ -28,8 +28,9 @@ Good:
 
 The number: how far the worst joint is outside: 0.1 rad or 4 cm, and more. Where the joint's servo is told to hold it
 there, and may be, the joint's range is what is told. What would be inside in degrees, or far inside with the other
-sign, is written so; else it is put to the end of the range. Of hinges without a range a whole multiple of 15 from 30 on
-is told as a hint, where no other keyframe turns them by more than once.
+sign, is written so, and two that would be inside in each other's place are exchanged; else it is put to the end of the
+range. A joint that every one of several keyframes puts outside is a hint that its range is wrong. Of hinges without a
+range a whole multiple of 15 from 30 on is told as a hint, where no other keyframe turns them by more than once.
 
 When it is wrong: a limit that is soft on purpose.
 """
@@ -37,7 +38,8 @@ When it is wrong: a limit that is soft on purpose.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
+from itertools import combinations
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import HINGE
@@ -61,10 +63,12 @@ TURNED = 0.25  # of the range: farther outside, and inside with the other sign
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Keyframes with joints beyond their limits; the limits where the control agrees with the keyframe."""
     of = model.simulation
+    always = _always(of)
+    yield from _limits(model, always)
     for key in range(of.count("key")):
         if reordered(model, key):
             continue
-        off = {joint: each for joint, each in beyond(of, key).items() if weighed(of, joint, each) > LIMIT}
+        off = {joint: each for joint, each in _off(of, key).items() if joint not in always}
         element = model.element("key", key)
         if element is not None and not off:
             yield from _degrees(model, key, element)
@@ -77,13 +81,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         start_at(of, key)
         qpos = list(of.data("qpos"))
-        farther = any(abs(of.position(joint)) > 2 * math.pi for joint in off)
-        in_degrees = farther and all(_inside(of, joint, math.radians(of.position(joint))) for joint in off)
-        for joint in range(of.count("joint")):
-            if in_degrees and of.joint_type(joint) == HINGE:  # all of them were written alike
-                qpos[of.place(joint)] = math.radians(of.position(joint))
-            elif joint in off:
-                qpos[of.place(joint)] = _meant(of, joint, off[joint])
+        in_degrees = _in_degrees(of, off)
+        meant = _meant(of, off)
+        if in_degrees:  # all of them were written alike
+            hinges = [joint for joint in range(of.count("joint")) if of.joint_type(joint) == HINGE]
+            meant |= {joint: math.radians(of.position(joint)) for joint in hinges}
+        for joint, position in meant.items():
+            qpos[of.place(joint)] = position
         worst = max(off, key=lambda joint: weighed(of, joint, off[joint]))
         low, high = of.row("jnt_range", worst, 2)
         says = f"{of.name('joint', worst)} stands {abs(off[worst]):.3g} outside of {low:.3g} to {high:.3g}."
@@ -166,13 +170,56 @@ def _beyond(of: Simulation, key: int, joint: int) -> float:
     return weighed(of, joint, beyond(of, key).get(joint, 0.0))
 
 
+def _in_degrees(of: Simulation, off: Collection[int]) -> bool:
+    """Whether joints were meant in degrees: one is more than a turn away, and all would be inside."""
+    farther = any(abs(of.position(joint)) > 2 * math.pi for joint in off)
+    return farther and all(_inside(of, joint, math.radians(of.position(joint))) for joint in off)
+
+
 def _inside(of: Simulation, joint: int, at: float) -> bool:
     low, high = of.row("jnt_range", joint, 2)
     return of.joint_type(joint) == HINGE and low <= at <= high
 
 
-def _meant(of: Simulation, joint: int, beyond: float) -> float:
-    """Where a joint was meant to be: with the other sign, or at the end of its range."""
-    at, (low, high) = of.position(joint), of.row("jnt_range", joint, 2)
-    turned = low <= -at <= high and abs(beyond) > TURNED * (high - low)
-    return -at if turned else at - beyond
+def _off(of: Simulation, key: int) -> dict[int, float]:
+    return {joint: each for joint, each in beyond(of, key).items() if weighed(of, joint, each) > LIMIT}
+
+
+def _meant(of: Simulation, off: Mapping[int, float]) -> dict[int, float]:
+    """Where joints were meant to be: in each other's place, with the other sign, or at the end of their ranges."""
+    at = {joint: of.position(joint) for joint in off}
+    made = {joint: -at[joint] if _turned(of, joint, off[joint]) else at[joint] - off[joint] for joint in off}
+    for one, other in combinations(off, 2):
+        if _inside(of, one, at[other]) and _inside(of, other, at[one]):
+            made |= {one: at[other], other: at[one]}
+    return made
+
+
+def _turned(of: Simulation, joint: int, beyond: float) -> bool:
+    """Whether a joint is far outside of its range, and inside with the other sign."""
+    low, high = of.row("jnt_range", joint, 2)
+    return low <= -of.position(joint) <= high and abs(beyond) > TURNED * (high - low)
+
+
+def _always(of: Simulation) -> set[int]:
+    """The joints that all of several keyframes put outside of their ranges, and nothing tells where else."""
+    found = []
+    for key in range(of.count("key")):
+        off = _off(of, key)
+        meant = _meant(of, off)
+        ends = {joint for joint in off if meant[joint] == of.position(joint) - off[joint]}
+        found.append(set() if _in_degrees(of, off) else ends)
+    return set.intersection(*found) if len(found) > 1 else set()
+
+
+def _limits(model: ReaderModel, always: Collection[int]) -> Iterator[Suspect]:
+    """The limits of joints that no keyframe keeps to, taken off."""
+    of = model.simulation
+    for joint in always:
+        low, high = of.row("jnt_range", joint, 2)
+        says = f"Each of the {of.count('key')} keyframes puts {of.name('joint', joint)} outside"
+        says += f" of {low:.3g} to {high:.3g}."
+        probe = Probe("joint outside of its range at a keyframe", "rad", _beyond, (0, joint), dynamic=False)
+        edits = model.set("joint", [joint], "limited", "false")
+        now = model.value("joint", joint, "range") or ""
+        yield Suspect((of.name("joint", joint),), "range", now, "no limit", edits, probe, LIMIT, says, level="hint")

@@ -31,9 +31,10 @@ Good:
 
 The number: the distance between target and joint that three quarters of the position servos keep, in rad or m; 0.1 and
 more tells a cause, for keyframes in which at least two servos and half of them are off. Where there is no `ctrl`, two
-servos that go 0.5 away are told in a hint. Two that are each told the other's place are told as such. So is a servo on
-a tendon, a gripper's, that goes more than half of the tendon's way. Of five actuators with a state and more the one
-whose `act` is not its `ctrl`, as it is of all others, is told in a hint.
+servos that go 0.5 away are told in a hint. Two that are each told the other's place are told as such. Joints outside of
+their ranges do not count: their places are wrong, which another rule tells. A servo on a tendon, a gripper's, is told
+where it goes more than half of the tendon's way. Of five actuators with a state and more the one whose `act` is not its
+`ctrl`, as it is of all others, is told in a hint.
 
 When it is wrong: a keyframe that is meant to start a motion.
 Whether `ctrl` is left out on purpose, only its author knows: all zero and no `ctrl` is a hint.
@@ -45,7 +46,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.probes import tendons
-from clinic.diagnosis.probes.key import farthest_target, off_target, reordered, servos, start_at
+from clinic.diagnosis.probes.key import beyond, farthest_target, off_target, reordered, servos, start_at
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -70,7 +71,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield from _states(model, key)
         if reordered(model, key):
             continue
-        found = servos(of, key)
+        outside = beyond(of, key)
+        found = {each: at for each, at in servos(of, key).items() if of.driven_joint(each) not in outside}
         off = [actuator for actuator, (target, at) in found.items() if abs(target - at) > LIMIT]
         element = model.element("key", key)
         left_out = element is not None and "ctrl" not in element.attributes

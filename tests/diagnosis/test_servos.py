@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 import pytest
 from clinic.diagnosis.diagnose import Diagnosis, examine
+from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.probes.servo import servos
 from clinic.diagnosis.reader_model import ReaderModel
@@ -11,6 +15,7 @@ from clinic.diagnosis.rules import rules
 from clinic.diagnosis.rules.servo.control_range_too_narrow import ungeared
 from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import read_source
+from clinic.diagnosis.suspect import Probe
 
 ARM = """
 <mujoco>
@@ -226,6 +231,26 @@ FOREARM = """
 def test_a_clamped_force_has_no_implicit_damping(integrator, kv, force, told):
     found = diagnosed(FOREARM.format(integrator=integrator, kv=kv, force=force))
     assert ("servo-is-a-switch" in [each.rule for each in found.hints]) is told, found.text()
+
+
+@pytest.mark.parametrize("well_up_to", [0.0018, 0.00195])
+def test_a_step_beside_which_all_is_well_is_not_too_long(well_up_to: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    def measured(_: ReaderModel, __: Probe, edits: Sequence[Edit] = ()) -> float:
+        return 0.0 if edits and float(edits[0].value) <= well_up_to else math.inf
+
+    text = {"model.xml": FOREARM.format(integrator="Euler", kv=0.05, force="")}
+    monkeypatch.setattr(ReaderModel, "measured", measured)
+    model = ReaderModel(NativeEngine(), text, read_source(text), Start())
+    assert bool(list(rules()["timestep-too-long"].suspects(model))) is (well_up_to < 0.0019)
+
+
+def test_the_damping_of_a_joint_is_explicit_beyond_what_the_joints_around_it_leave():
+    link = '<body pos="0 0 {}"><joint damping="2" axis="0 1 0"/><geom type="capsule" fromto="0 0 0 0 0 .5" size=".02"'
+    text = '<mujoco><option timestep="0.01" integrator="RK4"/><worldbody>' + link.format(0) + ' mass=".2"/>'
+    text += (
+        link.format(0.5) + ' mass=".15"/></body></body></worldbody><actuator><motor joint="one" gear="9"/></actuator>'
+    )
+    assert "damping-explicit" in causes(diagnosed(text.replace("<joint", '<joint name="one"', 1) + "</mujoco>"))
 
 
 @pytest.mark.parametrize(("integrator", "told"), [("Euler", True), ("implicitfast", False)])

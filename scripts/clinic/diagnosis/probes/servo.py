@@ -109,17 +109,23 @@ def damping_is_implicit(simulation: Simulation) -> bool:
 def damped_beyond(simulation: Simulation) -> dict[int, float]:
     """The step's share h d / M of the degrees of freedom whose explicit damping is more than the integrator bears.
 
-    Explicit is the damping of servos, and that of joints where Euler does not take it implicitly.
+    M is what the joint moves, which the joints around it give way to.
     """
     if (limit := BEARS.get(int(simulation.model("opt.integrator")[0]))) is None:
         return {}
+    damping, masses, freed = explicit_damping(simulation), simulation.mass_diagonal, simulation.model("dof_invweight0")
+    rates = [each * max(1 / max(m, 1e-12), w) for each, m, w in zip(damping, masses, freed, strict=True)]
+    shares = [simulation.timestep * rate for rate in rates]
+    return {dof: share for dof, share in enumerate(shares) if share > limit}
+
+
+def explicit_damping(simulation: Simulation) -> list[float]:
+    """Each degree of freedom's damping by servos, and by its joint where Euler does not take that implicitly."""
     implicit = damping_is_implicit(simulation)
     damping = [0.0 if implicit else each for each in simulation.model("dof_damping")]
     for joint, (_, kv) in feedback(simulation).items():
         damping[simulation.dof(joint)] += kv
-    pairs = zip(damping, simulation.mass_diagonal, strict=True)
-    shares = [simulation.timestep * each / max(mass, 1e-12) for each, mass in pairs]
-    return {dof: share for dof, share in enumerate(shares) if share > limit}
+    return damping
 
 
 def _servo(simulation: Simulation, actuator: int) -> Servo | None:

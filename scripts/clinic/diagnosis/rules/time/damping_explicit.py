@@ -25,8 +25,8 @@ Good:
     +   <option integrator="implicitfast"/>
 
 The number: with the timestep h, the damping d and the inertia M, h d / M is at most 2.79 with RK4 and 2 with an
-explicit Euler (stability of a damper); and whether a joint becomes faster than 100 rad/s, or rattles, when the model
-is let go, nudged or driven.
+explicit Euler (stability of a damper), M as it is where the joints around give way; and whether a joint becomes faster
+than 100 rad/s, or rattles, when the model is let go, nudged or driven.
 
 When it is wrong: an inertia or a damping that is itself the mistake.
 """
@@ -37,7 +37,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.probes.run import fastest
-from clinic.diagnosis.probes.servo import BEARS, damped_beyond, damping_is_implicit
+from clinic.diagnosis.probes.servo import BEARS, damped_beyond, damping_is_implicit, explicit_damping
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -62,8 +62,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         before = model.measured(probe)
         if before > limit and model.measured(probe, edits) <= max(limit, TENTH * before):
             name = of.name("joint", of.dof_joints[dof])
-            inertia, share = of.mass_diagonal[dof], shares[dof]
-            says = f"At {name}: explicit damping {share * inertia / of.timestep:.3g} on an inertia of {inertia:.2g}, "
+            damping, share = explicit_damping(of)[dof], shares[dof]
+            says = f"At {name}: explicit damping {damping:.3g} on an inertia of {of.timestep * damping / share:.2g}, "
             says += f"h d / M is {share:.3g}."
             well = f"h d / M < {BEARS[integrator]:g}"
             now = "RK4" if integrator else "Euler" if damping_is_implicit(of) else "Euler without eulerdamp"

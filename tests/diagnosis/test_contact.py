@@ -256,3 +256,15 @@ def test_halves_that_a_weld_holds_in_each_other_want_an_exclude_and_stay_where_t
     assert [(each.rule, each.elements) for each in found.hints] == [
         ("overlap-of-relatives", ('body "low"', 'body "top"'))
     ]
+
+
+@pytest.mark.parametrize(
+    ("gravity", "value"),
+    [("0 0 9.81", "0 0 -9.81"), ("0 0 3.71", "0 0 -3.71"), ("0 -1.62 0", "0 0 -1.62"), ("0 0 50", "0 0 -9.81")],
+)
+def test_gravity_that_points_the_wrong_way_keeps_the_size_that_it_has_on_another_planet(gravity, value):
+    box = '<body pos="0 0 1"><freejoint/><geom size="0.1"/></body>'
+    plane = '<geom type="plane" size="1 1 1"/>'
+    text = f'<mujoco><option gravity="{gravity}"/><worldbody>{plane}{box}</worldbody></mujoco>'
+    (found, *_) = examine(NativeEngine(), {"model.xml": text}, select=["gravity"]).causes
+    assert (found.attribute, found.value) == ("gravity", value)

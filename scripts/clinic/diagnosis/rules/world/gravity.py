@@ -23,7 +23,7 @@ Good:
 The number: the angle between gravity and the way down to the floor (-z where there is no horizontal plane), at most
 45 degrees; and the time in which something falls as far as the model is wide: 0.45 s for 1 m, told where it is under
 0.025 s or over 5 s. A hint tells of more than 15 m/s2 or less than 1, but for 981 and 9810 in a model in cm or mm,
-where water has a density of 1 and not of 1,000.
+where water has a density of 1 and not of 1,000. What points the wrong way keeps a size that is not told: 3.71 on Mars.
 
 When it is wrong: a slope or a wall that is made by tilting gravity. Gravity 0 where free bodies are above a floor is a
 hint, for it is often meant.
@@ -101,13 +101,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield from _none(model, now, off)
         return
     up = _up(simulation)
-    value = " ".join(f"{-9.81 * each + 0.0:.4g}" for each in up).replace("-0 ", "0 ")
+    size = math.hypot(*g)
+    kept = size if EARTH[0] < size < EARTH[1] or not _metres(simulation, size) else 9.81
+    value = " ".join(f"{-kept * each + 0.0:.4g}" for each in up).replace("-0 ", "0 ")
     edits = model.option("gravity", value)
     angle = Probe("angle between gravity and down", "degrees", _angle, dynamic=False)
     says = f"Gravity is {now} m/s2."
     yield Suspect(name, "gravity", now, value, edits, angle, ANGLE, says, USUAL, share=0.1)
     extent = simulation.model("stat.extent")[0]
-    size = math.hypot(*g)
     took = math.sqrt(2 * extent / size)
     says = f"With {size:.3g} m/s2 a fall of {extent:.2g} m, the model's extent, takes {took:.2g} s."
     ratio = Probe("time of a fall over the model's extent, beyond 0.025 to 5 s by", "times", _ratio, dynamic=False)

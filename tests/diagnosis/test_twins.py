@@ -402,3 +402,8 @@ def test_one_finger_of_four_with_other_moments_gets_those_of_the_others() -> Non
     text = f'<mujoco><worldbody><body name="hand"><geom size="0.1"/>{fingers}</body></worldbody></mujoco>'
     (cause,) = examine(NativeEngine(), {"hand.xml": text}, select=["twin-inertia-differs"]).causes
     assert (cause.elements, cause.value) == (('body "finger3"',), "3e-6 3e-6 1e-6")
+
+
+def test_the_twin_that_hangs_on_the_other_side_is_the_odd_one():
+    (found,) = unlike(robot({'right_front:pos="0.2 -0.1 0"': 'pos="0.2 0.1 0"'}))
+    assert (found.elements, found.value) == (('body "right_front"',), "0.2 -0.1 0")

@@ -8,11 +8,12 @@ from collections import Counter
 from clinic.diagnosis.probes.attached import attached
 from clinic.diagnosis.probes.inertia import inertial
 from clinic.diagnosis.probes.matter import matter
+from clinic.diagnosis.probes.overlap import at_start, of_relatives
 from clinic.diagnosis.probes.siblings import FIELDS, LIKE, odd_ones
 from clinic.diagnosis.probes.twins import Comparison, twins
 from clinic.diagnosis.probes.vector import dot, norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.twins._edits import COPIED
+from clinic.diagnosis.rules.twins._edits import COPIED, edits_of
 from clinic.diagnosis.simulation import Simulation
 
 INERTIAL = ("mass", "center of mass", "inertia")
@@ -26,6 +27,8 @@ def odd_side(model: ReaderModel, each: Comparison) -> tuple[int, bool]:
         if one.attribute == each.quantity and one.index in pair:
             return one.index, True
     strange = [_strange(model, each, side) for side in pair]
+    if abs(strange[0] - strange[1]) < 1e-6 and (overlaps := _overlapping(model, each)):
+        return overlaps[0], True
     return each.right if strange[1] > strange[0] else each.left, abs(strange[0] - strange[1]) > 1e-6
 
 
@@ -59,7 +62,8 @@ def _strange(model: ReaderModel, each: Comparison, side: int) -> float:
     values = Counter(_value(model, each, index) for index in both)
     if each.quantity == "pos" and each.kind == "body":
         signed = Counter(_signed(simulation, index) for index in both)
-        return -values[_value(model, each, side)] - TIE * signed[_signed(simulation, side)]
+        agree = _beside_its_own(simulation, each, side)
+        return -values[_value(model, each, side)] - TIE * (signed[_signed(simulation, side)] + TIE * agree)
     if each.quantity in ("gear", "gain"):
         others = sorted(size for index in both if index not in (each.left, each.right)
                         and (size := _strength(simulation, index)))  # fmt: skip
@@ -67,6 +71,31 @@ def _strange(model: ReaderModel, each: Comparison, side: int) -> float:
         if others and own:
             return -values[_value(model, each, side)] + TIE * round(abs(math.log10(own / others[len(others) // 2])))
     return -values[_value(model, each, side)]
+
+
+def _overlapping(model: ReaderModel, each: Comparison) -> list[int]:
+    """The one side that overlaps at the start with something, and does not as its twin's image; none where both do."""
+    if each.quantity not in ("pos", "size"):
+        return []
+    for probe, most in ((of_relatives(), 0.1), (at_start(), 0.05)):
+        ends = [side for side in (each.left, each.right)
+                if (edits := edits_of(model, each, side)) and model.measured(probe, edits) <= most]  # fmt: skip
+        if model.measured(probe) > most and len(ends) == 1:
+            return ends
+    return []
+
+
+def _beside_its_own(simulation: Simulation, each: Comparison, side: int) -> int:
+    """How often a body is on the side of its parent where the others of its side are, less how often it is not."""
+    own, parents, made = simulation.row("body_pos", side, 3), simulation.model("body_parentid"), 0
+    for one in twins(simulation).comparisons:
+        placed = not one.odd and (one.kind, one.quantity) == ("body", "pos")
+        if not placed or not parents[one.left] == parents[one.right] == parents[side]:
+            continue
+        mine, other = (one.left, one.right) if side == each.left else (one.right, one.left)
+        places = zip(own, simulation.row("body_pos", mine, 3), simulation.row("body_pos", other, 3), strict=True)
+        made += sum((a * b > 0) - (a * b < 0) for a, b, c in places if b and b == -c)
+    return made
 
 
 def _signed(simulation: Simulation, body: int) -> tuple[float, ...]:

@@ -30,18 +30,20 @@ Good:
     +       <body name="right_finger" pos="0 -0.005 0.05">
 
 The number: groups of moving bodies, none of which hangs on another, that begin with all their solid geoms in the same
-places, of the same kinds and sizes, and touch. Of 499 healthy models none has one.
+places, of the same kinds and sizes, and touch. Of 499 healthy models none has one. Where a link goes back by what its
+parent goes forth, its sign is turned.
 
 When it is wrong: parts that are meant to start in one place.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import combinations
 
+from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.shape import solid
-from clinic.diagnosis.probes.vector import at
+from clinic.diagnosis.probes.vector import at, norm
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, how_many
@@ -52,16 +54,34 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "fingers of healthy models that are put in one place are told as overlapping"
 
+NEAR = 1e-6  # m
+
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Each group of parts in one place."""
-    of = model.simulation
-    for bodies in _together(of):
+    """Each group of parts in one place; where one link that goes back explains all of them, that one."""
+    of, probe = model.simulation, how_many("groups of parts in one place", _together)
+    groups = _together(of)
+    turned = [(bodies, edits) for bodies in groups if (edits := _turned_back(model, bodies))]
+    explains = [each for each in turned if not model.measured(probe, each[1])]
+    for bodies, edits in explains[:1] or [(bodies, ()) for bodies in groups]:
         names = tuple(of.name("body", body) for body in bodies)
         says = f"{names[0]} and {names[1]} begin in the same place, and have the same shape."
-        now = " ".join(f"{x:.4g}" for x in of.row("body_pos", bodies[0], 3))
-        probe = how_many("groups of parts in one place", _together)
-        yield Suspect(names, "pos", now, "apart from each other", (), probe, 0.1, says, "none")
+        odd, value = (bodies[1], edits[0].value) if edits else (bodies[0], "apart from each other")
+        now = " ".join(f"{x:.4g}" for x in of.row("body_pos", odd, 3))
+        names = tuple(dict.fromkeys((of.name("body", odd), *names)))
+        yield Suspect(names, "pos", now, value, edits, probe, 0.1, says, "none")
+
+
+def _turned_back(model: ReaderModel, bodies: Sequence[int]) -> tuple[Edit, ...]:
+    """The edit that lets a link go on as its parent does, where it goes back by as much and most others do not."""
+    of = model.simulation
+    parent = int(of.model("body_parentid")[bodies[1]])
+    places = [of.row("body_pos", body, 3) for body in range(of.count("body"))]
+    back, own = places[parent], places[bodies[1]]
+    beyond = norm([a + b for a, b in zip(back, own, strict=True)]) > NEAR
+    if int(of.model("body_parentid")[parent]) != bodies[0] or beyond or places.count(back) <= places.count(own):
+        return ()
+    return model.placed(bodies[1], back)
 
 
 def _together(of: Simulation) -> list[list[int]]:

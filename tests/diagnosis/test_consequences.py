@@ -123,3 +123,59 @@ def test_two_links_in_millimetres_are_one_reason():
     </body>"""
     text = ARM.format(centre="-150", kp="40").replace("</body>", forearm)
     assert {each.rule for each in examine(NativeEngine(), {"model.xml": text}).causes} == {"centre-of-mass-outside"}
+
+
+def walker(shin: str) -> str:
+    """Six legs in pairs, on a floor that they reach; of the left one in the middle the shin hangs elsewhere."""
+    legs = ""
+    for part, length in (("front", 0.25), ("middle", 0.26), ("rear", 0.27)):
+        for side, y in (("left", 0.2), ("right", -0.2)):
+            at = shin if (part, side) == ("middle", "left") else f"0 0 -{length}"
+            legs += f"""
+      <body name="{side}_{part}_thigh" pos="{40 * length - 10.4:g} {y} 0">
+        <joint axis="0 1 0" damping="1" range="-60 60"/>
+        <geom type="capsule" fromto="0 0 0 0 0 -0.2" size="0.03"/>
+        <body name="{side}_{part}_shin" pos="{at}">
+          <joint axis="0 1 0" damping="1" range="-60 60"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.1" size="0.03"/>
+          <body name="{side}_{part}_foot" pos="0.03 0 -0.25">
+            <joint axis="0 1 0" damping="1" range="-60 60"/>
+            <geom size="0.06"/>
+          </body>
+        </body>
+      </body>"""
+    trunk = f'<body pos="0 0 0.58"><freejoint/><geom type="box" size="0.4 0.1 0.05"/>{legs}\n    </body>'
+    return f'<mujoco><worldbody><geom type="plane" size="3 3 1"/>{trunk}</worldbody></mujoco>'
+
+
+@pytest.mark.parametrize(
+    ("shin", "follows"),
+    [
+        pytest.param("0 0 -0.01", "overlap-of-relatives", id="within its thigh"),
+        pytest.param("0 0 -0.39", "overlap-at-start", id="down into the floor"),
+    ],
+)
+def test_an_overlap_follows_from_the_part_that_is_not_its_twins_image_and_tells_which_it_is(shin, follows):
+    found = examine(NativeEngine(), {"model.xml": walker(shin)})
+    told = [each.rule for each in found.hints]
+    assert not found.causes, found.text()
+    assert told.index("twin-place-differs") < told.index(follows)
+    first = next(each for each in found.hints if each.rule == "twin-place-differs")
+    assert (first.elements, first.value) == (('body "left_middle_shin"',), "0 0 -0.26")
+
+
+def test_an_overlap_without_a_part_that_is_displaced_is_told_as_it_was():
+    buried = walker("0 0 -0.26").replace('pos="0 0 0.58"', 'pos="0 0 0.4"')
+    assert [each.rule for each in examine(NativeEngine(), {"model.xml": buried}).causes] == ["overlap-at-start"]
+
+
+@pytest.mark.parametrize(("odd", "value"), [(3, "-0.1 0 0"), (0, "")])
+def test_a_link_that_goes_back_to_where_its_parent_hangs_is_turned(odd, value):
+    chain = "".join(
+        f'<body name="s{i}" pos="{0.1 if i == odd else -0.1} 0 {1 if i == 1 else 0}"><joint axis="0 0 1" damping="1"/>'
+        '<geom type="capsule" fromto="0 0 0 -0.06 0 0" size="0.02"/>'
+        for i in range(1, 7)
+    )
+    found = examine(NativeEngine(), {"model.xml": f"<mujoco><worldbody>{chain}{'</body>' * 6}</worldbody></mujoco>"})
+    told = [(each.rule, each.elements[0], each.value) for each in found.hints if "overlap" not in each.rule]
+    assert told == [("parts-coincide", 'body "s3"', value)] * bool(value), found.text()

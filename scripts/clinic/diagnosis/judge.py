@@ -14,6 +14,8 @@ from clinic.diagnosis.rules import Rule
 from clinic.diagnosis.suspect import Level, Suspect
 
 MASS, ABSURD = "mass", 2.0  # tens: a hundred times the limit
+PLACES = {"structure", "twins"}  # rules, by area, that tell of a part that is not where it belongs
+OVERLAPS = {"overlap-at-start", "overlap-of-relatives"}
 AS_GOOD = 1.5  # a rival whose number is within this factor helps as much
 
 
@@ -22,7 +24,7 @@ class Judged:
     """A suspect with the probe's numbers without and with its edit; `after` is None where no edit was tried.
 
     `keyframe` is the number of that from which the runs began, None for the model's own start; `silenced` is why a
-    comment in the model silences it.
+    comment in the model silences it; `follows` whether another one's edit would take it away.
     """
 
     rule: Rule
@@ -32,6 +34,7 @@ class Judged:
     after: float | None
     keyframe: int | None = None
     silenced: str = ""
+    follows: bool = False
 
     @property
     def proved(self) -> bool:
@@ -85,7 +88,8 @@ def without_rivals(found: Sequence[Judged]) -> list[Judged]:
 def without_consequences(found: Sequence[Judged], model_of: Callable[[Rule], ReaderModel]) -> list[Judged]:
     """The causes but for those whose symptom goes away with another's edit, and not the other way round.
 
-    A mass that is only hinted at, and beyond all measure, is a cause too where it is the reason of one.
+    A mass that is only hinted at, and beyond all measure, is a cause too where it is the reason of one. An overlap that
+    goes away with the place of a part, which is hinted at, follows from it.
     """
 
     def ends(one: Sequence[Judged], other: Judged) -> bool:
@@ -100,12 +104,15 @@ def without_consequences(found: Sequence[Judged], model_of: Callable[[Rule], Rea
         reasons += alike if ended else []
         follows += ended
     follows += [each for each in causes if any(ends([one], each) and not ends([each], one) for one in causes)]
+    displaced = [each for each in found if each.rule.area in PLACES and each.suspect.edits and not each.silenced]
+    overlaps = [each for each in found if each.rule.id in OVERLAPS and any(ends([one], each) for one in displaced)]
+    follows += overlaps
     lowered, raised = {id(each) for each in follows}, {id(each) for each in reasons}
 
     def level(each: Judged) -> Level:
         return "hint" if id(each) in lowered else "cause" if id(each) in raised else each.level
 
-    return [replace(each, level=level(each)) for each in found]
+    return [replace(each, level=level(each), follows=any(each is one for one in overlaps)) for each in found]
 
 
 def _beyond_measure(each: Judged) -> bool:
@@ -166,7 +173,14 @@ def order(found: Sequence[Judged], families: Sequence[str]) -> list[Judged]:
 
     def key(each: Judged) -> tuple[bool, bool, float, bool, float, float]:
         named, odds = bool(set(each.rule.families) & set(families)), -each.rule.odds if each.level == "hint" else -1.0
-        return (not named, each.rule.minor, odds, each.after is None, -each.severity, -each.suspect.excess)
+        return (
+            not named,
+            each.rule.minor or each.follows,
+            odds,
+            each.after is None,
+            -each.severity,
+            -each.suspect.excess,
+        )
 
     placed, said = [], set()
     for each in sorted(found, key=key):

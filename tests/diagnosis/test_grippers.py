@@ -59,6 +59,9 @@ LINKS = """
 """
 
 
+OTHER = '<joint joint1="tip" joint2="knuckle" polycoef="0 0.7 0 0 0"/>'
+
+
 def told(text: str, rule: str) -> list[tuple[str, str, str]]:
     found = examine(NativeEngine(), {"model.xml": text})
     assert not found.error
@@ -102,16 +105,22 @@ def test_the_finger_that_crosses_the_middle_is_the_one_to_turn(more, change, wro
 
 
 @pytest.mark.parametrize(
-    ("coupling", "level"),
+    ("coupling", "level", "value"),
     [
-        ('joint2="knuckle" polycoef="1 0 0 0 0"', "cause"),
-        ('joint2="knuckle" polycoef="0.5 0 0 0 0"', "hint"),
-        ('joint2="knuckle" polycoef="0 1 0 0 0"', ""),
-        ('joint2="knuckle" polycoef="0 0 0.5 0 0"', ""),
-        ('joint2="knuckle" polycoef="0 0 0 0 0"', ""),
-        ('polycoef="1 0 0 0 0"', ""),
+        ('joint2="knuckle" polycoef="1 0 0 0 0"', "cause", "0 1 0 0 0"),
+        ('joint2="knuckle" polycoef="0.5 0 0 0 0"', "hint", "0 0.5 0 0 0"),
+        ('joint2="knuckle" polycoef="0.02 0 0 0 0"', "hint", "0 1 0 0 0"),
+        (
+            f'joint2="knuckle" polycoef="0.5 0 0 0 0"/>{2 * OTHER}<joint joint1="tip" active="false"',
+            "hint",
+            "0 0.7 0 0 0",
+        ),
+        ('joint2="knuckle" polycoef="0 1 0 0 0"', "", ""),
+        ('joint2="knuckle" polycoef="0 0 0.5 0 0"', "", ""),
+        ('joint2="knuckle" polycoef="0 0 0 0 0"', "", ""),
+        ('polycoef="1 0 0 0 0"', "", ""),
     ],
 )
-def test_a_coupling_of_a_constant_alone_leads_nowhere(coupling, level):
+def test_a_coupling_of_a_constant_alone_leads_nowhere(coupling, level, value):
     found = told(LINKS.format(coupling=coupling), "follower-out-of-range")
-    assert found == ([(level, "polycoef", "0 1 0 0 0")] if level else [])
+    assert found == ([(level, "polycoef", value)] if level else [])

@@ -29,7 +29,8 @@ Good:
     +     <joint joint1="tip" joint2="knuckle" polycoef="0 1 0 0 0"/>
 
 The number: the share of the leader's range that leads the follower out of its own; more than a half. A `polycoef` of a
-constant alone, such as `1 0 0 0 0` for `0 1 0 0 0`, leads the follower nowhere: 1 where that is so.
+constant alone, such as `1 0 0 0 0` for `0 1 0 0 0`, leads the follower nowhere: 1 where that is so. It gets the factors
+of all other couplings, or the constant for its factor.
 
 When it is wrong: a leader that something else keeps to a part of its range.
 """
@@ -54,6 +55,7 @@ SINCE = "0.1"
 UNPLANTED = "one healthy model has a joint that follows another"
 
 LOST, WITHIN = 0.5, 0.05
+SMALL = 0.1  # an offset rather than a factor
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -147,12 +149,13 @@ def _constant(model: ReaderModel) -> Iterator[Suspect]:
     for each, (follower, leader, factors) in couplings(of):
         if not _unled(of, each):
             continue
+        value = written(_meant(of, factors))
         yield Suspect(
             (of.name("joint", follower),),
             "polycoef",
             " ".join(f"{factor:g}" for factor in factors),
-            "0 1 0 0 0",
-            model.set("equality", [each], "polycoef", "0 1 0 0 0"),
+            value,
+            model.set("equality", [each], "polycoef", value),
             Probe("1 where a joint does not follow the one that it is coupled to", "", _unled, (each,), dynamic=False),
             0.5,
             f"{of.name('joint', follower)} is held at {factors[0]:g} from its start, wherever "
@@ -160,6 +163,14 @@ def _constant(model: ReaderModel) -> Iterator[Suspect]:
             "a factor, the second number",
             level="cause" if factors[0] == 1 else "hint",
         )
+
+
+def _meant(of: Simulation, factors: tuple[float, ...]) -> tuple[float, ...]:
+    """The factors that all other couplings have, two at least, or else the constant as a factor; 1 for a small one."""
+    others = [other for _, (_, _, other) in couplings(of) if any(other[1:])]
+    if len(others) > 1 and len(set(others)) == 1:
+        return others[0]
+    return (0.0, factors[0] if abs(factors[0]) > SMALL else 1.0, 0.0, 0.0, 0.0)
 
 
 def _unled(of: Simulation, equality: int) -> float:

@@ -550,3 +550,27 @@ def test_the_only_joint_of_a_robot_that_nothing_drives_is_told(waist: str, count
     text = f"<mujoco><worldbody>{trunk}</worldbody><actuator>{servos}</actuator></mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["joint-not-driven"]).hints
     assert [each.elements for each in found] == [('joint "waist"',)] * told
+
+
+@pytest.mark.parametrize(
+    ("given", "own", "mass", "written"),
+    [
+        ('kp="500" dampratio="1" forcerange="-1 1"', "", 2, {"of the class": "-22 22"}),
+        ('kp="500" dampratio="1" forcerange="-1 1"', 'forcerange="-2 2"', 2,
+         {"of the class": "-22 22", "its own": "-15 15"}),
+        ('kp="1"', "", 3, {"of the class": "368"}),
+    ],
+    ids=["the largest for the class", "one with its own", "one gain for the class"],
+)  # fmt: skip
+def test_what_servos_have_from_a_class_is_mended_there(given, own, mass, written):
+    arms = "".join(
+        f'<body pos="0 {each} 1"><joint name="{each}" axis="0 1 0"/>'
+        f'<geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.02" mass="{each}"/></body>'
+        for each in (mass, 3.0)
+    )
+    servos = f'<actuator><position joint="{mass}" {own}/><position joint="3.0"/></actuator>'
+    text = f"<mujoco><default><position {given}/></default><worldbody>{arms}</worldbody>{servos}</mujoco>"
+    (found,) = (each for each in diagnosed(text).causes if each.attribute in ("forcerange", "kp"))
+    place = text.index("<worldbody>")
+    assert {("of the class" if each.start < place else "its own"): each.value for each in found.edit} == written
+    assert len(found.edit) == len(written)

@@ -201,8 +201,25 @@ class ReaderModel:
         return tuple(made)
 
     def set_each(self, kind: str, attribute: str, values: Mapping[int, str]) -> tuple[Edit, ...]:
-        """Edits that give an attribute of elements a value of its own each; none for what has no place in the text."""
-        return tuple(edit for index, value in values.items() for edit in self.set(kind, [index], attribute, value))
+        """Edits that give an attribute of elements a value of its own each; none for what has no place in the text.
+
+        Those of one value are meant together, so that their default class may have it.
+        """
+        alike: dict[str, list[int]] = {}
+        for index, value in values.items():
+            if self.element(kind, index) is not None:
+                alike.setdefault(value, []).append(index)
+        return tuple(edit for value, some in alike.items() for edit in self.set(kind, some, attribute, value))
+
+    def giver(self, kind: str, indices: Sequence[int], attribute: str) -> Element | None:
+        """The element of a default class that gives all of some elements an attribute; None where one has its own."""
+        found = [self.element(kind, index) for index in indices]
+        if self.source is None or not found or any(each is None for each in found):
+            return None
+        givers = [self.source.written(each, attribute) for each in found if each is not None]
+        holders = {id(giver[0]) if giver else 0 for giver in givers}
+        first = givers[0][0] if givers[0] else None
+        return first if len(holders) == 1 and first not in found else None
 
     def _set_urdf(self, elements: Sequence[Element], attribute: str, value: str) -> tuple[Edit, ...]:
         """The same where the text is URDF, which has what is said of a joint in elements inside it."""

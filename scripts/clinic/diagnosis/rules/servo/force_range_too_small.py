@@ -24,16 +24,16 @@ Good:
 
 The number: the model's own weight at the joint over the greatest force of its servos, in the worst of 17 poses. Or the
 height that a robot with a free base loses within 1 s, its servos told to stay where they are, where some give all they
-can.
+can. Where several have their limit from one class, the class gets what the worst of them needs.
 
 When it is wrong: a joint that a spring or a closed chain carries, or that never takes such a pose.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
-from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.load import loads, strain, strains
 from clinic.diagnosis.probes.servo import Servo, servos
@@ -68,7 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         "forcerange",
         f"{worst.force:.3g}",
         rounded(3 * load[worst.dof]),
-        tuple(edit for each in weak for edit in _stronger(model, each, load[each.dof] * 3)),
+        _stronger(model, {each: load[each.dof] * 3 for each in weak}),
         strain([each.actuator for each in weak]),
         STRAIN,
         f"The weight at {simulation.name('joint', worst.joint)} is up to {load[worst.dof]:.3g} {unit}, "
@@ -89,7 +89,7 @@ def _gives_way(model: ReaderModel) -> Iterator[Suspect]:
         "forcerange",
         f"{full[0].force:.3g}",
         rounded(MORE * full[0].force),
-        tuple(edit for each in seen.bent for edit in _stronger(model, each, MORE * each.force)),
+        _stronger(model, {each: MORE * each.force for each in seen.bent}),
         goes_down(),
         LOST,
         f"Standing, {of.name('joint', full[0].joint)} bends although its servo gives all of its {full[0].force:.3g} "
@@ -131,16 +131,23 @@ def _weight_over_limit(simulation: Simulation, joint: int) -> float:
     return loads(simulation)[simulation.dof(joint)] / max(limit, 1e-12)
 
 
-def _stronger(model: ReaderModel, servo: Servo, force: float) -> tuple[Edit, ...]:
-    """The edits of the limits that are below a force at the joint."""
-    simulation = model.simulation
-    edits: tuple[Edit, ...] = ()
-    gear = abs(simulation.gear(servo.actuator))
-    own = max(map(abs, simulation.row("actuator_forcerange", servo.actuator, 2))) * gear
-    if simulation.model("actuator_forcelimited")[servo.actuator] and own < force:
-        text = rounded(force / gear)
-        edits += model.set("actuator", [servo.actuator], "forcerange", f"-{text} {text}")
-    joint = max(map(abs, simulation.row("jnt_actfrcrange", servo.joint, 2)))
-    if simulation.model("jnt_actfrclimited")[servo.joint] and joint < force:
-        edits += model.set("joint", [servo.joint], "actuatorfrcrange", f"-{rounded(force)} {rounded(force)}")
-    return edits
+def _stronger(model: ReaderModel, wanted: Mapping[Servo, float]) -> tuple[Edit, ...]:
+    """The edits of the limits that are below forces at the joints; of a class where several have theirs from it."""
+    of, limits = model.simulation, dict[str, dict[int, str]]()
+    for servo, force in wanted.items():
+        gear = abs(of.gear(servo.actuator))
+        own = max(map(abs, of.row("actuator_forcerange", servo.actuator, 2))) * gear
+        if of.model("actuator_forcelimited")[servo.actuator] and own < force:
+            limits.setdefault("forcerange", {})[servo.actuator] = rounded(force / gear)
+        joint = max(map(abs, of.row("jnt_actfrcrange", servo.joint, 2)))
+        if of.model("jnt_actfrclimited")[servo.joint] and joint < force:
+            limits.setdefault("actuatorfrcrange", {})[servo.joint] = rounded(force)
+    made: tuple[Edit, ...] = ()
+    for attribute, each in limits.items():
+        kind = "actuator" if attribute == "forcerange" else "joint"
+        if len(each) > 1 and (giver := model.giver(kind, [*each], attribute)):
+            most = max(each.values(), key=float)
+            made += (set_attribute(giver, attribute, f"-{most} {most}"),)
+        else:
+            made += model.set_each(kind, attribute, {index: f"-{force} {force}" for index, force in each.items()})
+    return made

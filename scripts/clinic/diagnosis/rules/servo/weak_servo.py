@@ -38,7 +38,7 @@ When it is wrong: a controller that adds the weight itself. `gravcomp="1"` on th
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.load import loads, sag, sags
@@ -77,7 +77,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         worst, load, most = weak[0], loads(simulation), min(_most(simulation, each) for each in weak)
         for good in GOOD[hinge]:  # what holds still may be too stiff for the timestep
-            edits = tuple(edit for each in weak for edit in _stronger(model, each, load[each.dof] / good))
+            edits = _stronger(model, {each: load[each.dof] / good for each in weak})
             if model.measured(resets(), edits) <= model.measured(resets()):
                 break
         yield Suspect(
@@ -117,7 +117,7 @@ def _bends(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
         "kp",
         f"{bent[0].stiffness:.3g}",
         rounded(times * bent[0].stiffness),
-        tuple(edit for each in seen.bent for edit in _stronger(model, each, times * each.stiffness)),
+        _stronger(model, {each: times * each.stiffness for each in seen.bent}),
         goes_down(),
         LOST,
         f"Standing, {of.name('joint', bent[0].joint)} is {seen.bent[bent[0]]:.2g} rad off its target.",
@@ -131,7 +131,7 @@ def _tips(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
     if sagging or not seen.bent or seen.lost > LOST / 2 or stance_after(of, LONG).lost < FALLEN:
         return
     own = list(seen.bent)
-    edits = tuple(edit for each in own for edit in _stronger(model, each, STIFFER * each.stiffness))
+    edits = _stronger(model, {each: STIFFER * each.stiffness for each in own})
     if not edits or model.measured(goes_down(LONG), edits) > LOST / 2:
         return
     names = tuple(of.name("actuator", each.actuator) for each in own)
@@ -201,7 +201,7 @@ def _late(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
         "kp",
         f"{worst.stiffness:.3g}",
         rounded(stiffness[worst.actuator]),
-        tuple(edit for each in late for edit in _stronger(model, each, stiffness[each.actuator], damped=True)),
+        _stronger(model, {each: stiffness[each.actuator] for each in late}, damped=True),
         remaining([each.actuator for each in late]),
         LEFT,
         f"Stiffness {worst.stiffness:.3g} against damping {worst.damping:.3g} and inertia {worst.inertia:.2g}: the "
@@ -222,20 +222,19 @@ def _light(of: Simulation, some: Sequence[Servo]) -> bool:
     return all(carried[int(bodies[each.joint])] < LIGHT * of.moving_mass for each in some)
 
 
-def _stronger(model: ReaderModel, servo: Servo, stiffness: float, *, damped: bool = False) -> tuple[Edit, ...]:
-    """The edits that give a servo a stiffness at the joint, and more damping unless it has enough."""
-    times = stiffness / servo.stiffness
-    more = 1.0 if damped else times**0.5
-    element, one = model.element("actuator", servo.actuator), [servo.actuator]
-    if element is None:
-        return ()
-    own, bias = model.simulation.gain(servo.actuator)[0], model.simulation.bias(servo.actuator)
-    if element.tag == "general":
-        return (
-            *model.set("actuator", one, "gainprm", f"{own * times:.3g}"),
-            *model.set("actuator", one, "biasprm", f"{bias[0] * times:.3g} {bias[1] * times:.3g} {bias[2] * more:.3g}"),
-        )
-    edits = model.set("actuator", one, "kp", f"{own * times:.3g}")
-    if model.value("actuator", servo.actuator, "kv") is not None:
-        edits += model.set("actuator", one, "kv", f"{-bias[2] * more:.3g}")
-    return edits
+def _stronger(model: ReaderModel, wanted: Mapping[Servo, float], *, damped: bool = False) -> tuple[Edit, ...]:
+    """The edits that give servos a stiffness at the joint, and more damping unless they have enough."""
+    of, values = model.simulation, dict[str, dict[int, str]]()
+    for servo, stiffness in wanted.items():
+        times, actuator = stiffness / servo.stiffness, servo.actuator
+        more = 1.0 if damped else times**0.5
+        element, gain, bias = model.element("actuator", actuator), of.gain(actuator)[0], of.bias(actuator)
+        if element is not None and element.tag == "general":
+            values.setdefault("gainprm", {})[actuator] = f"{gain * times:.3g}"
+            held = f"{bias[0] * times:.3g} {bias[1] * times:.3g} {bias[2] * more:.3g}"
+            values.setdefault("biasprm", {})[actuator] = held
+        elif element is not None:
+            values.setdefault("kp", {})[actuator] = f"{gain * times:.3g}"
+            if model.value("actuator", actuator, "kv") is not None:
+                values.setdefault("kv", {})[actuator] = f"{-bias[2] * more:.3g}"
+    return tuple(edit for name, each in values.items() for edit in model.set_each("actuator", name, each))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.edit import apply
 from clinic.diagnosis.finding import Finding
 from clinic.diagnosis.native import NativeEngine
 
@@ -162,3 +163,35 @@ def test_the_one_state_of_a_keyframe_that_is_not_its_control_is_told(acts: str, 
     body = f"<worldbody>{links}</worldbody><actuator>{muscles}</actuator><keyframe>{key}</keyframe>"
     found = examine(NativeEngine(), {"model.xml": f"<mujoco>{body}</mujoco>"}, select=["key-targets-elsewhere"]).hints
     assert [(each.attribute, each.value) for each in found] == [("act", told)] * (told is not None)
+
+
+THIGH = '<joint name="{0}" axis="0 1 0"/><geom size="0.05" pos="0 0 -0.3"/>'
+LEG = '<body name="{0}_thigh" pos="0 {1} -0.1">' + THIGH + "{2}</body>"
+SHIN = '<body name="{0}_shin" pos="0 0 -0.3"><geom size="0.05" pos="0 0 -0.1"/></body>'
+BALL = '<body name="ball" pos="1 0 {0}"><geom size="0.1" mass="1"/></body>'
+TWICE = '<joint name="a" type="slide"/><joint name="b" type="slide"/>'
+CRATE = f'<body name="crate" pos="0 2 1">{TWICE}<geom size="0.1"/></body>'
+TABLE = '<body name="table" pos="0 -2 1"><freejoint/><geom size="0.1"/></body>'
+
+
+@pytest.mark.parametrize(
+    ("rule", "parts", "qpos", "kept"),
+    [
+        ("object-without-joint", BALL.format(1), "1 2 3 4", "1 0 1 1 0 0 0 1 2 3 4"),
+        ("root-is-fixed", "", "1 2 3 4", "1 2 0 0 0.5 1 0 0 0 3 4"),
+        ("joints-on-one-line", "", "1 2 3 4", "1 3 4"),
+        ("scenery-moves", TABLE, "1 2 3 4 0 0 1 1 0 0 0", "1 2 3 4"),
+    ],
+)
+def test_keyframes_stay_as_long_as_the_model_that_an_edit_gives_a_joint_or_takes_one(rule, parts, qpos, kept):
+    legs = "".join(LEG.format(name, y, SHIN.format(name)) for name, y in (("left", 0.2), ("right", -0.2)))
+    robot = f'<body name="robot" pos="0 0 0.5"><geom size="0.1"/>{legs}</body>'
+    floor = '<geom type="plane" size="5 5 1"/>'
+    order = (parts, CRATE, robot) if parts != TABLE else (CRATE, robot, parts)
+    text = f"<mujoco><worldbody>{floor}{''.join(order)}</worldbody><keyframe>"
+    text += f'<key qpos="{qpos}"/><key/></keyframe></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text}, select=[rule])
+    (told,) = (*found.causes, *found.hints)
+    mended = apply({"model.xml": text}, told.edit)["model.xml"]
+    assert f'<key qpos="{kept}"/><key/>' in mended
+    assert not examine(NativeEngine(), {"model.xml": mended}, select=[rule]).error

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator, Sequence
-from itertools import combinations, permutations, product
+from itertools import combinations, permutations
 
-from clinic.diagnosis.edit import Edit, insert, set_attribute
+from clinic.diagnosis.edit import Edit, insert, remove_attribute, set_attribute
 from clinic.diagnosis.engine import BALL, FREE, HINGE, PLANE, SLIDE
 from clinic.diagnosis.probes import servo
 from clinic.diagnosis.probes.vector import written
@@ -198,16 +198,27 @@ def _beyond_ranges(of: Simulation, qpos: Sequence[float]) -> int:
 
 def freed(model: ReaderModel, bodies: Collection[int]) -> tuple[Edit, ...]:
     """The edits that put bodies of the world on free joints, and their places into the keyframes."""
-    of = model.simulation
-    made = [insert(element, "<freejoint/>") for body in bodies if (element := model.element("body", body))]
-    of.as_written()
-    keys = [element for key in range(of.count("key")) if (element := model.element("key", key))]
-    for element, (attribute, which) in product(keys, (("qpos", 0), ("qvel", 1))):
-        numbers = element.get(attribute).split()
-        for body in sorted(bodies, reverse=True) if numbers else ():
-            before = [joint for joint in range(of.count("joint")) if of.body_of("joint", joint) < body]
-            first = sum(WIDTH[of.joint_type(joint)][which] for joint in before)
-            pose = (*of.data_row("xpos", body, 3), *of.data_row("xquat", body, 4))
-            numbers[first:first] = written([0.0] * 6 if which else pose).split()
-        made += [set_attribute(element, attribute, " ".join(numbers))] if numbers else []
+    made = (insert(element, "<freejoint/>") for body in bodies if (element := model.element("body", body)))
+    return *made, *rekeyed(model, freed=bodies)
+
+
+def rekeyed(model: ReaderModel, *, freed: Collection[int] = (), taken: Collection[int] = ()) -> tuple[Edit, ...]:
+    """Edits that keep all keyframes as long as the model: bodies that get a free joint stand where they are in them.
+
+    Of joints that are taken out the numbers go; a `qpos` that is not of the model's length is left alone.
+    """
+    of, made, joints = model.simulation, list[Edit](), range(model.simulation.count("joint"))
+    for key in range(of.count("key")):
+        start_at(of, key)
+        for which, (name, begin) in enumerate((("qpos", of.place), ("qvel", of.dof))):
+            element = model.element("key", key)
+            numbers = element.get(name).split() if element is not None else []
+            if element is None or not numbers or len(numbers) != len(of.data(name)):
+                continue
+            widths = {joint: WIDTH[of.joint_type(joint)][which] for joint in joints if joint not in taken}
+            parts = [(of.body_of("joint", j), numbers[begin(j) : begin(j) + width]) for j, width in widths.items()]
+            poses = {body: (*of.data_row("xpos", body, 3), *of.data_row("xquat", body, 4)) for body in freed}
+            parts += [(body, written((0.0,) * 6 if which else pose).split()) for body, pose in poses.items()]
+            text = " ".join(each for _, some in sorted(parts, key=lambda part: part[0]) for each in some)
+            made.append(set_attribute(element, name, text) if text else remove_attribute(element, name))
     return tuple(made)

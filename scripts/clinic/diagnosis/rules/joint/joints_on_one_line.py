@@ -32,6 +32,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import delete
 from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.probes.key import rekeyed
 from clinic.diagnosis.probes.run import let_go
 from clinic.diagnosis.probes.vector import Vector, cross, norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
@@ -56,6 +57,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     places = [model.element("joint", joint) for joint in again]
     edits = tuple(delete(each) for each in places if each is not None) if all(places) and source else ()
+    edits += rekeyed(model, taken=again) if edits else ()
     singular = model.measured(_singular()) > 0
     probe = _singular() if singular else how_many("joints that move a body as another", _again)
     names = tuple(of.name("joint", joint) for pair in again.items() for joint in pair)

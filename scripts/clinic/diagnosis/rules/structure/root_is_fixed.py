@@ -30,6 +30,8 @@ The number: wheels that touch the floor, below a body that nothing can move. A w
 round geom has its middle on the axis. Legs are two limbs and more of a body in the air whose ends are within 15 % of
 its height of the floor; in MJCF also two and more of which two parts are called so (hip and knee, thigh and shin, ...).
 
+Keyframes get the seven numbers of the place where the body stands.
+
 When it is wrong: a test bench with rollers, or a robot on a stand.
 """
 

@@ -35,6 +35,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import delete
 from clinic.diagnosis.engine import FREE, SLIDE
 from clinic.diagnosis.probes.equalities import held, sited
+from clinic.diagnosis.probes.key import rekeyed
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -77,8 +78,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if (_called(of, body) and _anywhere(of, joints)) or _creeps(of, joints):
             found[body] = joints
     if found:
-        places = [model.element("joint", joint) for joints in found.values() for joint in joints]
+        loose = [joint for joints in found.values() for joint in joints]
+        places = [model.element("joint", joint) for joint in loose]
         edits = tuple(delete(each) for each in places if each is not None) if all(places) else ()
+        edits += rekeyed(model, taken=loose) if edits else ()
         first = of.name("body", next(iter(found)))
         says = f"{first} stands in the world, has a joint that lets it move, and nothing drives it."
         probe = Probe("joints that let it move", "", _count, tuple(found), dynamic=False)

@@ -204,6 +204,19 @@ def test_the_little_finger_and_the_ring_finger_are_no_pair():
     assert by_name(simulated(fingers()), "joint") == []
 
 
+def test_targets_copied_to_the_other_side_of_a_mirrored_pair_are_the_fault():
+    arm = (
+        '<body name="{0}_arm" pos="0 {1} 1"><joint name="{0}_lift" axis="1 0 0" range="{2}" damping="1"/>'
+        '<geom type="capsule" fromto="0 0 0 0 {1} 0" size="0.02" mass="0.1"/></body>'
+    )
+    arms = arm.format("left", "0.2", "0 3") + arm.format("right", "-0.2", "-3 0")
+    servos = "".join(f'<position joint="{side}_lift" kp="50" kv="5" ctrlrange="0 3"/>' for side in ("left", "right"))
+    compiler = '<compiler angle="radian"/>'
+    found = diagnosed(f"<mujoco>{compiler}<worldbody>{arms}</worldbody><actuator>{servos}</actuator></mujoco>")
+    (told,) = (each for each in found.causes if each.rule == "control-range-too-narrow")
+    assert [edit.value for edit in told.edit] == ["-3 0"]
+
+
 def legs(calf: str = "0.02 0.02 0.06", mass: str = "0.2", knee: str = "0 0 -0.21") -> str:
     """A dog of four legs, of which one may have another calf."""
     made = ""

@@ -96,12 +96,17 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def ranged_like(of: Simulation, servo: Servo) -> int | None:
-    """The twin of a servo's joint, or a sibling where all others agree, that has the range of the targets."""
+    """The twin of a servo's joint, or a sibling where all others agree, that has the range of the targets.
+
+    A twin that the joint mirrors has not: there the targets were copied from side to side.
+    """
     odd = (each.siblings[0] for each in odd_ones(of, "joint", 2 * LIKE)
            if (each.attribute, each.index) == ("range", servo.joint))  # fmt: skip
     others = twins(of).partner("joint", servo.joint), next(odd, None)
-    same = (each for each in others if each is not None and servo.targets)
-    return next((each for each in same if _same(of.row("jnt_range", each, 2), servo.targets or (0, 0))), None)
+    own = of.row("jnt_range", servo.joint, 2)
+    ranges = {each: of.row("jnt_range", each, 2) for each in others if each is not None and servo.targets}
+    same = (each for each, wide in ranges.items() if _same(wide, servo.targets or (0, 0)))
+    return next((each for each in same if not _same((-ranges[each][1], -ranges[each][0]), (own[0], own[1]))), None)
 
 
 def _same(one: tuple[float, ...], other: tuple[float, float]) -> bool:

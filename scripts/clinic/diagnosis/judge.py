@@ -104,7 +104,7 @@ def without_consequences(found: Sequence[Judged], model_of: Callable[[Rule], Rea
         reasons += alike if ended else []
         follows += ended
     follows += [each for each in causes if any(ends([one], each) and not ends([each], one) for one in causes)]
-    displaced = [each for each in found if each.rule.area in PLACES and each.suspect.edits and not each.silenced]
+    displaced = [each for each in found if _displaced(each)]
     overlaps = [each for each in found if each.rule.id in OVERLAPS and any(ends([one], each) for one in displaced)]
     follows += overlaps
     lowered, raised = {id(each) for each in follows}, {id(each) for each in reasons}
@@ -113,6 +113,12 @@ def without_consequences(found: Sequence[Judged], model_of: Callable[[Rule], Rea
         return "hint" if id(each) in lowered else "cause" if id(each) in raised else each.level
 
     return [replace(each, level=level(each), follows=any(each is one for one in overlaps)) for each in found]
+
+
+def _displaced(each: Judged) -> bool:
+    """Whether it tells of a part that is not where it belongs, with an edit that puts it there."""
+    placed = each.rule.area in PLACES and each.suspect.attribute != "size"
+    return placed and bool(each.suspect.edits) and not each.silenced
 
 
 def _beyond_measure(each: Judged) -> bool:

@@ -91,7 +91,7 @@ def _misled(of: Simulation) -> dict[tuple[int, int], int]:
     words = [set(WORD.findall(name)) for name in of.names("site")]
     made = {}
     for tendon, sites in enumerate(paths):
-        for _, site in sites if len(sites) > 2 else ():
+        for _, site in sites if len({*sites}) > 2 else ():
             others = set.intersection(*(words[each] for _, each in sites if each != site))
             body = of.body_of("site", site)
             meant = [each for each in free if others <= words[each] and of.body_of("site", each) == body]

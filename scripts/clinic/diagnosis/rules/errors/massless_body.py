@@ -79,7 +79,7 @@ def _as_others(model: ReaderModel, body: Element, says: str) -> Iterator[Suspect
     """The geom that gives other bodies, which are written alike, their mass, with their class or their number."""
     assert model.source is not None
     own = [each for each in body.children if each.tag == "geom"]
-    like = [each for each in model.source.bodies()[1:] if each is not body and _joints(each) == _joints(body)]
+    like = [each for each in model.source.bodies()[1:] if each is not body and _kin(each) == _kin(body)]
     others = [[each for each in one.children if each.tag == "geom"] for one in like]
     for rank, geom in enumerate(own):
         for name in WEIGH:
@@ -98,7 +98,7 @@ def _alike(own: Sequence[Element], some: Sequence[Element], rank: int, name: str
     return all(own[at].get(each) == some[at].get(each) for at, each in pairs)
 
 
-def _joints(body: Element) -> list[tuple[str, str, str]]:
+def _kin(body: Element) -> list[tuple[str, str, str]]:
     found = [each for each in body.children if each.tag in ("joint", "freejoint", "inertial", "body")]
     return [(each.tag, each.get("class"), each.get("type")) for each in found]
 

@@ -57,6 +57,7 @@ IMPLICIT = (2, 3)  # mjtIntegrator that treats an actuator's damping implicitly
 FAST = 100.0
 NEAR = 0.5  # of what one joint alone bears: in a chain it is less
 ROTOR = 0.01  # kg m2
+ABSURD = 30.0  # h d / M: ten times what RK4 bears, and no damping of that inertia
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -104,7 +105,9 @@ def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
     shown = {above for body in of.model("geom_bodyid") for above in of.ancestors(int(body))}
     bare = [joint for joint in bare if bodies[joint] not in thin and int(bodies[joint]) in shown]
     light = sorted(joint for joint in bare if inertia[of.dof(joint)] < ROTOR and not of.model("jnt_stiffness")[joint])
-    light = [] if any(of.dof(joint) in damped_beyond(of) for joint in light) else light  # the integrator is the fault
+    shares = damped_beyond(of)
+    if any(0 < shares.get(of.dof(joint), 0.0) < ABSURD for joint in light):
+        return  # the integrator is the fault
     probe = _symptom(model)
     bounded = probe == commanded() and math.isfinite(model.measured(probe))
     if bounded:  # so fast may a wheel be, and a propeller

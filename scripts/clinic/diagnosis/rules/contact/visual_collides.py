@@ -25,8 +25,8 @@ Good:
     +     <default class="visual"><geom group="2" contype="0" conaffinity="0" mass="0"/></default>
 
 The number: geoms whose class or name says visual, in a body that has another geom that collides, with masks that are
-not zero; and transparent ones of the world or a mocap body that are called target, marker, waypoint or indicator;
-and those of the one of four mocap bodies and more that something can touch.
+not zero, those that `<replicate>` makes too; and transparent ones of the world or a mocap body that are called target,
+marker, waypoint or indicator; and those of the one of four mocap bodies and more that something can touch.
 
 When it is wrong: a geom that is seen and touched, and is called so for its group.
 """
@@ -36,6 +36,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import CONTACTS_OFF
 from clinic.diagnosis.probes.shape import collides, masks_told, solid
 from clinic.diagnosis.reader_model import ReaderModel
@@ -44,14 +45,16 @@ from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A visual geom that collides"
-FAMILIES = ("wrong-mass", "explodes", "jumps-at-start", "stuck")
+FAMILIES = ("wrong-mass", "explodes", "jumps-at-start", "stuck", "slow")
 SINCE = "0.1"
 LEVEL = "hint"
+CASE = "small-stack-is-slow"
 UNPLANTED = "only a name says what a geom is for"
 
 SEEN = re.compile(r"(?<![a-z])(visuals?|vis)(?![a-z])", re.IGNORECASE)
 MARK = re.compile(r"(?<![a-z])(target|marker|waypoint|indicator)(?![a-rt-z])", re.IGNORECASE)
 OPAQUE = 0.9  # of alpha
+MASKS = ("contype", "conaffinity")
 MANY = 3  # mocap bodies
 BOTH = re.compile(r"coll", re.IGNORECASE)
 
@@ -67,6 +70,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         visual = [geom for geom in geoms if (each := model.element("geom", geom)) is not None and _seen(each)]
         seen += visual if len(visual) < len(geoms) else []
     marks = [geom for geom in range(of.count("geom")) if _marks(of, geom)]
+    yield from _repeated(model)
     for geoms, says in (
         (seen, "is called visual, and touches things beside the geom that is made for it."),
         (marks, "is transparent and called a mark, and stops what comes to it."),
@@ -81,6 +85,28 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield Suspect(
             names, "contype, conaffinity", masks, "0, 0", edits, probe, 0.5, told, "0, 0 for what is only seen"
         )
+
+
+def _repeated(model: ReaderModel) -> Iterator[Suspect]:
+    """The geoms that are written once inside a `<replicate>`, and have no place of their own in the model."""
+    if model.source is None:
+        return
+    every = [(geom, [*geom.around()]) for geom in model.source.elements("geom")]
+    solids = [(geom, outer) for geom, outer in every if any(_mask(model, geom, name) != "0" for name in MASKS)]
+    bodies = {next((each for each in outer if each.tag == "body"), None) for geom, outer in solids if not _seen(geom)}
+    for geom, outer in solids:
+        body = next((each for each in outer if each.tag == "body"), None)
+        if not _seen(geom) or body is None or body not in bodies or all(each.tag != "replicate" for each in outer):
+            continue
+        named, masks = f'geom "{geom.get("name")}"', ", ".join(_mask(model, geom, name) for name in MASKS)
+        says = f"{named} is called visual, and each of its copies touches things beside what is made for it."
+        edits = tuple(set_attribute(geom, name, "0") for name in MASKS)
+        probe, well = counted("visual geoms that collide", 1), "0, 0 for what is only seen"
+        yield Suspect((named,), ", ".join(MASKS), masks, "0, 0", edits, probe, 0.5, says, well, at=geom)
+
+
+def _mask(model: ReaderModel, geom: Element, name: str) -> str:
+    return (model.source.value(geom, name) if model.source else None) or "1"
 
 
 def _marks(of: Simulation, geom: int) -> bool:

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from clinic.diagnosis.source import ATTRIBUTE, HEAD, Element
+from clinic.diagnosis.source import ATTRIBUTE, HEAD, ORIENTATIONS, Element
 
 Action = Literal["set", "remove", "delete", "insert", "replace"]
 
@@ -57,6 +57,12 @@ def set_attribute(element: Element, attribute: str, value: str) -> Edit:
 def remove_attribute(element: Element, attribute: str) -> Edit:
     """Takes an attribute off."""
     return edit(element, "remove", attribute)
+
+
+def orient(element: Element, attribute: str, value: str) -> tuple[Edit, ...]:
+    """Gives an orientation, `quat`, `euler`, ..., in the place of what is written in another way."""
+    others = (each for each in ORIENTATIONS if each in element.attributes and each != attribute)
+    return *(remove_attribute(element, each) for each in others), set_attribute(element, attribute, value)
 
 
 def delete(element: Element) -> Edit:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from clinic.diagnosis.engine import OBJ_SITE
 from clinic.diagnosis.probes.vector import Vector, add, norm, sub, times
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 
 CONNECT, WELD, COUPLED = range(3)  # mjtEq
 
@@ -26,6 +26,7 @@ def held(of: Simulation, each: int) -> tuple[int, int]:
     return int(of.model("eq_obj1id")[each]), int(of.model("eq_obj2id")[each])
 
 
+@kept
 def tied(of: Simulation) -> set[frozenset[int]]:
     """The pairs of bodies that a connection or a weld holds together from the start."""
     made = set()

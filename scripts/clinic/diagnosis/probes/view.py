@@ -7,13 +7,12 @@ import re
 from collections.abc import Callable, Sequence
 from itertools import product
 
-from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
+from clinic.diagnosis.edit import Edit, orient
 from clinic.diagnosis.engine import HFIELD, PLANE
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.vector import IDENTITY, Vector, add, at, cross, dot, sub, times, transpose
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.source import ORIENTATIONS
 
 ASPECT = 1.0  # of the image's sides, where the model does not say
 VISIBLE = 3  # groups from this one on are hidden by default
@@ -130,10 +129,7 @@ def turned(model: ReaderModel, camera: int, right: Sequence[float], up: Sequence
     if int(simulation.model("cam_mode")[camera]) in (TRACK, TRACKCOM):
         m = m if any(m) else IDENTITY
     local = [sum(m[3 * row + column] * axis[row] for row in range(3)) for axis in (right, up) for column in range(3)]
-    gone = tuple(
-        remove_attribute(element, name) for name in ORIENTATIONS if name in element.attributes and name != "xyaxes"
-    )
-    return (*gone, set_attribute(element, "xyaxes", " ".join(f"{round(each, 6) + 0.0:.4g}" for each in local)))
+    return orient(element, "xyaxes", " ".join(f"{round(each, 6) + 0.0:.4g}" for each in local))
 
 
 def aimed(model: ReaderModel, camera: int) -> tuple[Edit, ...]:

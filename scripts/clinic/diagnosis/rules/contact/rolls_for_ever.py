@@ -59,10 +59,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         found = [
             (decides, [owner[int(bodies[geom])] for geom in contact.geoms])
             for contact, decides in resting(simulation)
-            if decides.dim > 1
+            if decides.dim > 1 and body in [int(bodies[geom]) for geom in contact.geoms]
         ]
-        meant = [decides for decides, trees in found if body in trees]
-        on_ground = any(body in trees and 0 in trees for _, trees in found)  # not in a hand
+        meant, on_ground = [decides for decides, _ in found], any(0 in trees for _, trees in found)  # not in a hand
         if meant and on_ground and all(each.dim < 6 for each in meant):
             says = f"With condim {meant[0].dim} a contact has no rolling friction."
             edits = edits_of(model, meant, "condim", "6")

@@ -91,18 +91,20 @@ def _repeated(model: ReaderModel) -> Iterator[Suspect]:
     """The geoms that are written once inside a `<replicate>`, and have no place of their own in the model."""
     if model.source is None:
         return
-    every = [(geom, [*geom.around()]) for geom in model.source.elements("geom")]
-    solids = [(geom, outer) for geom, outer in every if any(_mask(model, geom, name) != "0" for name in MASKS)]
-    bodies = {next((each for each in outer if each.tag == "body"), None) for geom, outer in solids if not _seen(geom)}
-    for geom, outer in solids:
-        body = next((each for each in outer if each.tag == "body"), None)
-        if not _seen(geom) or body is None or body not in bodies or all(each.tag != "replicate" for each in outer):
+    solids = [each for each in model.source.elements("geom") if any(_mask(model, each, name) != "0" for name in MASKS)]
+    bodies = {_body_of(geom) for geom in solids if not _seen(geom)} - {None}
+    for geom in solids:
+        if not _seen(geom) or _body_of(geom) not in bodies or all(each.tag != "replicate" for each in geom.around()):
             continue
         named, masks = f'geom "{geom.get("name")}"', ", ".join(_mask(model, geom, name) for name in MASKS)
         says = f"{named} is called visual, and each of its copies touches things beside what is made for it."
         edits = tuple(set_attribute(geom, name, "0") for name in MASKS)
         probe, well = counted("visual geoms that collide", 1), "0, 0 for what is only seen"
         yield Suspect((named,), ", ".join(MASKS), masks, "0, 0", edits, probe, 0.5, says, well, at=geom)
+
+
+def _body_of(geom: Element) -> Element | None:
+    return next((each for each in geom.around() if each.tag == "body"), None)
 
 
 def _mask(model: ReaderModel, geom: Element, name: str) -> str:

@@ -118,9 +118,9 @@ def _raised(model: ReaderModel, joint: Element, said: str) -> Iterator[Suspect]:
     if (bare and len([each for each in bodies[-1].children if each.tag == "body"]) == 1) or any(
         bodies[0] not in each.around() for each in others
     ):
-        own = model.texts[joint.file].encode()[joint.start : joint.end].decode()
         says = f"{said}. Only a child of the world can be free: the joint is put into {told(bodies[-1])}."
-        yield mends(joint, (delete(joint), insert(bodies[-1], own)), says, value=f"moved into {told(bodies[-1])}")
+        edits = (delete(joint), insert(bodies[-1], model.text_of(joint)))
+        yield mends(joint, edits, says, value=f"moved into {told(bodies[-1])}")
 
 
 def _floating(model: ReaderModel, said: str) -> Iterator[Suspect]:

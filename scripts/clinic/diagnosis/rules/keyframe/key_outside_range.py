@@ -46,7 +46,7 @@ from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.key import against_range, beyond, outside, reordered, start_at, weighed
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
@@ -128,17 +128,24 @@ def _degrees(model: ReaderModel, key: int, element: Element) -> Iterator[Suspect
 
 def _whole(of: Simulation, key: int) -> list[int]:
     """The hinges without a range that stand at a multiple of 15 in one keyframe, and at no angle beyond a turn else."""
-    made = []
+    made, others = [], [qpos for each, qpos in _poses(of).items() if each != key]
     for joint in range(of.count("joint")):
         if of.joint_type(joint) != HINGE or of.model("jnt_limited")[joint]:
             continue
-        angles = {}
-        for each in range(-1, of.count("key")):
-            of.engine.reset(each)
-            angles[each] = abs(of.position(joint))
-        at = angles.pop(key)
-        if at >= LEAST and at % WHOLE == 0 and max(angles.values()) <= 2 * math.pi:
+        place = of.place(joint)
+        at = abs(_poses(of)[key][place])
+        if at >= LEAST and at % WHOLE == 0 and max(abs(qpos[place]) for qpos in others) <= 2 * math.pi:
             made.append(joint)
+    return made
+
+
+@kept
+def _poses(of: Simulation) -> dict[int, tuple[float, ...]]:
+    """The `qpos` of each keyframe, and at -1 of the model's own start."""
+    made = {}
+    for each in range(-1, of.count("key")):
+        of.engine.reset(each)
+        made[each] = tuple(of.data("qpos"))
     return made
 
 

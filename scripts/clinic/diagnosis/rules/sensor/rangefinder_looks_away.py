@@ -38,7 +38,7 @@ import math
 from collections.abc import Iterator
 from itertools import product
 
-from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
+from clinic.diagnosis.edit import Edit, orient
 from clinic.diagnosis.engine import FREE, HINGE, OBJ_SITE, SLIDE, CompileError
 from clinic.diagnosis.probes.key import start_at
 from clinic.diagnosis.probes.touched import RANGE
@@ -156,6 +156,5 @@ def _turned(model: ReaderModel, site: int, value: str) -> tuple[Edit, ...]:
     element = model.element("site", site)
     if element is None:
         return ()
-    gone = [remove_attribute(element, name) for name in ORIENTATIONS if name in element.attributes and name != "zaxis"]
-    edits = (*gone, set_attribute(element, "zaxis", value))
+    edits = orient(element, "zaxis", value)
     return () if isinstance(model.with_edits(edits), CompileError) else edits

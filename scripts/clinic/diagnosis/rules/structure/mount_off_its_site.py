@@ -35,12 +35,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import remove_attribute, set_attribute
+from clinic.diagnosis.edit import orient, set_attribute
 from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.probes.vector import norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.source import ORIENTATIONS
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A tool beside the site that it belongs to"
@@ -65,8 +64,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if len(sites) != 1 or element is None or _off(of, body) <= NEAR or _drawn_there(of, body, sites[0]):
             continue
         place, turn = written(of.row("site_pos", sites[0], 3)), written(of.row("site_quat", sites[0], 4))
-        written_turns = [remove_attribute(element, each) for each in ORIENTATIONS[1:] if each in element.attributes]
-        edits = *written_turns, set_attribute(element, "pos", place), set_attribute(element, "quat", turn)
+        edits = set_attribute(element, "pos", place), *orient(element, "quat", turn)
         site = of.name("site", sites[0])
         says = f"It hangs on the origin of {of.name('body', link)}, whose {site} is {100 * _off(of, body):.3g} cm away."
         probe = Probe("a tool from the site of its link", "m", _off, (body,), dynamic=False)

@@ -1,81 +1,231 @@
-"""Closing the fingers on what lies between them: what friction can carry of it."""
+"""Closing jaws on a free thing that is put between them: what friction carries of it, and whether it slides."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
+from clinic.diagnosis.engine import FREE, TRN_TENDON, WRAP_JOINT, Contact
 from clinic.diagnosis.probes.servo import hold
+from clinic.diagnosis.probes.shape import size, solid
 from clinic.diagnosis.probes.touch import Deciding, deciding
-from clinic.diagnosis.probes.vector import dot
+from clinic.diagnosis.probes.vector import Vector, at, cross, dot, norm, sub, times, transpose, unit
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
-SECONDS = 1.0
-OPPOSITE = -0.7  # cosine of the normals of two fingers
+CLOSING, CARRYING = 1.0, 2.0  # s
+OPPOSITE = -0.7  # cosine of the normals of two jaws
+PLACES, MOMENTS = 4, 40  # between the jaws, and while they close
+ALONE = 2  # jaws that close on what they hang on: more are the fingers of a hand, or legs
+FAR = 100.0  # m
+
+
+@dataclass(frozen=True)
+class Jaws:
+    """Two bodies that close on each other, what they hang on, and the actuators that move them."""
+
+    palm: int
+    sides: tuple[int, int]
+    actuators: tuple[int, ...]
 
 
 @dataclass(frozen=True)
 class Grasp:
-    """A free body between fingers: their normal forces, what friction carries of them, and its weight, all in N."""
+    """A free thing between jaws that closed on it: forces in N, and how fast it leaves, in its radii a second.
+
+    `force` is the sum of the normal forces, `carries` what friction bears of them. The speed is infinite where the
+    thing falls.
+    """
 
     body: int
+    jaws: Jaws
     force: float
     carries: float
     weight: float
     deciding: tuple[Deciding, ...]
+    leaves: float
+
+
+class _Moment(NamedTuple):
+    """While empty jaws close: the state, and where the middles of their geoms are."""
+
+    qpos: list[float]
+    middles: dict[int, Vector]
 
 
 @kept
 def grasps(simulation: Simulation) -> list[Grasp]:
-    """What is held when all fingers go to one end of their controls, without gravity."""
-    gravity = simulation.model("opt.gravity")
-    fingers = _fingers(simulation) if simulation.free_bodies and any(gravity) else []
-    return [each for end in (0, 1) for each in _held(simulation, fingers, end)] if fingers else []
+    """What jaws hold of the free things that fit between them: for each pair of jaws the first."""
+    of = simulation
+    if not any(of.model("opt.gravity")):
+        return []
+    things = [body for body in of.free_bodies if len(of.below(body)) == 1 and _solids(of, body)]
+    tries = ((_carried(of, jaws, body) for body in things) for jaws in (_jaws(of) if things else ()))
+    found = (next((each for each in made if each is not None), None) for made in tries)
+    return [each for each in found if each is not None]
 
 
-def _fingers(simulation: Simulation) -> list[int]:
-    """The actuators with a control range of joints that carry no other joint."""
-    parents, jointed = simulation.model("body_parentid"), simulation.model("body_jntnum")
-    carriers = {int(parents[body]) for body in range(1, simulation.count("body")) if jointed[body]}
-    made = []
-    for actuator in range(simulation.count("actuator")):
-        joint = simulation.driven_joint(actuator)
-        body = simulation.body_of("joint", joint) if joint is not None else 0
-        if joint is not None and body not in carriers and simulation.model("actuator_ctrllimited")[actuator]:
-            made.append(actuator)
-    return made if len(made) > 1 else []
+def _jaws(of: Simulation) -> Iterator[Jaws]:
+    """Pairs of links at the end of something, or one and what it hangs on, which an actuator moves."""
+    jointed = [body for body in of.moving_bodies if of.model("body_jntnum")[body]]
+    carriers = {above for body in jointed for above in of.ancestors(body)[1:]}
+    palms: dict[int, list[int]] = {}
+    for body in jointed:
+        kinds = [of.joint_type(joint) for joint in of.joints_of(body)]
+        if body not in carriers and len(kinds) == 1 and FREE not in kinds:
+            palms.setdefault(int(of.model("body_parentid")[body]), []).append(body)
+    single = sum(len(found) == 1 for found in palms.values())
+    for palm, found in palms.items():
+        sides = (found[0], found[1]) if len(found) == 2 else (palm, found[0])
+        joints = {joint for body in found for joint in of.joints_of(body)}
+        moved = tuple(each for each in range(of.count("actuator")) if _moves(of, each, joints))
+        few = len(found) == 2 or (len(found) == 1 and palm and single <= ALONE)
+        if few and moved and all(_solids(of, side) for side in sides):
+            yield Jaws(palm, sides, moved)
 
 
-def _held(simulation: Simulation, fingers: list[int], end: int) -> list[Grasp]:
-    gravity, bodies = list(simulation.model("opt.gravity")), simulation.model("geom_bodyid")
-    simulation.engine.write_model("opt.gravity", [0.0, 0.0, 0.0])
+def _solids(of: Simulation, body: int) -> list[int]:
+    return [geom for geom in of.geoms_of(body) if solid(of, geom)]
+
+
+def _moves(of: Simulation, actuator: int, joints: set[int]) -> bool:
+    """Whether an actuator that has a control range moves one of these joints, by itself or by a tendon."""
+    if not of.model("actuator_ctrllimited")[actuator]:
+        return False
+    target = int(of.model("actuator_trnid")[2 * actuator])
+    if int(of.model("actuator_trntype")[actuator]) != TRN_TENDON:
+        return of.driven_joint(actuator) in joints
+    first, count = (int(of.model(f"tendon_{each}")[target]) for each in ("adr", "num"))
+    kinds, objects = of.model("wrap_type"), of.model("wrap_objid")
+    return any(int(kinds[each]) == WRAP_JOINT and int(objects[each]) in joints for each in range(first, first + count))
+
+
+def _carried(of: Simulation, jaws: Jaws, body: int) -> Grasp | None:
+    """The first grasp that holds the thing without gravity, and then with it; None where there is none."""
+    gravity = list(of.model("opt.gravity"))
+    of.engine.write_model("opt.gravity", [0.0, 0.0, 0.0])
     try:
-        simulation.begin()
-        hold(simulation)
-        for actuator in fingers:
-            simulation.engine.write("ctrl", [simulation.row("actuator_ctrlrange", actuator, 2)[end]], actuator)
-        for _ in simulation.run(SECONDS, samples=4):
-            pass
-        contacts = [] if simulation.unstable() else simulation.engine.contacts()
+        for end in (0, 1):
+            closing = _closing(of, jaws, body, end)
+            for pair in _pairs(of, jaws, closing):
+                if _closed(of, jaws, body, end, pair, closing) and (held := _held(of, jaws, body)):
+                    pressing = [each for each in of.engine.contacts() if body in _sides(of, each) and each.force > 0]
+                    decided = {each: deciding(of, each) for each in pressing}
+                    forces = [(each.force, one.friction) for each, one in decided.items()]
+                    weight = tuple(of.model("body_mass")[body] * x for x in _across(gravity, held[0].normal))
+                    return Grasp(
+                        body, jaws, sum(force for force, _ in forces), sum(force * each for force, each in forces),
+                        norm(weight), tuple(dict.fromkeys(decided.values())),
+                        _slides(of, jaws, body, weight) / max(size(of, body), 1e-9),
+                    )  # fmt: skip
     finally:
-        simulation.engine.write_model("opt.gravity", gravity)
-    made, free = [], set(simulation.free_bodies)
-    for body in free:
-        pressed = []
-        for contact in contacts:
-            sides = [int(bodies[geom]) if geom >= 0 else 0 for geom in contact.geoms]
-            other = sides[0] + sides[1] - body
-            if body in sides and contact.force > 0 and other not in free and other in simulation.moving_bodies:
-                sign = 1 if sides[1] == body else -1
-                pressed.append((contact, tuple(sign * x for x in contact.normal)))
-        if any(dot(one, other) < OPPOSITE for _, one in pressed for _, other in pressed):
-            decided = [deciding(simulation, contact) for contact, _ in pressed]
-            forces = [contact.force for contact, _ in pressed]
-            carries = sum(force * each.friction for force, each in zip(forces, decided, strict=True))
-            weight = math.hypot(*gravity) * simulation.model("body_subtreemass")[body]
-            made.append(Grasp(body, sum(forces), carries, weight, tuple(dict.fromkeys(decided))))
+        of.engine.write_model("opt.gravity", gravity)
+    return None
+
+
+def _across(gravity: list[float], normal: Vector) -> Vector:
+    """Gravity turned until it is at right angles to the direction in which the jaws press."""
+    down = sub(gravity, tuple(dot(gravity, normal) * x for x in normal))
+    if norm(down) < norm(gravity) / 2:
+        down = cross(normal, (1.0, 0.0, 0.0) if abs(normal[0]) < 0.9 else (0.0, 1.0, 0.0))
+    return tuple(norm(gravity) * x for x in unit(down))
+
+
+def _drive(of: Simulation, jaws: Jaws, end: int) -> None:
+    for actuator in jaws.actuators:
+        of.engine.write("ctrl", [of.row("actuator_ctrlrange", actuator, 2)[end]], actuator)
+
+
+def _closing(of: Simulation, jaws: Jaws, body: int, end: int) -> list[_Moment]:
+    """The way of the empty jaws, from where they rest at one end of their controls straight to the other."""
+    of.begin()
+    hold(of)
+    of.engine.write("qpos", [0.0, 0.0, FAR], of.place(of.joints_of(body)[0]))
+    rests = []
+    for target in (1 - end, end):
+        _drive(of, jaws, target)
+        for _ in of.run(CLOSING, samples=1):
+            pass
+        rests.append(list(of.data("qpos")))
+    geoms = [geom for side in jaws.sides for geom in _solids(of, side)]
+    made = []
+    for share in (moment / MOMENTS for moment in range(MOMENTS + 1)):
+        qpos = [(1 - share) * wide + share * tight for wide, tight in zip(*rests, strict=True)]
+        of.engine.write("qpos", qpos)
+        of.engine.forward()
+        made.append(_Moment(qpos, {geom: at(of.data("geom_xpos"), geom) for geom in geoms}))
     return made
+
+
+def _pairs(of: Simulation, jaws: Jaws, closing: list[_Moment]) -> list[tuple[int, int]]:
+    """Geoms of the two jaws, those first that come nearest to each other."""
+    pairs = [(one, other) for one in _solids(of, jaws.sides[0]) for other in _solids(of, jaws.sides[1])]
+    return sorted(pairs, key=lambda pair: min(norm(_gap(each, pair)) for each in closing))[:PLACES]
+
+
+def _gap(moment: _Moment, pair: tuple[int, int]) -> Vector:
+    return sub(moment.middles[pair[1]], moment.middles[pair[0]])
+
+
+def _closed(of: Simulation, jaws: Jaws, body: int, end: int, pair: tuple[int, int], closing: list[_Moment]) -> bool:
+    """Puts the thing between two geoms at the last moment when there is room for it, and lets the jaws close."""
+    half = of.row("geom_aabb", _solids(of, body)[0], 6)[3:]
+    wide = 2 * min(half) + sum(min(of.row("geom_aabb", each, 6)[3:]) for each in pair)
+    fits = [each for each in closing if norm(_gap(each, pair)) > wide]
+    if not fits or len(fits) == len(closing):
+        return False
+    one, other = (fits[-1].middles[geom] for geom in pair)
+    middle = [(x + y) / 2 for x, y in zip(one, other, strict=True)]
+    along = unit(_gap(fits[-1], pair))
+    thin = tuple(float(i == half.index(min(half))) for i in range(3))
+    along = along if dot(along, thin) >= 0 else tuple(-x for x in along)
+    turn = unit((1 + dot(thin, along), *cross(thin, along)))
+    of.begin()
+    of.engine.write("qpos", fits[-1].qpos)
+    of.engine.write("qpos", [*middle, *turn], of.place(of.joints_of(body)[0]))
+    of.engine.forward()
+    hold(of)
+    _drive(of, jaws, end)
+    for _ in of.run(CLOSING, samples=1):
+        pass
+    return not of.unstable()
+
+
+def _held(of: Simulation, jaws: Jaws, body: int) -> tuple[Contact, Contact] | None:
+    """Two contacts with which the jaws press on the thing from opposite sides."""
+    pressed: dict[int, list[tuple[Contact, Vector]]] = {}
+    for contact in of.engine.contacts():
+        sides = _sides(of, contact)
+        if body in sides and contact.force > 0:
+            sign = 1 if sides[1] == body else -1
+            normal = tuple(sign * x for x in contact.normal)
+            pressed.setdefault(sides[0] + sides[1] - body, []).append((contact, normal))
+    one, other = (pressed.get(side, []) for side in jaws.sides)
+    facing = ((a, b) for a, inwards in one for b, back in other if dot(inwards, back) < OPPOSITE)
+    return next(facing, None)
+
+
+def _sides(of: Simulation, contact: Contact) -> list[int]:
+    """The bodies of a contact's two geoms; the world for a flex, which has no geom."""
+    return [int(of.model("geom_bodyid")[geom]) if geom >= 0 else 0 for geom in contact.geoms]
+
+
+def _slides(of: Simulation, jaws: Jaws, body: int, weight: Vector) -> float:
+    """The speed in m/s of the thing in the palm's frame under its weight alone, over the second half of the time.
+
+    It is infinite where the thing falls, or comes to lie on something else.
+    """
+    of.engine.write("xfrc_applied", weight, 6 * body)
+    seen = []
+    for _ in of.run(CARRYING, samples=4):
+        apart = sub(at(of.data("xpos"), body), at(of.data("xpos"), jaws.palm))
+        seen.append(times(transpose(of.data_row("xmat", jaws.palm, 9)), apart))
+    touched = {side for each in of.engine.contacts() for side in _sides(of, each) if body in _sides(of, each)}
+    if of.unstable() or _held(of, jaws, body) is None or touched - {body, jaws.palm, *jaws.sides}:
+        return math.inf
+    return norm(sub(seen[-1], seen[len(seen) // 2 - 1])) / (of.steps(CARRYING) * of.timestep / 2)
 
 
 def _needed(simulation: Simulation, body: int) -> float:
@@ -83,5 +233,14 @@ def _needed(simulation: Simulation, body: int) -> float:
 
 
 def needed(body: int) -> Probe:
-    """The weight of what is held over what the friction of the fingers carries; above 1 it slips."""
+    """The weight of what is held over what the friction of the jaws carries; above 1 it slips."""
     return Probe("weight over what friction of the closed fingers carries", "", _needed, (body,))
+
+
+def _leaves(simulation: Simulation, body: int) -> float:
+    return max((each.leaves for each in grasps(simulation) if each.body == body), default=0.0)
+
+
+def leaves(body: int) -> Probe:
+    """How fast a thing slides out of the jaws that closed on it, in its radii a second; infinite where it falls."""
+    return Probe("between jaws that closed on it, it slides with", "radii a second", _leaves, (body,))

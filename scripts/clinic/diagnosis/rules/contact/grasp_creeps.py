@@ -36,7 +36,8 @@ Good:
 
 The number: how fast contacts slide on what is held by moving parts alone, at the end of 2 s from the keyframe, in
 radii of the thing a second; below 0.05 is well. Measured with this pin: 2 mm/s, and 0.02 mm/s with the edit.
-`cone="elliptic"` with `impratio="10"` helps as well.
+`cone="elliptic"` with `impratio="10"` helps as well. Where nothing is held, a free thing is put between the jaws, which
+close on it for 1 s, and pulled across by its weight for 2 s: from 0.01 radii a second on that is a hint.
 
 When it is wrong: what slips fast has too little friction, or fingers that are too weak.
 """
@@ -44,13 +45,15 @@ When it is wrong: what slips fast has too little friction, or fingers that are t
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
+from clinic.diagnosis.probes.grasp import grasps, leaves
 from clinic.diagnosis.probes.push import creeps
 from clinic.diagnosis.probes.run import let_go
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.vector import dot
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A grasp that creeps"
 FAMILIES = ("slips", "drifts")
@@ -59,27 +62,53 @@ CASE = "box-creeps-out-of-grasp"
 UNPLANTED = "nothing is held in a grasp at the start of a healthy model"
 
 OPPOSITE = 0.7
-MOST = 0.05  # radii a second
+MOST, SLOW = 0.05, 0.01  # radii a second; of a hint, in jaws that closed on it
+SHARE, HALF = 0.2, 0.6  # of it, with an edit that helps
+FIRM = 3.0  # times the weight, that friction carries
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """The solver's options, where a free body hangs on moving parts alone."""
-    simulation = model.simulation
-    run, bodies, owner = let_go(simulation), simulation.model("geom_bodyid"), root_of(simulation)
-    if run.end is None or simulation.model("opt.noslip_iterations")[0] > 0 or not any(simulation.model("opt.gravity")):
+    """The solver's options, where a free body hangs on moving parts alone, or slides in jaws that hold it firmly."""
+    of = model.simulation
+    if not any(of.model("opt.gravity")):
         return
-    for body in simulation.free_bodies:
-        trees = [[owner[int(bodies[geom])] for geom in contact.geoms] for contact in run.end.contacts]
-        others = [tree for pair in trees if body in pair for tree in pair if tree != body]
-        if _squeezed(model, body) and not set(others) & {0, *simulation.free_bodies}:
-            edits = model.option("noslip_iterations", "10")
-            says = "Soft friction slides under a steady load; the no-slip pass of the solver takes that away."
-            now = f"{int(simulation.model('opt.noslip_iterations')[0])}"
-            yield Suspect(
-                (simulation.name("body", body),), "noslip_iterations", now, "10", edits, creeps(body), MOST, says,
-                share=0.2,
-            )  # fmt: skip
+    passes = of.model("opt.noslip_iterations")[0] > 0
+    hung = None if passes else next(_hung(model), None)
+    slides = (each.body for each in grasps(of) if each.weight * FIRM < each.carries and each.leaves > SLOW)
+    if hung is not None:
+        yield _noslip(model, hung, creeps(hung), MOST)
+    elif (body := next(slides, None)) is not None:
+        edits = (*model.option("cone", "elliptic"), *model.option("impratio", "10"))
+        if model.measured(leaves(body), edits) > SLOW:
+            if not passes:
+                yield replace(_noslip(model, body, leaves(body), SLOW), level="hint")
             return
+        now = f"{of.model('opt.impratio')[0]:g}"
+        says = (
+            'Soft friction slides in a firm grasp; under cone="elliptic" an impratio of 10 makes it ten times as stiff.'
+        )
+        names = (of.name("body", body),)
+        yield Suspect(names, "impratio", now, "10", edits, leaves(body), SLOW, says, share=HALF, level="hint")
+
+
+def _noslip(model: ReaderModel, body: int, probe: Probe, limit: float) -> Suspect:
+    of = model.simulation
+    says = "Soft friction slides under a steady load; the no-slip pass of the solver takes that away."
+    now = f"{int(of.model('opt.noslip_iterations')[0])}"
+    edits, names = model.option("noslip_iterations", "10"), (of.name("body", body),)
+    return Suspect(names, "noslip_iterations", now, "10", edits, probe, limit, says, share=SHARE)
+
+
+def _hung(model: ReaderModel) -> Iterator[int]:
+    """The free bodies that moving parts alone press on from both sides."""
+    of = model.simulation
+    end, bodies, owner = let_go(of).end, of.model("geom_bodyid"), root_of(of)
+    contacts = end.contacts if end else ()
+    for body in of.free_bodies:
+        trees = [[owner[int(bodies[geom])] for geom in contact.geoms] for contact in contacts]
+        others = [tree for pair in trees if body in pair for tree in pair if tree != body]
+        if _squeezed(model, body) and not set(others) & {0, *of.free_bodies}:
+            yield body
 
 
 def _squeezed(model: ReaderModel, body: int) -> bool:

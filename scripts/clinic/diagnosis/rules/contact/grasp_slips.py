@@ -32,7 +32,7 @@ Good:
     -       <geom name="cube" type="box" size="0.025 0.025 0.025" mass="0.4" friction="0.15" priority="1"/>
     +       <geom name="cube" type="box" size="0.025 0.025 0.025" mass="0.4" friction="1" priority="1"/>
 
-The number: the weight of what lies between the fingers over what friction carries, once all fingers went to one end of
+The number: the weight of what is put between the fingers over what friction carries, once they went to one end of
 their controls for 1 s; above 1 it slips. Only friction below 0.5 is told: rubber on a solid has 0.5 to 1.
 
 When it is wrong: a thing that is to slip. Fingers that are too weak need force, not friction.

@@ -278,6 +278,28 @@ def test_what_a_jaw_and_its_palm_would_lift_is_tried_between_them(model, told):
     assert not {"grasp-creeps", "grip-too-weak", "grasp-slips"} & {each.rule for each in (*fixed.causes, *fixed.hints)}
 
 
+FOOT = '<body pos="0.1 0 -0.5"><joint axis="0 1 0" pos="0 0 .25"/><geom name="foot" size=".05"{0}/></body>'
+WALKER = (
+    '<mujoco><worldbody><geom name="floor" type="plane" size="2 2 .1"/><body name="trunk" pos="0 0 .6"><freejoint/>'
+    f'<geom size=".1"{{1}}/>{FOOT}</body></worldbody>{{2}}</mujoco>'
+)
+NONE = ' contype="0" conaffinity="0"'
+
+
+@pytest.mark.parametrize(
+    ("model", "told"),
+    [
+        (WALKER.format("", NONE, ""), [("masks", 'body "trunk"')]),
+        (WALKER.format("", "", ""), []),
+        (WALKER.format(NONE, NONE, '<contact><pair geom1="foot" geom2="floor"/></contact>'), []),
+    ],
+)
+def test_a_robot_that_only_its_feet_hold_up_sinks_to_them(model, told):
+    found = examine(NativeEngine(), {"model.xml": model}, select=["masks"])
+    assert [(each.rule, each.elements[0]) for each in found.hints] == told
+    assert not found.causes
+
+
 def test_halves_that_a_weld_holds_in_each_other_want_an_exclude_and_stay_where_they_are():
     half = '<body name="{0}" pos="0 0 {1}"><freejoint/><geom type="capsule" size=".03 .02"/></body>'
     halves = f"<worldbody>{FLOOR}{half.format('low', 0.06)}{half.format('top', 0.1)}</worldbody>"

@@ -195,3 +195,8 @@ def test_keyframes_stay_as_long_as_the_model_that_an_edit_gives_a_joint_or_takes
     mended = apply({"model.xml": text}, told.edit)["model.xml"]
     assert f'<key qpos="{kept}"/><key/>' in mended
     assert not examine(NativeEngine(), {"model.xml": mended}, select=[rule]).error
+
+
+def test_room_for_keyframes_of_which_none_is_written_is_no_finding() -> None:
+    text = '<mujoco><size nkey="5"/><worldbody><body><joint range="1 2"/><geom size="1"/></body></worldbody></mujoco>'
+    assert not examine(NativeEngine(), {"model.xml": text}, select=["keys-not-written"]).hints

@@ -312,6 +312,25 @@ def test_an_object_that_lies_on_something_and_has_no_joint_is_told(
 
 
 @pytest.mark.parametrize(
+    ("geom", "height", "told"),
+    [
+        pytest.param('size="0.2"', 1, True, id="a ball in the air"),
+        pytest.param('size="0.2" pos="0.1 0 0"', 1, False, id="beside the hinge"),
+        pytest.param('size="0.2 0.2 0.2" type="box"', 1, False, id="a box, whose turning shows"),
+        pytest.param('size="0.2"', 0.2, False, id="on the floor"),
+    ],
+)
+def test_a_ball_that_its_hinge_moves_nowhere_is_set_free(geom: str, height: float, told: bool) -> None:
+    joint = '<joint name="root" range="-360 360" limited="true"/>'
+    ball = f'<body name="ball" pos="0 0 {height}">{joint}<geom {geom}/></body>'
+    text = f'<mujoco><worldbody><geom type="plane" size="2 2 0.1"/>{ball}</worldbody></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text}, select=["object-without-joint"]).hints
+    assert [(each.elements, each.value) for each in found] == [(('joint "root"',), "free")] * told
+    for each in found:
+        assert not examine(NativeEngine(), apply({"model.xml": text}, each.edit), select=["object-without-joint"]).hints
+
+
+@pytest.mark.parametrize(
     ("joint", "actuator", "told"),
     [
         pytest.param('name="slider" range="-1 1"', "pull", True, id="joint"),

@@ -24,8 +24,9 @@ The number: how far the centre of a body ends below a surface that it began abov
 manual, Computation, Collision detection, has the condition.
 
 When it is wrong: something that is meant to pass, such as a ghost of the target. What has a `<pair>` with the surface
-is not told, though only some of its geoms may touch it. A body that a geom without masks
-marks as a place is not told: only planes, boxes and what collides at all are taken for surfaces.
+is not told, though only some of its geoms may touch it. A robot that sinks in up to its feet is a hint: some have masks
+at the feet alone, for speed, and a task that ends when they fall. A body that a geom without masks marks as a place is
+not told: only planes, boxes and what collides at all are taken for surfaces.
 """
 
 from __future__ import annotations
@@ -56,7 +57,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for root, surface in fallen(simulation):
         whole = root_of(simulation)[root] == root and root not in bare(simulation)
         tree = geoms_of_tree(simulation, root) if whole else simulation.geoms_of(root)
-        if not tree or any(_meet(simulation, geom, surface) for geom in tree):
+        if meeting := [geom for geom in tree if _meet(simulation, geom, surface)]:
+            yield from _sinks_to_its_feet(model, root, surface, meeting) if whole else ()
+            continue
+        if not tree:
             continue
         own = [geom for geom in tree if solid(simulation, geom)] or _bodily(model, tree)
         others = [geom for geom in range(simulation.count("geom")) if geom != surface and geom not in tree]
@@ -94,6 +98,33 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             says,
             excess=3.0,
         )
+
+
+def _sinks_to_its_feet(model: ReaderModel, root: int, surface: int, meeting: list[int]) -> Iterator[Suspect]:
+    """The geoms of a robot whose links, but for some at its end, pass through what these can stand on."""
+    of = model.simulation
+    able = {of.body_of("geom", geom) for geom in meeting}
+    passing = [geom for geom in geoms_of_tree(of, root) if of.body_of("geom", geom) not in able]
+    foot = next((geom for geom in meeting if collides(of, geom, surface)), None)
+    if foot is None or root in able or not of.geoms_of(root):
+        return
+    masks = {each: f"{int(of.model(f'geom_{each}')[foot])}" for each in ("contype", "conaffinity")}
+    edits = tuple(edit for name, value in masks.items() for edit in model.set("geom", passing, name, value))
+    names = (of.name("body", root), *(of.name("geom", geom) for geom in passing))
+    says = (
+        f"{of.name('geom', surface)} carries {of.name('body', min(able))}, and the rest of the robot sinks through it."
+    )
+    yield Suspect(
+        names,
+        "contype, conaffinity",
+        masks_told(of, passing[0]),
+        ", ".join(masks.values()),
+        edits,
+        below(root, surface),
+        limit(of, root),
+        says,
+        level="hint",
+    )
 
 
 def _ghost(model: ReaderModel, root: int, tree: list[int]) -> bool:

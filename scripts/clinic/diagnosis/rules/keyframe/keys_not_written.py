@@ -24,7 +24,8 @@ Good:
 
 The number: how many keyframes there are beyond those that are written.
 
-When it is wrong: keyframes that code fills in.
+When it is wrong: keyframes that code fills in. A model that writes none at all is not told: many old ones keep room for
+five and use none.
 """
 
 from __future__ import annotations
@@ -50,7 +51,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     written = sum(each.tag == "key" for each in model.source.section("keyframe"))
     sizes = [each for each in model.source.elements("size") if "nkey" in each.attributes]
-    if not sizes or any(True for _ in model.source.elements("attach", "model")):
+    if not written or not sizes or any(True for _ in model.source.elements("attach", "model")):
         return
     size = sizes[-1]
     probe = Probe("keyframes that are not written", "", _unwritten, (written,), dynamic=False)

@@ -26,7 +26,7 @@ The number: bodies of the world without joints and without others on them that c
 down (the mass of what cannot move has no effect), or that are called a cube, a ball, a bottle and the like: those that
 hang in the air, and reach neither a plane nor another thing that stands still. What lies on something is told where it
 is called so, is smaller than 30 cm, and has a mass that is written, or the model a gripper; and what looks like another
-that can move.
+that can move; and a ball in the air whose one joint, a hinge through its middle, moves it nowhere.
 
 When it is wrong: a lamp, or an obstacle that is meant to stay where it is.
 """
@@ -36,10 +36,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import PLANE
+from clinic.diagnosis.engine import HINGE, PLANE, SPHERE
 from clinic.diagnosis.probes.inertia import inertial
 from clinic.diagnosis.probes.key import freed
 from clinic.diagnosis.probes.shape import boxes
+from clinic.diagnosis.probes.vector import norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, how_many
@@ -74,6 +75,21 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield Suspect(
             names, "freejoint", "left out", "<freejoint/>", freed(model, found), probe, 0, says, "a joint each"
         )
+    if spins := _spinning(of):
+        says = f"{of.name('joint', spins[0])} turns a ball in the air about its own middle, and nothing else moves it."
+        edits = model.set("joint", spins, "type", "free") + model.set("joint", spins, "limited", "false")
+        probe = how_many("balls that turn in the air, and cannot leave their place", _spinning)
+        yield Suspect(
+            tuple(of.name("joint", each) for each in spins),
+            "type",
+            "hinge",
+            "free",
+            edits,
+            probe,
+            0,
+            says,
+            "a free joint",
+        )
 
 
 def _weighed(model: ReaderModel) -> Iterator[int]:
@@ -92,6 +108,23 @@ def _weighed(model: ReaderModel) -> Iterator[int]:
         held = called and (weighed or gripper) and of.model("geom_rbound")[geoms[0]] < SMALL
         if geoms and (held or ((weighed or called) and _height(of, body) > HANGS)):
             yield body
+
+
+def _spinning(of: Simulation) -> list[int]:
+    """The hinges of the world's balls in the air, with which nothing but the ball turns, about its middle."""
+    carries = {int(parent) for parent in of.model("body_parentid")}
+    made = []
+    for joint in range(of.count("joint")):
+        body = of.body_of("joint", joint)
+        geoms, alone = of.geoms_of(body), not of.model("body_parentid")[body] and len(of.joints_of(body)) == 1
+        round_ones = [geom for geom in geoms if int(of.model("geom_type")[geom]) == SPHERE]
+        if of.joint_type(joint) != HINGE or not alone or body in carries or len(geoms) != 1 or geoms != round_ones:
+            continue
+        of.begin()
+        off = sub(of.data_row("geom_xpos", geoms[0], 3), of.data_row("xanchor", joint, 3))
+        if norm(off) < NEAR and _height(of, body) > HANGS:
+            made.append(joint)
+    return made
 
 
 def _still(of: Simulation, *bodies: int) -> list[int]:

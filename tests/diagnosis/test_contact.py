@@ -281,7 +281,7 @@ def test_what_a_jaw_and_its_palm_would_lift_is_tried_between_them(model, told):
 FOOT = '<body pos="0.1 0 -0.5"><joint axis="0 1 0" pos="0 0 .25"/><geom name="foot" size=".05"{0}/></body>'
 WALKER = (
     '<mujoco><worldbody><geom name="floor" type="plane" size="2 2 .1"/><body name="trunk" pos="0 0 .6"><freejoint/>'
-    f'<geom size=".1"{{1}}/>{FOOT}</body></worldbody>{{2}}</mujoco>'
+    f'<geom size=".1"{{1}}/><body><joint/><geom size=".05"{{1}}/></body>{FOOT}</body></worldbody>{{2}}</mujoco>'
 )
 NONE = ' contype="0" conaffinity="0"'
 

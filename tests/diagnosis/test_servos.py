@@ -99,6 +99,24 @@ def test_a_fault_is_named_however_the_actuator_is_written(rule, actuator, joint)
     assert rule in {each.rule for each in (found.hints if rules()[rule].level == "hint" else found.causes)}
 
 
+@pytest.mark.parametrize(
+    ("symptom", "actuator", "told"),
+    [
+        ("sags", 'kp="60" kv="10"', "weak-servo"),
+        ("oscillates", 'kp="60" kv="10"', ""),
+        ("", 'kp="60" kv="10"', ""),
+        ("oscillates", 'kp="2000" dampratio="0.3"', "undamped-servo"),
+        ("sags", 'kp="2000" dampratio="0.3"', ""),
+        ("oscillates", 'kp="2000" dampratio="0.7"', ""),
+    ],
+)
+def test_what_explains_the_symptom_that_is_named_is_told_from_smaller_numbers_on(symptom, actuator, told):
+    text = ARM.format(above="", joint="", actuator=f'<position joint="shoulder" {actuator}/>')
+    found = examine(NativeEngine(), {"model.xml": text}, symptom=symptom, select=["weak-servo", "undamped-servo"])
+    assert [each.rule for each in found.hints] == [told] * bool(told)
+    assert not found.causes
+
+
 def test_a_servo_in_a_default_class_is_mended_there():
     text = ARM.format(
         above='<default><position kp="200"/></default>', joint="", actuator='<position joint="shoulder"/>'

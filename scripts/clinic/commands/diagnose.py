@@ -25,7 +25,12 @@ class _Diagnose(TyperCommand):
 @app.command(cls=_Diagnose)
 def diagnose(
     models: Annotated[list[str], typer.Argument(metavar="MODEL", help="MJCF or URDF files; `-`: standard input.")] = [],  # noqa: B006
-    symptom: Annotated[str, typer.Option(help="What you see, as slips, or in your words: its causes come first.")] = "",
+    symptom: Annotated[
+        str,
+        typer.Option(
+            help="What you see, as slips, or in your words: its causes come first, some from smaller numbers on."
+        ),
+    ] = "",
     keyframe: Annotated[str | None, typer.Option(help="Start from this keyframe, by name or number.")] = None,
     ctrl: Annotated[list[str], typer.Option(help="name=value, or a CSV or NPZ with a column `time`.")] = [],  # noqa: B006
     duration: Annotated[float, typer.Option(min=0.01, max=60, help="How long to let it go, in s.")] = 2.0,

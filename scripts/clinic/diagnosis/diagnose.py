@@ -44,7 +44,7 @@ def examine(
     Args:
         engine: What compiles and runs it.
         texts: The model's text by its name, then those that it includes (`texts.read_texts`).
-        symptom: The family of symptoms that the reader sees; its causes come first.
+        symptom: The family of symptoms that the reader sees; its causes come first, and some from smaller numbers on.
         start: Keyframe and controls; where left out, the model's start, and then its first keyframe.
         select: Rules to try; all where empty.
         ignore: Rules not to try.
@@ -54,7 +54,7 @@ def examine(
     Raises:
         StartError: If the model compiles and does not have the start.
     """
-    model = ReaderModel(engine, texts, read_source(texts), start or Start())
+    model = ReaderModel(engine, texts, read_source(texts), start or Start(), symptom)
     ignores = Ignores(model)
     wanted = [rule for name, rule in rules().items() if name not in ignore and (not select or name in select)]
     of_errors, others = ([rule for rule in wanted if rule.of_errors == ill] for ill in (True, False))
@@ -156,7 +156,8 @@ class _Trial:
         """The same from the model's start and, where no cause is found there, from its first keyframe."""
         made = self.once(model, wanted)
         if self.start is None and model.simulation.count("key") and not any(each.proved for each in made.found):
-            again = self.once(ReaderModel(model.engine, model.texts, model.source, Start(key=0)), made.tried)
+            begun = ReaderModel(model.engine, model.texts, model.source, Start(key=0), model.symptom)
+            again = self.once(begun, made.tried)
             seen = {rule.id for rule in again.tried}
             # a hint of the model's own start that is not one of the keyframe's stays
             return again._replace(found=again.found + [each for each in made.found if each.rule.id not in seen])
@@ -164,7 +165,7 @@ class _Trial:
 
     def behind(self, left: ReaderModel, wanted: Sequence[Rule], as_hints: bool) -> _Made:
         """The same of a model that was mended: what needs no shape where boxes are in it, and that as hints."""
-        model = ReaderModel(left.engine, left.texts, left.source, self.start or Start())
+        model = ReaderModel(left.engine, left.texts, left.source, self.start or Start(), left.symptom)
         if isinstance(left.engine, StandIns) and left.engine.shapes:
             made, as_hints = self._of_any_size(model, left.engine, wanted), True
         else:
@@ -177,7 +178,7 @@ class _Trial:
         """What is found with boxes in the place of meshes, and with larger ones too."""
         made = self.from_starts(model, [rule for rule in wanted if not {rule.area, rule.id} & OF_SHAPES])
         larger = StandIns(stand_ins.engine, LARGER * stand_ins.size, stand_ins.absent)
-        other = ReaderModel(larger, model.texts, model.source, self.start or Start())
+        other = ReaderModel(larger, model.texts, model.source, self.start or Start(), model.symptom)
         again = self.from_starts(other, [*{each.rule.id: each.rule for each in made.found}.values()])
         kinds = model.simulation.model("geom_type")
         meshes = {model.simulation.name("geom", each) for each, kind in enumerate(kinds) if kind == MESH}

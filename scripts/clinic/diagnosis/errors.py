@@ -41,7 +41,7 @@ def mended(
         best, hints = _best(model, rules, tell)
         if best is None:
             stand_ins = StandIns(model.engine)
-            filled = ReaderModel(stand_ins, model.texts, model.source, Start())
+            filled = ReaderModel(stand_ins, model.texts, model.source, Start(), model.symptom)
             goes_on = bool(stand_ins.absent) and {rule.id for rule, _ in hints} <= OF_FILES and bool(hints)
             if goes_on and len(stand_ins.absent) > 1:
                 more = f" So it is with {len(stand_ins.absent) - 1} more."
@@ -55,7 +55,7 @@ def mended(
         found.append(Judged(rule, _placed(suspect, changes, written), "cause", 1.0, 0.0))
         texts = apply(model.texts, suspect.edits)
         changes += _changes(model.texts, suspect.edits)
-        model = ReaderModel(model.engine, texts, read_source(texts), Start())
+        model = ReaderModel(model.engine, texts, read_source(texts), Start(), model.symptom)
     return found, model, lambda suspect: _placed(suspect, changes, written)
 
 

@@ -46,13 +46,16 @@ class ReaderModel:
         source: Its text with places; None where it is not well-formed XML.
         error: What the engine says when it does not compile; empty when it does.
         simulation: The compiled model as it is; only where `error` is empty.
+        symptom: The family of symptoms that the reader sees: what explains it is told from smaller numbers on.
 
     Raises:
         StartError: If the model does not have the start.
     """
 
-    def __init__(self, engine: Engine, texts: dict[str, str], source: Source | None, start: Start) -> None:
-        self.engine, self.texts, self.source, self.start = engine, texts, source, start
+    def __init__(
+        self, engine: Engine, texts: dict[str, str], source: Source | None, start: Start, symptom: str = ""
+    ) -> None:
+        self.engine, self.texts, self.source, self.start, self.symptom = engine, texts, source, start, symptom
         self._compiled: dict[tuple[Edit, ...], Simulation | CompileError] = {}
         self._measured: dict[tuple[object, ...], float] = {}
         found = self.with_edits(())
@@ -108,7 +111,7 @@ class ReaderModel:
         free = any(each.get("type") == "floating" for each in self.source.elements("joint"))
         edits = [insert(self.source.root, AFLOAT.format(root=root)) for root in roots[: not free]]
         texts = apply(self.texts, [*edits, *self._unfused()])
-        floating = ReaderModel(self.engine, texts, self.source, Start())
+        floating = ReaderModel(self.engine, texts, self.source, Start(), self.symptom)
         return self if floating.error else floating
 
     def _unfused(self) -> list[Edit]:

@@ -25,7 +25,8 @@ Good:
 The number: a damping ratio under 0.08, and a step of 0.1 rad (0.01 m for a slide), without gravity and contacts, that
 overshoots by more than 22 % and crosses its target four times. With a damping ratio z the overshoot of one joint alone
 is exp(-pi z / sqrt(1 - z^2)), 0.78 for 0.08; neighbours take up some of it. A joint whose
-`frictionloss` holds the step is left alone. Legs of healthy robots go down to 0.1.
+`frictionloss` holds the step is left alone. Legs of healthy robots go down to 0.1. With `--symptom oscillates` a
+damping ratio under 0.5 and an overshoot of more than 12 % are told too, as a hint.
 
 When it is wrong: friction that the model leaves to contacts, or a controller that adds the damping.
 """
@@ -45,36 +46,46 @@ FAMILIES = ("oscillates", "explodes")
 SINCE = "0.1"
 CASE = "servo-oscillates"
 
-RATIO = 0.08
-OVERSHOOT = 0.22
+RATIO, OVERSHOOT = 0.08, 0.22
+KEEN_RATIO, KEEN_OVERSHOOT = 0.5, 0.12  # where the reader sees something oscillate
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Servos with a low damping ratio that ring, all together."""
-    simulation = model.simulation
-    dry = simulation.model("dof_frictionloss")  # what holds the whole step damps it as well
-    free = [each for each in servos(simulation) if dry[each.dof] < each.stiffness * STEP[each.hinge]]
-    low = sorted((each for each in free if each.ratio < RATIO), key=lambda each: each.ratio)
-    found = [each for each in low[:16] if model.measured(overshoot([each.actuator])) > OVERSHOOT]
-    edits = {each: _damped(model, each) for each in found}
-    whole = tuple(edit for each in found for edit in edits[each])
-    mended = [each for each in found if model.measured(overshoot([each.actuator]), whole) <= OVERSHOOT]
-    found = mended or found  # one that a clipped force throws to and fro is not mended by damping
+    of = model.simulation
+    found, most = _ringing(model, RATIO, OVERSHOOT), OVERSHOOT
+    keen = not found and model.symptom == FAMILIES[0]
+    if keen:
+        found, most = _ringing(model, KEEN_RATIO, KEEN_OVERSHOOT), KEEN_OVERSHOOT
     if not found:
         return
-    worst = found[0]
+    worst = next(iter(found))
     yield Suspect(
-        tuple(simulation.name("actuator", each.actuator) for each in found),
+        tuple(of.name("actuator", each.actuator) for each in found),
         "dampratio",
         f"{max(0, worst.ratio):.2g}",
         "1",
-        tuple(edit for each in found for edit in edits[each]),
+        tuple(edit for edits in found.values() for edit in edits),
         overshoot(tuple(each.actuator for each in found)),
-        OVERSHOOT,
+        most,
         f"Stiffness {worst.stiffness:.3g} and damping {worst.damping:.3g} on an inertia of {worst.inertia:.2g} "
         f"are a damping ratio of {worst.ratio:.2g}.",
         "a damping ratio of 0.7 to 1 (MuJoCo's manual, dampratio)",
+        level="hint" if keen else "cause",
     )
+
+
+def _ringing(model: ReaderModel, ratio: float, most: float) -> dict[Servo, tuple[Edit, ...]]:
+    """The servos with a damping ratio below one that overshoot by more than `most`, worst first, and their edits."""
+    of = model.simulation
+    dry = of.model("dof_frictionloss")  # what holds the whole step damps it as well
+    free = [each for each in servos(of) if dry[each.dof] < each.stiffness * STEP[each.hinge]]
+    low = sorted((each for each in free if each.ratio < ratio), key=lambda each: each.ratio)
+    found = [each for each in low[:16] if model.measured(overshoot([each.actuator])) > most]
+    edits = {each: _damped(model, each) for each in found}
+    whole = tuple(edit for each in found for edit in edits[each])
+    mended = [each for each in found if model.measured(overshoot([each.actuator]), whole) <= most]
+    return {each: edits[each] for each in mended or found}  # a clipped force that throws to and fro is not mended so
 
 
 def _damped(model: ReaderModel, servo: Servo) -> tuple[Edit, ...]:

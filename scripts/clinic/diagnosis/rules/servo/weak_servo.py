@@ -30,7 +30,7 @@ after 5 s, and that with three times the stiffness stands.
 Or more than 45 % of a step of 0.1 rad is left after 1 s, without gravity; a hint for what follows within 2 s and
 carries less than a twentieth of the mass, as a neck does. Where the base is fixed, a hint tells of hinges that sag by
 more than 0.085 rad, and of slides that sag by more than 5 % of their range: fingers with 50 mm that swing by 5 mm as
-the arm turns.
+the arm turns; with `--symptom sags` from a fifth of that on.
 
 When it is wrong: a controller that adds the weight itself. `gravcomp="1"` on the bodies takes the load away as well.
 """
@@ -63,6 +63,7 @@ LONG, FALLEN, STIFFER = 5.0, 0.5, 3.0  # s; of its height; times the stiffness
 MEANT, LIGHT = 2.0, 0.05  # s and of the mass, below which it may be meant: a neck, an antenna
 SAG, WALKS = 0.3, 0.55  # rad of a hinge, m of a slide; rad where the robot is free and stands on its feet
 LITTLE, SHARE = 0.085, 0.05  # rad of a hinge, share of the range of a slide, of which a hint tells
+KEEN = 0.2  # of these, where the reader sees something sag
 GOOD = {True: (0.02, 0.08, 0.2), False: (0.002, 0.008, 0.02)}  # rad or m that may be left, the best first
 
 
@@ -155,12 +156,13 @@ def _little(model: ReaderModel, found: dict[int, float]) -> Iterator[Suspect]:
     of = model.simulation
     for hinge in (True, False):
         weak = [each for each in _alone(of) if each.hinge == hinge and each.actuator in found and not _free(of, each)]
-        weak = [each for each in weak if found[each.actuator] > _allowed(each)]
+        part = KEEN if model.symptom == FAMILIES[0] else 1.0
+        weak = [each for each in weak if found[each.actuator] > part * _allowed(each)]
         if not weak:
             continue
         worst = max(weak, key=lambda each: found[each.actuator] / _allowed(each))
-        load, sagging, good = loads(of)[worst.dof], found[worst.actuator], _allowed(worst) / 4
-        share = "" if hinge else f", {100 * SHARE * sagging / good / 4:.2g} % of its range"
+        load, sagging, good = loads(of)[worst.dof], found[worst.actuator], part * _allowed(worst) / 4
+        share = "" if hinge else f", {100 * SHARE * sagging / _allowed(worst):.2g} % of its range"
         yield Suspect(
             tuple(of.name("actuator", each.actuator) for each in weak),
             "kp",
@@ -171,7 +173,7 @@ def _little(model: ReaderModel, found: dict[int, float]) -> Iterator[Suspect]:
             4 * good,
             f"The weight at {of.name('joint', worst.joint)}, up to {load:.3g} {worst.force_unit}, moves it "
             f"{sagging:.2g} {worst.unit} off its target{share}, unless gravcomp takes the weight away.",
-            f"below {LITTLE:g} rad, or 5 % of the range of a slide",
+            f"below {part * LITTLE:g} rad, or {100 * part * SHARE:g} % of the range of a slide",
             level="hint",
         )
 

@@ -7,6 +7,7 @@ from clinic.diagnosis.diagnose import examine
 from clinic.diagnosis.edit import apply
 from clinic.diagnosis.finding import Finding
 from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.rules import rules
 
 ARM = """
 <mujoco>
@@ -200,3 +201,58 @@ def test_keyframes_stay_as_long_as_the_model_that_an_edit_gives_a_joint_or_takes
 def test_room_for_keyframes_of_which_none_is_written_is_no_finding() -> None:
     text = '<mujoco><size nkey="5"/><worldbody><body><joint range="1 2"/><geom size="1"/></body></worldbody></mujoco>'
     assert not examine(NativeEngine(), {"model.xml": text}, select=["keys-not-written"]).hints
+
+
+SCREW = rules()["key-breaks-equality"].example("Good")
+LED = 'polycoef="0 0.00254648 0 0 0"'
+TURNED = ('qpos="-31.4159 -0.08"', 'qpos="31.4159 -0.08" ctrl="-31.4159"')
+SERVO = ("<equality>", '<actuator><position joint="nut" kp="2"/></actuator><equality>')
+DOOR = ("<worldbody>", '<worldbody><body name="door" pos="1 0 0"><joint name="door"/><geom size="0.1"/></body>')
+TO_DOOR = ('joint2="nut"', 'joint2="door"')
+
+
+@pytest.mark.parametrize(
+    ("changes", "edits"),
+    [
+        pytest.param([], [], id="kept"),
+        pytest.param([(LED, 'polycoef="0 2.54648 0 0 0"')], [("polycoef", LED[10:-1])], id="in-mm"),
+        pytest.param(
+            [('joint1="quill" joint2="nut"', 'joint1="nut" joint2="quill"')],
+            [("joint1", "quill"), ("joint2", "nut")],
+            id="exchanged",
+        ),
+        pytest.param([TURNED, SERVO], [("qpos", "-31.4159 -0.08")], id="sign-of-the-keyframe"),
+        pytest.param([DOOR, TO_DOOR, ('qpos="', 'qpos="0 ')], [("joint2", "nut")], id="another-leader"),
+        pytest.param([('qpos="-31.4159 -0.08"', 'qpos="-31.4159 -0.05"')], [("qpos", "-31.4159 -0.08")], id="pose"),
+        pytest.param([('qpos="-31.4159 -0.08"', 'qpos="-31.4159 -0.078"')], [], id="by-a-little"),
+        pytest.param([("<joint joint1", '<joint active="false" joint1'), ("-0.08", "-0.05")], [], id="switched-off"),
+    ],
+)
+def test_a_keyframe_tells_what_is_wrong_with_a_coupling_that_it_breaks(
+    changes: list[tuple[str, str]], edits: list[tuple[str, str]]
+) -> None:
+    text = SCREW
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    found = examine(NativeEngine(), {"model.xml": text}, select=["key-breaks-equality"]).hints
+    assert [(each.attribute, each.value) for one in found for each in one.edit] == edits
+
+
+def test_a_keyframe_that_tears_a_loop_open_is_told_and_one_that_turns_both_links_is_not() -> None:
+    link = '<body name="{0}" pos="{1} 0 1"><joint axis="0 1 0"/><geom size="0.05" pos="0 0 0.3"/></body>'
+    links = link.format("crank", 0) + link.format("rocker", 0.3)
+    loop = '<equality><connect body1="crank" body2="rocker" anchor="0 0 0.2"/></equality>'
+    keys = '<keyframe><key name="open" qpos="0.5 0"/><key name="turned" qpos="-0.01 -0.01"/></keyframe>'
+    text = f"<mujoco><worldbody>{links}</worldbody>{loop}{keys}</mujoco>"
+    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["key-breaks-equality"]).hints
+    assert found.elements[0] == 'key "open"'
+    assert not any("turned" in each for each in found.elements)
+
+
+def test_a_coupling_that_a_keyframe_tells_is_no_matter_of_the_followers_range() -> None:
+    text = SCREW.replace(*DOOR).replace(*TO_DOOR).replace('qpos="', 'qpos="0 ')
+    text = text.replace('<joint name="door"', '<joint name="door" range="0 20000"')
+    assert not examine(NativeEngine(), {"model.xml": text}, select=["follower-out-of-range"]).causes
+    text = text.replace("-31.4159 -0.08", "0 0")
+    assert examine(NativeEngine(), {"model.xml": text}, select=["follower-out-of-range"]).causes

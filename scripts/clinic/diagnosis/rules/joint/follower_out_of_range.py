@@ -3,7 +3,7 @@
 `<equality><joint joint1=".." joint2=".."/>` (in URDF `<mimic>`) makes joint1 follow joint2. Where the follower's range
 leaves out what the leader's range asks for, limit and equality fight, and the leader is held. The sign in `polycoef` is
 wrong where one follower alone is led astray, has the range of its leader, or of its twin on the other side, and with
-the other sign keeps to it; else the range is.
+the other sign keeps to it; else the range is. What keyframes say of the coupling comes before that.
 
 Bad:
 
@@ -46,6 +46,7 @@ from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.probes.vector import dot, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.joint.fingers_move_together import sign_lost
+from clinic.diagnosis.rules.keyframe.key_breaks_equality import elsewhere
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
@@ -63,7 +64,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     simulation = model.simulation
     yield from _constant(model)
     astray = {number: each for number, each in couplings(simulation) if lost(simulation, (each,)) > LOST
-              and any(each[2][1:]) and not sign_lost(simulation, number, each)}  # fmt: skip
+              and any(each[2][1:]) and not sign_lost(simulation, number, each)
+              and not elsewhere(model, number)}  # fmt: skip
     for number, each in astray.items() if len(astray) == 1 else ():
         if factors := _turned(simulation, each):
             suspect = _of_sign(model, number, each, factors)

@@ -65,3 +65,20 @@ def test_a_rangefinder_that_reads_its_cutoff_is_told_beside_others(cutoffs: tupl
 def test_a_touch_site_that_does_not_reach_its_geom_is_told(site: str, count: int) -> None:
     body = f'<body pos="0 0 1"><freejoint/><geom type="box" size="0.1 0.1 0.015"/><site name="pad" {site}/></body>'
     assert len(told("touch-site-off-the-surface", body, '<touch site="pad"/>')) == count
+
+
+@pytest.mark.parametrize(
+    ("sensor", "told_of"),
+    [
+        pytest.param('objtype="site" objname="tip" reftype="site" refname="tip"', 1, id="itself"),
+        pytest.param('objtype="site" objname="tip" reftype="body" refname="arm"', 1, id="its-body"),
+        pytest.param('objtype="site" objname="tip" reftype="site" refname="mount"', 0, id="across-a-joint"),
+        pytest.param('objtype="site" objname="tip"', 0, id="in-the-world"),
+        pytest.param('objtype="site" objname="mount" reftype="body" refname="target"', 0, id="by-mocap"),
+        pytest.param('objtype="site" objname="mount" reftype="camera" refname="eye"', 1, id="both-of-the-world"),
+    ],
+)
+def test_a_sensor_of_a_frame_in_one_that_moves_along_is_told(sensor: str, told_of: int) -> None:
+    arm = '<body name="arm" pos="0 0 1"><joint/><geom size="0.1"/><site name="tip"/></body>'
+    rest = '<site name="mount"/><camera name="eye"/><body name="target" mocap="true"><geom size="0.1"/></body>'
+    assert len(told("sensor-of-itself", arm + rest, f"<framepos {sensor}/>")) == told_of

@@ -161,3 +161,45 @@ def test_a_tendon_of_two_sites_of_its_own_ends_in_a_third(change, found):
     text = SHANK.replace(*change) if change[0] else SHANK
     text = text.replace('site="heel"', 'site="tib_heel"') if "tib_heel" in text else text
     assert [each.value for each in told(text, "tendon-through-anothers-site").hints] == found
+
+
+CYLINDERS = "".join(
+    f'<body name="{part}"><joint name="{part}_pin" axis="0 1 0"/><geom size="0.1"/><body name="{part}_barrel">'
+    f'<joint name="{part}_rod" type="slide"/><geom size="0.1"/><site name="{part}_eye"/></body></body>'
+    for part in ("boom", "stick", "bucket")
+)
+STROKE = '<jointpos name="{0}_stroke" joint="{0}_rod"/>'
+STROKES = "".join(map(STROKE.format, ("boom", "stick", "bucket")))
+
+
+@pytest.mark.parametrize(
+    ("sensors", "edits"),
+    [
+        ('<framelinvel name="stick_vel" objtype="xbody" objname="boom"/>', [("objname", "stick")]),
+        ('<framelinvel name="stick_vel" objtype="xbody" objname="stick"/>', []),
+        (
+            '<framepos name="eye_pos" objtype="body" objname="boom_barrel"/>',  # no site has that name alone
+            [],
+        ),
+        (
+            '<framepos name="lug_pos" objtype="body" objname="tip"/>',
+            [("objname", "lug"), ("objtype", "site")],
+        ),
+        ('<framepos name="tip_of_lug" objtype="body" objname="tip"/>', []),
+        (
+            '<framepos name="lug_in_stick" objtype="site" objname="lug" reftype="body" refname="boom"/>',
+            [("refname", "stick")],
+        ),
+        ('<framepos name="lug_in_boom" objtype="site" objname="lug" reftype="body" refname="boom"/>', []),
+        ('<framepos name="stick_at" objtype="body" objname="stick" reftype="body" refname="boom"/>', []),
+        ('<framepos name="in_boom" objtype="body" objname="tip" reftype="body" refname="boom"/>', []),
+        (STROKES, []),
+        (STROKES.replace('"stick_rod"', '"stick_pin"'), [("joint", "stick_rod")]),
+        (STROKES[: 2 * len(STROKES) // 3].replace('"stick_rod"', '"stick_pin"'), []),  # one of two
+    ],
+)
+def test_a_sensor_reads_what_its_name_or_its_sisters_say(sensors, edits):
+    tip = '<body name="tip"><joint/><geom size="0.1"/><site name="lug"/></body>'
+    text = f"<mujoco><worldbody>{CYLINDERS}{tip}</worldbody><sensor>{sensors}</sensor></mujoco>"
+    found = told(text, "sensor-on-another-joint").hints
+    assert [(each.attribute, each.value) for one in found for each in one.edit] == edits

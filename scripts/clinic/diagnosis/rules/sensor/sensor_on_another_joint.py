@@ -1,4 +1,4 @@
-"""A sensor reads another joint, or another site, than its name says.
+"""A sensor reads another joint, site or body than its name says.
 
 A block of sensors was copied, and one has the new name and the old joint: `elbow_pos` reads the shoulder.
 
@@ -25,8 +25,10 @@ Good:
     -     <jointpos name="elbow_pos" joint="shoulder"/>
     +     <jointpos name="elbow_pos" joint="elbow"/>
 
-The number: how many sensors of a joint or site bear the name of another one, and not of their own. Of 568 healthy
-models none has one of a joint.
+The number: how many sensors of a joint, site or body bear the name of another one, and not of their own; of a body, the
+name of a site that it has; of a reference, beside a word of what is measured in it. And those of three and more called
+alike, `boom_stroke` and `stick_stroke`, that read what all others do not, `boom_barrel` beside `stick_rod`, where
+`boom_rod` is there. Of 568 healthy models none has one of a joint.
 
 When it is wrong: a sensor that is called after a place, where a joint has the same name.
 """
@@ -34,7 +36,9 @@ When it is wrong: a sensor that is called after a place, where a joint has the s
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -46,48 +50,121 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "only a name says what a sensor is for"
 
-OF = {3: "joint", 6: "site"}  # mjtObj
+OF = {1: "body", 2: "body", 3: "joint", 6: "site"}  # mjtObj
+SISTERS = 3
+
+
+class Meant(NamedTuple):
+    """What a sensor is called after, and what it reads in its place: `objname` or `refname`."""
+
+    end: str
+    kind: str
+    read: str
+    meant_kind: str
+    meant: str
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Each sensor that has another joint's name, or another site's."""
+    """Each sensor that has the name of something else than what it reads, or in which it reads."""
     of = model.simulation
-    for sensor, (kind, meant) in _misnamed(of).items():
-        names = of.names(kind)
-        read, name = names[int(of.model("sensor_objid")[sensor])], names[meant]
+    for sensor, (end, kind, read, meant_kind, meant) in _misnamed(of).items():
         probe = Probe("whether a sensor reads another part than its name says", "", _wrong, (sensor,), dynamic=False)
         element = model.element("sensor", sensor)
-        attribute = "objname" if element is not None and element.get("objname") else kind
-        edits = model.set("sensor", [sensor], attribute, name)
-        says = f'{of.name("sensor", sensor)} reads {kind} "{read}", and bears the name of {kind} "{name}".'
-        elements, healthy = (of.name("sensor", sensor),), f"the {kind} of its name"
-        yield Suspect(elements, attribute, read, name, edits, probe, 0.5, says, healthy, level="hint")
+        attribute = end if element is not None and element.get(end) else kind
+        edits = model.set("sensor", [sensor], attribute, meant)
+        if kind != meant_kind:
+            edits += model.set("sensor", [sensor], "objtype", meant_kind)
+        does = "reads" if end == "objname" else "measures in"
+        says = f'{of.name("sensor", sensor)} {does} {kind} "{read}", and bears the name of {meant_kind} "{meant}".'
+        if not _within(meant, of.names("sensor")[sensor]):
+            says = f'{of.name("sensor", sensor)} reads {kind} "{read}"; its sisters read what is called like "{meant}".'
+        elements, healthy = (of.name("sensor", sensor),), f"the {meant_kind} of its name"
+        yield Suspect(elements, attribute, read, meant, edits, probe, 0.5, says, healthy, level="hint")
 
 
 def _wrong(of: Simulation, sensor: int) -> float:
     return float(sensor in _misnamed(of))
 
 
-def _misnamed(of: Simulation) -> dict[int, tuple[str, int]]:
-    """By sensor of a joint or site: the one whose name it bears, where that is another one and not its own as well."""
-    made = {}
+def _misnamed(of: Simulation) -> dict[int, Meant]:
+    """By sensor: what it bears the name of, where that is not what it reads; or what its sisters say that it reads."""
+    made = _unlike_sisters(of)
     for sensor, name in enumerate(of.names("sensor")):
-        kind = OF.get(int(of.model("sensor_objtype")[sensor]), "")
-        names = of.names(kind) if kind and name else []
-        own = names[int(of.model("sensor_objid")[sensor])] if names else ""
-        if not own or _within(own, name) or (kind == "site" and _within(_holder(of, sensor), name)):
-            continue
-        found = [each for each, other in enumerate(names) if other and _within(other, name)]
-        longest = max((len(names[each]) for each in found), default=0)
-        found = [each for each in found if len(names[each]) == longest]
-        if len(found) == 1:
-            made[sensor] = (kind, found[0])
+        kind, index = _end(of, sensor, "obj")
+        reference, at = _end(of, sensor, "ref")
+        other = of.names(reference)[at] if reference else ""
+        if (meant := _named(of, name, kind, index)) and meant != other:
+            made[sensor] = Meant("objname", kind, of.names(kind)[index], kind, meant)
+        elif kind == "body" and (meant := _site_of(of, name, index)):
+            made[sensor] = Meant("objname", kind, of.names(kind)[index], "site", meant)
+        elif (meant := _named(of, name, reference, at)) and _beside(of, name, meant, kind, index):
+            made[sensor] = Meant("refname", reference, other, reference, meant)
     return made
 
 
-def _holder(of: Simulation, sensor: int) -> str:
-    """The name of the body of a sensor's site."""
-    return of.names("body")[of.body_of("site", int(of.model("sensor_objid")[sensor]))]
+def _end(of: Simulation, sensor: int, end: str) -> tuple[str, int]:
+    """The kind and number of what a sensor reads, or reads in; an empty kind for none, and for others than these."""
+    return OF.get(int(of.model(f"sensor_{end}type")[sensor]), ""), int(of.model(f"sensor_{end}id")[sensor])
+
+
+def _named(of: Simulation, sensor: str, kind: str, index: int) -> str:
+    """The one name of a kind that a sensor's has in it, where it has not that of its own as well; else empty."""
+    names = of.names(kind) if kind and sensor else []
+    own = names[index] if names else ""
+    if not own or _within(own, sensor) or (kind == "site" and _within(_holder(of, index), sensor)):
+        return ""
+    return _longest(sensor, names)
+
+
+def _longest(sensor: str, names: list[str]) -> str:
+    """The longest of the names that a sensor's has in it; empty for none, or two."""
+    found = [name for name in names if name and _within(name, sensor)]
+    found = [name for name in found if len(name) == max(map(len, found))]
+    return found[0] if len(found) == 1 else ""
+
+
+def _site_of(of: Simulation, sensor: str, body: int) -> str:
+    """The site of a body that a sensor of the body is called after, and not after the body; else empty."""
+    sites = [name for site, name in enumerate(of.names("site")) if of.body_of("site", site) == body]
+    own = of.names("body")[body]
+    return "" if not own or set(_words(own)) & set(_words(sensor)) else _longest(sensor, sites)
+
+
+def _beside(of: Simulation, sensor: str, meant: str, kind: str, index: int) -> bool:
+    """Whether a sensor's name has a word of what it reads beside another name, as `cube_in_palm` has."""
+    if not kind:
+        return False
+    own = {*_words(of.names(kind)[index]), *(_words(_holder(of, index)) if kind == "site" else ())}
+    return bool(own & set(_words(sensor)) - set(_words(meant))) and not own & set(_words(meant))
+
+
+def _unlike_sisters(of: Simulation) -> dict[int, Meant]:
+    """The one of three sensors and more called alike that reads another thing than all others do, by its name."""
+    alike: dict[tuple[float, str, str], list[tuple[int, str, str]]] = {}
+    for sensor, name in enumerate(of.names("sensor")):
+        kind, index = _end(of, sensor, "obj")
+        word, _, rest = name.partition("_")
+        read = of.names(kind)[index] if kind else ""
+        if rest and read.startswith(f"{word}_"):
+            key = (of.model("sensor_type")[sensor], kind, rest)
+            alike.setdefault(key, []).append((sensor, word, read.removeprefix(word)))
+    made = {}
+    for (_, kind, _), some in alike.items():
+        usual, times = Counter(tail for *_, tail in some).most_common(1)[0]
+        odd = [each for each in some if each[2] != usual]
+        if len(some) >= SISTERS and times == len(some) - 1 and odd[0][1] + usual in of.names(kind):
+            sensor, word, tail = odd[0]
+            made[sensor] = Meant("objname", kind, word + tail, kind, word + usual)
+    return made
+
+
+def _holder(of: Simulation, site: int) -> str:
+    """The name of the body of a site."""
+    return of.names("body")[of.body_of("site", site)]
+
+
+def _words(name: str) -> list[str]:
+    return re.findall(r"[a-z0-9]+", name.lower())
 
 
 def _within(part: str, sensor: str) -> bool:

@@ -82,3 +82,22 @@ def test_a_sensor_of_a_frame_in_one_that_moves_along_is_told(sensor: str, told_o
     arm = '<body name="arm" pos="0 0 1"><joint/><geom size="0.1"/><site name="tip"/></body>'
     rest = '<site name="mount"/><camera name="eye"/><body name="target" mocap="true"><geom size="0.1"/></body>'
     assert len(told("sensor-of-itself", arm + rest, f"<framepos {sensor}/>")) == told_of
+
+
+@pytest.mark.parametrize(
+    ("sensor", "values"),
+    [
+        pytest.param('<actuatorfrc actuator="elbow" cutoff="1"/>', ["60"], id="a-sixtieth-of-the-force"),
+        pytest.param('<actuatorfrc actuator="elbow" cutoff="60"/>', [], id="all-of-the-force"),
+        pytest.param('<actuatorfrc actuator="elbow"/>', [], id="no-cutoff"),
+        pytest.param('<actuatorfrc actuator="free" cutoff="1"/>', [], id="no-limit"),
+        pytest.param('<jointpos joint="elbow" cutoff="0.2"/>', ["2"], id="a-tenth-of-the-range"),
+    ],
+)
+def test_a_cutoff_far_below_what_is_read_is_told(sensor: str, values: list[str]) -> None:
+    arm = '<body pos="0 0 9"><joint name="elbow" axis="0 0 1" range="-114.591559 20"/><geom size="0.1"/></body>'
+    motors = '<motor name="elbow" joint="elbow" forcerange="-60 60"/><motor name="free" joint="elbow"/>'
+    text = f"<mujoco><worldbody>{arm}</worldbody><actuator>{motors}</actuator><sensor>{sensor}</sensor></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["cutoff-reached"])
+    assert not found.causes
+    assert [each.value for each in found.hints] == values

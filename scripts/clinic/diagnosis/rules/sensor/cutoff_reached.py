@@ -25,7 +25,8 @@ Good:
 
 The number: the share of the time after letting go in which some value of the sensor is at its cutoff; below 0.8 is
 well. A rangefinder is told where two others and more have one cutoff, at least 5 times as much: else nothing is in its
-reach.
+reach. A hint tells of an actuator's force or a joint's position whose cutoff is a fifth or less of the force range or
+of the range.
 
 When it is wrong: a bumper among rangefinders that look far.
 """
@@ -46,6 +47,7 @@ SINCE = "0.1"
 UNPLANTED = "one healthy model has a sensor with a cutoff"
 
 MOST, MUCH = 0.8, 5.0
+POSITION, FORCE = 9, 15  # mjtSensor: jointpos, actuatorfrc
 
 
 def _clipped(simulation: Simulation, sensor: int) -> float:
@@ -79,6 +81,25 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 says += f" The other rangefinders read up to {usual:g}."
             names = (simulation.name("sensor", sensor),)
             yield Suspect(names, "cutoff", f"{cutoff:g}", value, edits, probe, MOST, says)
+        elif (much := _clips(simulation, sensor)) >= MUCH:
+            names, value = (simulation.name("sensor", sensor),), f"{much * cutoff:g}"
+            edits = model.set("sensor", [sensor], "cutoff", value)
+            says = f"It reads {cutoff:g} at most, and what it reads goes up to {value}."
+            probe = Probe("what a sensor is to read over its cutoff", "times", _clips, (sensor,), dynamic=False)
+            yield Suspect(names, "cutoff", f"{cutoff:g}", value, edits, probe, 1.0, says, "above", level="hint")
+
+
+def _clips(of: Simulation, sensor: int) -> float:
+    """How many times its cutoff the force of an actuator, or a joint's place, goes by its range; 0 without one."""
+    kind, cutoff = int(of.model("sensor_type")[sensor]), of.model("sensor_cutoff")[sensor]
+    limited, reach = {
+        FORCE: ("actuator_forcelimited", "actuator_forcerange"),
+        POSITION: ("jnt_limited", "jnt_range"),
+    }.get(kind, ("", ""))
+    read = int(of.model("sensor_objid")[sensor])
+    if not limited or cutoff <= 0 or not of.model(limited)[read]:
+        return 0.0
+    return max(map(abs, of.row(reach, read, 2))) / cutoff
 
 
 def _usual(of: Simulation, sensor: int) -> float:

@@ -592,3 +592,22 @@ def test_what_servos_have_from_a_class_is_mended_there(given, own, mass, written
     place = text.index("<worldbody>")
     assert {("of the class" if each.start < place else "its own"): each.value for each in found.edit} == written
     assert len(found.edit) == len(written)
+
+
+@pytest.mark.parametrize(
+    ("nut", "ctrlrange", "values"),
+    [
+        pytest.param("", "-0.2 0.02", ["-20 2"], id="the-followers-own"),
+        pytest.param("", "-20 2", [], id="what-leads-all-over"),
+        pytest.param("", "-5 2", [], id="a-third"),
+        pytest.param('range="-1146 115"', "-20 2", [], id="with-a-range"),
+    ],
+)
+def test_a_servo_that_leads_another_joint_next_to_nowhere_is_told(nut: str, ctrlrange: str, values: list[str]) -> None:
+    joints = f'<joint name="nut" {nut}/>', '<joint name="quill" type="slide" range="-0.2 0.02"/>'
+    links = "".join(f'<body>{joint}<geom size="0.03"/></body>' for joint in joints)
+    screw = '<equality><joint joint1="quill" joint2="nut" polycoef="0 0.01 0 0 0"/></equality>'
+    servo = f'<actuator><position joint="nut" kp="2" kv="1" ctrlrange="{ctrlrange}"/></actuator>'
+    text = f"<mujoco><worldbody>{links}</worldbody>{screw}{servo}</mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["control-range-too-narrow"])
+    assert [each.value for each in found.hints] == values

@@ -22,7 +22,8 @@ Good:
     -     <position joint="elbow" kp="20" ctrlrange="0 3.14"/>
     +     <position joint="elbow" kp="20" ctrlrange="-3.14 0"/>
 
-The number: the share of the joint's range that no target reaches; more than 60 %, of at most a whole turn.
+The number: the share of the joint's range that no target reaches; more than 60 %, of at most a whole turn. Of a joint
+that leads another by a factor it is the other one's range, more than 90 %, and a hint.
 
 When it is wrong: a servo that is kept to a small part of the range on purpose.
 """
@@ -33,6 +34,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.couplings import Coupling, couplings
 from clinic.diagnosis.probes.key import against_range
 from clinic.diagnosis.probes.servo import Servo, greatest, servos
 from clinic.diagnosis.reader_model import ReaderModel
@@ -48,7 +50,7 @@ FAMILIES = ("stuck", "passes-limit", "sags")
 SINCE = "0.1"
 CASE = "servo-moves-a-fraction"
 
-MISSED = 0.6
+MISSED, UNLED = 0.6, 0.9
 GEARED = 1.5
 
 
@@ -67,6 +69,7 @@ def _missed(simulation: Simulation, actuators: Sequence[int]) -> float:
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Servos that miss most of the range; those whose gear divides the target apart."""
     simulation = model.simulation
+    yield from _leaders(model)
     shared = {actuator for each in twice(simulation).values() for actuator in each}  # meant for another joint
     found = [each for each in servos(simulation) if missed(each) > MISSED and not meets(simulation, each)]
     held = {joint for key in range(simulation.count("key")) for joint in against_range(simulation, key)}
@@ -102,6 +105,44 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"{worst.range[1]:.3g}{why}.",
             'the joint\'s range (inheritrange="1")',
         )
+
+
+def _leaders(model: ReaderModel) -> Iterator[Suspect]:
+    """Servos of joints without a range that lead another one next to nowhere."""
+    of = model.simulation
+    for servo in servos(of):
+        (share, coupling) = _unled(of, servo)
+        if share <= UNLED or coupling is None or servo.targets is None or servo.ctrl is None:
+            continue
+        follower, leader, factors = coupling
+        low, high = of.row("jnt_range", follower, 2)
+        begins = [of.model("qpos0")[of.place(joint)] for joint in (follower, leader)]
+        ends = sorted(servo.holding(begins[1] + (end - begins[0]) / factors[1]) for end in (low, high))
+        names = of.name("actuator", servo.actuator), of.name("joint", leader), of.name("joint", follower)
+        now, value = (" ".join(f"{each:.4g}" for each in some) for some in (servo.ctrl, ends))
+        says = f"{names[1]} goes from {servo.targets[0]:.3g} to {servo.targets[1]:.3g}, and leads {names[2]} by "
+        says += f"{factors[1]:.3g} of that: over {100 * (1 - share):.2g} % of its range of {low:.3g} to {high:.3g}."
+        probe = Probe("share of the follower's range that no target reaches", "", _idle, (servo.actuator,), False)
+        edits = model.set("actuator", [servo.actuator], "ctrlrange", value)
+        yield Suspect(names, "ctrlrange", now, value, edits, probe, UNLED, says, "what leads all over", level="hint")
+
+
+def _idle(of: Simulation, actuator: int) -> float:
+    return greatest(of, lambda servo: _unled(of, servo)[0], (actuator,))
+
+
+def _unled(of: Simulation, servo: Servo) -> tuple[float, Coupling | None]:
+    """The share of a follower's range where a servo without a range of its own cannot lead it, and the coupling."""
+    for _, coupling in couplings(of):
+        follower, leader, factors = coupling
+        limited = bool(of.model("jnt_limited")[follower])
+        if leader != servo.joint or servo.range or not servo.targets or not limited or any(factors[2:]):
+            continue
+        low, high = of.row("jnt_range", follower, 2)
+        if factors[1] and high > low:
+            way = abs(factors[1]) * (servo.targets[1] - servo.targets[0])
+            return 1 - min(1.0, way / (high - low)), coupling
+    return 0.0, None
 
 
 def ungeared(model: ReaderModel, servo: Servo) -> tuple[Edit, ...]:

@@ -380,3 +380,55 @@ def test_a_chain_whose_hinges_are_on_one_line_is_told(axis: str, links: int, att
     assert [each.attribute for each in found] == [attribute] * (attribute is not None)
     if attribute == "type":
         assert 'type="ball"' in apply({"model.xml": text}, found[0].edit)["model.xml"]
+
+
+AXLE = rules()["axle-against-itself"].example("Bad")
+STRAIGHT = rules()["axle-against-itself"].example("Good")
+MOTOR = '<velocity tendon="shaft" kv="0.1"/>'
+
+
+@pytest.mark.parametrize(
+    ("text", "changes", "values"),
+    [
+        pytest.param(STRAIGHT, [('"right" axis="0 1 0"', '"right" axis="0 -1 0"')], ["-0.5"], id="opposite-axes"),
+        pytest.param(AXLE, [('"right" axis="0 1 0"', '"right" axis="0 -1 0"')], [], id="axes-and-signs"),
+        pytest.param(AXLE, [(MOTOR, MOTOR + '<motor joint="left"/>')], [], id="something-else-drives"),
+        pytest.param(AXLE, [(MOTOR, "")], [], id="nothing-drives"),
+        pytest.param(AXLE, [('"right" axis="0 1 0"', '"right" axis="0 1 0" range="0 90"')], [], id="with-a-range"),
+        pytest.param(AXLE, [('"right" pos="-0.1 -0.15 0"', '"right" pos="-0.4 0.15 0"')], [], id="one-behind-another"),
+    ],
+)
+def test_a_tendon_that_drives_two_wheels_of_an_axle_apart_is_told(
+    text: str, changes: list[tuple[str, str]], values: list[str]
+) -> None:
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    found = examine(NativeEngine(), {"model.xml": text}, select=["axle-against-itself"]).hints
+    assert [each.value for each in found] == values
+
+
+@pytest.mark.parametrize(
+    ("place", "axis", "factor", "told"),
+    [
+        ("0 -0.1 0", "0 0 1", -1, True),
+        ("0 -0.1 0", "0 0 1", 1, False),
+        ("0 -0.1 0", "0 0 -1", 1, True),
+        ("0.3 0.1 0", "0 0 1", -1, False),  # of another axle
+        ("0 -0.1 0", "0 1 0", -1, False),  # no steering
+    ],
+)
+def test_a_coupling_that_steers_two_wheels_of_an_axle_apart_is_told(
+    place: str, axis: str, factor: int, told: bool
+) -> None:
+    fork = '<body pos="{1}"><joint name="{0}" axis="{2}" range="-30 30"/><geom size="0.02"/><body><joint axis="0 1 0"/>'
+    forks = "".join(
+        fork.format(*each) + '<geom size="0.05"/></body></body>'
+        for each in (("left", "0 0.1 0", "0 0 1"), ("right", place, axis))
+    )
+    tie = f'<equality><joint joint1="right" joint2="left" polycoef="0 {factor} 0.1 0 0"/></equality>'
+    text = (
+        f'<mujoco><worldbody><body pos="0 0 1"><freejoint/><geom size="0.1"/>{forks}</body></worldbody>{tie}</mujoco>'
+    )
+    found = examine(NativeEngine(), {"model.xml": text}, select=["axle-against-itself"]).hints
+    assert [each.value for each in found] == [f"0 {-factor} 0.1 0 0"] * told

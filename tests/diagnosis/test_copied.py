@@ -203,3 +203,28 @@ def test_a_sensor_reads_what_its_name_or_its_sisters_say(sensors, edits):
     text = f"<mujoco><worldbody>{CYLINDERS}{tip}</worldbody><sensor>{sensors}</sensor></mujoco>"
     found = told(text, "sensor-on-another-joint").hints
     assert [(each.attribute, each.value) for one in found for each in one.edit] == edits
+
+
+BARS = "".join(
+    f'<fixed name="bar_{end}" stiffness="9"><joint joint="{one}J1" coef="1"/><joint joint="{one}J0" coef="-1"/></fixed>'
+    for end, one in (("front", "ff"), ("rear", "mf"))
+)
+SHAFT = '<fixed name="shaft"{}><joint joint="rfJ1" coef="1"/><joint joint="rfJ0" coef="1"/></fixed>'
+
+
+@pytest.mark.parametrize(
+    ("bars", "shaft", "motors", "meant"),
+    [
+        (BARS, SHAFT.format(""), '<motor name="drive" tendon="bar_rear"/>', ["shaft"]),
+        (BARS, SHAFT.format(""), '<motor name="drive" tendon="shaft"/>', []),
+        (BARS, SHAFT.format(' damping="1"'), '<motor name="drive" tendon="bar_rear"/>', []),
+        (BARS, SHAFT.format(""), '<motor name="a" tendon="bar_rear"/><motor name="b" tendon="bar_front"/>', []),
+        (BARS.partition("</fixed>")[2], SHAFT.format(""), '<motor name="drive" tendon="bar_rear"/>', []),
+    ],
+)
+def test_an_actuator_on_one_of_several_springs_belongs_to_the_tendon_that_does_nothing(bars, shaft, motors, meant):
+    palm = f'<body><joint name="wrist"/><geom size="0.03"/>{FINGERS}</body>'
+    sections = f"<tendon>{bars}{shaft}</tendon><actuator>{motors}</actuator>"
+    text = f"<mujoco><worldbody>{palm}</worldbody>{sections}</mujoco>"
+    found = told(text, "actuator-on-another-tendon").hints
+    assert [each.value for one in found for each in one.edit] == meant

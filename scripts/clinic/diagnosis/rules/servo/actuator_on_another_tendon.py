@@ -1,7 +1,8 @@
 """An actuator pulls another tendon than its name says.
 
 A line was copied from finger to finger, or from muscle to muscle, and one keeps the tendon of the one before. That
-tendon is pulled twice, and its own hangs loose.
+tendon is pulled twice, and its own hangs loose. Or a motor pulls one of two springs, an anti-roll bar, and the tendon
+of its shaft does nothing.
 
 Bad:
 
@@ -36,7 +37,9 @@ Good:
     +     <motor name="ring_curl" tendon="ring_pull" ctrlrange="0 1"/>
 
 The number: actuators on a tendon that another one pulls as well, where one tendon is pulled by none and has a word of
-the actuator's name that its own has not, or is called like its own but for what sets the two actuators apart.
+the actuator's name that its own has not, or is called like its own but for what sets the two actuators apart. And the
+one actuator on a tendon with a stiffness, beside others that have one and no actuator, where one fixed tendon alone has
+neither an actuator nor stiffness, damping, limit or equality.
 
 When it is wrong: two actuators on one tendon, beside a tendon that only limits.
 """
@@ -47,8 +50,9 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes import equalities
 from clinic.diagnosis.probes.copied import Line, misled
-from clinic.diagnosis.probes.tendons import TENDON
+from clinic.diagnosis.probes.tendons import TENDON, joints_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, how_many
@@ -59,6 +63,9 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "few healthy models have actuators on tendons"
 
+TIED = 3  # mjtEq: two tendons
+ACTS = ("stiffness", "damping", "frictionloss", "limited")
+
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each actuator that leaves the tendon of its name alone."""
@@ -67,19 +74,15 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         now, value = (of.names("tendon")[each] for each in (pulled, meant))
         edits = model.set("actuator", [actuator], "tendon", value)
         name = of.name("actuator", actuator)
-        says = f"{name} pulls {of.name('tendon', pulled)}, as another one does, and {of.name('tendon', meant)} is "
-        says += "pulled by none."
+        shared = "as another one does" if list(_pulls(of).values()).count(pulled) > 1 else "a spring"
+        says = f"{name} pulls {of.name('tendon', pulled)}, {shared}, and {of.name('tendon', meant)} is pulled by none."
         probe = how_many("actuators that pull another tendon than that of their name", _misled)
         yield Suspect((name,), "tendon", now, value, edits, probe, 0, says, "the tendon of its name")
 
 
 def _misled(of: Simulation) -> dict[int, tuple[int, int]]:
     """By actuator: the tendon that it pulls, and the one that it is called like."""
-    pulls = {
-        each: int(of.model("actuator_trnid")[2 * each])
-        for each, kind in enumerate(of.model("actuator_trntype"))
-        if int(kind) == TENDON
-    }
+    pulls = _pulls(of)
     times, words = Counter(pulls.values()), [_words(name) for name in of.names("tendon")]
     idle = [tendon for tendon in range(of.count("tendon")) if tendon not in times]
     names, tendons = of.names("actuator"), of.names("tendon")
@@ -91,7 +94,26 @@ def _misled(of: Simulation) -> dict[int, tuple[int, int]]:
         meant = [tendon for tendon in idle if any(_called(word, own) for word in words[tendon])]
         if times[pulled] > 1 and len(meant) == 1:
             made[actuator] = (pulled, meant[0])
-    return made
+    return made | _on_a_spring(of, pulls)
+
+
+def _pulls(of: Simulation) -> dict[int, int]:
+    """By actuator on a tendon: that."""
+    kinds = enumerate(of.model("actuator_trntype"))
+    return {each: int(of.model("actuator_trnid")[2 * each]) for each, kind in kinds if int(kind) == TENDON}
+
+
+def _on_a_spring(of: Simulation, pulls: dict[int, int]) -> dict[int, tuple[int, int]]:
+    """The one actuator on a spring, beside springs that none pulls, where one fixed tendon alone does nothing."""
+    tied = [each for each, kind in enumerate(of.model("eq_type")) if int(kind) == TIED]
+    used = {*pulls.values(), *(tendon for each in tied for tendon in equalities.held(of, each))}
+    fixed = [tendon for tendon in range(of.count("tendon")) if joints_of(of, tendon) and tendon not in used]
+    idle = [tendon for tendon in fixed if not any(of.model(f"tendon_{field}")[tendon] for field in ACTS)]
+    springs = [tendon for tendon, stiffness in enumerate(of.model("tendon_stiffness")) if stiffness > 0]
+    on_spring = {actuator: tendon for actuator, tendon in pulls.items() if tendon in springs}
+    if len(idle) != 1 or len(on_spring) != 1 or len(springs) < 2:
+        return {}
+    return {actuator: (tendon, idle[0]) for actuator, tendon in on_spring.items()}
 
 
 def _called(word: str, own: set[str]) -> bool:

@@ -420,3 +420,22 @@ def test_one_finger_of_four_with_other_moments_gets_those_of_the_others() -> Non
 def test_the_twin_that_hangs_on_the_other_side_is_the_odd_one():
     (found,) = unlike(robot({'right_front:pos="0.2 -0.1 0"': 'pos="0.2 0.1 0"'}))
     assert (found.elements, found.value) == (('body "right_front"',), "0.2 -0.1 0")
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "told"),
+    [
+        pytest.param("-0.06 0.05 0", "0.06 -0.05 0", ["0.06 0.05 0"], id="a-sign"),
+        pytest.param("0.06 0.05 0", "0.06 -0.05 0", [], id="mirrored"),
+        pytest.param("0.02 0 0", "0.06 0 0", [], id="elsewhere"),
+    ],
+)
+def test_the_one_pair_of_sites_that_a_sign_sets_apart_is_told_in_a_robot_of_pairs(
+    left: str, right: str, told: list[str]
+) -> None:
+    change = {}
+    for side, place in (("left", left), ("right", right)):
+        change[f"{side}_front:</body>"] = f'<site name="{side}_tip" pos="{place}"/></body>'
+        change[f'{side}_front:inertial pos="0 '] = 'inertial pos="0.03 '
+    found = [each for each in unlike(robot(change, left="-30 60", right="-60 30")) if "site" in each.elements[0]]
+    assert [each.value for each in found] == told

@@ -23,6 +23,7 @@ TURNED = " The numbers are the same, and the axes are not each other's image as 
 PLACES = ("axis", "axis sign", "pos", "quat", "center of mass", "direction")
 PARTS = ("geom", "site", "camera")
 ALONG = 0.9  # cosine of the angle between axes that count as one direction
+SAME = 1e-6  # m
 FAR = 4.0  # times the limit
 ENOUGH = 12  # comparisons that make a model one of pairs
 
@@ -55,6 +56,7 @@ def odd(model: ReaderModel, kinds: Sequence[str], quantities: Sequence[str]) -> 
             far = far and kind in PARTS and not (quantity == "pos" and _same_part(model.simulation, few[0]))
             known = agree >= (2 if not far else kind != "camera") or quantity in ("joint", "target")
             known = known or (len(few) == 1 and _only(found, trusted, few[0]))
+            known = known or (far and quantity == "pos" and _sign_apart(model.simulation, few[0]))
             if not few or len(few) > most or not known or close < 0.6 * agree:
                 continue
             enough = 6 if kind in ("geom", "site", "camera") and quantity in ("pos", "quat") else 3
@@ -92,6 +94,13 @@ def _same_part(of: Simulation, each: Comparison) -> bool:
     if each.kind == "camera":
         return False
     return of.row(f"{each.kind}_pos", each.left, 3) == of.row(f"{each.kind}_pos", each.right, 3)
+
+
+def _sign_apart(of: Simulation, each: Comparison) -> bool:
+    """Whether the numbers of both sides are the same but for signs: no other pair of the kind need agree."""
+    field = {"camera": "cam"}.get(each.kind, each.kind)
+    places = (of.row(f"{field}_pos", one, 3) for one in (each.left, each.right))
+    return all(abs(abs(a) - abs(b)) < SAME for a, b in zip(*places, strict=True))
 
 
 def _only(found: Twins, trusted: Sequence[Comparison], odd: Comparison) -> bool:

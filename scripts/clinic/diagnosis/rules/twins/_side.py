@@ -64,6 +64,12 @@ def _strange(model: ReaderModel, each: Comparison, side: int) -> float:
         signed = Counter(_signed(simulation, index) for index in both)
         agree = _beside_its_own(simulation, each, side)
         return -values[_value(model, each, side)] - TIE * (signed[_signed(simulation, side)] + TIE * agree)
+    if each.quantity == "pos" and each.kind == "site":  # on the side of its body where what hangs on that is not
+        simulation.as_written()
+        mass = simulation.data_row("subtree_com", simulation.body_of("site", side), 3)
+        return -values[_value(model, each, side)] + TIE * round(
+            norm(sub(mass, simulation.data_row("site_xpos", side, 3))), 3
+        )
     if each.quantity in ("gear", "gain"):
         others = sorted(size for index in both if index not in (each.left, each.right)
                         and (size := _strength(simulation, index)))  # fmt: skip

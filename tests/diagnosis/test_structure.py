@@ -432,3 +432,25 @@ def test_a_coupling_that_steers_two_wheels_of_an_axle_apart_is_told(
     )
     found = examine(NativeEngine(), {"model.xml": text}, select=["axle-against-itself"]).hints
     assert [each.value for each in found] == [f"0 {-factor} 0.1 0 0"] * told
+
+
+@pytest.mark.parametrize(
+    ("sites", "values"),
+    [
+        pytest.param('<site name="slot1" pos="-0.04 0 0.01"/><site name="slot2" pos="-0.04 0 0.01"/>', ["0.04 0 0.01"]),
+        pytest.param('<site name="slot1" pos="-0.04 0 0.01"/><site name="slot2" pos="0.04 0 0.01"/>', []),
+        pytest.param('<site name="target0"/><site name="target1"/>', []),  # code puts them somewhere
+        pytest.param('<site name="grasp" pos="0.1 0 0"/><site name="tool" pos="0.1 0 0"/>', []),
+        pytest.param(
+            '<site name="ray1" pos="0.1 0 0" zaxis="1 0 0"/><site name="ray2" pos="0.1 0 0" zaxis="1 1 0"/>', []
+        ),
+        pytest.param(
+            "".join(f'<site name="pin{i}" pos="{x} 0 0"/>' for i, x in enumerate((0.1, 0.1, 0.3))),
+            ["apart from each other"],
+        ),
+    ],
+)
+def test_numbered_sites_of_one_body_in_one_place_are_told(sites: str, values: list[str]) -> None:
+    text = f'<mujoco><worldbody><body name="tray"><geom size="0.1"/>{sites}</body></worldbody></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text}, select=["parts-coincide"]).hints
+    assert [each.value for each in found] == values

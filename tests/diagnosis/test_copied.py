@@ -142,6 +142,25 @@ def test_a_sensor_alone_at_the_site_of_another_kind_belongs_to_its_unit(sensors,
     assert [each.value for one in found for each in one.edit] == [meant] * bool(meant)
 
 
+@pytest.mark.parametrize(
+    ("sensors", "meant"),
+    [
+        ('<framequat name="attitude" objtype="site" objname="foot_l"/>', ["imu"]),
+        ('<framequat name="attitude" objtype="site" objname="imu"/>', []),
+        ('<framequat name="foot_l_turn" objtype="site" objname="foot_l"/>', []),
+        ('<framequat objtype="site" objname="foot_l"/><framequat objtype="site" objname="foot_r"/>', []),
+        ('<framequat name="attitude" objtype="site" objname="tip"/>', []),
+    ],
+)
+def test_the_one_orientation_at_a_foot_of_a_pair_belongs_to_the_unit(sensors, meant):
+    foot = '<body pos="0 {} 0"><joint/><geom size="0.1"/><site name="{}"/></body>'
+    feet = "".join(foot.format(y, name) for name, y in (("foot_l", 1), ("foot_r", -1), ("tip", 2)))
+    trunk = f'<body><freejoint/><geom size="0.1"/><site name="imu"/>{feet}</body>'
+    unit = '<gyro site="imu"/><accelerometer site="imu"/><touch site="foot_l"/><touch site="foot_r"/>'
+    text = f"<mujoco><worldbody>{trunk}</worldbody><sensor>{unit}{sensors}</sensor></mujoco>"
+    assert [each.value for each in told(text, "sensor-off-its-unit").hints] == meant
+
+
 SHANK = rules()["tendon-through-anothers-site"].example("Bad")
 
 

@@ -51,10 +51,7 @@ FIELDS = ("damping", "frictionloss", "stiffness", "armature")
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Free joints that hold what hangs on them, all together."""
     of = model.simulation
-    if not any(of.model("opt.gravity")):
-        return
-    taken = {joint: parts for joint in range(of.count("joint")) if sum((parts := _taken(of, joint)).values()) > MOST}
-    if not taken:
+    if not (taken := held(of)):
         return
     worst = max(taken, key=lambda joint: sum(taken[joint].values()))
     named = [name for name in FIELDS if any(parts[name] > MOST / 4 for parts in taken.values())]
@@ -73,6 +70,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         "<freejoint/> takes no defaults.",
         "nothing, as <freejoint/> has it",
     )
+
+
+def held(of: Simulation) -> dict[int, dict[str, float]]:
+    """The free joints that hold what hangs on them, and what they take of its weight by attribute."""
+    if not any(of.model("opt.gravity")):
+        return {}
+    every = ((joint, _taken(of, joint)) for joint in range(of.count("joint")))
+    return {joint: parts for joint, parts in every if sum(parts.values()) > MOST}
 
 
 def _most(simulation: Simulation, *joints: int) -> float:

@@ -9,6 +9,8 @@ from clinic.diagnosis.probes.vector import Vector, add, at, dot, norm, sub, time
 from clinic.diagnosis.simulation import Simulation, kept
 
 CLEAR = 0.05  # of the opacity
+FLUID = 12  # mjNFLUID, numbers of a geom in geom_fluid
+LIQUID = 100.0  # kg/m3
 
 
 def roots(simulation: Simulation) -> list[int]:
@@ -92,6 +94,12 @@ def plane_heights(simulation: Simulation) -> list[float]:
 def clear(simulation: Simulation, geom: int) -> bool:
     """Whether nobody sees a geom: it has next to no opacity."""
     return simulation.row("geom_rgba", geom, 4)[3] < CLEAR
+
+
+def swims(simulation: Simulation, root: int) -> bool:
+    """Whether a medium has the density of a liquid, and geoms of a tree are shaped for it (`fluidshape`)."""
+    shaped = simulation.model("geom_fluid")[::FLUID]
+    return simulation.model("opt.density")[0] > LIQUID and any(shaped[geom] for geom in geoms_of_tree(simulation, root))
 
 
 def thickness(simulation: Simulation, geom: int) -> float:

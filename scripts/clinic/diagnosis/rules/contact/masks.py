@@ -37,7 +37,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.fall import bare, below, fallen, limit
-from clinic.diagnosis.probes.shape import collides, geoms_of_tree, masks_told, pair_of, root_of, solid
+from clinic.diagnosis.probes.shape import collides, geoms_of_tree, masks_told, pair_of, root_of, solid, swims
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect
@@ -66,7 +66,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         others = [geom for geom in range(simulation.count("geom")) if geom != surface and geom not in tree]
         lonely = not any(collides(simulation, surface, geom) for geom in others if solid(simulation, geom))
         solids = any(solid(simulation, geom) for geom in tree)
-        if not solids and _ghost(model, root, tree):
+        if not solids and (_ghost(model, root, tree) or swims(simulation, root)):
             continue
         ghost = not solid(simulation, surface)
         if ghost and not solids and int(simulation.model("geom_type")[surface]) != PLANE:

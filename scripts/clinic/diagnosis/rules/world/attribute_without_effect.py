@@ -2,9 +2,9 @@
 
 `biasprm` needs `biastype="affine"`: without it a `<general>` is a motor, its control a force. `lengthrange` tells a
 muscle how its tendon's length is scaled, and nobody else; `<position>` with a `ctrlrange` holds a length. `springref`
-needs a `stiffness`, `fluidshape` a `density` or a `viscosity` of the `<option>`, and the `friction` of a geom that
-decides by its `priority` a `condim` above 1. A `forcerange` is off by `forcelimited="false"`, and a `ctrlrange` by
-`ctrllimited="false"`.
+needs a `stiffness`, `fluidcoef` a `fluidshape` and that a `density` or a `viscosity` of the `<option>`, and the
+`friction` of a geom that decides by its `priority` a `condim` above 1. A `forcerange` is off by `forcelimited="false"`,
+and a `ctrlrange` by `ctrllimited="false"`.
 
 Bad:
 
@@ -46,7 +46,7 @@ from typing import NamedTuple
 
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import GAIN_MUSCLE
-from clinic.diagnosis.probes.shape import solid
+from clinic.diagnosis.probes.shape import FLUID, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, counted
@@ -84,6 +84,7 @@ IDLE = {
     Idle("actuator", "ctrlrange", ("ctrllimited", "true"), "ctrllimited says false: it takes any control."),
     Idle("joint", "springref", ("stiffness", "above 0"), "Without stiffness there is no spring."),
     Idle("geom", "friction", ("condim", "3"), "With condim 1, which decides here, a contact has no friction."),
+    Idle("geom", "fluidcoef", ("fluidshape", "ellipsoid"), "Without fluidshape its coefficients are not read."),
     Idle("geom", "fluidshape", ("", "density or viscosity of <option>"), "There is no fluid: both are 0 in <option>."),
 }
 
@@ -132,6 +133,8 @@ def _read(of: Simulation, attribute: str, each: int) -> bool:
             return bool(of.model("jnt_stiffness")[each]) or any(of.model("tendon_stiffness"))
         case "friction":
             return not _slick(of, each)
+        case "fluidcoef":
+            return bool(of.model("geom_fluid")[FLUID * each])
         case _:
             return any(of.model(f"opt.{what}")[0] for what in ("density", "viscosity"))
 

@@ -24,7 +24,11 @@ Good:
 The number: what the medium holds back of something that falls at the speed of a fall over its own size, as a share of
 its weight; below 0.1 is well. A little viscosity is a usual way to bring what dangles to rest.
 
-When it is wrong: a swimmer or a boat. What cannot fall, or has no gravity, is left alone.
+Where geoms have a `fluidshape`, the medium is meant, and hints tell what does not fit it: water's viscosity of 0.0009
+without a density, or, beside the density of water, written in mPa s. What has 0.8 to 1.25 times the density of a liquid
+and sinks is told too, for MuJoCo has no buoyancy: it takes `gravity="0 0 0"`, or `gravcomp`.
+
+When it is wrong: a boat. What cannot fall, or has no gravity, is left alone.
 """
 
 from __future__ import annotations
@@ -33,7 +37,8 @@ import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import GRAVITY_OFF
-from clinic.diagnosis.probes.shape import falling, size
+from clinic.diagnosis.probes.matter import matter
+from clinic.diagnosis.probes.shape import FLUID, falling, size, swims
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -43,6 +48,12 @@ FAMILIES = ("slow", "stuck", "drifts")
 SINCE = "0.1"
 
 MOST = 0.1  # of the weight
+MEDIUM = (  # air, what is told, what is told where geoms are shaped for it, and the unit
+    ("density", 1.2, 6.0, 1500.0, "kg/m3"),
+    ("viscosity", 0.00002, 0.01, 2.0, "Pa s"),
+)
+WATER, THIN, THICK = (995.0, 1035.0), (0.0005, 0.002), (0.5, 2.0)  # kg/m3, fresh and salt; Pa s, and mPa s
+AFLOAT = 0.8, 1.25  # of the medium's density
 
 
 def _held_back(simulation: Simulation) -> float:
@@ -59,12 +70,70 @@ def _held_back(simulation: Simulation) -> float:
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The medium, where something can fall in it."""
     simulation = model.simulation
+    shaped = any(simulation.model("geom_fluid")[::FLUID])
+    if shaped:
+        yield from _unfit(model)
+        yield from _sinking(model)
     if not any(simulation.model("opt.gravity")) or int(simulation.model("opt.disableflags")[0]) & GRAVITY_OFF:
         return
     probe = Probe("drag of a fall", "of the weight", _held_back, dynamic=False)
-    for name, usual, most, unit in (("density", 1.2, 6.0, "kg/m3"), ("viscosity", 0.00002, 0.01, "Pa s")):
+    for name, usual, most, liquid, unit in MEDIUM:
         now = simulation.model(f"opt.{name}")[0]
-        if now > most:
+        if now > (liquid if shaped else most):
             says = f"The medium has {now:g} {unit}; air has {usual:g}."
             edits = model.option(name, f"{usual:g}")
             yield Suspect((name,), name, f"{now:g}", f"{usual:g}", edits, probe, MOST, says, f"{usual:g} {unit}, air")
+
+
+def _unfit(model: ReaderModel) -> Iterator[Suspect]:
+    """The number of water that does not fit the other one."""
+    of = model.simulation
+    density, viscosity = (of.model(f"opt.{name}")[0] for name in ("density", "viscosity"))
+    if not density and THIN[0] < viscosity < THIN[1]:
+        name, now, value = "density", density, "1000"
+        says = f"The viscosity of {viscosity:g} Pa s is that of water, and without a density it resists hardly."
+    elif WATER[0] < density < WATER[1] and THICK[0] < viscosity < THICK[1]:
+        name, now, value = "viscosity", viscosity, f"{viscosity / 1000:g}"
+        says = f"Water has {value} Pa s: {viscosity:g} is its viscosity in mPa s."
+    else:
+        return
+    probe = Probe(f"the medium's {name} beside that of water", "", _unlike, (name, float(value)), dynamic=False)
+    yield Suspect((name,), name, f"{now:g}", value, model.option(name, value), probe, 0.5, says, value, level="hint")
+
+
+def _unlike(of: Simulation, name: str, usual: float) -> float:
+    """How far a number of the medium is from a usual one, in decades, or as a share where it is nothing."""
+    now = of.model(f"opt.{name}")[0]
+    return abs(math.log10(now / usual)) if now > 0 else 1.0
+
+
+def _sinking(model: ReaderModel) -> Iterator[Suspect]:
+    """All that can fall, where it is as dense as the medium and sinks."""
+    of = model.simulation
+    falls = list(falling(of))
+    if not all(swims(of, root) and AFLOAT[0] < _dense(of, root) < AFLOAT[1] for root in falls):
+        return
+    probe = Probe("weight that nothing carries", "N", _weight, dynamic=False)
+    if not falls or _weight(of) <= 0:
+        return
+    medium, now = of.model("opt.density")[0], " ".join(f"{each:g}" for each in of.model("opt.gravity"))
+    names = tuple(of.name("body", root) for root in falls)
+    says = f"{names[0]} is as dense as the medium of {medium:g} kg/m3, and sinks: MuJoCo has no buoyancy."
+    edits = model.option("gravity", "0 0 0")
+    yield Suspect(("gravity", *names), "gravity", now, "0 0 0", edits, probe, 0, says, "0 0 0", level="hint")
+
+
+def _dense(of: Simulation, root: int) -> float:
+    """The density of a tree over that of the medium."""
+    found = [each for body in of.below(root) if (each := matter(of, body)) is not None]
+    volume = sum(each.volume for each in found)
+    return sum(each.mass for each in found) / volume / of.model("opt.density")[0] if volume else 0.0
+
+
+def _weight(of: Simulation) -> float:
+    """What of the weight of all that can fall gravcomp does not carry."""
+    if int(of.model("opt.disableflags")[0]) & GRAVITY_OFF:
+        return 0.0
+    bodies = [body for root in falling(of) for body in of.below(root)]
+    mass = sum(of.model("body_mass")[body] * (1 - of.model("body_gravcomp")[body]) for body in bodies)
+    return math.hypot(*of.model("opt.gravity")) * mass

@@ -26,7 +26,7 @@ The number: the angle between gravity and the way down to the floor (-z where th
 where water has a density of 1 and not of 1,000. What points the wrong way keeps a size that is not told: 3.71 on Mars.
 
 When it is wrong: a slope or a wall that is made by tilting gravity. Gravity 0 where free bodies are above a floor is a
-hint, for it is often meant.
+hint, for it is often meant, but in a medium as dense as a liquid, in which things swim.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import GRAVITY_OFF, PLANE
 from clinic.diagnosis.probes.matter import matter
-from clinic.diagnosis.probes.shape import falling
+from clinic.diagnosis.probes.shape import LIQUID, falling
 from clinic.diagnosis.probes.vector import dot
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -124,7 +124,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _none(model: ReaderModel, now: str, off: bool) -> Iterator[Suspect]:
     simulation = model.simulation
     planes = any(int(kind) == PLANE for kind in simulation.model("geom_type"))
-    falls = sorted(falling(simulation))
+    falls = sorted(falling(simulation)) if simulation.model("opt.density")[0] < LIQUID else []
     if not planes or not falls or model.source is None:
         return
     flags = tuple(set_attribute(each, "gravity", "enable") for each in model.source.elements("flag")) if off else ()

@@ -1,0 +1,73 @@
+"""Fluids, and free bodies in them and in the air."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import Diagnosis, examine
+from clinic.diagnosis.native import NativeEngine
+
+FISH = """<mujoco>
+  <option {option}/>
+  <default>
+    <joint stiffness="0.004" damping="0.0008"/>
+    <geom type="ellipsoid" {geom} contype="0" conaffinity="0"/>
+  </default>
+  <worldbody>
+    <geom name="pond" type="plane" size="3 3 0.1" pos="0 0 -0.6" fluidshape="none"/>
+    <body name="fish">
+      {joint}
+      <geom name="trunk" size="0.08 0.03 0.04"/>
+      <body name="tail" pos="-0.08 0 0">
+        <joint name="tail" axis="0 0 1"/>
+        <geom name="tail" size="0.04 0.005 0.03" pos="-0.04 0 0" fluidcoef="0.5 0.25 1.5 1 1"/>
+      </body>
+    </body>
+  </worldbody>
+</mujoco>"""
+WATER = 'density="1000" viscosity="0.0009"'
+SHAPED = 'density="1000" fluidshape="ellipsoid"'
+STILL = 'gravity="0 0 0"'
+
+
+def fish(option: str, geom: str = SHAPED, joint: str = "<freejoint/>") -> Diagnosis:
+    text = FISH.format(option=option, geom=geom, joint=joint)
+    return examine(NativeEngine(), {"model.xml": text})
+
+
+@pytest.mark.parametrize(
+    ("option", "geom", "told"),
+    [
+        pytest.param(f"{WATER} {STILL}", SHAPED, [], id="afloat"),
+        pytest.param(WATER, SHAPED, [("fluid", "gravity", "0 0 0")], id="sinks"),
+        pytest.param(WATER, 'density="3000" fluidshape="ellipsoid"', [], id="of-stone"),
+        pytest.param(f'viscosity="0.0009" {STILL}', SHAPED, [("fluid", "density", "1000")], id="no-density"),
+        pytest.param(f'density="1000" viscosity="0.9" {STILL}', SHAPED, [("fluid", "viscosity", "0.0009")], id="mPa-s"),
+        pytest.param(
+            f"{WATER} {STILL}",
+            'density="1000"',
+            [("attribute-without-effect", "fluidcoef", "ellipsoid")],
+            id="not-shaped",
+        ),
+    ],
+)
+def test_a_medium_that_a_swimmer_is_not_made_for_is_told(
+    option: str, geom: str, told: list[tuple[str, str, str]]
+) -> None:
+    found = fish(option, geom)
+    rules = ("fluid", "masks", "attribute-without-effect")
+    assert [(each.rule, each.attribute, each.value) for each in found.hints if each.rule in rules] == told
+    assert not found.causes
+    assert not any(each.rule == "gravity" for each in found.hints if "fluidshape" in geom and "density" in option)
+
+
+@pytest.mark.parametrize(
+    ("joint", "told"),
+    [
+        pytest.param("<freejoint/>", False, id="freejoint"),
+        pytest.param('<joint type="free"/>', True, id="default"),
+        pytest.param('<joint type="free" stiffness="0.01"/>', False, id="own"),
+    ],
+)
+def test_a_free_joint_on_a_spring_of_the_default_is_told_where_nothing_weighs(joint: str, told: bool) -> None:
+    found = [each for each in fish(f"{WATER} {STILL}", joint=joint).hints if each.rule == "root-on-springs"]
+    assert [(each.attribute, each.after) for each in found] == [("stiffness", 0.0)] * told

@@ -124,3 +124,26 @@ def test_the_finger_that_crosses_the_middle_is_the_one_to_turn(more, change, wro
 def test_a_coupling_of_a_constant_alone_leads_nowhere(coupling, level, value):
     found = told(LINKS.format(coupling=coupling), "follower-out-of-range")
     assert found == ([(level, "polycoef", value)] if level else [])
+
+
+@pytest.mark.parametrize(
+    ("adhesion", "chip", "told"),
+    [
+        pytest.param('body="cup" gain="5"', "<freejoint/>", [], id="lifts"),
+        pytest.param('body="flange" gain="5"', "<freejoint/>", [("body", "cup", 0.0)], id="not-the-cup"),
+        pytest.param('body="cup" gain="0.1"', "<freejoint/>", [("gain", "2", 0.1962)], id="weak"),
+        pytest.param('body="cup" gain="0.1"', "", [], id="nothing-to-lift"),
+        pytest.param('body="chip" gain="0.1"', "<freejoint/>", [], id="sticks-by-itself"),
+    ],
+)
+def test_an_adhesion_that_holds_nothing_is_told(adhesion: str, chip: str, told: list[tuple[str, str, float]]) -> None:
+    text = f"""<mujoco><worldbody><geom type="plane" size="1 1 0.1"/>
+      <body name="flange" pos="0 0 0.2"><joint type="slide" axis="0 0 1" range="-0.15 0" damping="5"/>
+        <geom type="cylinder" size="0.03 0.005" contype="0" conaffinity="0"/>
+        <body name="cup" pos="0 0 -0.02"><geom type="cylinder" size="0.01 0.015" mass="0.05"/></body></body>
+      <body name="chip" pos="0 0 0.0101">{chip}<geom type="box" size="0.02 0.02 0.01" mass="0.04"/></body></worldbody>
+    <actuator><adhesion {adhesion} ctrlrange="0 1"/></actuator></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["adhesion-holds-nothing"]).hints
+    assert [(each.attribute, each.value, each.after) for each in found] == [
+        (attribute, value, pytest.approx(after)) for attribute, value, after in told
+    ]

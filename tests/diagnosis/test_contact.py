@@ -223,6 +223,28 @@ def test_an_obstacle_that_nothing_touches_is_told(name, told):
     assert [each.elements for each in found.hints] == [('geom "obstacle"',)] * told
 
 
+@pytest.mark.parametrize(
+    ("finger", "cube", "told"),
+    [
+        pytest.param('contype="2" conaffinity="2"', "", [("conaffinity", "3")], id="no-bit"),
+        pytest.param('contype="2" conaffinity="1"', "", [], id="a-bit"),
+        pytest.param('contype="2" conaffinity="2"', 'contype="0" conaffinity="4"', [("contype", "6")], id="affinity"),
+    ],
+)
+def test_fingers_that_touch_nothing_that_is_free_are_told(finger, cube, told):
+    fingers = "".join(
+        f'<body name="finger_{y}" pos="0.1 {y} 0"><joint type="slide" axis="0 1 0" range="-0.02 0.02"/>'
+        f'<geom type="box" size="0.04 0.005 0.01" {finger}/></body>'
+        for y in (-0.04, 0.04)
+    )
+    hand = f'<body pos="0 0 0.5"><joint axis="0 1 0"/><geom type="box" size="0.05 0.05 0.02" {finger}/>{fingers}</body>'
+    box = f'<body pos="1 0 0.1"><freejoint/><geom size="0.1" {cube}/></body>'
+    text = f"<mujoco><worldbody>{FLOOR}{hand}{box}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["touches-nothing"]).hints
+    assert [(each.attribute, each.value) for each in found] == told
+    assert all(each.after == 0 for each in found)
+
+
 def test_a_ball_inside_a_solid_mesh_is_in_no_hole():
     corners = " ".join(f"{x} {y} {z}" for x in (-0.1, 0.1) for y in (-0.1, 0.1) for z in (0, 0.2))
     faces = "0 1 3 0 3 2 4 6 7 4 7 5 0 4 5 0 5 1 2 3 7 2 7 6 0 2 6 0 6 4 1 5 7 1 7 3"

@@ -41,6 +41,8 @@ collides, nor has what hangs on them, while other parts of the same robot collid
 So is a geom that stands still and is called a floor, ground, terrain, table, step, stair, ramp, wall, obstacle or
 barrier, has masks of zero, and has nothing that stands still and collides around it or in its body.
 
+And so are all fingers, pads, jaws and claws whose masks have no bit in common with those of any free body.
+
 When it is wrong: parts that another geom stands in for, such as a sphere of the calf for the foot.
 """
 
@@ -50,7 +52,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from clinic.diagnosis.engine import CONTACTS_OFF, PLANE
-from clinic.diagnosis.probes.shape import boxes, clear, in_pairs, masks_told, root_of, solid
+from clinic.diagnosis.probes.shape import boxes, clear, collides, in_pairs, masks_told, pair_of, root_of, solid
 from clinic.diagnosis.probes.vector import Vector
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -63,9 +65,10 @@ AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "only names say what a part is for"
 
-PART = re.compile(
-    r"(?<![a-z])[lr]?(wheel|caster|castor|tyre|tire|foot|feet|paw|finger|fingertip|pad|jaw|claw)s?(?![a-z])",
-    re.IGNORECASE,
+FINGER = "finger|fingertip|pad|jaw|claw"
+GRIP, PART = (
+    re.compile(rf"(?<![a-z])[lr]?({names})s?(?![a-z])", re.IGNORECASE)
+    for names in (FINGER, f"wheel|caster|castor|tyre|tire|foot|feet|paw|{FINGER}")
 )
 
 GROUND = re.compile(
@@ -80,6 +83,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The parts by name that do not collide, all together."""
     of = model.simulation
     yield from _ground(model)
+    yield from _fingers(model)
     found = _bare(of)
     if not found:
         return
@@ -91,6 +95,37 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield Suspect(
         names, "contype, conaffinity", masks, "1, 1", (), probe, 0, says, "a geom that collides", level="hint"
     )  # fmt: skip
+
+
+def _fingers(model: ReaderModel) -> Iterator[Suspect]:
+    """Fingers that collide, and with none of what is free to be held, all together."""
+    of = model.simulation
+    fingers, held = _missing(of)
+    if not fingers:
+        return
+    types, affinities = (int(of.model(f"geom_{mask}")[held[0]]) for mask in ("contype", "conaffinity"))
+    attribute, bits = ("conaffinity", types) if types else ("contype", affinities)
+    value = str(bits | int(of.model(f"geom_{attribute}")[fingers[0]]))
+    now = f"{int(of.model(f'geom_{attribute}')[fingers[0]])}"
+    names, edits = tuple(of.name("geom", geom) for geom in fingers), model.set("geom", fingers, attribute, value)
+    says = f"No finger has a bit in common with {of.name('geom', held[0])}, which is free to be held."
+    probe = Probe("geoms of fingers that touch nothing free", "", _count_missing, (), dynamic=False)
+    yield Suspect(names, attribute, now, value, edits, probe, 0, says, "a bit in common")
+
+
+def _count_missing(of: Simulation) -> float:
+    return float(len(_missing(of)[0]))
+
+
+def _missing(of: Simulation) -> tuple[list[int], list[int]]:
+    """The geoms of fingers and of what is free beside them, where none of the ones touches one of the others."""
+    owner, names, bodies = root_of(of), of.names("body"), [int(body) for body in of.model("geom_bodyid")]
+    solids = [geom for geom in range(of.count("geom")) if solid(of, geom) and owner[bodies[geom]]]
+    fingers = [geom for geom in solids if GRIP.search(names[bodies[geom]])]
+    robots = {owner[bodies[geom]] for geom in fingers}
+    held = [geom for geom in solids if owner[bodies[geom]] in of.free_bodies and owner[bodies[geom]] not in robots]
+    meet = any(collides(of, a, b) or pair_of(of, a, b) is not None for a in fingers for b in held)
+    return ([], []) if meet or not held else (fingers, held)
 
 
 def _ground(model: ReaderModel) -> Iterator[Suspect]:

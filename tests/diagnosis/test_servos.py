@@ -523,6 +523,7 @@ def test_a_motor_of_a_class_that_gives_the_gains_of_servos_is_written_as_one(hip
     ("friction", "force", "kp", "value"),
     [
         pytest.param(10, 24, 60, "0.24", id="a-good-part-of-the-force"),
+        pytest.param(30, 24, 60, "0.24", id="more-than-it"),
         pytest.param(1, 24, 60, None, id="a-little"),
         pytest.param(10, 24, 600, None, id="of-a-stiff-servo"),
         pytest.param(10, 200, 60, None, id="of-a-strong-servo"),
@@ -532,6 +533,24 @@ def test_friction_that_takes_a_good_part_of_a_servos_force_is_told(friction, for
     servo = f'<position joint="shoulder" kp="{kp}" kv="3" forcerange="-{force} {force}"/>'
     found = [each for each in arm(servo, f'frictionloss="{friction}"').hints if each.rule == "joint-frozen"]
     assert [(each.attribute, each.value) for each in found] == [("frictionloss", value)] * (value is not None)
+
+
+@pytest.mark.parametrize(
+    ("joint", "told"),
+    [
+        pytest.param('frictionloss="40"', [("joint-frozen", "frictionloss")], id="friction"),
+        pytest.param('stiffness="150" springref="0.25"', [("spring-against-servo", "stiffness")], id="spring"),
+        pytest.param('frictionloss="1" stiffness="2" springref="0.25"', [], id="well"),
+    ],
+)
+def test_what_a_motor_at_a_site_cannot_move_is_told(joint, told):
+    text = f"""<mujoco><compiler angle="radian"/><worldbody><body>
+      <joint name="hinge" axis="0 0 1" range="-1.7 0" damping="1.2" {joint}/>
+      <geom type="box" size="0.45 0.02 1" pos="0.45 0 1" mass="9"/><site name="grip" pos="0.74 0 1"/></body></worldbody>
+    <actuator><motor site="grip" gear="0 -1 0 0 0 0" ctrlrange="-40 40"/></actuator></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["joint-frozen", "spring-against-servo"]).hints
+    assert [(each.rule, each.attribute) for each in found] == told
+    assert all(each.after is not None for each in found)
 
 
 @pytest.mark.parametrize(

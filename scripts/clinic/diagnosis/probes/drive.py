@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.engine import HINGE, SLIDE, TRN_IN_PARENT, TRN_SITE
 from clinic.diagnosis.probes.servo import alone, command, hold, servos
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
@@ -36,6 +36,9 @@ def _driven(simulation: Simulation, joint: int) -> float:
     for actuator in range(simulation.count("actuator")):
         if actuator in own:
             command(simulation, own[actuator], begin + side * way)
+        elif force := pulls(simulation).get(joint, {}).get(actuator):
+            ends = simulation.row("actuator_ctrlrange", actuator, 2)
+            simulation.engine.write("ctrl", [max(ends, key=lambda end: side * force * end)], actuator)
         elif simulation.driven_joint(actuator) == joint and simulation.model("actuator_ctrllimited")[actuator]:
             ends = simulation.row("actuator_ctrlrange", actuator, 2)
             turned = side * simulation.gear(actuator) > 0
@@ -46,6 +49,34 @@ def _driven(simulation: Simulation, joint: int) -> float:
             return math.inf
         farthest = max(farthest, side * (simulation.position(joint) - begin))
     return 1 - min(1.0, farthest / way)
+
+
+@kept
+def pulls(simulation: Simulation) -> dict[int, dict[int, float]]:
+    """What motors at sites give at the start, for a control of 1, at hinges and slides that nothing else drives."""
+    of, made = simulation, dict[int, dict[int, float]]()
+    kinds = [int(each) for each in of.model("actuator_trntype")]
+    sites = [each for each, kind in enumerate(kinds) if kind == TRN_SITE and of.model("actuator_ctrllimited")[each]]
+    if any(kind > TRN_IN_PARENT and each not in sites for each, kind in enumerate(kinds)):
+        return {}
+    for actuator in sites:
+        if any(int(of.model(f"actuator_{kind}type")[actuator]) for kind in ("gain", "bias", "dyn")):
+            return {}
+        of.begin(forward=False)
+        of.engine.write("ctrl", [float(each == actuator) for each in range(len(kinds))])
+        of.engine.forward()
+        forces = of.data("qfrc_actuator")
+        for joint in range(of.count("joint")):
+            if joint not in of.drivers and of.joint_type(joint) in (HINGE, SLIDE) and forces[of.dof(joint)]:
+                made.setdefault(joint, {})[actuator] = forces[of.dof(joint)]
+    return made
+
+
+def pull(simulation: Simulation, joint: int) -> float:
+    """The most that motors at sites give at a joint of `pulls`, all together."""
+    ranges = _ranges(simulation)
+    found = pulls(simulation).get(joint, {})
+    return sum(abs(force) * max(map(abs, ranges[actuator])) for actuator, force in found.items())
 
 
 def way_left(joints: tuple[int, ...]) -> Probe:

@@ -23,11 +23,11 @@ Good:
     +       <joint name="elbow" axis="0 1 0" range="-90 90" damping="0.5"/>
 
 The number: driven for 2 s with all that its actuators give, without gravity and contacts, more than 80 % of the way to
-1 rad (0.1 m), or to the far limit, is left. A position servo is told, too, of which friction takes more than 0.2 of the
-force and 0.05 rad (m) of the way: of 38 models with dry friction at their servos none has more than 0.05. In a URDF,
-whose efforts no actuator gives yet, friction above the effort, or damping above it at half a rad/s (m/s), is told. So
-is a door or a drawer that nothing drives, its weight does not load, and a push of 50 N and twice its weight at its far
-end moves at less than 0.1 rad/s (0.1 m/s).
+1 rad (0.1 m), or to the far limit, is left; motors at sites count, where nothing else drives the joint. A position
+servo is told, too, of which friction takes more than 0.2 of the force and 0.05 rad (m) of the way: of 38 models with
+dry friction at their servos none has more than 0.05. In a URDF, whose efforts no actuator gives yet, friction above the
+effort, or damping above it at half a rad/s (m/s), is told. So is a door or a drawer that nothing drives, its weight
+does not load, and a push of 50 N and twice its weight at its far end moves at less than 0.1 rad/s (0.1 m/s).
 
 When it is wrong: a brake, or a worm gear that is meant to hold.
 """
@@ -35,11 +35,11 @@ When it is wrong: a brake, or a worm gear that is meant to hold.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE, SLIDE, TRN_IN_PARENT
-from clinic.diagnosis.probes.drive import way_left
+from clinic.diagnosis.probes.drive import pull, pulls, way_left
 from clinic.diagnosis.probes.load import loads
 from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.probes.shape import size
@@ -64,7 +64,7 @@ PUSH, WEIGHTS, OPENING = 50.0, 2.0, 0.1  # N, times its weight, and the rad/s or
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Joints that full force does not move, by damping and by friction."""
-    simulation = model.simulation
+    simulation, told = model.simulation, set[int]()
     for attribute, resists in (("damping", SLOW), ("frictionloss", 1.0)):
         held = simulation.model(f"dof_{attribute}")
         found = [
@@ -74,6 +74,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         ]
         if not found:
             continue
+        told.update(found)
         edits: tuple[Edit, ...] = ()
         for joint in found:
             force = _forces(simulation)[joint]
@@ -92,16 +93,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"which moves it with {can}.",
             "full force that reaches 1 rad/s and more",
         )
-    yield from _rubbed(model)
+    yield from _rubbed(model, told)
     yield from _hung(model)
     yield from _shut(model)
     yield from _beyond_effort(model)
 
 
-def _rubbed(model: ReaderModel) -> Iterator[Suspect]:
-    """The position servos that friction takes a good part of the force of, all together."""
+def _rubbed(model: ReaderModel, told: Collection[int]) -> Iterator[Suspect]:
+    """The position servos that friction takes a good part of the force of, or all of it, all together."""
     of = model.simulation
-    rubbed = {each.joint: each for each in servos(of) if _taken(of, each) > TAKEN}
+    rubbed = {each.joint: each for each in servos(of) if each.joint not in told and _taken(of, each) > TAKEN}
     if not rubbed:
         return
     worst, joints = next(iter(rubbed.values())), list(rubbed)
@@ -114,10 +115,13 @@ def _rubbed(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _taken(of: Simulation, servo: Servo) -> float:
-    """The share of a servo's force that dry friction takes; 0 where it stops near its target, or never moves."""
+    """The share of a servo's force that dry friction takes; 0 where it stops near its target.
+
+    Friction above the force lets a joint creep, for its constraint is soft.
+    """
     friction = of.model("dof_frictionloss")[servo.dof]
     stops = friction > SHORT * servo.stiffness and math.isfinite(servo.force)
-    return friction / servo.force if stops and friction <= servo.force else 0.0
+    return friction / servo.force if stops else 0.0
 
 
 def _most_taken(of: Simulation, *joints: int) -> float:
@@ -253,7 +257,7 @@ def _most_held(simulation: Simulation, joint: int) -> float:
 
 def _forces(simulation: Simulation) -> dict[int, float]:
     """The greatest force of the actuators of each joint, where it is known."""
-    made: dict[int, float] = {}
+    made = {joint: pull(simulation, joint) for joint in pulls(simulation)}
     known = {each.actuator: min(each.force, each.stiffness) for each in servos(simulation)}  # a servo 1 rad off
     for actuator in range(simulation.count("actuator")):
         joint = simulation.driven_joint(actuator)

@@ -26,7 +26,8 @@ Good:
 The number: the joint is put at 0.8 of the way from the spring's rest to the farther end of what range and control range
 allow, without gravity and contacts; what its spring pulls there, over that and what the servo pulls per rad (m) times
 the way. It is the share of the way that is left when both are in balance. Above 0.2 is told, and of the healthy models
-one: a fruit fly with springs in its head, whose lips go a quarter of the way.
+one: a fruit fly with springs in its head, whose lips go a quarter of the way. Of a joint that motors at sites pull, as
+a hand does at the grip of a door, more than 0.8 is told.
 
 When it is wrong: a joint that is elastic by nature, such as a finger that its spring opens, and a learned policy that
 was trained with it.
@@ -36,10 +37,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.drive import pull, pulls
 from clinic.diagnosis.probes.servo import Servo, alone, greatest, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A spring that holds its servo back"
 FAMILIES = ("sags", "stuck")
@@ -48,12 +50,13 @@ LEVEL = "hint"
 UNPLANTED = "a spring beside a servo may be meant"
 
 MOST = 0.2  # of the way
-WAY = 0.8
+WAY, LITTLE = 0.8, 0.8
 FREE = {True: 1.0, False: 0.1}  # rad, m: the way without a range
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Servos that the springs of their joints keep from their targets, all together."""
+    """Servos that the springs of their joints keep from their targets, all together, and joints pulled at sites."""
+    yield from _pulled(model)
     of, springs = model.simulation, model.simulation.model("jnt_stiffness")
     stiff = [each for each in servos(of) if springs[each.joint] > MOST * (springs[each.joint] + each.stiffness)]
     kept = {each: share for each in stiff if (share := _kept(of, each)) > MOST}
@@ -75,6 +78,27 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         f"{of.name('actuator', worst.actuator)}.",
         "0, or far below kp",
     )
+
+
+def _pulled(model: ReaderModel) -> Iterator[Suspect]:
+    """Each joint whose spring motors at sites cannot work against."""
+    of, springs = model.simulation, model.simulation.model("jnt_stiffness")
+    for joint in pulls(of):
+        if (left := _unpulled(of, joint)) > LITTLE:
+            name, gives = of.name("joint", joint), f"{pull(of, joint):.3g} N m (N)"
+            value = rounded((1 - left) * springs[joint] / 5)
+            says = f"{name} has a spring of {springs[joint]:.3g} N m/rad (N/m) against the {gives} of motors."
+            probe = Probe("share of the way that the spring keeps it from", "", _unpulled, (joint,), dynamic=False)
+            edits = model.set("joint", [joint], "stiffness", value)
+            yield Suspect((name,), "stiffness", f"{springs[joint]:g}", value, edits, probe, LITTLE, says, "far below")
+
+
+def _unpulled(of: Simulation, joint: int) -> float:
+    """The share of the way from the spring's rest to the farther end that all motors at sites leave."""
+    low, high = of.row("jnt_range", joint, 2) if of.model("jnt_limited")[joint] else (0.0, 0.0)
+    rest, spring = of.model("qpos_spring")[of.place(joint)], of.model("jnt_stiffness")[joint]
+    way = max(abs(low - rest), abs(high - rest))
+    return 1 - pull(of, joint) / (spring * way) if spring * way > 0 else 0.0
 
 
 def _most(of: Simulation, actuators: tuple[int, ...]) -> float:

@@ -590,6 +590,21 @@ def test_the_only_joint_of_a_robot_that_nothing_drives_is_told(waist: str, count
 
 
 @pytest.mark.parametrize(
+    ("left", "right", "told"),
+    [
+        pytest.param("", 'stiffness="1"', False, id="a-spring-of-its-own"),
+        pytest.param('stiffness="1"', 'stiffness="1"', True, id="the-spring-of-its-twin"),
+    ],
+)
+def test_a_spring_that_the_driven_twin_has_too_moves_nothing(left: str, right: str, told: bool) -> None:
+    text = rules()["joint-not-driven"].example("Bad")
+    for side, spring in (("left", left), ("right", right)):
+        text = text.replace(f'<joint name="{side}_arm"', f'<joint name="{side}_arm" {spring}')
+    found = examine(NativeEngine(), {"model.xml": text}, select=["joint-not-driven"]).hints
+    assert [each.elements for each in found] == [('joint "right_arm"',)] * told
+
+
+@pytest.mark.parametrize(
     ("given", "own", "mass", "written"),
     [
         ('kp="500" dampratio="1" forcerange="-1 1"', "", 2, {"of the class": "-22 22"}),

@@ -28,10 +28,10 @@ Good:
           <motor joint="left_arm" gear="10" ctrlrange="-1 1"/>
     +     <motor joint="right_arm" gear="10" ctrlrange="-1 1"/>
 
-The number: joints that no actuator, tendon, coupling or spring moves, where the twin of left and right is moved, or all
-others of three and more that are called alike but for a number or a finger, unless those hang as deep as each other and
-it does not; or the one other that is called so and hangs on the same body, with the same range and mass. So is the only
-loose joint with a range of a robot that has eight others and more. More than two are meant so.
+The number: joints that no actuator, tendon, coupling or spring of their own moves, where the twin of left and right is
+moved, or all others of three and more that are called alike but for a number or a finger, unless those hang as deep as
+each other and it does not; or the one other that is called so and hangs on the same body, with the same range and mass.
+So is the only loose joint with a range of a robot that has eight others and more. More than two are meant so.
 
 When it is wrong: a mechanism that is driven on one side, and whose other side the load closes.
 """
@@ -39,7 +39,7 @@ When it is wrong: a mechanism that is driven on one side, and whose other side t
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 
 from clinic.diagnosis.engine import HINGE, SLIDE, TRN_IN_PARENT, WRAP_JOINT
 from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, WELD, held, kind_of, sited
@@ -78,16 +78,22 @@ def _loose(of: Simulation) -> dict[int, int]:
     moved = _moved(of)
     if not moved:
         return {}
-    made = {}
+    springs, made = of.model("jnt_stiffness"), {}
     for pair in twins(of).pairs["joint"]:
-        some = [joint for joint in pair if joint in moved]
+        some = [joint for joint in pair if joint in _moved_of(pair, moved, springs)]
         if len(some) == 1 and _turns(of, *pair):
             made[pair[0] + pair[1] - some[0]] = some[0]
     for group in (*groups(of, "joint"), *_pairs(of)):
-        still = [joint for joint in group if joint not in moved]
+        still = [joint for joint in group if joint not in _moved_of(group, moved, springs)]
         if len(still) == 1 and _turns(of, *group) and not _elsewhere(of, still[0], group):
-            made[still[0]] = next(joint for joint in group if joint in moved)
-    return made or _only_one(of, moved)
+            made[still[0]] = next(joint for joint in group if joint != still[0])
+    return made or _only_one(of, moved | {joint for joint, stiffness in enumerate(springs) if stiffness})
+
+
+def _moved_of(group: Collection[int], moved: Collection[int], springs: Sequence[float]) -> set[int]:
+    """Those of alike joints that something moves: a spring does where it is not one that a driven joint has too."""
+    usual = {springs[joint] for joint in group if joint in moved}
+    return {joint for joint in group if joint in moved or (springs[joint] and springs[joint] not in usual)}
 
 
 def _only_one(of: Simulation, moved: Collection[int]) -> dict[int, int]:
@@ -131,7 +137,7 @@ def _turns(of: Simulation, *joints: int) -> bool:
 
 
 def _moved(of: Simulation) -> set[int]:
-    """The joints that an actuator, a tendon, a coupling or a spring moves; none where other things are driven."""
+    """The joints that an actuator, a tendon or a coupling moves; none where other things are driven."""
     kinds = [int(each) for each in of.model("actuator_trntype")]
     if any(kind > TRN_IN_PARENT and kind != TENDON for kind in kinds):
         return set()
@@ -151,4 +157,4 @@ def _moved(of: Simulation) -> set[int]:
             made |= {joint for end in held(of, each) for body in of.ancestors(end) for joint in of.joints_of(body)}
         else:
             return set()
-    return made | {joint for joint, stiffness in enumerate(of.model("jnt_stiffness")) if stiffness}
+    return made

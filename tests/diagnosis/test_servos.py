@@ -117,6 +117,22 @@ def test_what_explains_the_symptom_that_is_named_is_told_from_smaller_numbers_on
     assert not found.causes
 
 
+@pytest.mark.parametrize(("targets", "told"), [("-200 300", True), ("-1 1.5", False)])
+def test_targets_in_mm_of_a_slide_with_a_limited_force_are_told(targets, told):
+    rams = "".join(
+        f'<body pos="0 {i} 1"><joint name="ram{i}" type="slide" axis="1 0 0" range="-0.2 0.3" damping="50"/>'
+        '<geom size="0.05" mass="5"/></body>'
+        for i in range(2)
+    )
+    servos = "".join(
+        f'<position joint="ram{i}" kp="5000" kv="300" ctrlrange="{each}" forcerange="-300 300"/>'
+        for i, each in enumerate((targets, "-0.2 0.3"))
+    )
+    text = f"<mujoco><worldbody>{rams}</worldbody><actuator>{servos}</actuator></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["control-range-too-wide"]).hints
+    assert [each.value for each in found] == ["-0.2 0.3"] * told
+
+
 def test_a_servo_in_a_default_class_is_mended_there():
     text = ARM.format(
         above='<default><position kp="200"/></default>', joint="", actuator='<position joint="shoulder"/>'

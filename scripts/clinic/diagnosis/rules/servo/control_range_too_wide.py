@@ -24,7 +24,8 @@ Good:
 
 The number: after 1 s at each end of the control range the joint is more than 30 % of its range beyond a limit; or
 a hinge's targets lie more than 120 % of its range beyond (0.56 is the most in 55 healthy models with servos). A hint
-tells of some servos among others with targets more than 25 % of the range beyond.
+tells of some servos among others with targets more than 25 % of the range beyond, and of slides with a limited force
+from 50 times the range on.
 
 When it is wrong: a target beyond the limit as a way to command a force, as grippers do.
 """
@@ -50,6 +51,7 @@ CASE = "finger-passes-its-limit"
 BEYOND = 0.25  # of the joint's range
 PAST = 0.3
 FAR = 1.2  # of the joint's range
+MILLIMETRES = 50.0  # of the joint's range: a finger squeezes with a target that is less far
 TITLE_OF_FAR = "how far targets lie beyond a limit, as a share of the joint's range"
 NARROW = 0.12  # rad: a range of radians that was read as degrees
 
@@ -74,7 +76,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield from _suspect(model, rest, past_limit([each.actuator for each in rest]), PAST)
     yield from _suspect(model, far, _farthest_of(far), FAR)
     quiet = [each for each in wide if each not in far and each not in rest and not _amplified(model, each)]
-    quiet = [each for each in quiet if each.hinge or each.force == math.inf]  # fingers squeeze with a limited force
+    squeezing = [each for each in quiet if not each.hinge and each.force < math.inf and beyond(each) < MILLIMETRES]
+    quiet = [each for each in quiet if each not in squeezing]
     if 0 < 2 * len(quiet) <= len(servos(simulation)):
         yield from _suspect(model, quiet, _farthest_of(quiet), BEYOND, "hint")
 

@@ -224,6 +224,23 @@ def test_an_obstacle_that_nothing_touches_is_told(name, told):
 
 
 @pytest.mark.parametrize(
+    ("place", "camera", "told"),
+    [
+        pytest.param("0 0 0.1", 'pos="0.2 0 -0.13"', ["0.2 0 0.13"], id="sign"),
+        pytest.param("0 0 0.1", 'pos="0.2 0 -0.05"', [], id="above"),
+        pytest.param("0 0 0.1", 'pos="0.2 0 -0.13" euler="180 0 0"', [], id="looks-up"),
+        pytest.param("0 0 -0.01", "", [], id="lies-in-the-floor"),
+    ],
+)
+def test_a_camera_below_the_floor_is_told(place, camera, told):
+    car = f'<freejoint/><geom type="box" size="0.1 0.05 0.09"/><camera {{}}{camera}/>'
+    body = car.format("" if "euler" in camera or not camera else 'xyaxes="0 -1 0 0 0 1" ')
+    text = f'<mujoco><worldbody>{FLOOR}<body pos="{place}">{body}</body></worldbody></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text}, select=["camera-blocked"]).hints
+    assert [each.value for each in found if each.attribute == "pos"] == told
+
+
+@pytest.mark.parametrize(
     ("finger", "cube", "told"),
     [
         pytest.param('contype="2" conaffinity="2"', "", [("conaffinity", "3")], id="no-bit"),

@@ -26,6 +26,9 @@ around a visible geom of the body that carries the camera, and of what is fixed 
 whole robot; meshes are left out. All nine are told. What the camera is in does not count: of a shell only the outside
 is drawn. Nor does what is nearer than `znear` times the extent, 1 % of the model's size: it is cut off.
 
+A camera that is below a plane and does not look up is told too, where what carries it, or most of what there is to see,
+is above.
+
 When it is wrong: a camera that watches a part of its own mount.
 """
 
@@ -35,8 +38,8 @@ from collections.abc import Iterator
 from itertools import product
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import MESH
-from clinic.diagnosis.probes.vector import add, sub
+from clinic.diagnosis.engine import MESH, PLANE
+from clinic.diagnosis.probes.vector import add, dot, sub, times, transpose, written
 from clinic.diagnosis.probes.view import HEAD, axes, opening, things, through, turned
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -49,11 +52,13 @@ LEVEL = "hint"
 UNPLANTED = "few healthy models have a camera on a body"
 
 MOST = 8.5  # of nine rays
+UPRIGHT = 0.7  # cosine of a floor's slope
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each camera on a moving body that sees that body alone, or on a head that sees its robot alone."""
     of = model.simulation
+    yield from _buried(model)
     moving = set(of.moving_bodies)
     for camera, body in enumerate(of.model("cam_bodyid")):
         if int(body) in moving and _blocked(of, camera) > MOST:
@@ -66,6 +71,43 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             value = edits[-1].value if edits else "away from its mount"
             names = (of.name("camera", camera),)
             yield Suspect(names, "xyaxes", "", value, edits, probe, MOST, says, "a view past its mount", level="hint")
+
+
+def _buried(model: ReaderModel) -> Iterator[Suspect]:
+    """Each camera below a floor, with the sign of the coordinate that brings it above."""
+    of = model.simulation
+    for camera in range(of.count("camera")):
+        if (deep := _depth(of, camera)) <= 0:
+            continue
+        place = of.row("cam_pos", camera, 3)
+        probe = Probe("how deep the camera is below a floor", "m", _depth, (camera,), dynamic=False)
+        flipped = [written([-x if i == at else x for i, x in enumerate(place)]) for at in (2, 1, 0) if place[at]]
+        every = [model.set("camera", [camera], "pos", value) for value in flipped]
+        edits = next((each for each in every if each and model.measured(probe, each) <= 0), ())
+        says = f"It is {deep:.2g} m below a floor."
+        name, value = of.name("camera", camera), edits[0].value if edits else "above the floor"
+        yield Suspect((name,), "pos", written(place), value, edits, probe, 0, says, "above the floor")
+
+
+def _depth(of: Simulation, camera: int) -> float:
+    """How deep a camera is below a floor that what carries it is above; for one of the world, what there is to see."""
+    of.begin()
+    kinds, here, body = of.model("geom_type"), of.data_row("cam_xpos", camera, 3), int(of.model("cam_bodyid")[camera])
+    others = [of.data_row("geom_xpos", geom, 3) for geom in things(of)]
+    if body:
+        others = [of.data_row("xpos", body, 3)]
+    deepest = 0.0
+    for geom, kind in enumerate(kinds):
+        frame, size = of.data_row("geom_xmat", geom, 9), of.row("geom_size", geom, 3)
+        if int(kind) != PLANE or frame[8] < UPRIGHT:
+            continue
+        origin, up = of.data_row("geom_xpos", geom, 3), (frame[2], frame[5], frame[8])
+        x, y, z = times(transpose(frame), sub(here, origin))
+        beside = any(half and abs(at) > half for at, half in zip((x, y), size, strict=False))
+        above = [dot(up, sub(other, origin)) > 0 for other in others]
+        if not beside and 2 * sum(above) > len(above) and dot(up, axes(of, camera)[2]) < UPRIGHT:
+            deepest = max(deepest, -z)
+    return deepest
 
 
 def _blocked(of: Simulation, camera: int) -> float:

@@ -454,3 +454,13 @@ def test_numbered_sites_of_one_body_in_one_place_are_told(sites: str, values: li
     text = f'<mujoco><worldbody><body name="tray"><geom size="0.1"/>{sites}</body></worldbody></mujoco>'
     found = examine(NativeEngine(), {"model.xml": text}, select=["parts-coincide"]).hints
     assert [each.value for each in found] == values
+
+
+@pytest.mark.parametrize(("place", "told"), [("0 0 -16", ["0 0 -0.16"]), ("0 0 -0.16", []), ("0 0 -3", [])])
+def test_a_small_link_that_is_far_from_another_is_told_on_a_long_mechanism(place: str, told: list[str]) -> None:
+    camera = f'<body pos="{place}"><joint axis="0 1 0"/><geom size="0.15"/></body>'
+    yoke = f'<body pos="2 0 0"><joint axis="0 0 1"/><geom size="0.1"/>{camera}</body>'
+    jib = f'<body pos="0 0 1"><joint axis="0 1 0"/><geom type="box" size="1 0.1 0.1" pos="1 0 0"/>{yoke}</body>'
+    text = f"<mujoco><worldbody>{jib}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["link-far-off"]).hints
+    assert [each.value for each in found] == told

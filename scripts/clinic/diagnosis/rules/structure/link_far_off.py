@@ -22,14 +22,16 @@ Good:
     -       <body name="fore" pos="0 0 300">
     +       <body name="fore" pos="0 0 0.3">
 
-The number: how far a body with a joint is from the body that it hangs on, in sizes (radii of the largest geom) of its
-mechanism; told from 20 on, and from 2 m on.
+The number: how far a body with a joint is from the body that it hangs on, in radii of the largest geom of its
+mechanism; told from 20 on, and from 2 m on. 2.5 radii of the larger of the two bodies count for that one where they are
+less.
 
 When it is wrong: a carriage on a long cable that is not drawn, or a planet.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HFIELD, PLANE
@@ -45,7 +47,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "where a link belongs, only a drawing tells"
 
-FAR, METRES = 20.0, 2.0
+FAR, METRES, BESIDE = 20.0, 2.0, 0.4  # what two bodies count for beside the whole mechanism
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -60,10 +62,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         edit for body in found for edit in model.placed(body, [scaled * x for x in of.row("body_pos", body, 3)])
     )
     names = tuple(of.name("body", body) for body in found)
-    says = (
-        f"It is {norm(place):.3g} m from what it hangs on, {_apart(of, found[0]):.0f} times the largest part's radius."
-    )
-    probe = Probe("distance from what it hangs on", "of the largest radius", _farthest, tuple(found), dynamic=False)
+    says = f"It is {norm(place):.3g} m from what it hangs on, {_apart(of, found[0]):.0f} times the size of the parts."
+    probe = Probe("distance from what it hangs on", "of the size of the parts", _farthest, tuple(found), dynamic=False)
     value = written([scaled * x for x in place])
     yield Suspect(names, "pos", written(place), value, edits, probe, FAR, says, "below 20")
 
@@ -75,14 +75,20 @@ def _hung(model: ReaderModel) -> list[int]:
 
 
 def _apart(of: Simulation, body: int) -> float:
-    """How far a body is from its parent, in radii of the largest geom of its mechanism."""
+    """How far a body is from its parent, in sizes of its mechanism or of the two bodies."""
     owner, bodies, kinds = root_of(of), of.model("geom_bodyid"), of.model("geom_type")
-    radii = [
-        radius
-        for geom, radius in enumerate(of.model("geom_rbound"))
-        if int(kinds[geom]) not in (PLANE, HFIELD) and owner[int(bodies[geom])] in (0, owner[body])
-    ]
-    return norm(of.row("body_pos", body, 3)) / max(radii) if radii and max(radii) > 0 else 0.0
+    whole, parent, pair = [0.0], int(of.model("body_parentid")[body]), dict[int, float]()
+    for geom, radius in enumerate(of.model("geom_rbound")):
+        on = int(bodies[geom])
+        if int(kinds[geom]) in (PLANE, HFIELD):
+            continue
+        if owner[on] in (0, owner[body]):
+            whole.append(radius)
+        if on in (body, parent):
+            pair[on] = max(pair.get(on, 0.0), radius)
+    far, largest = norm(of.row("body_pos", body, 3)), max(whole)
+    near = max(pair.values()) / BESIDE if len(pair) == 2 else math.inf
+    return far / min(largest, near) if largest > 0 else 0.0
 
 
 def _farthest(of: Simulation, *bodies: int) -> float:

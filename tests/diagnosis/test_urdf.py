@@ -123,3 +123,17 @@ def test_an_origin_of_a_link_that_is_its_joints_is_told() -> None:
     twice = text.replace(origin, '<origin rpy="1.5708 0 0" xyz="0 0.2 -0.05"/>')
     found = [examine(NativeEngine(), {"r.urdf": each}, select=["place-twice"]).hints for each in (text, twice)]
     assert [[each.elements[0] for each in hints] for hints in found] == [[], ['body "wheel"']]
+
+
+@pytest.mark.parametrize(("upper", "told"), [("900", ["0 0.9"]), ("0.9", []), ("3", [])])
+def test_a_telescope_with_a_range_in_millimetres_is_told(upper: str, told: list[str]) -> None:
+    inertial = '<inertial><mass value="5"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+    shape = '<collision><origin xyz="0.5 0 0"/><geometry><box size="2 0.1 0.1"/></geometry></collision>'
+    links = "".join(f'<link name="{name}">{inertial}{shape}</link>' for name in ("jib", "boom"))
+    pan = '<link name="base"/><joint name="pan" type="continuous"><parent link="base"/><child link="jib"/></joint>'
+    slide = '<joint name="telescope" type="prismatic"><parent link="jib"/><child link="boom"/><origin xyz="0.6 0 0"/>'
+    slide += f'<axis xyz="1 0 0"/><limit lower="0" upper="{upper}" effort="400" velocity="1"/></joint>'
+    text = f'<robot name="crane">{pan}{links}{slide}</robot>'
+    found = examine(NativeEngine(), {"crane.urdf": text}, select=["slides-out"]).hints
+    assert [each.value for each in found] == told
+    assert all(each.after is not None and each.after <= 0 for each in found)

@@ -22,8 +22,8 @@ Good:
     +         <joint type="slide" axis="1 0 0" range="0 0.3" damping="5"/>
 
 The number: the gap, along the slide, between what moves and the body that carries it where the range ends, in lengths
-of what moves, told from 0 on; for a slide without a range, and for every one of a URDF, whether its body is called a
-drawer, a tray or a door. A slide with a spring is left alone.
+of what moves, told from 0 on; for a slide without a range, and for every one of a URDF below 50 lengths, whether its
+body is called a drawer, a tray or a door. A slide with a spring is left alone.
 
 When it is wrong: a carriage on a rail that is not drawn.
 """
@@ -35,6 +35,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HFIELD, PLANE, SLIDE
 from clinic.diagnosis.probes.shape import boxes
+from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -45,6 +46,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "few healthy models have drawers"
 
+MILLIMETRES = 50.0  # of its own length, which no guide has
 FINGER = re.compile(r"(?i)finger|grip|jaw|claw|hand(?!le)")
 GUIDED = re.compile(r"drawer|tray|(?<![a-z])door|shelf|lid(?![a-z])", re.IGNORECASE)
 
@@ -66,7 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if FINGER.search(called):
             continue
         named = bool(GUIDED.search(called))
-        if urdf and not named:
+        if urdf and not named and _gap(of, joint) < MILLIMETRES:
             continue
         if not of.model("jnt_limited")[joint]:
             if named:
@@ -80,7 +82,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             says = f"Where its range ends it is {gap:.3g} times its own length out of {guide}."
             probe = Probe("gap to what carries it at the end of its range", "lengths", _gap, (joint,), dynamic=False)
             told = (of.name("joint", joint), of.name("body", body))
-            yield Suspect(told, "range", f"{low:.3g} {high:.3g}", "", (), probe, 0.0, says, "a range within its guide")
+            value = written([low / 1000, high / 1000]) if gap > MILLIMETRES else ""
+            edits = model.set("joint", [joint], "range", value) if value else ()
+            healthy = "a range within its guide"
+            yield Suspect(told, "range", f"{low:.3g} {high:.3g}", value, edits, probe, 0.0, says, healthy)
 
 
 def _unlimited(of: Simulation, joint: int) -> float:

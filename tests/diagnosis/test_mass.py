@@ -101,6 +101,22 @@ def test_links_in_grams_for_each_cubic_centimetre_are_told_beside_a_heavy_trunk(
 
 
 @pytest.mark.parametrize(
+    ("ball", "option", "told"),
+    [
+        pytest.param('density="7.8"', "", ["7800"], id="steel"),
+        pytest.param('density="25"', "", [], id="foam"),
+        pytest.param('density="7.8" mass="0.03"', "", [], id="with-a-mass"),
+        pytest.param('density="7.8"', '<option density="1000"/>', [], id="in-water"),
+    ],
+)
+def test_a_free_body_in_grams_for_each_cubic_centimetre_is_told(ball: str, option: str, told: list[str]):
+    body = f'<body pos="0 0 1"><freejoint/><geom size="0.01" {ball}/></body>'
+    text = f'<mujoco>{option}<worldbody><geom type="plane" size="5 5 1"/>{body}</worldbody></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text}, select=["lighter-than-air"]).hints
+    assert [each.value for each in found] == told
+
+
+@pytest.mark.parametrize(
     ("second", "third", "told"),
     [
         pytest.param("8.4 0.21", "8.4 0.21", True, id="copied"),

@@ -22,7 +22,8 @@ Good:
 The number: the mass of the air that its geoms displace (1.2 kg/m3) over its own, for everything that moves together,
 and for single links with a joint. More than 300 tells a cause: Gymnasium's second pusher pushes a puck of 120, its
 first one of 120,000. A model in centimetres has 10. More than 1, under the gravity of metres and without a fluid, tells
-a hint: a density of 1.2 in g/cm3 is taken for kg/m3, and a cube has a mass of milligrams.
+a hint: a density of 1.2 in g/cm3 is taken for kg/m3, and a cube has a mass of milligrams. A free body is told so from a
+written density of 15 down: of what is solid even foam has more, and 7.8 is steel in g/cm3.
 
 When it is wrong: a balloon. Where all of the model is so, it may be written in mm: another rule tells that.
 """
@@ -45,6 +46,7 @@ FAMILIES = ("falls-through", "explodes", "stuck")
 SINCE = "0.1"
 
 AIR, LIMIT, LIGHT, FEW = 1.2, 300.0, 1.0, 3
+FOAM = AIR / 15  # of the lightest, over the air in its place
 METRES, CENTIMETRES = (5.0, 20.0), 500.0  # m/s2
 
 
@@ -57,6 +59,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     in_metres = METRES[0] < math.hypot(*of.model("opt.gravity")) < METRES[1]
     most = LIGHT if in_metres and not of.model("opt.density")[0] else LIMIT  # in a fluid it may float
     yield from _links(model, most)
+    if most == LIGHT:
+        yield from _free(model)
     for root, bodies in _groups(of):
         geoms = [geom for body in bodies for geom in of.geoms_of(body)]
         if not any(solid(of, geom) for geom in geoms):
@@ -125,6 +129,24 @@ def _links(model: ReaderModel, most: float) -> Iterator[Suspect]:
             "wood has 500 kg/m3, air 1.2",
             level="hint",
         )
+
+
+def _free(model: ReaderModel) -> Iterator[Suspect]:
+    """The free bodies whose density is written in g/cm3, each, where it makes them heavier than air."""
+    of = model.simulation
+    for body in of.free_bodies:
+        geoms = of.geoms_of(body)
+        texts = {model.value("geom", geom, "density") or "" for geom in geoms if solid(of, geom)}
+        own = inertial(model, body) is not None or any(model.value("geom", geom, "mass") for geom in geoms)
+        if own or len(texts) != 1 or of.below(body) != [body] or not FOAM < _air(of, body) <= LIGHT:
+            continue
+        text, name = texts.pop(), of.name("body", body)
+        if text:
+            value = f"{1000 * float(text):g}"
+            edits = model.set("geom", geoms, "density", value)
+            says = f"{name} has {text} kg/m3, less than foam; in g/cm3 it is that of a solid."
+            probe = Probe("mass of the air in its place over its own", "", _air, (body,), dynamic=False)
+            yield Suspect((name,), "density", text, value, edits, probe, FOAM, says, "water has 1000", level="hint")
 
 
 def _air(simulation: Simulation, *bodies: int) -> float:

@@ -241,6 +241,20 @@ def test_a_camera_below_the_floor_is_told(place, camera, told):
 
 
 @pytest.mark.parametrize(
+    ("wall", "walls"), [('class="wall"', 2), ('class="rim_visual"', 0), ('class="wall" contype="1"', 0)]
+)
+def test_walls_of_a_tray_that_nothing_touches_are_told(wall, walls):
+    rims = "".join(f'<geom {wall} type="box" pos="{x} 0 0.012" size="0.004 0.15 0.012"/>' for x in (-0.146, 0.146))
+    tray = f'<joint axis="1 0 0" range="-8 8"/><geom type="box" size="0.15 0.15 0.005" pos="0 0 -0.005"/>{rims}'
+    ball = '<body pos="0 0 0.51"><freejoint/><geom size="0.01"/></body>'
+    masks = '<geom contype="0" conaffinity="0"/>'
+    classes = "".join(f'<default class="{name}">{masks}</default>' for name in ("wall", "rim_visual"))
+    text = f'<mujoco><default>{classes}</default><worldbody>{FLOOR}<body pos="0 0 0.5">{tray}</body>{ball}</worldbody>'
+    found = examine(NativeEngine(), {"model.xml": f"{text}</mujoco>"}, select=["touches-nothing"]).hints
+    assert [len(each.elements) for each in found] == [walls] * bool(walls)
+
+
+@pytest.mark.parametrize(
     ("finger", "cube", "told"),
     [
         pytest.param('contype="2" conaffinity="2"', "", [("conaffinity", "3")], id="no-bit"),

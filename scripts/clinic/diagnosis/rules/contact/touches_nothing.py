@@ -39,7 +39,8 @@ The number: bodies that are called a wheel, caster, tyre, foot, finger, pad, jaw
 collides, nor has what hangs on them, while other parts of the same robot collide.
 
 So is a geom that stands still and is called a floor, ground, terrain, table, step, stair, ramp, wall, obstacle or
-barrier, has masks of zero, and has nothing that stands still and collides around it or in its body.
+barrier, has masks of zero, and has nothing that stands still and collides around it or in its body. One of a tray that
+moves is told, by its class too, where another geom of the body collides, and not around it.
 
 And so are all fingers, pads, jaws and claws whose masks have no bit in common with those of any free body.
 
@@ -56,7 +57,7 @@ from clinic.diagnosis.probes.shape import boxes, clear, collides, in_pairs, mask
 from clinic.diagnosis.probes.vector import Vector
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A foot, wheel or finger that touches nothing"
 FAMILIES = ("falls-through", "slips", "drifts")
@@ -84,6 +85,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     yield from _ground(model)
     yield from _fingers(model)
+    yield from _walls(model)
     found = _bare(of)
     if not found:
         return
@@ -142,6 +144,37 @@ def _ground(model: ReaderModel) -> Iterator[Suspect]:
     edits = model.set("geom", found, "contype", "1") + model.set("geom", found, "conaffinity", "1")
     probe = Probe("floors, tables and steps that nothing touches", "", _count_ground, (), dynamic=False)
     yield Suspect(names, "contype, conaffinity", masks, "1, 1", edits, probe, 0, says, "a geom that collides")
+
+
+def _walls(model: ReaderModel) -> Iterator[Suspect]:
+    """What is called a wall, by its name or class, of a tray that moves, and cannot be touched, all together."""
+    of = model.simulation
+    elements = {geom: model.element("geom", geom) for geom in range(of.count("geom"))} if of.free_bodies else {}
+    classes = {geom: each.get("class") for geom, each in elements.items() if each is not None}
+    called = {geom: f"{of.names('geom')[geom]} {name}" for geom, name in classes.items()}
+    named = tuple(geom for geom, name in called.items() if GROUND.search(name) and not SEEN.search(name))
+    found = _passed(of, *named)
+    if not found:
+        return
+    names, masks = tuple(of.name("geom", geom) for geom in found), masks_told(of, found[0])
+    edits = model.set("geom", found, "contype", "1") + model.set("geom", found, "conaffinity", "1")
+    says = f"{names[0]} is called a wall and touches nothing, and another geom of its body does."
+    probe = how_many("walls that nothing touches", _passed, *named)
+    yield Suspect(names, "contype, conaffinity", masks, "1, 1", edits, probe, 0, says, "a geom that collides")
+
+
+def _passed(of: Simulation, *geoms: int) -> list[int]:
+    """Those of some geoms that collide with nothing, on a moving body of which another geom does."""
+    of.begin()
+    bodies, every, paired = of.model("geom_bodyid"), boxes(of, range(of.count("geom"))), in_pairs(of)
+    made = []
+    for geom in (each for each in geoms if not solid(of, each) and each not in paired):
+        body = int(bodies[geom])
+        mates = [each for each in of.geoms_of(body) if solid(of, each)]
+        tray = body in of.moving_bodies and body not in of.free_bodies and mates
+        if tray and not any(_around(of, every, each, geom) for each in mates):
+            made.append(geom)
+    return made
 
 
 def _count_ground(of: Simulation) -> float:

@@ -26,6 +26,21 @@ TALL = """<mujoco>
   </worldbody>
 </mujoco>
 """
+CORNER = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+PART = "<asset><mesh name='part' file='{}'/></asset><worldbody><geom type='mesh' mesh='part'/></worldbody>"
+FOLDERS = {  # of which MuJoCo finds all files where it has the path of the model, and not where it has its text
+    "a file that is not in the folder of meshes": {
+        "parts/part.obj": CORNER,
+        "robots/arm/part.xml": f"<mujoco>{PART.format('../../parts/part.obj')}</mujoco>",
+        "robots/arm/model.xml": "<mujoco><compiler meshdir='../../parts'/><include file='part.xml'/></mujoco>",
+    },
+    "a file beside an included one of an included one": {
+        "parts/one/part.obj": CORNER,
+        "parts/part.xml": f"<mujoco>{PART.format('one/part.obj')}</mujoco>",
+        "parts/scene.xml": "<mujoco><include file='part.xml'/></mujoco>",
+        "robots/arm/model.xml": "<mujoco><include file='../../parts/scene.xml'/></mujoco>",
+    },
+}
 DIES_ON_A_RULE = """
 import base64, os, pickle, sys
 from clinic.diagnosis import process
@@ -61,11 +76,19 @@ def test_the_reader_s_file_is_left_as_it_is_and_the_folder_too(tmp_path):
 
 
 def test_files_that_lie_on_no_disk_are_given_beside_the_text():
-    corner = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
     asset = '<asset><mesh name="part" file="part.obj"/></asset>'
     text = f'<mujoco>{asset}<worldbody><geom type="mesh" mesh="part"/></worldbody></mujoco>'
     assert "missing-file" in {each.rule for each in diagnose(text).hints}
-    assert not diagnose(text, assets={"part.obj": corner}).error
+    assert not diagnose(text, assets={"part.obj": CORNER.encode()}).error
+
+
+@pytest.mark.parametrize("files", FOLDERS.values(), ids=FOLDERS.keys())
+def test_files_are_found_as_mujoco_finds_them_for_a_path(tmp_path, files):
+    for name, text in files.items():
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    assert not diagnose(tmp_path / "robots/arm/model.xml", select=["masks"]).error
 
 
 def test_where_the_engine_dies_that_is_a_finding_and_the_other_rules_are_tried(monkeypatch):

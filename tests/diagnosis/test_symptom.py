@@ -6,12 +6,11 @@ from pathlib import Path
 
 import pytest
 from clinic.diagnosis.bench.healthy import survey
-from clinic.diagnosis.diagnose import read_file
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.process import diagnose
 from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.symptom import code_of, measure
-from clinic.diagnosis.texts import read_texts
+from clinic.diagnosis.texts import read_file, read_texts
 from clinic.record.case import load_case
 from clinic.record.checkout import cache_folder
 from clinic.record.families import families

@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import NamedTuple
 
 from clinic.diagnosis.edit import Edit, apply
@@ -20,7 +19,6 @@ from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import read_source
 from clinic.diagnosis.stand_ins import StandIns
 from clinic.diagnosis.suspect import Suspect
-from clinic.diagnosis.texts import decoded
 
 LIMIT = 20.0  # s for a start, after which no further rule is tried
 OF_SHAPES = {"contact", "mass", "parts-coincide"}  # rules, by area or id, that boxes in the place of meshes mislead
@@ -190,11 +188,3 @@ class _Trial:
             and not meshes & {*each.suspect.elements}
         ]
         return made._replace(found=kept)
-
-
-def read_file(name: str) -> str | None:
-    """The text of a file; None where there is none that is text."""
-    try:
-        return decoded(Path(name).read_bytes())[0]
-    except (OSError, ValueError):
-        return None

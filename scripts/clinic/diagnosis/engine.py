@@ -82,7 +82,7 @@ class Engine(Protocol):
 
         Args:
             main: The model's text, MJCF or URDF.
-            files: Texts that it includes, by the name as written, in place of those on disk.
+            files: Texts that it includes, by path from the model's folder, in place of those on disk.
 
         Raises:
             CompileError: If MuJoCo does not accept it.

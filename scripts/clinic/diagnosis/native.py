@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from functools import partial
 from typing import Any
 from weakref import WeakSet
 
@@ -11,8 +13,10 @@ import mujoco
 import numpy as np
 
 from clinic.diagnosis.engine import Compiled, CompileError, Contact
+from clinic.diagnosis.texts import read_file
 
 OBJECTS = {"joint": "njnt", "camera": "ncam", "equality": "neq", "actuator": "nu", "dof": "nv", "sensor": "nsensor"}
+MAIN, UNOPENED = "clinic-main.xml", "opening file"
 
 
 class NativeModel:
@@ -132,9 +136,28 @@ class NativeEngine:
         mujoco.set_mju_user_warning(lambda _: None)
 
     def compile(self, main: str, files: Mapping[str, str]) -> Compiled:
+        texts = {name: text.encode() for name, text in files.items()}
         try:
-            assets = self.assets | {name: text.encode() for name, text in files.items()}
-            return NativeModel(lambda: mujoco.MjModel.from_xml_string(main, assets), self.made)
+            return self._loaded(mujoco.MjModel.from_xml_string, main, texts)
+        except CompileError as error:
+            if UNOPENED not in str(error):
+                raise
+            with suppress(CompileError):
+                return self._as_file(main, files)
+            raise
+
+    def _as_file(self, main: str, files: Mapping[str, str]) -> NativeModel:
+        """The same by absolute paths: MuJoCo loses a `..` of what it puts together of relative folders.
+
+        Included texts that are as on disk are read there: a given one would stand in for all files of its name.
+        """
+        changed = {MAIN: main} | {name: text for name, text in files.items() if text != read_file(name)}
+        texts = {os.path.abspath(name): text.encode() for name, text in changed.items()}
+        return self._loaded(mujoco.MjModel.from_xml_path, os.path.abspath(MAIN), texts)
+
+    def _loaded(self, load: Callable[..., mujoco.MjModel], main: str, texts: dict[str, bytes]) -> NativeModel:
+        try:
+            return NativeModel(partial(load, main, self.assets | texts), self.made)
         except (ValueError, mujoco.FatalError) as error:
             raise CompileError(str(error)) from None
 

@@ -13,10 +13,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from clinic.diagnosis.diagnose import examine, read_file
+from clinic.diagnosis.diagnose import examine
 from clinic.diagnosis.finding import KILLED, LATE, Diagnosis, ending
 from clinic.diagnosis.simulation import Start, StartError
-from clinic.diagnosis.texts import decoded, read_texts
+from clinic.diagnosis.texts import decoded, read_file, read_texts
 
 LIMIT = 60.0  # s, for one process
 MEMORY = 4 * 2**30  # bytes

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
-from clinic.diagnosis.texts import well_formed
+from clinic.diagnosis.texts import beside, well_formed
 
 HEAD = re.compile(rb"""<[^\s/>]+(?:\s*[^\s=/>]+\s*=\s*(?:"[^"]*"|'[^']*'))*\s*/?>""")
 ATTRIBUTE = re.compile(rb"""\s*(?P<name>[^\s=/>"']+)\s*=\s*(?:"[^"]*"|'[^']*')""")
@@ -95,7 +95,7 @@ class Source:
     """The texts of a model and their elements.
 
     Args:
-        texts: The texts by file, the main one first; an included one by the name that is written in `<include>`.
+        texts: The texts by file, the main one first; an included one by its path from the model's folder.
 
     Attributes:
         comments: The comments by file and offset.
@@ -238,6 +238,8 @@ class Source:
         made: list[Element] = []
         for child in element.children:
             name = child.get("file")
+            if name not in self.texts and child.file != self.main:
+                name = beside(child.file, name)
             if child.tag == "include" and name in self.texts and depth < 20:
                 self.included.setdefault(name, child)
                 root = self._parsed(name)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import posixpath
 import re
 from collections.abc import Callable
+from pathlib import Path
 
 PART = re.compile(rb"""<!--(?P<comment>.*?)-->|(?P<head><[^\s!?/>](?:"[^"]*"|'[^']*'|[^"'<>])*>)""", re.DOTALL)
 VALUE = re.compile(rb"""=\s*(?P<value>"[^"]*"|'[^']*')(?P<near>(?=[^\s/>]))?""")
@@ -69,7 +70,7 @@ def decoded(content: bytes) -> tuple[str, str]:
 
 
 def read_texts(main: str, name: str, read: Callable[[str], str | None]) -> dict[str, str]:
-    """The text of a model and those that it includes, by the names that are written.
+    """The text of a model and those that it includes, by their paths from the model's folder.
 
     Args:
         main: The model's text.
@@ -80,10 +81,24 @@ def read_texts(main: str, name: str, read: Callable[[str], str | None]) -> dict[
     while left:
         around, text = left.pop()
         for found in re.findall(r"<include\s[^>]*?file\s*=\s*[\"']([^\"']+)[\"']", text):
-            beside = posixpath.join(posixpath.dirname(around), found) if around != name else found
-            inner = read(found)
-            inner = read(beside) if inner is None else inner
-            if inner is not None and found not in texts:
-                texts[found] = inner
-                left.append((found, inner))
+            for path in (found, found if around == name else beside(around, found)):
+                if path in texts:
+                    break
+                if (inner := read(path)) is not None:
+                    texts[path] = inner
+                    left.append((path, inner))
+                    break
     return texts
+
+
+def beside(file: str, named: str) -> str:
+    """The path of a file that another one names, where it lies beside that."""
+    return posixpath.join(posixpath.dirname(file), named)
+
+
+def read_file(name: str) -> str | None:
+    """The text of a file; None where there is none that is text."""
+    try:
+        return decoded(Path(name).read_bytes())[0]
+    except (OSError, ValueError):
+        return None

@@ -20,7 +20,7 @@ from clinic.diagnosis.bench.faults.servo import with_servos
 from clinic.diagnosis.bench.faults.twins import TWINS
 from clinic.diagnosis.bench.harm import HARMS
 from clinic.diagnosis.bench.healthy import Healthy
-from clinic.diagnosis.diagnose import examine, read_file
+from clinic.diagnosis.diagnose import examine
 from clinic.diagnosis.edit import apply, diff
 from clinic.diagnosis.finding import Finding
 from clinic.diagnosis.native import NativeEngine, NativeModel
@@ -28,7 +28,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import rules
 from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import Source
-from clinic.diagnosis.texts import read_texts
+from clinic.diagnosis.texts import read_file, read_texts
 
 ATTEMPTS = 8  # models tried for a plant that does harm
 STRIDE = 4  # robots from one plant of a kind to the next

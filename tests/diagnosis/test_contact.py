@@ -374,3 +374,19 @@ def test_gravity_that_points_the_wrong_way_keeps_the_size_that_it_has_on_another
     text = f'<mujoco><option gravity="{gravity}"/><worldbody>{plane}{box}</worldbody></mujoco>'
     (found, *_) = examine(NativeEngine(), {"model.xml": text}, select=["gravity"]).causes
     assert (found.attribute, found.value) == ("gravity", value)
+
+
+@pytest.mark.parametrize(("ratio", "told"), [(5, False), (10, True)])
+def test_impratio_hardens_the_contact_itself_under_pyramidal_cones(ratio, told):
+    box = BOX.format(z=0.05, more=' mass="1"')
+
+    def depth(option: str) -> float:
+        text = f"<mujoco><option {option}/><worldbody>{FLOOR}{box}</worldbody></mujoco>"
+        compiled = NativeEngine().compile(text, {})
+        compiled.step(1000)
+        found = examine(NativeEngine(), {"model.xml": text}, select=["impratio-without-elliptic"]).hints
+        assert len(found) == ("elliptic" not in option and "impratio" in option and told)
+        return 0.05 - compiled.data("qpos")[2]
+
+    assert depth(f'impratio="{ratio}"') == pytest.approx(depth("") / ratio, rel=0.1)
+    assert depth(f'impratio="{ratio}" cone="elliptic"') == pytest.approx(depth(""), rel=0.1)

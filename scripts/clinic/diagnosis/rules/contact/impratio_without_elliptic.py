@@ -1,8 +1,8 @@
 """A high `impratio` under pyramidal friction cones.
 
-`impratio` above 1 makes friction harder than the normal force, so that what is grasped creeps less. It is defined by
-elliptic cones; with pyramidal ones, the default, the manual does not recommend it: normal and friction are mixed in
-each row, and contacts become hard and uneven instead.
+`impratio` above 1 makes friction harder than the normal force, so that what is grasped creeps less. With elliptic cones
+it does that alone. Pyramidal ones, the default, have the normal force and friction in each row: creep is less there,
+too, but not as little, and the contact itself gets harder than its `solref` and `solimp` say.
 
 Bad:
 
@@ -22,10 +22,12 @@ Good:
     -   <option impratio="10"/>
     +   <option impratio="10" cone="elliptic"/>
 
-The number: `impratio` itself, with the cone that it needs. MuJoCo's manual, XML reference, `option-impratio`: *it is
-not recommended to use high impratio values with pyramidal cones.*
+The number: `impratio` itself; up to 5 nothing is said. A box of 1 kg that rests on four corners sinks in by 0.10 mm,
+and with pyramidal cones and 10 by 0.01 mm. The pin of `grasp-creeps` slides by 3.6 mm/s; with 10 it is 0.6 mm/s, and
+0.2 mm/s with elliptic cones as well. MuJoCo's manual, XML reference, `option-impratio`: *it is not recommended to use
+high impratio values with pyramidal cones.*
 
-When it is wrong: a model that nothing is held in; so it is a hint.
+When it is wrong: a model that may have contacts as hard as that; so it is a hint.
 """
 
 from __future__ import annotations
@@ -40,8 +42,9 @@ TITLE = "A high impratio under pyramidal cones"
 FAMILIES = ("slips",)
 SINCE = "0.1"
 LEVEL = "hint"
+MINOR = True
 UNPLANTED = "what it does hangs on what is held, and most healthy models hold nothing"
-MOST = 1.0
+MOST = 5.0
 
 
 def _uneven(simulation: Simulation) -> float:
@@ -53,8 +56,20 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     ratio = _uneven(model.simulation)
     if ratio > MOST:
         probe = Probe("impratio under pyramidal cones", "", _uneven, dynamic=False)
-        says = f'impratio {ratio:g} is defined by cone="elliptic", and this model has pyramidal cones.'
+        says = (
+            f"With pyramidal cones impratio {ratio:g} hardens the normal force as well, beyond solref and solimp, and "
+        )
+        says += "slows creep less than with elliptic ones."
         edits = model.option("cone", "elliptic", "option")
         yield Suspect(
-            ("the friction cone",), "cone", "pyramidal", "elliptic", edits, probe, MOST, says, "1", level="hint"
+            ("the friction cone",),
+            "cone",
+            "pyramidal",
+            "elliptic",
+            edits,
+            probe,
+            MOST,
+            says,
+            f"at most {MOST:g}",
+            level="hint",
         )

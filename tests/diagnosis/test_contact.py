@@ -186,8 +186,16 @@ def test_a_terrain_from_a_file_is_told_in_words_where_contacts_are_lost(cells, t
     assert [(each.elements[0], each.edit) for each in found.hints] == [('hfield "hills"', ())] * told
 
 
-@pytest.mark.parametrize(("x", "rule"), [(0, "hull-over-hole"), (0.055, "overlap-at-start")])
-def test_a_bar_in_the_opening_of_a_hook_is_no_overlap(x, rule):
+def arm(hand: str) -> str:
+    hinge = '<joint axis="0 0 1"/><geom size="0.01" pos="0 0 1"/>'
+    return f"<body>{hinge}<body>{hinge}{hand}</body></body>"
+
+
+@pytest.mark.parametrize(
+    ("x", "of_arms", "rules"),
+    [(0, False, ["hull-over-hole"]), (0.055, False, ["overlap-at-start"]), (0, True, [])],
+)
+def test_a_bar_in_the_opening_of_a_hook_is_no_overlap(x, of_arms, rules):
     """The hook is a U of three plates, open upwards; the second bar goes through one of them."""
     plates = [((-0.06, 0.06), (-0.06, -0.05)), ((-0.06, -0.05), (-0.06, 0.06)), ((0.05, 0.06), (-0.06, 0.06))]
     corners, faces = [], []
@@ -197,13 +205,15 @@ def test_a_bar_in_the_opening_of_a_hook_is_no_overlap(x, rule):
         quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
         faces += [(first + a, first + b, first + c) for q in quads for a, b, c in (q[:3], (q[0], q[2], q[3]))]
     numbers = [" ".join(f"{each:g}" for one in of for each in one) for of in (corners, faces)]
+    bar = f'<geom name="bar" type="capsule" fromto="{x} -.3 0 {x} .3 0" size="0.02"/>'
+    hook = '<geom name="hook" type="mesh" mesh="hook"/>'
+    things = arm(bar) + arm(hook) if of_arms else f"{bar}<body><freejoint/>{hook}</body>"
     text = (
-        f'<mujoco><asset><mesh name="hook" vertex="{numbers[0]}" face="{numbers[1]}"/></asset><worldbody>'
-        f'<geom name="bar" type="capsule" fromto="{x} -.3 0 {x} .3 0" size="0.02"/>'
-        '<body><freejoint/><geom name="hook" type="mesh" mesh="hook"/></body></worldbody></mujoco>'
+        f'<mujoco><asset><mesh name="hook" vertex="{numbers[0]}" face="{numbers[1]}"/></asset>'
+        f"<worldbody>{things}</worldbody></mujoco>"
     )
     found = examine(NativeEngine(), {"model.xml": text}, select=["hull-over-hole", "overlap-at-start"])
-    assert [each.rule for each in found.causes] == [rule]
+    assert [each.rule for each in found.causes] == rules
 
 
 @pytest.mark.parametrize(("others", "told"), [(3, True), (1, False)])

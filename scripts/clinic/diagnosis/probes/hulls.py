@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from clinic.diagnosis.engine import CAPSULE, CYLINDER, MESH, SPHERE, Contact
 from clinic.diagnosis.probes.overlap import beginning
 from clinic.diagnosis.probes.shape import root_of
-from clinic.diagnosis.probes.surface import SDF, Triangle, nearest, triangles
+from clinic.diagnosis.probes.surface import SDF, Triangle, jointed_roots, nearest, triangles
 from clinic.diagnosis.probes.vector import Vector, add, at, cross, dot, sub, times
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
@@ -25,7 +25,8 @@ def closed_holes(simulation: Simulation) -> dict[tuple[int, int], float]:
     """The depth, as a share of the smaller one's radius, of pairs at the start whose surfaces do not meet.
 
     They are meshes, or a mesh and a ball, capsule or cylinder. Parts of one mechanism are left out: how they nest is
-    `overlap_of_relatives`'s; and of two meshes those of which one does not move.
+    `overlap_of_relatives`'s; two mechanisms that begin in each other; and of two meshes those of which one does not
+    move.
     """
     kinds, radii = simulation.model("geom_type"), simulation.model("geom_rbound")
     owner, bodies = root_of(simulation), simulation.model("geom_bodyid")
@@ -34,7 +35,7 @@ def closed_holes(simulation: Simulation) -> dict[tuple[int, int], float]:
         share = -contact.distance / max(min(radii[geom] for geom in contact.geoms), 1e-9)
         meshes = [geom for geom in contact.geoms if int(kinds[geom]) in (MESH, SDF)]
         trees = {owner[int(bodies[geom])] for geom in contact.geoms}
-        if len(trees) < 2 or contact.force <= 0 or share <= DEEP:
+        if len(trees) < 2 or trees <= jointed_roots(simulation) or contact.force <= 0 or share <= DEEP:
             continue
         if len(meshes) == 2:
             apart = 0 not in trees and not _meet(simulation, *meshes)

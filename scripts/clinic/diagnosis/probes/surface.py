@@ -33,7 +33,7 @@ def touched_off_surface(simulation: Simulation) -> dict[int, float]:
         return made
     owner, bodies = root_of(simulation), simulation.model("geom_bodyid")
     hung = _hung(simulation)
-    jointed = {owner[simulation.body_of("joint", joint)] for joint in _inner_joints(simulation)}
+    jointed = jointed_roots(simulation)
     simulation.begin()
     for _ in simulation.run(simulation.begin_with.duration, SAMPLES):
         places, frames = simulation.data("geom_xpos"), simulation.data("geom_xmat")
@@ -56,10 +56,11 @@ def _hung(simulation: Simulation) -> set[tuple[int, int]]:
     return {(above, root) for root in roots(simulation) for above in simulation.ancestors(root)[1:-1]}
 
 
-def _inner_joints(simulation: Simulation) -> list[int]:
-    """The joints between two bodies that move."""
-    owner, bodies = root_of(simulation), simulation.model("jnt_bodyid")
-    return [joint for joint, body in enumerate(bodies) if owner[int(body)] != int(body)]
+@kept
+def jointed_roots(simulation: Simulation) -> set[int]:
+    """The roots of the trees with a joint between two bodies that move."""
+    owner, bodies = root_of(simulation), (int(body) for body in simulation.model("jnt_bodyid"))
+    return {owner[body] for body in bodies if owner[body] != body}
 
 
 @kept

@@ -137,3 +137,41 @@ def test_a_telescope_with_a_range_in_millimetres_is_told(upper: str, told: list[
     found = examine(NativeEngine(), {"crane.urdf": text}, select=["slides-out"]).hints
     assert [each.value for each in found] == told
     assert all(each.after is not None and each.after <= 0 for each in found)
+
+
+CUP = """
+<robot name="cup">
+  <link name="base">
+    {visual}<collision><geometry><mesh filename="cup.obj"/></geometry></collision>
+  </link>
+  <link name="ball">
+    <inertial>
+      <origin xyz="0 0 0"/><mass value="0.1"/>
+      <inertia ixx="0.0004" ixy="0" ixz="0" iyy="0.0004" iyz="0" izz="0.0004"/>
+    </inertial>
+    <collision><geometry><sphere radius="0.02"/></geometry></collision>
+  </link>
+  <joint name="lift" type="{kind}">
+    <parent link="base"/><child link="ball"/><origin xyz="0.01 0 0.15"/><axis xyz="0 0 1"/>
+    <limit lower="-0.2" upper="0.2" effort="1" velocity="1"/>
+  </joint>
+</robot>
+"""
+
+
+@pytest.mark.parametrize("visual", ["", '<visual><geometry><mesh filename="shell.glb"/></geometry></visual>'])
+@pytest.mark.parametrize(("kind", "told"), [("prismatic", False), ("floating", True)])
+def test_a_base_that_is_the_world_is_of_one_mechanism_with_its_limbs(tmp_path, monkeypatch, visual, kind, told):
+    monkeypatch.chdir(tmp_path)
+    rings = [(0.06, 0), (0.06, 0.08), (0.05, 0.08), (0.05, 0.02)]
+    corners = [(x * r, y * r, z) for r, z in rings for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    edges = [(4 * k + a, 4 * k + (a + 1) % 4) for k in range(3) for a in range(4)]
+    sides = [(one, other, other + 4, one + 4) for one, other in edges]
+    quads = [(3, 2, 1, 0), *sides, (12, 13, 14, 15)]
+    lines = [f"v {x} {y} {z}" for x, y, z in corners] + ["f " + " ".join(str(k + 1) for k in each) for each in quads]
+    (tmp_path / "cup.obj").write_text("\n".join(lines))
+    (tmp_path / "shell.glb").write_bytes(b"glTF")
+    text = CUP.format(visual=visual, kind=kind)
+    found = examine(NativeEngine(), {"cup.urdf": text}, select=["hull-over-hole"])
+    assert not found.error
+    assert bool(found.causes or found.hints) == told

@@ -34,7 +34,6 @@ UNFUSED = {
     "boundmass": "1e-9",
     "boundinertia": "1e-15",
     "inertiagrouprange": "0 0",
-    "discardvisual": "false",
 }
 SECTION = {"actuator": "actuator", "sensor": "sensor", "equality": "equality", "tendon": "tendon", "key": "keyframe"}
 
@@ -110,19 +109,22 @@ class ReaderModel:
         roots = [name for name in roots if name not in children and not set(name) & set('"&<')]
         free = any(each.get("type") == "floating" for each in self.source.elements("joint"))
         edits = [insert(self.source.root, AFLOAT.format(root=root)) for root in roots[: not free]]
-        texts = apply(self.texts, [*edits, *self._unfused()])
-        floating = ReaderModel(self.engine, texts, self.source, Start(), self.symptom)
-        return self if floating.error else floating
+        for visual in ({"discardvisual": "false"}, {}):  # whose meshes may be of a kind that MuJoCo does not read
+            texts = apply(self.texts, [*edits, *self._unfused(UNFUSED | visual)])
+            floating = ReaderModel(self.engine, texts, self.source, Start(), self.symptom)
+            if not floating.error:
+                return floating
+        return self
 
-    def _unfused(self) -> list[Edit]:
+    def _unfused(self, settings: Mapping[str, str]) -> list[Edit]:
         """The edits that have MuJoCo keep every link of a URDF, with what little mass it has."""
         assert self.source is not None
         root = self.source.root
         given = next((each for each in root.children if each.tag == "mujoco"), None)
         compiler = next((each for each in given.children if each.tag == "compiler"), None) if given else None
         if compiler is not None:
-            return [set_attribute(compiler, *each) for each in UNFUSED.items()]
-        xml = f"<compiler {' '.join(f'{name}={value!r}' for name, value in UNFUSED.items())}/>"
+            return [set_attribute(compiler, *each) for each in settings.items()]
+        xml = f"<compiler {' '.join(f'{name}={value!r}' for name, value in settings.items())}/>"
         return [insert(given, xml) if given else insert(root, f"<mujoco>{xml}</mujoco>")]
 
     @property

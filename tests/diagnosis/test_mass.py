@@ -135,3 +135,19 @@ def test_a_link_with_mass_centre_and_inertia_of_the_one_it_hangs_on_is_told(seco
     text = f"<mujoco><worldbody>{text}</worldbody></mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["inertial-copied"]).hints
     assert [each.elements for each in found] == [('body "link3"', 'body "link2"')] * told
+
+
+@pytest.mark.parametrize(
+    ("geom", "told"),
+    [
+        pytest.param('<geom type="box" size="0.02 0.03 0.09"/>', True, id="another-part"),
+        pytest.param('<geom type="box" size="0.0202 0.03 0.06"/>', False, id="the-same-part"),
+        pytest.param("", False, id="nothing-to-compare"),
+    ],
+)
+def test_an_inertial_is_copied_where_the_part_is_another(geom: str, told: bool):
+    inertial = '<inertial pos="0 0 0" mass="0.03171" diaginertia="2.1e-5 1.7e-5 9e-6"/><joint axis="0 1 0"/>'
+    index = f'<body name="index" pos="0 0 1">{inertial}<geom type="box" size="0.06 0.02 0.03"/></body>'
+    text = f'<mujoco><worldbody>{index}<body name="thumb" pos="0 0.2 1">{inertial}{geom}</body></worldbody></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text}, select=["inertial-copied"]).hints
+    assert [each.elements for each in found] == [('body "thumb"', 'body "index"')] * told

@@ -48,6 +48,12 @@ def test_a_placeholder_that_no_joint_feels_is_told_of_a_point_alone():
     assert hints(link(placeholder.format(1e-6), slide)) == ["inertia-unlike-geoms"]
 
 
+@pytest.mark.parametrize(("damping", "told"), [(1, ["inertia-unlike-geoms"]), (20, [])])
+def test_an_inertia_that_the_damping_hides_is_well(damping: float, told: list[str]):
+    joint = f'<joint axis="0 1 0" damping="{damping}"/>'
+    assert hints(link('<inertial pos="0 0 0.2" mass="1" diaginertia="0.3 0.3 0.3"/>', joint)) == told
+
+
 @pytest.mark.parametrize("attributes", ['mass="0"', 'mass="0.1"', 'density="50"'])
 def test_visual_geoms_with_a_written_mass_are_meant(attributes):
     body = f'<geom size="0.05" contype="0" conaffinity="0" group="2" {attributes}/><geom size="0.05" mass="0.2"/>'

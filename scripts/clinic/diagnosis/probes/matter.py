@@ -26,6 +26,7 @@ from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 ABSURD = 6.0  # a radius of gyration as many times that of the geoms, or that in it
+OVERDAMPED = 0.025  # s: inertia over damping, below which a joint does not show the inertia
 BOUND = 2e-15  # kg m2: more than a link of a URDF has that is written without inertia (`reader_model.UNFUSED`)
 
 
@@ -206,9 +207,10 @@ def _heavier(simulation: Simulation, body: int) -> float:
         else:
             continue
         for index, axis in turns:
-            mine = diagonal_of[index]
-            other = mine - dot(axis, times(excess, axis))
-            if mine > 0:
+            mine, more = diagonal_of[index], dot(axis, times(excess, axis))
+            other = mine - more
+            unseen = 0 < more < OVERDAMPED * simulation.model("dof_damping")[index]
+            if mine > 0 and not unseen:
                 best = max(best, mine / max(other, mine * 1e-6), other / mine)
     return best
 

@@ -54,6 +54,14 @@ def test_an_inertia_that_the_damping_hides_is_well(damping: float, told: list[st
     assert hints(link('<inertial pos="0 0 0.2" mass="1" diaginertia="0.3 0.3 0.3"/>', joint)) == told
 
 
+@pytest.mark.parametrize(("inertia", "told"), [(1e-2, ["inertia-beyond-the-model"]), (1e-5, [])])
+def test_a_frame_that_its_joint_does_not_feel_is_well(inertia: float, told: list[str]):
+    frame = f'<body><inertial pos="0 0 0" mass="1e-7" diaginertia="{inertia} {inertia} {inertia}"/></body>'
+    text = link("", f'<joint axis="0 1 0"/>{frame}')
+    found = examine(NativeEngine(), {"model.xml": text}, select=["inertia-beyond-the-model"]).hints
+    assert [each.rule for each in found] == told
+
+
 @pytest.mark.parametrize("attributes", ['mass="0"', 'mass="0.1"', 'density="50"'])
 def test_visual_geoms_with_a_written_mass_are_meant(attributes):
     body = f'<geom size="0.05" contype="0" conaffinity="0" group="2" {attributes}/><geom size="0.05" mass="0.2"/>'

@@ -185,6 +185,15 @@ def _decorated(model: ReaderModel, body: int) -> bool:
     return all(int(kinds[geom]) != MESH and model.value("geom", geom, "mass") == "0" for geom in of.geoms_of(body))
 
 
+def turns(simulation: Simulation, joint: int) -> list[tuple[int, Vector]]:
+    """The degrees of freedom in which a joint turns, and their axes in the world, as the state is now."""
+    kind, dof = simulation.joint_type(joint), simulation.dof(joint)
+    if kind == HINGE:
+        return [(dof, simulation.data_row("xaxis", joint, 3))]
+    frame, first = simulation.data_row("xmat", simulation.body_of("joint", joint), 9), dof + (3 if kind == FREE else 0)
+    return [(first + i, frame[i::3]) for i in range(3)] if kind in (FREE, BALL) else []
+
+
 def _heavier(simulation: Simulation, body: int) -> float:
     """How many times the inertia of the joint that turns a body differs from what its geoms would give it."""
     found, best = matter(simulation, body), 1.0
@@ -198,15 +207,7 @@ def _heavier(simulation: Simulation, body: int) -> float:
     turn = simulation.data_row("xmat", body, 9)
     excess = turned(turn, sub(found.about, found.solid))
     for joint in simulation.joints_of(joint_body):
-        kind, dof = int(kinds[joint]), simulation.dof(joint)
-        if kind == HINGE:
-            turns = [(dof, simulation.data_row("xaxis", joint, 3))]
-        elif kind in (FREE, BALL):
-            frame, first = simulation.data_row("xmat", joint_body, 9), dof + (3 if kind == FREE else 0)
-            turns = [(first + i, frame[i::3]) for i in range(3)]
-        else:
-            continue
-        for index, axis in turns:
+        for index, axis in turns(simulation, joint):
             mine, more = diagonal_of[index], dot(axis, times(excess, axis))
             other = mine - more
             unseen = 0 < more < OVERDAMPED * simulation.model("dof_damping")[index]

@@ -33,10 +33,12 @@ When it is wrong: a rotor that is geared up, whose inertia is written at the slo
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.probes.inertia import inertial
+from clinic.diagnosis.probes.inertia import inertial, tensor
+from clinic.diagnosis.probes.matter import turns
+from clinic.diagnosis.probes.vector import dot, times, turned
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -46,7 +48,7 @@ FAMILIES = ("wrong-mass", "stuck", "explodes")
 SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "the kinds of wrong inertias are planted in bodies with geoms, of which other rules tell"
-MOST = 2.0
+MOST, FELT = 2.0, 0.01  # of the inertia at a joint
 USUAL = 0.1  # of the model's size, which the edit gives
 
 
@@ -56,11 +58,23 @@ def _over(simulation: Simulation, *bodies: int) -> float:
     return math.sqrt(max(spread, default=0.0)) / size
 
 
+def _felt(simulation: Simulation, bodies: Sequence[int]) -> float:
+    """The largest share that some bodies' own inertia has of what a joint turns."""
+    whole, own = simulation.mass_diagonal, dict[int, float]()
+    simulation.begin()
+    for body in bodies:
+        about = turned(simulation.data_row("xmat", body, 9), tensor(simulation, body))
+        for above in simulation.ancestors(body)[:-1]:
+            for dof, axis in (each for joint in simulation.joints_of(above) for each in turns(simulation, joint)):
+                own[dof] = own.get(dof, 0.0) + dot(axis, times(about, axis))
+    return max((inertia / whole[dof] for dof, inertia in own.items() if whole[dof] > 0), default=0.0)
+
+
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Moving bodies with an `<inertial>` of such an inertia, all together."""
     of = model.simulation
     found = [body for body in of.moving_bodies if _over(of, body) > MOST and inertial(model, body) is not None]
-    if not found:
+    if not found or _felt(of, found) < FELT:
         return
     size, edits = of.model("stat.extent")[0], []
     for body in found:

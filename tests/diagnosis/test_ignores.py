@@ -118,7 +118,7 @@ def test_a_keyframe_is_tried_where_all_causes_of_the_start_are_silenced():
 
 
 def test_a_hint_without_an_edit_has_the_line_of_its_element():
-    text = rules()["noise-not-added"].example("Bad")
-    (hint,) = examine(NativeEngine(), {"model.xml": text}, select=["noise-not-added"]).hints
+    text = rules()["mass-unlike-links"].example("Bad")
+    (hint,) = examine(NativeEngine(), {"model.xml": text}, select=["mass-unlike-links"]).hints
     assert hint.edit == ()
     assert f'name="{hint.elements[0].split(chr(34))[1]}"' in text.splitlines()[(hint.line or 0) - 1]

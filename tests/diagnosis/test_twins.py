@@ -286,12 +286,12 @@ def test_a_motor_that_turns_the_other_way_is_the_one_with_the_rare_sign():
 
 
 def test_what_moves_nothing_is_told_last():
-    noisy = robot({'left_front:mass="0.2"': 'mass="0.3"'}).replace(
-        "</mujoco>", '<sensor><jointpos joint="left_front" noise="0.1"/></sensor></mujoco>'
+    driven = robot({'left_front:mass="0.2"': 'mass="0.3"'}).replace(
+        "</mujoco>", '<actuator><muscle joint="left_front" ctrlrange="-1 1"/></actuator></mujoco>'
     )
-    told = [each.rule for each in diagnosed(noisy).hints]
+    told = [each.rule for each in diagnosed(driven).hints]
     assert "twin-inertia-differs" in told[:-1]
-    assert told[-1] == "noise-not-added"
+    assert told[-1] == "muscle-excited-below-zero"
 
 
 LEG = (

@@ -156,6 +156,23 @@ def test_the_start_outside_of_a_range_is_a_hint_and_a_keyframes_is_a_cause():
     assert causes(with_key) == ["key-outside-range"]
 
 
+@pytest.mark.parametrize(
+    ("knee", "others", "told"),
+    [
+        pytest.param('range="30 150"', 3, False, id="a-robot-as-it-is-drawn"),
+        pytest.param('range="120 180"', 3, True, id="farther-than-any-knee"),
+        pytest.param('range="30 150" ref="10"', 3, True, id="put-there"),
+        pytest.param('range="30 150"', 1, True, id="no-robot"),
+    ],
+)
+def test_the_pose_in_which_a_robot_is_drawn_may_be_outside_of_its_ranges(knee: str, others: int, told: bool):
+    link = '<joint axis="0 1 0" range="-90 90"/><geom size="0.05"/>'
+    bodies = "".join(f'<body pos="{x} 0 1">{link}</body>' for x in range(others))
+    bodies += f'<body pos="-1 0 1"><joint name="knee" axis="0 1 0" {knee}/><geom size="0.05"/></body>'
+    found = diagnosed(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>")
+    assert ("start-outside-range" in [each.rule for each in found.hints]) == told
+
+
 def test_a_part_for_another_model_is_told_of_its_units_in_a_hint():
     text = ARM.format(above="", joint='range="-1.5 1.5"', actuator="")
     part = diagnosed(text.replace('<geom type="plane" size="1 1 0.1"/>', ""))

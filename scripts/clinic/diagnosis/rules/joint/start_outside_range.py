@@ -20,7 +20,9 @@ Good:
     +       <joint name="elbow" axis="0 1 0" range="-5 150"/>
 
 The number: how fast the limit makes the joint in the first 20 ms, without gravity and contacts; more than 1 rad/s or
-0.1 m/s, and the start is outside by more than 5 % of the range.
+0.1 m/s, and the start is outside by more than 5 % of the range. A robot of four joints and more that all start at 0 is
+in the pose of its drawing, in which a knee that cannot be straight is outside by up to half of its range: there more
+than that is told.
 
 When it is wrong: a start that a program sets before the first step, as for robots whose knees cannot be straight; so
 it is a hint, but where a keyframe gives the start. A model that has keyframes is not judged by its start without them.
@@ -43,7 +45,8 @@ FAMILIES = ("jumps-at-start", "explodes")
 SINCE = "0.1"
 LEVEL = "hint"
 
-OUTSIDE = 0.05  # of the range
+OUTSIDE, UNPOSED = 0.05, 0.5  # of the range
+ROBOT = 4  # hinges and slides
 KICK = 1.0  # rad/s or m/s
 
 
@@ -52,9 +55,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     simulation = model.simulation
     if simulation.begin_with.key < 0 and simulation.count("key"):
         return  # a model that has keyframes begins with one
-    found = []
-    for joint, (low, high, begin) in _limited(simulation).items():
-        if max(low - begin, begin - high) > OUTSIDE * (high - low):
+    found, limited = [], _limited(simulation)
+    least = UNPOSED if _unposed(simulation) else OUTSIDE
+    for joint, (low, high, begin) in limited.items():
+        if max(low - begin, begin - high) > least * (high - low):
             found.append((joint, low, high, begin))
     if not found:
         return
@@ -82,6 +86,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         f"{simulation.name('joint', joint)} starts at {begin:.3g}, and its range is {low:.3g} to {high:.3g}.",
         "inside of the range",
     )
+
+
+def _unposed(simulation: Simulation) -> bool:
+    """Whether no joint of a robot was put anywhere: the zero pose, in which no program leaves it."""
+    joints = [each for each in range(simulation.count("joint")) if simulation.joint_type(each) in (HINGE, SLIDE)]
+    posed = simulation.begin_with.key >= 0 or any(simulation.position(each) for each in joints)
+    return len(joints) >= ROBOT and not posed
 
 
 def _limited(simulation: Simulation) -> dict[int, tuple[float, float, float]]:

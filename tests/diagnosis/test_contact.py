@@ -400,3 +400,19 @@ def test_impratio_hardens_the_contact_itself_under_pyramidal_cones(ratio, told):
 
     assert depth(f'impratio="{ratio}"') == pytest.approx(depth("") / ratio, rel=0.1)
     assert depth(f'impratio="{ratio}" cone="elliptic"') == pytest.approx(depth(""), rel=0.1)
+
+
+@pytest.mark.parametrize(("wrist", "told"), [("-8 8", True), ("-200 200", False)])
+def test_a_hand_that_is_in_its_forearm_at_one_angle_of_the_wrist_alone_is_well(wrist: str, told: bool):
+    hand = (
+        '<body name="hand"><joint axis="1 0 0" range="-160 160"/>'
+        '<geom type="capsule" fromto="-0.15 0.05 0 -0.3 0.05 0" size="0.03"/></body>'
+    )
+    arm = (
+        '<body name="forearm" pos="0 0 1"><joint axis="0 0 1"/>'
+        '<geom type="capsule" fromto="0 0.03 0 0.3 0.03 0" size="0.04"/>'
+        f'<body pos="0.4 0 0"><joint axis="0 1 0" range="{wrist}"/><geom size="0.01"/>{hand}</body></body>'
+    )
+    rules = ["jams-over-the-range", "overlap-of-relatives"]
+    found = examine(NativeEngine(), {"arm.xml": f"<mujoco><worldbody>{arm}</worldbody></mujoco>"}, select=rules)
+    assert sorted(each.rule for each in found.hints) == rules * told

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Collection
 
 from clinic.diagnosis.engine import HINGE, SLIDE, Contact
 from clinic.diagnosis.probes.equalities import tied
+from clinic.diagnosis.probes.load import poses
 from clinic.diagnosis.probes.run import State, state
 from clinic.diagnosis.probes.shape import falling, geoms_of_tree, root_of, roots, thickness
 from clinic.diagnosis.probes.vector import at
@@ -15,6 +17,7 @@ from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 LIMBS = 3  # that make a walker
+OFTEN = 0.2  # of the poses
 LINKS = 3  # bodies further apart in the tree are no relatives
 
 
@@ -70,6 +73,25 @@ def relatives(simulation: Simulation) -> list[tuple[int, int, Contact]]:
         if contact.distance < 0 and (near or frozenset((one, other)) in tied(simulation)):
             made.append((one, other, contact))
     return made
+
+
+@kept
+def often(simulation: Simulation, most: float) -> set[tuple[int, int]]:
+    """The pairs of bodies that overlap by more than a share of the thinner geom in a fifth of the poses, or in more."""
+    bodies, drawn, count = simulation.model("geom_bodyid"), poses(simulation), Counter[tuple[int, int]]()
+    for pose in drawn:
+        simulation.begin(forward=False)
+        simulation.engine.write("qpos", pose)
+        simulation.engine.forward()
+        count.update(
+            {
+                (min(pair), max(pair))
+                for contact in state(simulation).contacts
+                if -contact.distance > most * min(thickness(simulation, geom) for geom in contact.geoms)
+                and (pair := [int(bodies[geom]) for geom in contact.geoms])
+            }
+        )
+    return {pair for pair, times in count.items() if times >= OFTEN * len(drawn)}
 
 
 def _turns(simulation: Simulation, body: int) -> bool:

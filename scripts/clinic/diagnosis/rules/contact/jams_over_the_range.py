@@ -29,7 +29,8 @@ Good:
 
 The number: the share of 21 poses over the range, the other joints at their start, in which a body overlaps its
 grandparent by more than a tenth of the thinner one, or a parent that is fixed to the world by 0.1 mm; told from half
-on: arms of humanoids may reach their own trunk in 40 %.
+on: arms of humanoids may reach their own trunk in 40 %. It must be so too with the other joints anywhere in their
+ranges: the last link of an arm may lie in its forearm at 0 of the wrist, and nowhere else.
 
 Where the same range about the opposite axis is free, the axis has the wrong sign, and is told in its place.
 
@@ -39,9 +40,10 @@ a hint.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.probes.load import poses
 from clinic.diagnosis.probes.shape import thickness
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
@@ -73,7 +75,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     jammed: list[tuple[float, int, int, int]] = []
     for joint, pairs in shares.items():
         (one, other), share = max(pairs.items(), key=lambda each: each[1])
-        if JAMMED < share < 1:
+        if JAMMED < share < 1 and _jams(of, joint, poses(of)).get((one, other), 0.0) > JAMMED:
             names, says = _told(of, share, joint, one, other)
             probe = Probe("share of the range in which two links jam", "", _share, (joint,), dynamic=False)
             axis = of.row("jnt_axis", joint, 3)
@@ -104,14 +106,19 @@ def _share(simulation: Simulation, *joints: int) -> float:
     return max((share for joint in joints for share in _jams(simulation, joint).values()), default=0.0)
 
 
-def _jams(simulation: Simulation, joint: int) -> dict[tuple[int, int], float]:
-    """The share of a joint's range in which two near relatives jam, for each pair that it moves against each other."""
+def _jams(simulation: Simulation, joint: int, others: Sequence[list[float]] = ()) -> dict[tuple[int, int], float]:
+    """The share of a joint's range in which two near relatives jam, for each pair that it moves against each other.
+
+    The other joints are at their start, or as in one of `others` after the other.
+    """
     place, body = simulation.place(joint), simulation.body_of("joint", joint)
     low, high = simulation.row("jnt_range", joint, 2)
     bodies = simulation.model("geom_bodyid")
     made: dict[tuple[int, int], float] = {}
     simulation.begin(forward=False)
     for pose in range(POSES):
+        if others:
+            simulation.engine.write("qpos", others[pose % len(others)])
         simulation.engine.write("qpos", [low + (high - low) * pose / (POSES - 1)], place)
         simulation.engine.forward()
         deep = set()

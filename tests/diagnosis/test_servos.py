@@ -495,7 +495,7 @@ STOOL = """
 """
 
 
-@pytest.mark.parametrize(("kp", "told"), [(20, True), (100, False)])
+@pytest.mark.parametrize(("kp", "told"), [(10, True), (20, False), (100, False)])
 def test_a_robot_that_falls_after_a_while_has_too_little_stiffness(kp, told):
     legs = "".join(
         f'<body pos="0 {y} -0.1"><joint name="hip{y}" axis="0 1 0" damping="3"/>'

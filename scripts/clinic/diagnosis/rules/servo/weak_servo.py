@@ -26,7 +26,8 @@ The number: the model's own weight at the joint over the gain, in the worst of 1
 0.55 rad where the base is free: legs that a learned policy drives go up to 0.5.
 Or a robot with a free base goes down by a quarter of its height within 1 s, its servos told to stay where they are, and
 one of them bends by more than 0.45 rad. A hint tells of one that stands for a second and has lost half of its height
-after 5 s, and that with three times the stiffness stands.
+after 5 s, and that with three times the stiffness stands; where it stands with twice as much, its balance was left to a
+controller.
 Or more than 45 % of a step of 0.1 rad is left after 1 s, without gravity; a hint for what follows within 2 s and
 carries less than a twentieth of the mass, as a neck does. Where the base is fixed, a hint tells of hinges that sag by
 more than 0.085 rad, and of slides that sag by more than 5 % of their range: fingers with 50 mm that swing by 5 mm as
@@ -59,7 +60,7 @@ CASE = "servo-sags"
 LATE, CRAWLS = 0.6, 10.0  # s: the time constant above which a step is tried, of a hinge and a slide
 SLOW = 4.0  # rad/s: the natural frequency below which it is
 LEFT = 0.45  # of the step
-LONG, FALLEN, STIFFER = 5.0, 0.5, 3.0  # s; of its height; times the stiffness
+LONG, FALLEN, NEARLY, STIFFER = 5.0, 0.5, 2.0, 3.0  # s; of its height; times the stiffness, twice
 MEANT, LIGHT = 2.0, 0.05  # s and of the mass, below which it may be meant: a neck, an antenna
 SAG, WALKS = 0.3, 0.55  # rad of a hinge, m of a slide; rad where the robot is free and stands on its feet
 LITTLE, SHARE = 0.085, 0.05  # rad of a hinge, share of the range of a slide, of which a hint tells
@@ -127,13 +128,14 @@ def _bends(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
 
 
 def _tips(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
-    """Servos of a robot that stands for a second and has fallen after five, and with more stiffness has not."""
+    """Servos of a robot that stands for 1 s and has fallen after 5 s, as with twice the stiffness, not with thrice."""
     of, seen = model.simulation, stance(model.simulation)
     if sagging or not seen.bent or seen.lost > LOST / 2 or stance_after(of, LONG).lost < FALLEN:
         return
     own = list(seen.bent)
-    edits = _stronger(model, {each: STIFFER * each.stiffness for each in own})
-    if not edits or model.measured(goes_down(LONG), edits) > LOST / 2:
+    least, edits = (_stronger(model, {each: more * each.stiffness for each in own}) for more in (NEARLY, STIFFER))
+    falls = model.measured(goes_down(LONG), least) > LOST / 2
+    if not (edits and falls) or model.measured(goes_down(LONG), edits) > LOST / 2:
         return
     names = tuple(of.name("actuator", each.actuator) for each in own)
     now, value = f"{own[0].stiffness:.3g}", rounded(STIFFER * own[0].stiffness)

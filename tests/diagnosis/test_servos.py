@@ -511,6 +511,15 @@ def test_a_robot_that_falls_after_a_while_has_too_little_stiffness(kp, told):
     assert [each.rule for each in said] == ["weak-servo"] * told, found.text()
 
 
+@pytest.mark.parametrize(("kp", "told"), [(100, True), (200, False)])
+def test_a_finger_may_sag_by_a_tenth_of_its_way(kp: float, told: bool):
+    slide = '<body pos="0 0 1"><joint name="finger" type="slide" axis="0 0 1" range="0 0.04" damping="2"/>'
+    text = f'<mujoco><worldbody>{slide}<geom size="0.01" mass="0.05"/></body></worldbody>'
+    text += f'<actuator><position joint="finger" kp="{kp}"/></actuator></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text}, select=["weak-servo"]).hints
+    assert [each.attribute for each in found] == ["kp"] * told
+
+
 @pytest.mark.parametrize(("servo", "told"), [("", True), ('ctrlrange="-1 1"', False)])
 def test_no_servo_with_a_control_range_is_told_once(servo, told):
     found = row(4 * ['range="-60 60"'], servo)

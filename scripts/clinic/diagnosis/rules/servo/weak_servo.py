@@ -30,8 +30,9 @@ after 5 s, and that with three times the stiffness stands; where it stands with 
 controller.
 Or more than 45 % of a step of 0.1 rad is left after 1 s, without gravity; a hint for what follows within 2 s and
 carries less than a twentieth of the mass, as a neck does. Where the base is fixed, a hint tells of hinges that sag by
-more than 0.085 rad, and of slides that sag by more than 5 % of their range: fingers with 50 mm that swing by 5 mm as
-the arm turns; with `--symptom sags` from a fifth of that on.
+more than 0.085 rad, and of slides that sag by more than 10 % of their range: fingers with 40 mm that swing by 5 mm as
+the arm turns, where grippers and lifters that work well do by 6 to 7 %. With `--symptom sags` it tells from a fifth of
+that on.
 
 When it is wrong: a controller that adds the weight itself. `gravcomp="1"` on the bodies takes the load away as well.
 """
@@ -63,7 +64,7 @@ LEFT = 0.45  # of the step
 LONG, FALLEN, NEARLY, STIFFER = 5.0, 0.5, 2.0, 3.0  # s; of its height; times the stiffness, twice
 MEANT, LIGHT = 2.0, 0.05  # s and of the mass, below which it may be meant: a neck, an antenna
 SAG, WALKS = 0.3, 0.55  # rad of a hinge, m of a slide; rad where the robot is free and stands on its feet
-LITTLE, SHARE = 0.085, 0.05  # rad of a hinge, share of the range of a slide, of which a hint tells
+LITTLE, SHARE = 0.085, 0.1  # rad of a hinge, share of the range of a slide, of which a hint tells
 KEEN = 0.2  # of these, where the reader sees something sag
 GOOD = {True: (0.02, 0.08, 0.2), False: (0.002, 0.008, 0.02)}  # rad or m that may be left, the best first
 

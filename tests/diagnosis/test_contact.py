@@ -416,3 +416,18 @@ def test_a_hand_that_is_in_its_forearm_at_one_angle_of_the_wrist_alone_is_well(w
     rules = ["jams-over-the-range", "overlap-of-relatives"]
     found = examine(NativeEngine(), {"arm.xml": f"<mujoco><worldbody>{arm}</worldbody></mujoco>"}, select=rules)
     assert sorted(each.rule for each in found.hints) == rules * told
+
+
+@pytest.mark.parametrize(
+    ("geom", "told"),
+    [
+        pytest.param('fromto="0 0 0.04 0 0 0.26" size="0.03"', True, id="forgotten"),
+        pytest.param('fromto="0 0 0.04 0 0 0.26" size="0.03" density="30"', False, id="light"),
+        pytest.param('fromto="0 0 -0.26 0 0 -0.04" size="0.028"', False, id="inside-of-the-link-above"),
+    ],
+)
+def test_a_link_without_collision_is_told_where_something_could_meet_it(geom: str, told: bool):
+    text = rules()["link-without-collision"].example("Bad")
+    text = text.replace('fromto="0 0 0.04 0 0 0.26" size="0.03" contype="0"', f'{geom} contype="0"')
+    found = examine(NativeEngine(), {"arm.xml": text}, select=["link-without-collision"]).hints
+    assert [each.elements[0] for each in found] == ['body "fore"'] * told

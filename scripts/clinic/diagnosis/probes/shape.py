@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import product
 
-from clinic.diagnosis.engine import FREE, HFIELD, PLANE, SLIDE
-from clinic.diagnosis.probes.vector import Vector, add, at, dot, norm, sub, times
+from clinic.diagnosis.engine import FREE, HFIELD, MESH, PLANE, SLIDE
+from clinic.diagnosis.probes.vector import Vector, add, at, dot, norm, sub, times, transpose
 from clinic.diagnosis.simulation import Simulation, kept
 
 CLEAR = 0.05  # of the opacity
@@ -126,6 +127,31 @@ def size(simulation: Simulation, body: int) -> float:
     radii = simulation.model("geom_rbound")
     own = [radii[geom] for geom in simulation.geoms_of(body)]
     return max([*own, 0.0]) or max([radii[geom] for geom in geoms_of_tree(simulation, body)], default=0.0)
+
+
+def points(simulation: Simulation, geom: int) -> list[Vector]:
+    """The vertices of a mesh in its geom's frame; the corners of the box around a geom of another kind."""
+    if int(simulation.model("geom_type")[geom]) != MESH:
+        box = simulation.row("geom_aabb", geom, 6)
+        signs = product((-1, 1), repeat=3)
+        return [tuple(c + s * h for c, s, h in zip(box[:3], each, box[3:], strict=True)) for each in signs]
+    mesh, vertices = int(simulation.model("geom_dataid")[geom]), simulation.model("mesh_vert")
+    first, count = (int(simulation.model(f"mesh_vert{of}")[mesh]) for of in ("adr", "num"))
+    return [at(vertices, each) for each in range(first, first + count)]
+
+
+def in_world(simulation: Simulation, geom: int, most: int) -> list[Vector]:
+    """The points of a geom as the state is now, about so many of them at the most."""
+    place, frame = simulation.data_row("geom_xpos", geom, 3), simulation.data_row("geom_xmat", geom, 9)
+    found = points(simulation, geom)
+    return [add(place, times(frame, point)) for point in found[:: max(1, len(found) // most)]]
+
+
+def in_box(simulation: Simulation, geom: int, point: Vector, grown: float) -> bool:
+    """Whether a point of the world is in the box around a geom along its axes, grown by so many m."""
+    frame, box = simulation.data_row("geom_xmat", geom, 9), simulation.row("geom_aabb", geom, 6)
+    seen = times(transpose(frame), sub(point, simulation.data_row("geom_xpos", geom, 3)))
+    return all(abs(x - c) <= h + grown for x, c, h in zip(seen, box[:3], box[3:], strict=True))
 
 
 def boxes(simulation: Simulation, geoms: Iterable[int]) -> dict[int, tuple[Vector, Vector]]:

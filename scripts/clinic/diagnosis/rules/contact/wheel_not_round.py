@@ -40,16 +40,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from itertools import product
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.engine import BOX, CYLINDER, ELLIPSOID, HINGE, MESH, SPHERE
-from clinic.diagnosis.probes.shape import solid
+from clinic.diagnosis.probes.shape import points, solid
 from clinic.diagnosis.probes.vector import (
     Vector,
     add,
     around,
-    at,
     dot,
     norm,
     of_quaternion,
@@ -145,12 +143,8 @@ def _varies(simulation: Simulation, joint: int, geom: int) -> float:
 
 def _points(simulation: Simulation, geom: int) -> list[Vector]:
     a, b, c = simulation.row("geom_size", geom, 3)
-    if int(simulation.model("geom_type")[geom]) == MESH:
-        mesh, points = int(simulation.model("geom_dataid")[geom]), simulation.model("mesh_vert")
-        first, count = (int(simulation.model(f"mesh_vert{of}")[mesh]) for of in ("adr", "num"))
-        return [at(points, vertex) for vertex in range(first, first + count)]
-    if int(simulation.model("geom_type")[geom]) == BOX:
-        return [(x * a, y * b, z * c) for x, y, z in product((-1, 1), repeat=3)]
+    if int(simulation.model("geom_type")[geom]) in (BOX, MESH):
+        return points(simulation, geom)
     rim = around((0.0, 0.0, 1.0), 2 * ANGLES)
     if int(simulation.model("geom_type")[geom]) == CYLINDER:
         return [(a * x, a * y, z) for x, y, _ in rim for z in (-b, b)]

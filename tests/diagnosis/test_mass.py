@@ -165,3 +165,47 @@ def test_an_inertial_is_copied_where_the_part_is_another(geom: str, told: bool):
     text = f'<mujoco><worldbody>{index}<body name="thumb" pos="0 0.2 1">{inertial}{geom}</body></worldbody></mujoco>'
     found = examine(NativeEngine(), {"model.xml": text}, select=["inertial-copied"]).hints
     assert [each.elements for each in found] == [('body "thumb"', 'body "index"')] * told
+
+
+@pytest.mark.parametrize(
+    ("masses", "size", "told"),
+    [
+        pytest.param((1.2, 10, 0.7, 0.3), 0.03, True, id="too-heavy"),
+        pytest.param((1.2, 1.3, 0.7, 0.3), 0.014, False, id="drawn-small"),
+        pytest.param((2, 2, 2, 2), 0.014, True, id="placeholder"),
+        pytest.param((10, 1.2, 0.7, 0.3), 0.03, False, id="first-link-with-the-drive"),
+    ],
+)
+def test_a_dense_link_is_told_where_it_is_heavy_too(masses: tuple[float, ...], size: float, told: bool):
+    text = ""
+    for number, mass in reversed(list(enumerate(masses))):
+        thick = size if number == 1 else 0.03
+        geom = f'<geom type="capsule" fromto="0 0 0 0.3 0 0" size="{thick}" mass="{mass}"/>'
+        text = f'<body pos="0.3 0 0"><joint axis="0 1 0"/>{geom}{text}</body>'
+    text = f"<mujoco><worldbody>{text}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["mass-unlike-links"])
+    assert [each.rule for each in found.hints] == ["mass-unlike-links"] * told
+
+
+@pytest.mark.parametrize(
+    ("geoms", "told"),
+    [
+        pytest.param('<geom size="0.1"/>', "inertial-forgotten", id="dense"),
+        pytest.param(
+            '<geom type="box" size="0.1 0.1 0.1"/><geom size="0.1" group="2" contype="0" conaffinity="0"/>',
+            "visual-mass",
+            id="seen",
+        ),
+    ],
+)
+def test_a_link_without_its_inertial_is_told_once(geoms: str, told: str):
+    text, links = "", ["", "", geoms, "", ""]
+    for geom in links:
+        given = '<inertial pos="0.1 0 0" mass="0.1" diaginertia="1e-4 4e-4 4e-4"/>' * (not geom)
+        given += geom or '<geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.03"/>'
+        text = f'<body pos="0.2 0 0"><joint axis="0 1 0"/>{given}{text}</body>'
+    text = f"<mujoco><worldbody>{text}</worldbody></mujoco>"
+    found = examine(
+        NativeEngine(), {"model.xml": text}, select=["inertial-forgotten", "mass-unlike-links", "visual-mass"]
+    )
+    assert [each.rule for each in (*found.causes, *found.hints)] == [told]

@@ -51,6 +51,7 @@ from clinic.diagnosis.probes.inertia import inertial
 from clinic.diagnosis.probes.matter import mass_of
 from clinic.diagnosis.probes.shape import root_of, roots
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.mass import visual_mass
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A body without its inertial"
@@ -65,8 +66,15 @@ MORE = 0.15  # of the link's mass
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Jointed bodies of their geoms' mass among bodies that have an `<inertial>`; parts that are fixed to such."""
-    yield from _fixed(model)
+    """Jointed bodies of their geoms' mass among bodies that have an `<inertial>`; parts that are fixed to such.
+
+    Left alone is what weighs too much by geoms that are only seen, and parts beside it: without them it may be right.
+    """
+    twice = {name for each in visual_mass.suspects(model) for name in each.elements}
+    yield from (each for each in (*_fixed(model), *_jointed(model)) if not twice & set(each.elements))
+
+
+def _jointed(model: ReaderModel) -> Iterator[Suspect]:
     of, owner = model.simulation, root_of(model.simulation)
     for root in roots(of):
         jointed = [body for body, top in enumerate(owner) if top == root and of.joints_of(body)]

@@ -32,9 +32,10 @@ Good:
     +         <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="1"/>
 
 The number: the mass of a link over the box around its largest geom, beside that of the link in the middle; more than 4
-times that, and more than 6 % of the robot's mass. 5 of 135 healthy robots of four links and more have such a link; with
-ten times its mass two thirds of their links are told. Left alone are a free base, which has the battery, a link whose
-inertia tells its mass, and one that is too light, for a shell is drawn as if it were full.
+times that, and more than 6 % of the robot's mass. It also weighs more than 2.5 times as much as the link in the middle,
+or what most of them do, a placeholder: one that is only drawn small does not. Left alone are the first link, which has
+the battery or the drive, a link of whose mass another rule tells, and one that is too light, for a shell is drawn as if
+it were full.
 
 When it is wrong: a link with a battery, or one whose motor is not drawn.
 """
@@ -45,7 +46,13 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.mass import denser_than_metal, lighter_than_air, mass_unlike_inertia
+from clinic.diagnosis.rules.mass import (
+    denser_than_metal,
+    inertial_forgotten,
+    lighter_than_air,
+    mass_unlike_inertia,
+    visual_mass,
+)
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
@@ -57,21 +64,21 @@ LEVEL = "hint"
 UNPLANTED = "what a link should weigh, only its maker knows"
 
 DENSE, SHARE, MANY, GRAM = 4.0, 0.06, 4, 0.001
+HEAVY = 2.5  # times the link in the middle
+OTHERS = (denser_than_metal, inertial_forgotten, mass_unlike_inertia, visual_mass)  # tell of a mass with more reason
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The links whose density is away from that of their robot, robot by robot, where they are two at the most."""
     of = model.simulation
     owner, links = root_of(of), _links(of)
-    others = (mass_unlike_inertia, denser_than_metal) if links else ()
-    told = {name for rule in others for each in rule.suspects(model) for name in each.elements}
+    told = {name for rule in (OTHERS if links else ()) for each in rule.suspects(model) for name in each.elements}
     if links and any(lighter_than_air.suspects(model)):
         return
     for root in sorted({owner[body] for body in links}):
         robot = {body: each for body, each in links.items() if owner[body] == root}
-        found = [body for body in _unlike(robot) if body not in of.free_bodies]
-        found = [body for body in found if of.name("body", body) not in told]
-        if not 0 < len(found) <= 2:
+        found = [body for body in _unlike(robot) if body != root]
+        if not 0 < len(found) <= 2 or told & {of.name("body", body) for body in found}:
             continue
         worst = max(found, key=lambda body: robot[body][0] / robot[body][1])
         mass, ratio = robot[worst][0], robot[worst][0] / robot[worst][1] / _middle(robot)
@@ -117,5 +124,7 @@ def _middle(robot: dict[int, tuple[float, float]]) -> float:
 def _unlike(robot: dict[int, tuple[float, float]]) -> list[int]:
     if len(robot) < MANY:
         return []
-    middle, total = _middle(robot), sum(mass for mass, _ in robot.values())
-    return [body for body, (mass, volume) in robot.items() if mass / volume > DENSE * middle and mass > SHARE * total]
+    masses = sorted(mass for mass, _ in robot.values())
+    middle, usual, least = _middle(robot), masses[len(masses) // 2], SHARE * sum(masses)
+    dense = [body for body, (mass, volume) in robot.items() if mass / volume > DENSE * middle and mass > least]
+    return [body for body in dense if robot[body][0] > HEAVY * usual or masses.count(robot[body][0]) > len(masses) / 2]

@@ -399,6 +399,14 @@ def test_a_wheel_below_its_speed_is_told_by_what_helps(wheel, told):
     assert [(each.attribute, each.value) for each in found.hints] == [told]
 
 
+@pytest.mark.parametrize(("mass", "told"), [(0.5, True), (0.02, False)])
+def test_a_gripper_may_be_weaker_than_the_arm_that_carries_it(mass: float, told: bool):
+    text = rules()["strength-unlike-others"].example("Good").replace('gear="20"', 'gear="0.9"')
+    text = text.replace('fromto="0 0 0 0.05 0 0"', f'fromto="0 0 0 0.05 0 0" mass="{mass}"')
+    found = examine(NativeEngine(), {"model.xml": text}, select=["strength-unlike-others"]).hints
+    assert [each.elements for each in found] == [('actuator "toe"',)] * told
+
+
 @pytest.mark.parametrize(("driven", "told"), [("wrist", []), ("f1", ['actuator "A_f1"'])])
 def test_a_wrist_may_be_stronger_than_the_fingers_that_it_carries(driven, told):
     fingers = "".join(

@@ -38,7 +38,8 @@ Good:
 
 The number: a motor's force at full control, a position servo's stiffness, or the end of a force range over the greatest
 of the others, or the least of them over it; more than 8, where three others or more drive joints of the same type. Of
-the bench's healthy models the most is 5.
+the bench's healthy models the most is 5. A weak one that carries less than 2 % of the mass is a gripper's, and left
+alone.
 
 When it is wrong: a gripper's motor beside those of an arm, or a neck's beside those of legs.
 """
@@ -62,6 +63,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 
 MOST, LEAST = 8.0, 4  # times; actuators of one kind
+LIGHT = 0.02  # of the mechanism's mass: a gripper
 WRIST = 30.0  # times that what carries all others, in two branches or more, may be stronger
 FORCE, STIFFNESS, LIMIT, SPEED = "force at full control", "stiffness", "greatest force", "gain of the speed"
 INSIDE = {("motor", FORCE): "gear", ("position", STIFFNESS): "kp", ("velocity", SPEED): "kv"}
@@ -77,7 +79,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         for odd, next_to in ((ranked[-1], ranked[-2]), (ranked[0], ranked[1])):
             times = _times(of, key, odd, next_to)
             carries = odd == ranked[-1] and times < WRIST and _above(of, odd, ranked)
-            if times <= MOST or math.isinf(strengths[odd]) or carries:
+            light = odd == ranked[0] and _carried(of, odd) < LIGHT
+            if times <= MOST or math.isinf(strengths[odd]) or carries or light:
                 continue
             which = "most" if odd == ranked[-1] else "least"
             says = f"Its {key[0]} is {strengths[odd]:.3g}; "
@@ -103,6 +106,13 @@ def _above(of: Simulation, odd: int, all_of_them: list[int]) -> bool:
     )
     branches = {lines[lines.index(own) - 1] for body in others if own in (lines := of.ancestors(body)) and body != own}
     return len(branches) > 1 and all(own in of.ancestors(body) for body in others)
+
+
+def _carried(of: Simulation, actuator: int) -> float:
+    """The share of its mechanism's mass that a joint carries."""
+    joint, masses = of.driven_joint(actuator), of.model("body_subtreemass")
+    body = 0 if joint is None else of.body_of("joint", joint)
+    return masses[body] / max(masses[root_of(of)[body]], 1e-12)
 
 
 def _times(of: Simulation, key: Key, one: int, other: int) -> float:

@@ -71,6 +71,21 @@ def test_a_caster_ends_where_the_wheels_do(height: float, says: str) -> None:
     assert [says in each.says for each in found] == [True] * bool(says)
 
 
+@pytest.mark.parametrize(("radius", "told"), [(0.055, False), (0.045, True)])
+def test_a_mesh_is_as_low_as_its_lowest_vertex(radius: float, told: bool) -> None:
+    """Its box, turned as it is, would be 17 mm lower."""
+    wheels = "".join(
+        f'<body name="{side}_wheel" pos="0 {y} 0"><joint axis="0 1 0"/>'
+        f'<geom type="cylinder" size="{radius} 0.01" zaxis="0 1 0"/></body>'
+        for side, y in (("left", 0.1), ("right", -0.1))
+    )
+    mesh = '<mesh name="hull" vertex="0.1 0 0 -0.1 0 0 0 0.05 0 0 -0.05 0 0 0 0.02 0 0 -0.02"/>'
+    base = f'<freejoint/><geom type="mesh" mesh="hull" euler="0 30 0"/>{wheels}'
+    text = f'<mujoco><asset>{mesh}</asset><worldbody><body pos="0 0 0.1">{base}</body></worldbody></mujoco>'
+    found = examine(NativeEngine(), {"rover.xml": text}, select=["wheels-off-the-ground"]).hints
+    assert ["5 mm lower" in each.says for each in found] == [True] * told
+
+
 @pytest.mark.parametrize("floating", [False, True], ids=["fixed to the world", "with a floating joint of its own"])
 def test_a_link_that_mujoco_fuses_is_weighed(floating: bool) -> None:
     text = ROVER.format(i=0.001, parent="base").replace('link name="base"', 'link name="body"', 1)

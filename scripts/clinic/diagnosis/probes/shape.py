@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable
 from itertools import product
 
@@ -140,7 +141,7 @@ def points(simulation: Simulation, geom: int) -> list[Vector]:
     return [at(vertices, each) for each in range(first, first + count)]
 
 
-def in_world(simulation: Simulation, geom: int, most: int) -> list[Vector]:
+def in_world(simulation: Simulation, geom: int, most: int = sys.maxsize) -> list[Vector]:
     """The points of a geom as the state is now, about so many of them at the most."""
     place, frame = simulation.data_row("geom_xpos", geom, 3), simulation.data_row("geom_xmat", geom, 9)
     found = points(simulation, geom)

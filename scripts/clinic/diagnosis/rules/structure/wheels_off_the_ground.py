@@ -45,9 +45,9 @@ import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import CYLINDER, HINGE, SPHERE
-from clinic.diagnosis.probes.shape import boxes, root_of, solid
+from clinic.diagnosis.probes.shape import in_world, root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Something lower than the wheels, or a caster above them"
@@ -148,12 +148,13 @@ def _above(of: Simulation, root: int, geom: int) -> float:
     return -_below(of, root, geom)
 
 
+@kept
 def _bottom(of: Simulation, geom: int) -> float:
+    """How high the lowest point of a geom is at the start in m."""
     kind, middle = int(of.model("geom_type")[geom]), of.data_row("geom_xpos", geom, 3)[2]
     if kind == SPHERE or (kind == CYLINDER and abs(of.data_row("geom_xmat", geom, 9)[8]) < LEVEL_ENOUGH):
         return middle - of.model("geom_size")[3 * geom]
-    centre, half = boxes(of, [geom])[geom]
-    return centre[2] - half[2]
+    return min(point[2] for point in in_world(of, geom))
 
 
 def _below(of: Simulation, root: int, geom: int) -> float:

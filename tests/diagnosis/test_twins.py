@@ -439,3 +439,12 @@ def test_the_one_pair_of_sites_that_a_sign_sets_apart_is_told_in_a_robot_of_pair
         change[f'{side}_front:inertial pos="0 '] = 'inertial pos="0.03 '
     found = [each for each in unlike(robot(change, left="-30 60", right="-60 30")) if "site" in each.elements[0]]
     assert [each.value for each in found] == told
+
+
+@pytest.mark.parametrize(("axis", "told"), [("0 1 0", True), ("1 0 0", False)])
+def test_a_link_that_turns_out_of_the_plane_of_the_pairs_has_its_centre_anywhere(axis: str, told: bool):
+    text = rules()["centre-off-the-middle"].example("Good").replace("<freejoint/>", f'<joint axis="{axis}"/>')
+    arm = '<body name="arm"><inertial pos="0 0.06 0" mass="1" diaginertia="0.01 0.01 0.01"/><joint axis="0 0 1"/>'
+    text = text.replace("<worldbody>", f"<worldbody>{arm}").replace("</worldbody>", "</body></worldbody>")
+    found = examine(NativeEngine(), {"arm.xml": text}, select=["centre-off-the-middle"]).hints
+    assert [each.elements for each in found] == [('body "arm"',)] * told

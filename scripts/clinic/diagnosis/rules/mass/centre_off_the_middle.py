@@ -38,7 +38,8 @@ Good:
 
 The number: how far the centre of mass of a body whose origin is on the plane of symmetry is from it, in distances of
 the farthest twin from that plane; more than 0.2. The plane is that of at least two pairs of bodies, and looked at are
-the body on which they hang and those on which it hangs.
+the body on which they hang and those on which it hangs, up to the first joint that turns one out of that plane: the
+links of an arm do not share the plane of its gripper.
 
 When it is wrong: a battery or a tool that is mounted aside.
 """
@@ -47,9 +48,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.pairs import SYMMETRIC
 from clinic.diagnosis.probes.twins import Twins, twins
-from clinic.diagnosis.probes.vector import norm, sub
+from clinic.diagnosis.probes.vector import Vector, dot, norm, sub, unit
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -62,6 +64,7 @@ LEVEL = "hint"
 UNPLANTED = "trunks of healthy robots carry batteries and computers aside"
 
 OFF, ON = 0.2, 0.01  # of the distance of the twins
+ALONG = 0.99  # of a hinge's axis along the normal of the plane
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -104,11 +107,23 @@ def _off(of: Simulation) -> dict[int, float]:
     if len(lefts) < 2:
         return {}
     wide = max(_aside(found, lefts[0], "xpos", left) for left in lefts)
-    made = {}
-    for body in of.ancestors(common)[:-1]:
+    made, here = {}, found.at("xpos", lefts[0])
+    normal = unit(sub(found.images[lefts[0]].of(here), here))
+    for body in _of_the_plane(of, common, normal):
         if _aside(found, lefts[0], "xpos", body) < ON * wide:
             made[body] = _aside(found, lefts[0], "xipos", body) / wide
     return made
+
+
+def _of_the_plane(of: Simulation, common: int, normal: Vector) -> Iterator[int]:
+    """A body and those that it hangs on, up to the first joint that turns or moves it out of its own plane."""
+    of.begin()
+    for body in of.ancestors(common)[:-1]:
+        yield body
+        for joint in of.joints_of(body):
+            along = abs(dot(of.data_row("xaxis", joint, 3), normal))
+            if not (along > ALONG if of.joint_type(joint) == HINGE else along < 1 - ALONG):
+                return
 
 
 def _aside(found: Twins, left: int, field: str, body: int) -> float:

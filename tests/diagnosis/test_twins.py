@@ -448,3 +448,25 @@ def test_a_link_that_turns_out_of_the_plane_of_the_pairs_has_its_centre_anywhere
     text = text.replace("<worldbody>", f"<worldbody>{arm}").replace("</worldbody>", "</body></worldbody>")
     found = examine(NativeEngine(), {"arm.xml": text}, select=["centre-off-the-middle"]).hints
     assert [each.elements for each in found] == [('body "arm"',)] * told
+
+
+def test_fingers_on_the_same_side_of_both_hands_make_no_copy_of_mirrored_arms():
+    def arm(side: str, y: int) -> str:
+        fingers = "".join(
+            f'<body name="{side}_finger_{each}" pos="0.06 {place} 0"><geom type="box" size="0.03 0.01 0.01"/>'
+            f'<joint name="{side}_grip_{each}" type="slide" axis="0 {-place} 0" range="0 0.03"/></body>'
+            for each, place in (("a", 0.04), ("b", -0.04))
+        )
+        roll = "-0.3 1.9" if y > 0 else "-1.9 0.3"
+        return (
+            f'<body name="{side}_shoulder" pos="0 {0.19 * y} 0.4"><joint axis="0 1 0" range="-2.8 1.2"/>'
+            f'<inertial pos="0 {0.02 * y} 0" mass="1" diaginertia="0.002 0.002 0.002"/>'
+            f'<body name="{side}_upperarm" pos="0 {0.06 * y} 0"><joint axis="1 0 0" range="{roll}"/>'
+            '<geom type="capsule" fromto="0 0 0 0 0 -0.24" size="0.04"/><body pos="0 0 -0.27">'
+            '<joint axis="0 1 0" range="-1.4 1.1"/><geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.03"/>'
+            f'<body pos="0.24 0 0"><joint axis="1 0 0" range="-1.6 1.6"/><geom size="0.02"/>{fingers}'
+            "</body></body></body></body>"
+        )
+
+    torso = f'<body pos="0 0 1"><geom size="0.1"/>{arm("l", 1)}{arm("r", -1)}</body>'
+    assert not unlike(f'<mujoco><compiler angle="radian"/><worldbody>{torso}</worldbody></mujoco>')

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from clinic.diagnosis.engine import SLIDE
 from clinic.diagnosis.probes.sides import by_name
@@ -93,6 +94,30 @@ class Pairs:
         cosine = dot(mirrored, self.at("xaxis", right))
         return math.copysign(1, cosine), math.degrees(math.acos(min(1.0, abs(cosine))))
 
+    @cached_property
+    def crossed(self) -> set[int]:
+        """The left bodies of pairs that tell no mirror image from a copy, and what hangs on them.
+
+        Both hands have one finger on the same side, and the other where the mirror would have that one.
+        """
+        of, made, beside = self.of, set[int](), dict[tuple[int, int], list[tuple[int, int]]]()
+        for left, right in self.pairs["body"]:
+            hands = int(of.model("body_parentid")[left]), int(of.model("body_parentid")[right])
+            if hands[0] != hands[1]:
+                beside.setdefault(hands, []).append((left, right))
+        for fingers in beside.values():
+            places = [[of.row("body_pos", each, 3) for each in pair] for pair in fingers]
+            if len(fingers) == 2 and all(math.dist(*pair) < SAME for pair in places):
+                one, other = places[0][0], places[1][0]
+                across = [abs(a - b) > SAME for a, b in zip(one, other, strict=True)]
+                if sum(across) == 1 and abs(dot(add(one, other), across)) < SAME:
+                    made |= {each for left, _ in fingers for each in of.below(left)}
+        return made
+
+    def _telling(self, pairs: list[tuple[int, int]]) -> list[tuple[int, int]]:
+        """The pairs that tell a mirror image from a copy; all where none does."""
+        return [pair for pair in pairs if pair[0] not in self.crossed] or pairs
+
     def _by_place(self) -> None:
         of = self.of
         paired = {kind: {index for pair in self.pairs[kind] for index in pair} for kind in KINDS}
@@ -128,12 +153,13 @@ class Pairs:
             points = self._points(pairs)
             here, there = points[0]
             size = max(1e-4, *(norm(sub(p, here)) for p, _ in points), *(norm(sub(q, there)) for _, q in points))
-            image = self._copied(pairs) or self._best(common, pairs, points, FITS * size)
-            share = self._fit(pairs, image, FITS * size)
+            telling = self._telling(pairs)
+            image = self._copied(pairs) or self._best(common, pairs, self._points(telling), FITS * size)
+            share = self._fit(telling, image, FITS * size)
             # one pair astray would else move the plane: it goes through the body that both sides hang on
             fixed = (self.at("xpos", common),) * 2 if image.sign < 0 else points[0]
             through = replace(image, offset=sub(fixed[1], times(image.matrix, fixed[0])))
-            if (fits := self._fit(pairs, through, FITS * size)) >= SYMMETRIC:
+            if (fits := self._fit(telling, through, FITS * size)) >= SYMMETRIC:
                 image, share = through, fits
             if (mirror := self._displaced(common, pairs, FITS * size)) is not None:
                 image, share = mirror, self._fit(pairs, mirror, FITS * size)

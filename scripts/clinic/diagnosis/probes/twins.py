@@ -15,6 +15,7 @@ from clinic.diagnosis.probes.vector import Vector, add, apart, diagonal, dot, no
 from clinic.diagnosis.simulation import Simulation, kept
 
 EXACT, EXACT_MASS, PAIRS = 1.0, 4.0, 5  # %, %, and how many pairs there must be
+PLACED = {"pos", "center of mass", "inertia", "axis", "axis sign", "range", "ctrlrange", "quat", "direction"}
 OWNERS = {"joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid", "camera": "cam_bodyid"}
 
 
@@ -55,7 +56,8 @@ class Twins(Pairs):
 
     def __init__(self, simulation: Simulation) -> None:
         super().__init__(simulation)
-        self.comparisons = self._sharpened([each for each in self._compared() if math.isfinite(each.unlike)])
+        found = (each for each in self._compared() if math.isfinite(each.unlike) and not self._untold(each))
+        self.comparisons = self._sharpened([*found])
 
     def group(self, each: Comparison) -> int:
         """The body that both sides of a comparison hang on; -1 for actuators and sensors."""
@@ -78,6 +80,11 @@ class Twins(Pairs):
         """Whether what hangs on a body on both sides is the other's image but for little."""
         fits = next((self.share[left] for left, body in self.common.items() if body == group), 1.0)
         return fits >= SYMMETRIC and sum(each.odd for each in compared) <= max(2, 0.2 * len(compared))
+
+    def _untold(self, each: Comparison) -> bool:
+        """Whether it is of where something is, and of fingers that the hands have on the same side."""
+        body = self.bodies(each)[0]
+        return each.quantity in PLACED and body in self.crossed and self.images[body].sign < 0
 
     @staticmethod
     def _sharpened(found: list[Comparison]) -> list[Comparison]:
@@ -190,27 +197,7 @@ class Twins(Pairs):
             yield pair("limited", 100 * (limited[0] != limited[1]), 1)
             if all(limited):
                 unlike = _intervals(of.row("jnt_range", left, 2), of.row("jnt_range", right, 2), sign)
-                yield pair("range", 0.0 if self._crossed(left, right) else unlike, 10)
-
-    def _crossed(self, left: int, right: int) -> bool:
-        """Whether a slide is the image of its twin's neighbour: both hands have finger a on the same side."""
-        of, parents, owners = self.of, self.of.model("body_parentid"), self.of.model("jnt_bodyid")
-        hands = [int(parents[int(owners[joint])]) for joint in (left, right)]
-        if of.joint_type(left) != SLIDE or hands[0] == hands[1]:
-            return False
-        beside = [each for each in self.pairs["joint"] if [int(parents[int(owners[one])]) for one in each] == hands]
-        for other in beside:
-            crosses = (left, other[1]), (other[0], right)
-            slides = other != (left, right) and all(of.joint_type(joint) == SLIDE for joint in other)
-            if slides and all(self._mirrored(*cross) for cross in crosses):
-                return True
-        return False
-
-    def _mirrored(self, left: int, right: int) -> bool:
-        """Whether axis and range of a joint are the image of another's."""
-        sign, angle = self.joint_sign(left, right)
-        ranges = [self.of.row("jnt_range", joint, 2) for joint in (left, right)]
-        return angle < 30 and _intervals(ranges[0], ranges[1], sign) < 1
+                yield pair("range", unlike, 10)
 
     def _signs(self) -> Iterator[Comparison]:
         """Joint axes against the habit of the model: those along the normal of the mirror, and those across it."""
@@ -296,10 +283,7 @@ class Twins(Pairs):
             if all(limited):
                 same = pair(f"{quantity}range", 0.0, 10)
                 ranges = [of.row(f"actuator_{quantity}range", each, 2) for each in (left, right)]
-                bounded = all(of.model("jnt_limited")[joint] for joint in (joints[0], joints[1]))
-                crossed = bounded and self._crossed(joints[0], joints[1])
-                sign = 1.0 if crossed else self.interval_sign(same)
-                yield replace(same, unlike=_intervals(ranges[0], ranges[1], sign))
+                yield replace(same, unlike=_intervals(ranges[0], ranges[1], self.interval_sign(same)))
 
     def _sensors(self, left: int, right: int) -> Iterator[Comparison]:
         of, pair = self.of, partial(Comparison, "sensor", left, right)

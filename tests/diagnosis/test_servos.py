@@ -370,6 +370,20 @@ def test_an_actuator_that_is_called_like_the_beginning_of_an_idle_joint_was_mean
     assert found == {"hinge": ["actuator-on-another-joint"], "slider": []}
 
 
+@pytest.mark.parametrize(
+    ("ram", "told"),
+    [("boom_cylinder", []), ("stick_cylinder", ["actuator-on-another-joint", "sensor-on-another-joint"])],
+)
+def test_a_hinge_that_a_ram_of_its_name_moves_is_not_the_one_that_was_meant(ram, told):
+    rod = f'<joint name="{ram}" type="slide"/><geom size="0.1"/>'
+    boom = f'<body pos="0 0 1"><joint name="boom" axis="0 1 0"/><geom size="0.1" pos="1 0 0"/><body>{rod}</body></body>'
+    joint = f'joint="{ram}"'
+    driven = f'<actuator><position name="boom" kp="1e4" {joint}/></actuator>'
+    sensed = f'<sensor><jointpos name="boom_stroke" {joint}/></sensor>'
+    found = diagnosed(f"<mujoco><worldbody>{boom}</worldbody>{driven}{sensed}</mujoco>")
+    assert [each.rule for each in (*found.causes, *found.hints) if "another-joint" in each.rule] == told
+
+
 def test_a_gear_goes_without_the_gains_that_the_others_have_as_well():
     actuators = '<position joint="shoulder" kp="200" kv="9" gear="50" ctrlrange="-1.5 1.5"/>'
     actuators += '<position joint="shoulder" kp="{kp}" kv="9" ctrlrange="-1.5 1.5"/>'

@@ -28,7 +28,8 @@ Good:
 The number: how many sensors of a joint, site or body bear the name of another one, and not of their own; of a body, the
 name of a site that it has; of a reference, beside a word of what is measured in it. And those of three and more called
 alike, `boom_stroke` and `stick_stroke`, that read what all others do not, `boom_barrel` beside `stick_rod`, where
-`boom_rod` is there. Of 568 healthy models none has one of a joint.
+`boom_rod` is there. A sensor `boom_stroke` of a joint `boom_cylinder` is left alone, though a hinge is called `boom`. Of
+568 healthy models none has one of a joint.
 
 When it is wrong: a sensor that is called after a place, where a joint has the same name.
 """
@@ -93,10 +94,11 @@ def _misnamed(of: Simulation) -> dict[int, Meant]:
         kind, index = _end(of, sensor, "obj")
         reference, at = _end(of, sensor, "ref")
         other = of.names(reference)[at] if reference else ""
+        own = of.names(kind)[index] if kind else ""
         if (meant := _named(of, name, kind, index)) and meant != other:
-            made[sensor] = Meant("objname", kind, of.names(kind)[index], kind, meant)
+            made[sensor] = Meant("objname", kind, own, kind, meant)
         elif kind == "body" and (meant := _site_of(of, name, index)):
-            made[sensor] = Meant("objname", kind, of.names(kind)[index], "site", meant)
+            made[sensor] = Meant("objname", kind, own, "site", meant)
         elif (meant := _named(of, name, reference, at)) and _beside(of, name, meant, kind, index):
             made[sensor] = Meant("refname", reference, other, reference, meant)
     return made
@@ -108,12 +110,16 @@ def _end(of: Simulation, sensor: int, end: str) -> tuple[str, int]:
 
 
 def _named(of: Simulation, sensor: str, kind: str, index: int) -> str:
-    """The one name of a kind that a sensor's has in it, where it has not that of its own as well; else empty."""
+    """The one name of a kind that a sensor's has in it, where it has not that of its own as well; else empty.
+
+    A joint whose name has it, as `boom_cylinder` has `boom`, may be meant.
+    """
     names = of.names(kind) if kind and sensor else []
     own = names[index] if names else ""
     if not own or _within(own, sensor) or (kind == "site" and _within(_holder(of, index), sensor)):
         return ""
-    return _longest(sensor, names)
+    meant = _longest(sensor, names)
+    return "" if kind == "joint" and _within(meant, own) else meant
 
 
 def _longest(sensor: str, names: list[str]) -> str:

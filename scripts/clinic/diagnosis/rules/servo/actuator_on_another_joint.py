@@ -76,7 +76,17 @@ def _meant(simulation: Simulation) -> dict[int, tuple[int, int]]:
         if key and len(found) == 1 and driven not in (None, found[0]):
             made[actuator] = (driven, found[0])
     wrong = {meant: driven for driven, meant in made.values()}
-    return {each: pair for each, pair in made.items() if pair[1] in undriven or wrong.get(pair[0]) == pair[1]}
+    return {
+        each: (driven, meant)
+        for each, (driven, meant) in made.items()
+        if wrong.get(driven) == meant or (meant in undriven and not _named_too(simulation, each, driven))
+    }
+
+
+def _named_too(simulation: Simulation, actuator: int, joint: int) -> bool:
+    """Whether a joint bears the name of an actuator and more: `boom_cylinder` of `boom`, which moves hinge `boom`."""
+    name, own = _key(simulation.names("actuator")[actuator]), _key(simulation.names("joint")[joint])
+    return len(own) > len(name) == sum(each in own for each in name) and not own[-1].isdigit()
 
 
 def _within(joints: Mapping[tuple[str, ...], list[int]], key: tuple[str, ...], undriven: set[int]) -> list[int]:

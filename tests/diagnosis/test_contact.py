@@ -431,3 +431,23 @@ def test_a_link_without_collision_is_told_where_something_could_meet_it(geom: st
     text = text.replace('fromto="0 0 0.04 0 0 0.26" size="0.03" contype="0"', f'{geom} contype="0"')
     found = examine(NativeEngine(), {"arm.xml": text}, select=["link-without-collision"]).hints
     assert [each.elements[0] for each in found] == ['body "fore"'] * told
+
+
+CUBE = '<body name="cube" pos="0 0 {}"><freejoint/><geom type="box" size="0.05 0.05 0.05"/></body>'
+WHEEL = '<body pos="0.1 {} 0"><joint axis="0 1 0"/><geom type="cylinder" size="0.33 0.01" zaxis="0 1 0"/></body>'
+CART = f'<body pos="0 0 {{}}"><freejoint/><geom size="0.01"/>{WHEEL.format(0.1)}{WHEEL.format(-0.1)}</body>'
+
+
+@pytest.mark.parametrize(
+    ("inside", "z", "told"),
+    [
+        pytest.param(CUBE, 0.0255, ("size", "0.025 0.025 0.025"), id="half the edge stands on the floor"),
+        pytest.param(CUBE, 0.015, ("pos", "0.035 m higher"), id="half of it is sunk still"),
+        pytest.param(CART, 0.033, ("size", "0.033 0.01"), id="wheels of a tenth roll on the floor"),
+        pytest.param(CART, 0.05, ("pos", "0.28 m higher"), id="wheels of a tenth hang in the air"),
+    ],
+)
+def test_what_begins_in_the_floor_for_its_size_is_made_smaller(inside, z, told):
+    text = f"<mujoco><worldbody>{FLOOR}{inside.format(z)}</worldbody></mujoco>"
+    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["overlap-at-start"]).causes
+    assert (found.attribute, found.value) == told

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 
-from clinic.diagnosis.engine import HINGE, SLIDE, Contact
+from clinic.diagnosis.engine import BOX, CYLINDER, HINGE, PLANE, SLIDE, Contact
 from clinic.diagnosis.probes.equalities import tied
 from clinic.diagnosis.probes.load import poses
 from clinic.diagnosis.probes.run import State, state
-from clinic.diagnosis.probes.shape import falling, geoms_of_tree, root_of, roots, thickness
+from clinic.diagnosis.probes.shape import falling, geoms_of_tree, root_of, roots, solid, thickness
 from clinic.diagnosis.probes.vector import at
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
@@ -19,6 +19,8 @@ from clinic.diagnosis.suspect import Probe
 LIMBS = 3  # that make a walker
 OFTEN = 0.2  # of the poses
 LINKS = 3  # bodies further apart in the tree are no relatives
+NEAR, LOOSE, UPRIGHT = 0.01, 0.06, 0.999  # of the half height, for what stands still and for what may fall
+FALLS = 0.003  # m that what may fall is put above what it stands on
 
 
 @kept
@@ -165,3 +167,35 @@ def _parents(model: ReaderModel) -> set[int]:
     """The fixed bodies on which what moves hangs."""
     of = model.simulation
     return {body for root in roots(of) for body in of.ancestors(root) if body not in (0, root)}
+
+
+def sunk_by_half(of: Simulation, geom: int) -> bool:
+    """Whether a geom's middle is half its half height above what is below it."""
+    kind, height = int(of.model("geom_type")[geom]), of.row("geom_size", geom, 3)
+    half = height[1] if kind == CYLINDER else height[2]
+    if kind not in (BOX, CYLINDER) or not solid(of, geom) or of.data_row("geom_xmat", geom, 9)[8] < UPRIGHT:
+        return False
+    body = of.body_of("geom", geom)
+    moves = body in of.moving_bodies
+    if moves and (body not in of.free_bodies or len(of.geoms_of(body)) != 1):
+        return False
+    wrong = LOOSE * half if moves else NEAR * half
+    over = FALLS if moves else 0.0
+    return any(-wrong < above - half / 2 < wrong + over for above in _above(of, geom, body))
+
+
+def _above(of: Simulation, geom: int, body: int) -> Iterator[float]:
+    """How high the middle of a geom is above the planes and the boxes below it that stand still."""
+    kinds, bodies, moving = of.model("geom_type"), of.model("geom_bodyid"), of.moving_bodies
+    place = of.data_row("geom_xpos", geom, 3)
+    for other, kind in enumerate(kinds):
+        if int(kind) not in (PLANE, BOX) or other == geom or not solid(of, other) or int(bodies[other]) in moving:
+            continue
+        there, up = of.data_row("geom_xpos", other, 3), of.data_row("geom_xmat", other, 9)[8]
+        if up < UPRIGHT or (int(bodies[other]) == body and body):
+            continue
+        sizes = of.row("geom_size", other, 3)
+        if int(kind) == PLANE:
+            yield place[2] - there[2]
+        elif body in moving and all(abs(place[axis] - there[axis]) < sizes[axis] for axis in (0, 1)):
+            yield place[2] - there[2] - sizes[2]

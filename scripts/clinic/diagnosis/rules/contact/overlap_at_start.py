@@ -1,7 +1,8 @@
 """Something begins inside of something else, and is thrown out.
 
 A free body whose `pos`, or whose place in a keyframe, lies within the floor, a table or another body is pushed out by
-the contact's spring within a few steps: it leaps. `size` of a box is half of its edge, a common reason.
+the contact's spring within a few steps: it leaps. `size` of a box is half of its edge, a common reason; a radius in
+another unit is one too.
 
 Bad:
 
@@ -33,9 +34,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
-from clinic.diagnosis.engine import BOX, FREE, HINGE, PLANE, SLIDE, Contact
+from clinic.diagnosis.engine import BOX, CAPSULE, CYLINDER, FREE, HINGE, PLANE, SLIDE, SPHERE, Contact
 from clinic.diagnosis.probes.hulls import closed_holes
-from clinic.diagnosis.probes.overlap import at_start, beginning, buried
+from clinic.diagnosis.probes.overlap import at_start, beginning, buried, sunk_by_half
 from clinic.diagnosis.probes.shape import box, geoms_of_tree, root_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -47,10 +48,12 @@ SINCE = "0.1"
 CASE = "stacked-boxes-fly-apart"
 
 MOST = 0.05
+RESTS, LEVEL_AXIS = 0.1, 0.1  # of a tenth of the radius; cosine of its angle to the vertical
+HALF, TENTH = " The size of a box is half of its edge.", " With a tenth of the radius it stands on it."
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Whatever is buried deepest, raised until it is free; the upper one of two bodies; else boxes halved."""
+    """Whatever is buried deepest, raised until it is free; the upper one of two bodies; or smaller, where that fits."""
     simulation = model.simulation
     deep = any(share > MOST for share, _ in buried(simulation).values())
     holes = closed_holes(simulation) if deep else {}
@@ -65,10 +68,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = f"It begins {1000 * depth:.3g} mm inside of what it touches."
     if names:
         geoms = tuple(simulation.name("geom", geom) for _, contact in found.values() for geom in contact.geoms)
-        halved = _halved(model, found) if model.measured(at_start(), edits) > MOST else ()
-        if halved and model.measured(at_start(), halved) <= MOST:
-            says += " The size of a box is half of its edge."
-            yield Suspect(geoms, "size", "", halved[0].value, halved, at_start(), MOST, says, excess=2.0)
+        halved = _halved(model, found, all_of_them=model.measured(at_start(), edits) > MOST)
+        smaller, why = (tenth, TENTH) if (tenth := _tenth(model, found)) else (halved, HALF)
+        if smaller and model.measured(at_start(), smaller) <= MOST:
+            yield Suspect(geoms, "size", "", smaller[0].value, smaller, at_start(), MOST, says + why, excess=2.0)
         elif not edits or model.measured(at_start(), edits) > MOST:
             if not _trees(simulation, found) - {0} <= set(simulation.free_bodies):
                 return
@@ -118,15 +121,33 @@ def _posed(simulation: Simulation, root: int) -> bool:
     return root not in simulation.free_bodies or any(outside)
 
 
-def _halved(model: ReaderModel, roots: Iterable[int]) -> tuple[Edit, ...]:
-    """Boxes of half the size, those of one size together; nothing where something else than a box is buried."""
-    simulation, sizes = model.simulation, dict[tuple[float, ...], list[int]]()
+def _halved(model: ReaderModel, roots: Iterable[int], all_of_them: bool) -> tuple[Edit, ...]:
+    """Boxes of half the size, or those that would then stand on what they are in; nothing where another is buried."""
+    simulation, sizes = model.simulation, dict[int, str]()
     for geom in (geom for root in roots for geom in geoms_of_tree(simulation, root)):
-        if int(simulation.model("geom_type")[geom]) != BOX:
+        if int(simulation.model("geom_type")[geom]) != BOX or not (all_of_them or sunk_by_half(simulation, geom)):
             return ()
-        sizes.setdefault(simulation.row("geom_size", geom, 3), []).append(geom)
-    halves = ((geoms, " ".join(f"{each / 2:g}" for each in size)) for size, geoms in sizes.items())
-    return tuple(edit for geoms, text in halves for edit in model.set("geom", geoms, "size", text))
+        sizes[geom] = " ".join(f"{each / 2:g}" for each in simulation.row("geom_size", geom, 3))
+    return model.set_each("geom", "size", sizes)
+
+
+def _tenth(model: ReaderModel, roots: Collection[int]) -> tuple[Edit, ...]:
+    """Round geoms with a tenth of their radius, where the middle of all is as high above the plane; else nothing."""
+    of, start, depths = model.simulation, beginning(model.simulation), dict[int, float]()
+    kinds, owner, bodies = of.model("geom_type"), root_of(of), of.model("geom_bodyid")
+    for contact in start.contacts:
+        plane, geom = sorted(contact.geoms, key=lambda each: int(kinds[each]) != PLANE)
+        apart = owner[int(bodies[plane])] != (root := owner[int(bodies[geom])])
+        if apart and root in roots and contact.distance < 0:
+            level = abs(start.geom_xmat[9 * geom + 8]) < LEVEL_AXIS and int(kinds[geom]) in (CAPSULE, CYLINDER)
+            if int(kinds[plane]) != PLANE or not (level or int(kinds[geom]) == SPHERE):
+                return ()
+            depths[geom] = max(depths.get(geom, 0.0), -contact.distance)
+    tenths = {geom: of.model("geom_size")[3 * geom] / 10 for geom in depths}
+    if any(abs(9 * tenths[geom] - depth) > RESTS * tenths[geom] for geom, depth in depths.items()):
+        return ()
+    sizes = {geom: (model.value("geom", geom, "size") or "").split() for geom in depths}
+    return model.set_each("geom", "size", {each: " ".join([f"{tenths[each]:.6g}", *sizes[each][1:]]) for each in sizes})
 
 
 def _raised(model: ReaderModel, root: int, lift: float) -> tuple[Edit, ...]:

@@ -32,10 +32,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.engine import BOX, CYLINDER, PLANE
-from clinic.diagnosis.probes.shape import solid
+from clinic.diagnosis.engine import CYLINDER
+from clinic.diagnosis.probes.overlap import sunk_by_half
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A size with full lengths"
@@ -44,15 +43,12 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "how large a box should be, only its maker knows"
 
-NEAR, LOOSE, UPRIGHT = 0.01, 0.06, 0.999  # of the half height, for what stands still and for what may fall
-FALLS = 0.003  # m that what may fall is put above what it stands on
-
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """All boxes and cylinders that would stand on something with half their size."""
     of = model.simulation
     of.begin()
-    found = [geom for geom in range(of.count("geom")) if _sunk(of, geom)]
+    found = [geom for geom in range(of.count("geom")) if sunk_by_half(of, geom)]
     placed = [(geom, element) for geom in found if (element := model.element("geom", geom)) is not None]
     placed = [(geom, element) for geom, element in placed if element.get("size") and not element.get("fromto")]
     if not placed:
@@ -66,35 +62,3 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = "A size is half a length, and with half of it it would stand on what it is sunk into."
     now, probe = placed[0][1].get("size"), counted("boxes that are sunk by half their half height", len(placed))
     yield Suspect(names, "size", now, edits[0].value, tuple(edits), probe, 0.5, says, "half lengths")
-
-
-def _sunk(of: Simulation, geom: int) -> bool:
-    """Whether a geom's middle is half its half height above what is below it."""
-    kind, height = int(of.model("geom_type")[geom]), of.row("geom_size", geom, 3)
-    half = height[1] if kind == CYLINDER else height[2]
-    if kind not in (BOX, CYLINDER) or not solid(of, geom) or of.data_row("geom_xmat", geom, 9)[8] < UPRIGHT:
-        return False
-    body = of.body_of("geom", geom)
-    moves = body in of.moving_bodies
-    if moves and (body not in of.free_bodies or len(of.geoms_of(body)) != 1):
-        return False
-    wrong = LOOSE * half if moves else NEAR * half
-    over = FALLS if moves else 0.0
-    return any(-wrong < above - half / 2 < wrong + over for above in _above(of, geom, body))
-
-
-def _above(of: Simulation, geom: int, body: int) -> Iterator[float]:
-    """How high the middle of a geom is above the planes and the boxes below it that stand still."""
-    kinds, bodies, moving = of.model("geom_type"), of.model("geom_bodyid"), of.moving_bodies
-    place = of.data_row("geom_xpos", geom, 3)
-    for other, kind in enumerate(kinds):
-        if int(kind) not in (PLANE, BOX) or other == geom or not solid(of, other) or int(bodies[other]) in moving:
-            continue
-        there, up = of.data_row("geom_xpos", other, 3), of.data_row("geom_xmat", other, 9)[8]
-        if up < UPRIGHT or (int(bodies[other]) == body and body):
-            continue
-        sizes = of.row("geom_size", other, 3)
-        if int(kind) == PLANE:
-            yield place[2] - there[2]
-        elif body in moving and all(abs(place[axis] - there[axis]) < sizes[axis] for axis in (0, 1)):
-            yield place[2] - there[2] - sizes[2]

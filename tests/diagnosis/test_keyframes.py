@@ -77,6 +77,17 @@ def test_where_keyframe_and_control_agree_the_range_is_the_wrong_one():
     assert found[0].elements[0] == 'joint "elbow"'
 
 
+@pytest.mark.parametrize(("other", "told"), [("0", ("range", "hint")), ("1.2", ("qpos", "cause"))])
+def test_a_door_that_one_keyframe_opens_the_other_way_has_a_wrong_sign_somewhere(other, told):
+    door = '<body><joint name="hinge" axis="0 0 1" range="-1 90"/><geom type="box" size="0.4 0.02 1"/></body>'
+    keys = f'<key name="shut" qpos="{other}"/><key name="ajar" qpos="-0.6"/>'
+    text = f"<mujoco><worldbody>{door}</worldbody><keyframe>{keys}</keyframe></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["key-outside-range"])
+    (one,) = (*found.causes, *found.hints)
+    assert (one.attribute, one.level) == told
+    assert bool(one.edit) == (one.level == "cause")
+
+
 def test_two_targets_in_each_others_place_are_exchanged():
     (found,) = told("0.3 1.2 0.4", "0.3 0.4 1.2")
     assert (found.rule, found.value) == ("key-targets-elsewhere", "0.3 1.2 0.4")

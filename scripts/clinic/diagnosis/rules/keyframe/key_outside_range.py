@@ -29,8 +29,10 @@ Good:
 The number: how far the worst joint is outside: 0.1 rad or 4 cm, and more. Where the joint's servo is told to hold it
 there, and may be, the joint's range is what is told. What would be inside in degrees, or far inside with the other
 sign, is written so, and two that would be inside in each other's place are exchanged; else it is put to the end of the
-range. A joint that every one of several keyframes puts outside is a hint that its range is wrong. Of hinges without a
-range a whole multiple of 15 from 30 on is told as a hint, where no other keyframe turns them by more than once.
+range. A joint that every one of several keyframes puts outside is a hint that its range is wrong. Where
+no servo and no other keyframe moves it, the range may as well have the wrong sign, and nothing is edited. Of hinges
+without a range a whole multiple of 15 from 30 on is told as a hint, where no other keyframe turns them by more than
+once.
 
 When it is wrong: a limit that is soft on purpose.
 """
@@ -91,6 +93,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         worst = max(off, key=lambda joint: weighed(of, joint, off[joint]))
         low, high = of.row("jnt_range", worst, 2)
         says = f"{of.name('joint', worst)} stands {abs(off[worst]):.3g} outside of {low:.3g} to {high:.3g}."
+        if len(off) == 1 and _either(of, key, worst, off[worst]):
+            yield _of_either(model, key, worst, says, written(qpos))
+            continue
         yield Suspect(
             (of.name("key", key), *(of.name("joint", joint) for joint in off)),
             "qpos",
@@ -103,6 +108,24 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "inside of the ranges",
             excess=weighed(of, worst, off[worst]) / LIMIT,
         )
+
+
+def _either(of: Simulation, key: int, joint: int, beyond: float) -> bool:
+    """Whether the range may have the wrong sign as well as a keyframe: no servo or other keyframe moves the joint."""
+    place = of.place(joint)
+    others = {qpos[place] for each, qpos in _poses(of).items() if each != key}
+    start_at(of, key)
+    return of.count("key") > 1 and joint not in of.drivers and len(others) == 1 and _turned(of, joint, beyond)
+
+
+def _of_either(model: ReaderModel, key: int, joint: int, says: str, qpos: str) -> Suspect:
+    """A joint and a keyframe of which one has the wrong sign."""
+    of, unit = model.simulation, model.angle_unit if model.simulation.joint_type(joint) == HINGE else 1.0
+    low, high = (x / unit for x in of.row("jnt_range", joint, 2))
+    value = f"{written([-high, -low])}, or qpos {qpos}"
+    says += " Either of them has the wrong sign; nothing here tells which."
+    names, now = (of.name("joint", joint), of.name("key", key)), model.value("joint", joint, "range") or ""
+    return Suspect(names, "range", now, value, (), outside(key), LIMIT, says, "inside of the ranges")
 
 
 def _degrees(model: ReaderModel, key: int, element: Element) -> Iterator[Suspect]:

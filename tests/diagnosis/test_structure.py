@@ -349,6 +349,30 @@ def test_a_hinge_that_is_called_a_slide_is_told(joint: str, actuator: str, told:
 
 
 @pytest.mark.parametrize(
+    ("ends", "told"),
+    [("ram ram ram", [("class", "ram")]), ("ram ram pin", []), ("1 2 3", [("type", "slide")])],
+    ids=["of-its-name", "of-another-name", "left-out"],
+)
+def test_the_one_hinge_among_slides_of_its_name_gets_their_class(ends: str, told: list[tuple[str, str]]) -> None:
+    joints = [f"{part}_{end}" for part, end in zip(("boom", "stick", "bucket"), ends.split(), strict=True)]
+    kinds = ["pin" if "ram" in ends else "free", "ram", "ram"]
+    bodies = "".join(
+        f'<body pos="{i} 0 0"><joint name="{name}" class="{kind}" range="-0.04 0.05"/><geom size="0.1"/></body>'
+        for i, (name, kind) in enumerate(zip(joints, kinds, strict=True))
+    ).replace(' class="free"', "")
+    classes = (
+        '<default class="pin"><joint type="hinge" axis="0 1 0"/></default><default class="ram"><joint type="slide"/>'
+    )
+    driven = "".join(f'<position joint="{name}" kp="10" kv="1"/>' for name in joints)
+    text = (
+        f'<mujoco><compiler angle="radian"/><default>{classes}</default></default><worldbody>{bodies}</worldbody>'
+        f"<actuator>{driven}</actuator></mujoco>"
+    )
+    found = examine(NativeEngine(), {"model.xml": text}, select=["hinge-for-slide", "range-in-the-wrong-unit"])
+    assert [(each.attribute, each.value) for each in found.hints] == told
+
+
+@pytest.mark.parametrize(
     ("young", "value"), [("30", "30000"), ("3e4", None)], ids=["in-kilopascal", "that-keeps-its-shape"]
 )
 def test_a_soft_body_that_goes_flat_is_told(young: str, value: str | None) -> None:

@@ -24,7 +24,9 @@ Good:
     +       <joint name="finger" type="slide" axis="0 1 0" range="0 0.04" damping="1"/>
 
 The number: hinges for which nobody wrote a type, and which are called a slide, or their actuator is; or which something
-drives or a spring holds, in a range below 0.15 rad that is so narrow as it is written, too.
+drives or a spring holds, in a range below 0.15 rad that is so narrow as it is written, too. And the one hinge in a
+narrow range of which all others slide whose names end in the same word: `boom_ram` beside `stick_ram` and `bucket_ram`.
+It gets their class where it has another one.
 
 When it is wrong: a hinge that bends by a few degrees, such as a flexure.
 """
@@ -34,7 +36,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, how_many
@@ -46,6 +49,7 @@ LEVEL = "hint"
 UNPLANTED = "a joint of another type is planted as that of a pair"
 
 NARROW = 0.15  # rad
+SISTERS = 2
 SLIDES = re.compile(r"(?<![a-z])(slide|slider|sliding|prismatic|linear|rail)(?![a-z])", re.IGNORECASE)
 
 
@@ -54,10 +58,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of, source = model.simulation, model.source
     if source is None or source.urdf:
         return
+    yield from _of_another_class(model)
     ranges = _ranges(of)
     narrow = [joint for joint, wide in ranges.items() if wide < NARROW and _in_metres(model, joint)]
     called = {joint: said for joint in range(of.count("joint")) if (said := _called(model, joint))}
-    found = sorted({*narrow, *called})
+    found = sorted({*narrow, *called} - {*unlike_slides(of)})
     if not found:
         return
     low, high = of.row("jnt_range", found[0], 2)
@@ -67,6 +72,37 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     names, edits = tuple(of.name("joint", joint) for joint in found), model.set("joint", found, "type", "slide")
     probe = how_many("hinges with the range or the name of a slide", _hinges, *found)
     yield Suspect(names, "type", "left out", "slide", edits, probe, 0, says, "a slide")
+
+
+def unlike_slides(of: Simulation) -> dict[int, list[int]]:
+    """The one hinge in a range in m of joints whose names end in the same word, by the slides that all others are."""
+    ends: dict[str, list[int]] = {}
+    for joint, name in enumerate(of.names("joint")):
+        first, _, last = name.rpartition("_")
+        if first and not last.isdigit():
+            ends.setdefault(last, []).append(joint)
+    made = {}
+    for joints in ends.values():
+        kinds = [of.joint_type(joint) for joint in joints]
+        if kinds.count(HINGE) == 1 and kinds.count(SLIDE) == len(kinds) - 1 >= SISTERS:
+            made[joints[kinds.index(HINGE)]] = [each for each in joints if of.joint_type(each) == SLIDE]
+    return {joint: others for joint, others in made.items() if 0 < _ranges(of).get(joint, 0) < NARROW}
+
+
+def _of_another_class(model: ReaderModel) -> Iterator[Suspect]:
+    """The one hinge among slides, with their class where all have one, else their type."""
+    of = model.simulation
+    for joint, slides in unlike_slides(of).items():
+        element, others = model.element("joint", joint), [model.element("joint", each) for each in slides]
+        classes = {(each.get("class") or "") if each else "" for each in others}
+        given, name = element.get("class") if element else "", of.name("joint", joint)
+        attribute, now, value = "type", "hinge", "slide"
+        if given and len(classes) == 1 and "" not in classes:
+            attribute, now, value = "class", given, classes.pop()
+        says = f"It is a hinge, and {of.name('joint', slides[0])} and {len(slides) - 1} more of its name slide."
+        edits = (set_attribute(element, attribute, value),) if element else ()
+        probe = how_many("hinges that are called like slides", _hinges, joint)
+        yield Suspect((name,), attribute, now, value, edits, probe, 0, says, "a slide")
 
 
 def _called(model: ReaderModel, joint: int) -> str:

@@ -39,6 +39,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.joint.hinge_for_slide import unlike_slides
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
@@ -56,7 +57,7 @@ def _spans(simulation: Simulation) -> dict[int, float]:
     made = {}
     for joint, limited in enumerate(simulation.model("jnt_limited")):
         low, high = simulation.row("jnt_range", joint, 2)
-        if limited and high > low and simulation.joint_type(joint) == HINGE:
+        if limited and high > low and simulation.joint_type(joint) == HINGE and joint not in unlike_slides(simulation):
             made[joint] = high - low
     return made
 

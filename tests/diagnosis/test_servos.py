@@ -709,3 +709,69 @@ def test_a_servo_that_leads_another_joint_next_to_nowhere_is_told(nut: str, ctrl
     text = f"<mujoco><worldbody>{links}</worldbody>{screw}{servo}</mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["control-range-too-narrow"])
     assert [each.value for each in found.hints] == values
+
+
+def test_a_servo_that_rings_beside_its_twin_of_the_same_gains_moves_what_is_unlike() -> None:
+    def leg(side: str, y: float, far: float) -> str:
+        return f'<body pos="0 {y} 1"><joint name="{side}_hip" axis="0 1 0"/><geom size="0.05" pos="{far} 0 0"/></body>'
+
+    drive = '<position name="{0}" joint="{0}" kp="50" kv="1.5"/>'
+    driven = "".join(drive.format(f"{side}_hip") for side in ("left", "right"))
+    text = "<mujoco><worldbody>{}{}</worldbody><actuator>{}</actuator></mujoco>"
+    found = {
+        far: [each.level for each in (*told.causes, *told.hints)]
+        for far in (0.3, 3)
+        for told in [
+            examine(
+                NativeEngine(),
+                {"model.xml": text.format(leg("left", 0.1, 3), leg("right", -0.1, far), driven)},
+                select=["undamped-servo"],
+            )
+        ]
+    }
+    assert found == {0.3: ["hint"], 3: ["cause"]}
+
+
+def test_a_gain_that_neither_its_damping_nor_the_timestep_bears_is_too_large():
+    chain = "".join(
+        f'<body pos="{-0.1 * (i > 0)} 0 0"><joint name="j{i}" axis="0 0 1" damping="1e-3"/>'
+        '<geom type="capsule" fromto="0 0 0 -0.08 0 0" size="0.015"/>'
+        for i in range(3)
+    )
+    driven = "".join(f'<position joint="j{i}"/>' for i in range(3))
+    text = (
+        '<mujoco><option timestep="0.004" gravity="0 0 0" integrator="implicitfast"/>'
+        '<default><position kp="{}" kv="0.05"/></default>'
+        f"<worldbody>{chain}{'</body>' * 3}</worldbody><actuator>{driven}</actuator></mujoco>"
+    )
+    found = {kp: [(each.rule, each.value) for each in diagnosed(text.format(kp)).causes] for kp in ("40", "0.4")}
+    assert found == {"40": [("undamped-servo", "0.4")], "0.4": []}
+
+
+@pytest.mark.parametrize(("damping", "told"), [("8e5", True), ("800", False)])
+def test_damping_against_which_no_equality_holds_is_told_and_not_the_timestep(damping: str, told: bool) -> None:
+    text = f"""
+<mujoco>
+  <option timestep="0.002" integrator="implicitfast"/>
+  <worldbody>
+    <body pos="0 0 1">
+      <joint name="boom" axis="0 1 0" damping="15"/>
+      <geom type="capsule" fromto="0 0 0 2 0 0" size="0.08" mass="100"/>
+      <site name="lug" pos="1 0 0"/>
+    </body>
+    <body pos="0.5 0 0.2" zaxis="0.5 0 0.8">
+      <joint name="barrel" axis="0 1 0" damping="15"/>
+      <geom type="cylinder" fromto="0 0 0 0 0 0.5" size="0.05" mass="10" contype="0" conaffinity="0"/>
+      <body pos="0 0 0.5">
+        <joint name="ram" type="slide" axis="0 0 1" damping="{damping}" armature="8"/>
+        <geom type="cylinder" fromto="0 0 0 0 0 0.44340" size="0.03" mass="5" contype="0" conaffinity="0"/>
+        <site name="eye" pos="0 0 0.4434"/>
+      </body>
+    </body>
+  </worldbody>
+  <equality><connect site1="eye" site2="lug" solref="0.008 1" solimp="0.95 0.99 0.001"/></equality>
+</mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["damping-explicit", "timestep-too-long"])
+    assert [(each.rule, each.elements) for each in (*found.causes, *found.hints)] == [
+        ("damping-explicit", ('joint "ram"',))
+    ] * told

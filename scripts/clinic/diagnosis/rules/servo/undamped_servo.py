@@ -25,8 +25,10 @@ Good:
 The number: a damping ratio under 0.08, and a step of 0.1 rad (0.01 m for a slide), without gravity and contacts, that
 overshoots by more than 22 % and crosses its target four times. With a damping ratio z the overshoot of one joint alone
 is exp(-pi z / sqrt(1 - z^2)), 0.78 for 0.08; neighbours take up some of it. A joint whose
-`frictionloss` holds the step is left alone. Legs of healthy robots go down to 0.1. With `--symptom oscillates` a
-damping ratio under 0.5 and an overshoot of more than 12 % are told too, as a hint.
+`frictionloss` holds the step is left alone. Legs of healthy robots go down to 0.1. Servos whose twins have the same
+gains and more of it are a hint: what they move is unlike. Where a model rattles from step to step too, and a tenth or a
+hundredth of `kp` mends both, that is told. With `--symptom oscillates` a damping ratio under 0.5 and an overshoot of
+more than 12 % are told too, as a hint.
 
 When it is wrong: friction that the model leaves to contacts, or a controller that adds the damping.
 """
@@ -34,10 +36,12 @@ When it is wrong: friction that the model leaves to contacts, or a controller th
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.servo import STEP, Servo, overshoot, servos
+from clinic.diagnosis.probes.shake import SHAKES, shake
+from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -46,7 +50,8 @@ FAMILIES = ("oscillates", "explodes")
 SINCE = "0.1"
 CASE = "servo-oscillates"
 
-RATIO, OVERSHOOT = 0.08, 0.22
+WELL = "a damping ratio of 0.7 to 1 (MuJoCo's manual, dampratio)"
+RATIO, OVERSHOOT, UNLIKE = 0.08, 0.22, 1.5
 KEEN_RATIO, KEEN_OVERSHOOT = 0.5, 0.12  # where the reader sees something oscillate
 
 
@@ -60,6 +65,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not found:
         return
     worst = next(iter(found))
+    if (weaker := _weaker(model, found)) is not None:
+        yield weaker
+        return
     yield Suspect(
         tuple(of.name("actuator", each.actuator) for each in found),
         "dampratio",
@@ -70,8 +78,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         most,
         f"Stiffness {worst.stiffness:.3g} and damping {worst.damping:.3g} on an inertia of {worst.inertia:.2g} "
         f"are a damping ratio of {worst.ratio:.2g}.",
-        "a damping ratio of 0.7 to 1 (MuJoCo's manual, dampratio)",
-        level="hint" if keen else "cause",
+        WELL,
+        level="hint" if keen or all(_loaded(model, each) for each in found) else "cause",
     )
 
 
@@ -86,6 +94,38 @@ def _ringing(model: ReaderModel, ratio: float, most: float) -> dict[Servo, tuple
     whole = tuple(edit for each in found for edit in edits[each])
     mended = [each for each in found if model.measured(overshoot([each.actuator]), whole) <= most]
     return {each: edits[each] for each in mended or found}  # a clipped force that throws to and fro is not mended so
+
+
+def _loaded(model: ReaderModel, servo: Servo) -> bool:
+    """Whether a servo's twin, with the same gains, does not ring: what it moves is unlike, be it by a fault."""
+    of = model.simulation
+    twin = sided(of, "actuator").get(servo.actuator)
+    alike = [each for each in servos(of) if twin and each.actuator == twin[1] and each.ratio > UNLIKE * servo.ratio]
+    return any(
+        math.isclose(servo.stiffness, each.stiffness) and math.isclose(servo.damping, each.damping) for each in alike
+    )
+
+
+def _weaker(model: ReaderModel, found: Collection[Servo]) -> Suspect | None:
+    """Servos with damping of their own whose stiffness is too much for the timestep too: a part of it that does."""
+    of, worst = model.simulation, next(iter(found)).actuator
+    gain, damping = (model.value("actuator", worst, name) or "" for name in ("kp", "kv"))
+    if model.measured(shake()) <= SHAKES or not gain or not damping or not float(damping):
+        return None
+    giver = model.giver("actuator", [worst], "kp")
+    numbers = [each for each in range(of.count("actuator")) if giver and model.giver("actuator", [each], "kp") is giver]
+    numbers = numbers or [worst]
+    probe, rings = overshoot(tuple(numbers)), overshoot(tuple(each.actuator for each in found))
+    for less in (10, 100):
+        value = f"{float(gain) / less:.3g}"
+        edits = model.set("actuator", numbers, "kp", value)
+        if edits and model.measured(rings, edits) <= OVERSHOOT and model.measured(shake(), edits) <= SHAKES:
+            names = tuple(of.name("actuator", each) for each in numbers)
+            says = (
+                f"It rings, and rattles from step to step: its damping and the timestep would do for a kp of {value}."
+            )
+            return Suspect(names, "kp", gain, value, edits, probe, OVERSHOOT, says, WELL)
+    return None
 
 
 def _damped(model: ReaderModel, servo: Servo) -> tuple[Edit, ...]:

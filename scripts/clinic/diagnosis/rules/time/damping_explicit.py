@@ -26,7 +26,8 @@ Good:
 
 The number: with the timestep h, the damping d and the inertia M, h d / M is at most 2.79 with RK4 and 2 with an
 explicit Euler (stability of a damper), M as it is where the joints around give way; and whether a joint becomes faster
-than 100 rad/s, or rattles, when the model is let go, nudged or driven.
+than 100 rad/s, or rattles, when the model is let go, nudged or driven. A joint's damping of more than 20 M / h is a
+hint by itself, with any integrator, where there are equalities and a tenth of it, or less, keeps the model calm.
 
 When it is wrong: an inertia or a damping that is itself the mistake.
 """
@@ -35,6 +36,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.probes.run import fastest
 from clinic.diagnosis.probes.servo import BEARS, damped_beyond, damping_is_implicit, explicit_damping
@@ -48,6 +50,8 @@ SINCE = "0.1"
 CASE = "finger-explodes-at-once"
 
 FAST, TENTH = 100.0, 0.1  # rad/s; of the symptom is left
+SYMPTOMS = ((fastest(), FAST), (shake(), SHAKES), (commanded(), FAST))
+STOPS = 20.0  # h d / M of a joint that is at rest within a twentieth of a step
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -55,10 +59,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     integrator, shares = int(of.model("opt.integrator")[0]), damped_beyond(of)
     edits = model.option("integrator", "implicitfast")
+    if (damped := overdamped(model)) is not None:
+        yield damped
     if not shares or not edits:
         return
     dof = max(shares, key=lambda each: shares[each])
-    for probe, limit in ((fastest(), FAST), (shake(), SHAKES), (commanded(), FAST)):
+    for probe, limit in SYMPTOMS:
         before = model.measured(probe)
         if before > limit and model.measured(probe, edits) <= max(limit, TENTH * before):
             name = of.name("joint", of.dof_joints[dof])
@@ -81,3 +87,25 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 level="cause" if integrator else "hint",  # under Euler it is as much the servo's gain
             )
             return
+
+
+def overdamped(model: ReaderModel) -> Suspect | None:
+    """Damping of joints that equalities tie, which stops them within a small part of a step, where less keeps calm."""
+    of = model.simulation
+    damping, masses = of.model("dof_damping"), of.mass_diagonal
+    dofs = {joint: of.dof(joint) for joint in range(of.count("joint")) if of.joint_type(joint) in (HINGE, SLIDE)}
+    shares = {joint: of.timestep * damping[dof] / max(masses[dof], 1e-12) for joint, dof in dofs.items()}
+    found = sorted((joint for joint, share in shares.items() if share > STOPS), key=lambda joint: -shares[joint])
+    shown = [(probe, limit) for probe, limit in SYMPTOMS if found and model.measured(probe) > limit]
+    if not shown or not of.count("equality"):
+        return None
+    (probe, limit), now = shown[0], damping[dofs[found[0]]]
+    for less in (10, 100, 1000):
+        edits = model.set_each("joint", "damping", {each: f"{damping[dofs[each]] / less:.3g}" for each in found})
+        if edits and model.measured(probe, edits) <= min(limit, TENTH * model.measured(probe)):
+            names = tuple(of.name("joint", joint) for joint in found)
+            says = f"At {names[0]}: damping {now:.3g} on an inertia of {masses[dofs[found[0]]]:.2g}, h d / M is "
+            says += f"{shares[found[0]]:.3g}, beside equalities that cannot hold against it."
+            value, well = f"{now / less:.3g}", f"h d / M < {STOPS:g}"
+            return Suspect(names, "damping", f"{now:g}", value, edits, probe, limit, says, well, TENTH, level="hint")
+    return None

@@ -44,6 +44,7 @@ from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.probes.solver import patient
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.joint.tendon_outside_range import far_outside
+from clinic.diagnosis.rules.time.damping_explicit import overdamped
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
@@ -62,7 +63,7 @@ TENTH, THIRD, HALF = 0.1, 1 / 3, 0.5  # what is left of a symptom that is gone; 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The timestep, where letting go makes something fast, or a nudge makes it rattle."""
     of, step = model.simulation, model.simulation.timestep
-    if far_outside(of):
+    if far_outside(of) or overdamped(model):
         return
     for probe, limit, share in (
         (fastest(), FAST, TENTH),

@@ -200,6 +200,7 @@ AGAIN = '<inertial><mass value="1"/></inertial>'
     ("changes", "rule", "value"),
     [
         ({"mass": ""}, "left-out", "1"),
+        ({"mass": '<mass value="0"/>'}, "massless-body", "1"),
         ({"more": AGAIN}, "given-twice", "removed"),
         ({"kind": "floating", "top": APART}, "misplaced-joint", "world"),
         ({"shape": '<sphere radius="0"/>'}, "invalid-value", "0.001"),
@@ -215,6 +216,34 @@ def test_what_is_wrong_in_a_urdf_is_mended(changes, rule, value, tmp_path, monke
     found = diagnosed(URDF.format(**WHEEL | changes), tmp_path, monkeypatch)
     assert [(each.rule, each.value) for each in found.causes] == [(rule, value)], found.text()
     assert not examine(NativeEngine(), dict(found.fixed)).error
+
+
+@pytest.mark.parametrize(
+    ("parent", "child", "edits"),
+    [
+        pytest.param("left_thigh", "right_shank", [("child", "left_shank")], id="copied"),
+        pytest.param("left_shank", "left_thigh", [("parent", "left_thigh"), ("child", "left_shank")], id="exchanged"),
+        pytest.param("left_thigh", "right_thigh", [("child", "left_shank")], id="led-elsewhere"),
+        pytest.param("pelvis", "left_thigh", [("child", "left_shank")], id="twice-from-one"),
+    ],
+)
+def test_a_joint_to_a_link_that_has_one_leads_to_the_link_without(parent, child, edits, tmp_path, monkeypatch):
+    inertia = '<inertia ixx="0.001" iyy="0.001" izz="0.001" ixy="0" ixz="0" iyz="0"/>'
+    names = ("pelvis", "left_thigh", "left_shank", "right_thigh", "right_shank")
+    links = "".join(f'<link name="{name}"><inertial><mass value="1"/>{inertia}</inertial></link>' for name in names)
+    ends = {
+        "left_hip": ("pelvis", "left_thigh"),
+        "left_knee": (parent, child),
+        "right_hip": ("pelvis", "right_thigh"),
+        "right_knee": ("right_thigh", "right_shank"),
+    }
+    joints = "".join(
+        f'<joint name="{name}" type="continuous"><parent link="{a}"/><child link="{b}"/></joint>'
+        for name, (a, b) in ends.items()
+    )
+    (found,) = diagnosed(f'<robot name="r">{links}{joints}</robot>', tmp_path, monkeypatch).causes
+    assert found.elements == ('<joint name="left_knee">',)
+    assert [(each.element, each.value) for each in found.edit] == edits
 
 
 @pytest.mark.parametrize(

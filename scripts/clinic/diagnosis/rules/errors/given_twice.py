@@ -20,7 +20,9 @@ Good:
     -       <inertial pos="0 0 0" mass="2" diaginertia="0.02 0.02 0.02"/>
 
 The number: none; the text compiles with the edit, which keeps the first. A tendon or an equality that has one of a pair
-twice, left and right, is given the other, where no line of its kind has that.
+twice, left and right, is given the other, where no line of its kind has that. Of two joints of a URDF that lead to one
+link, the one whose parent no joint leads to has parent and child exchanged; else the one that is called like a link to
+which none leads, leads there.
 
 When it is wrong: the second may be the right one.
 """
@@ -124,20 +126,65 @@ def _twin(source: Source, section: str, kind: str, name: str) -> str:
 
 
 def _parents(joints: list[Element]) -> Iterator[Suspect]:
-    """The second joint that leads to a link of a URDF."""
+    """The second joint that leads to a link of a URDF: to a link without one, or back to its parent, or taken out."""
     first = dict[str, Element]()
     for joint in joints:
-        child = joint.first("child")
-        if child is None:
-            continue
-        name = child.get("link")
+        name = _link(joint, "child")
         if name in first:
             says = (
                 f"Link {name!r} is a child of joint {first[name].get('name')!r} already, and a tree has one way to it."
             )
+            yield from _led_elsewhere(joints, [joint, first[name]], says)
             yield mends(joint, (delete(joint),), says, attribute="child", now=name, value="removed")
             return
-        first[name] = joint
+        if name:
+            first[name] = joint
+
+
+def _led_elsewhere(joints: list[Element], both: list[Element], says: str) -> Iterator[Suspect]:
+    """One of two joints with its parent and child exchanged, or led to the link without one that is called like it."""
+    children = {_link(each, "child") for each in joints}
+    for joint, other in (both, both[::-1]):
+        parent, child = joint.first("parent"), joint.first("child")
+        name = _link(joint, "child")
+        if parent is None or child is None or (up := parent.get("link")) in children or up == _link(other, "parent"):
+            continue
+        told = f"{says} None leads to its parent {up!r}: the two were exchanged."
+        edits = (set_attribute(parent, "link", name), set_attribute(child, "link", up))
+        yield mends(joint, edits, told, attribute="child", now=name, value=up)
+    free = [name for each in joints if (name := _link(each, "parent")) not in children]
+    free += [name for each in joints[:1] for name in _links(each) if name not in {*children, *free}]
+    for _, joint, name in sorted(
+        ((_alike(joint, name, other), joint, name) for joint, other in (both, both[::-1]) for name in free),
+        key=lambda each: -each[0],
+    ):
+        child = joint.first("child")
+        if child is not None and name != _link(joint, "parent"):
+            told = f"{says} No joint leads to link {name!r}."
+            yield mends(
+                joint, (set_attribute(child, "link", name),), told, attribute="child", now=child.get("link"), value=name
+            )
+
+
+def _link(joint: Element, end: str) -> str:
+    """The link at an end of a joint."""
+    found = joint.first(end)
+    return found.get("link") if found is not None else ""
+
+
+def _links(joint: Element) -> list[str]:
+    """The names of all links beside a joint."""
+    around = joint.parent.children if joint.parent is not None else []
+    return [each.get("name") for each in around if each.tag == "link"]
+
+
+def _alike(joint: Element, link: str, other: Element) -> int:
+    """How many more words of a link's name are in those of a joint and its parent than in those of another joint."""
+    words = [
+        set(re.split(r"[^a-z0-9]+", f"{each.get('name')} {_link(each, 'parent')}".lower())) for each in (joint, other)
+    ]
+    own = set(re.split(r"[^a-z0-9]+", link.lower()))
+    return len(own & words[0]) - len(own & words[1])
 
 
 def _includes(model: ReaderModel, file: str) -> list[Element]:

@@ -209,3 +209,11 @@ def test_a_link_without_its_inertial_is_told_once(geoms: str, told: str):
         NativeEngine(), {"model.xml": text}, select=["inertial-forgotten", "mass-unlike-links", "visual-mass"]
     )
     assert [each.rule for each in (*found.causes, *found.hints)] == [told]
+
+
+def test_the_one_geom_of_a_body_that_is_denser_than_metal_is_made_lighter_by_itself():
+    geoms = '<geom size="0.1" mass="1"/><geom name="battery" type="box" size="0.05 0.025 0.015" mass="250"/>'
+    text = f'<mujoco><worldbody><body pos="0 0 1"><freejoint/>{geoms}</body></worldbody></mujoco>'
+    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["denser-than-metal"]).causes
+    assert (found.elements[0], found.now, found.value) == ('geom "battery"', "250", "0.25")
+    assert [(each.attribute, each.value) for each in found.edit] == [("mass", "0.25")]

@@ -134,7 +134,7 @@ def matter(simulation: Simulation, body: int) -> Matter | None:
         centre = add(place, times(turn, box[:3]))
         for signs in product((-1, 1), repeat=3):
             corners.append(add(centre, times(turn, tuple(s * h for s, h in zip(signs, box[3:], strict=True)))))
-        volume, moments = _solid(int(kinds[geom]), box[3:])
+        volume, moments = _solid(simulation, geom)
         parts.append((volume, centre, turned(turn, diagonal(moments))))
     low, high = (tuple(pick(each) for each in zip(*corners, strict=True)) for pick in (min, max))
     total = sum(volume for volume, _, _ in parts) or 1e-30
@@ -157,9 +157,14 @@ def matter(simulation: Simulation, body: int) -> Matter | None:
     )
 
 
-def _solid(kind: int, box: Vector) -> tuple[float, Vector]:
+def volume_of(simulation: Simulation, geom: int) -> float:
+    """The volume of a geom in m3; of a mesh that of the box around it."""
+    return _solid(simulation, geom)[0]
+
+
+def _solid(simulation: Simulation, geom: int) -> tuple[float, Vector]:
     """Volume in m3, and inertia per mass about the centre along the geom's axes in m2."""
-    a, b, c = box
+    kind, (a, b, c) = int(simulation.model("geom_type")[geom]), simulation.row("geom_aabb", geom, 6)[3:]
     if kind in (SPHERE, ELLIPSOID):
         return 4 / 3 * math.pi * a * b * c, ((b * b + c * c) / 5, (a * a + c * c) / 5, (a * a + b * b) / 5)
     if kind in (CAPSULE, CYLINDER):

@@ -34,7 +34,7 @@ from collections.abc import Iterator, Sequence
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import SLIDE
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
-from clinic.diagnosis.probes.matter import Matter, density, explicit, matter
+from clinic.diagnosis.probes.matter import Matter, density, explicit, matter, volume_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -62,14 +62,18 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not dense or (slides and len(of.moving_bodies) == 1):  # a point mass may be as small as one likes
         return
     worst = max(dense, key=lambda each: each[1].density)[1]
-    factor = _factor(worst)
+    factor = _tens(worst.density)
     edits = _lighter(model, dense)
+    geoms = [geom for body, _ in dense if inertial(model, body) is None for geom in _alone(model, body)]
     by_density = bool(edits) and all(edit.attribute == "density" for edit in edits)
+    now = f"{float(edits[0].value) * factor:g}" if by_density else f"{worst.mass:.3g} kg"
+    if geoms:
+        now = model.value("geom", geoms[0], "density" if by_density else "mass") or now
     yield Suspect(
-        tuple(of.name("body", body) for body, _ in dense),
+        (*(of.name("geom", geom) for geom in geoms), *(of.name("body", body) for body, _ in dense)),
         "density" if by_density else "mass",
-        f"{float(edits[0].value) * factor:g}" if by_density else f"{worst.mass:.3g} kg",
-        edits[0].value if by_density else f"{worst.mass / factor:.3g} kg",
+        now,
+        edits[0].value if by_density or geoms else f"{worst.mass / factor:.3g} kg",
         edits,
         density(tuple(body for body, _ in dense)),
         METAL,
@@ -108,9 +112,21 @@ def _steel(model: ReaderModel) -> Iterator[Suspect]:
     )
 
 
-def _factor(found: Matter) -> float:
-    """The power of ten that a body is denser than water."""
-    return float(10.0 ** round(math.log10(found.density / WATER)))
+def _alone(model: ReaderModel, body: int) -> dict[int, float]:
+    """The geoms of a body that are denser than metal, by their factor, where others of it are not."""
+    of, geoms = model.simulation, model.simulation.geoms_of(body)
+    densities = {}
+    for geom in geoms:
+        mass, volume = model.value("geom", geom, "mass"), volume_of(of, geom)
+        written = float(mass) / volume if mass and volume else model.value("geom", geom, "density")
+        densities[geom] = float(written or WATER)
+    heavy = {geom: each for geom, each in densities.items() if each > METAL}
+    return {geom: _tens(each) for geom, each in heavy.items()} if len(heavy) < len(geoms) else {}
+
+
+def _tens(density: float) -> float:
+    """The power of ten that a density is above water's."""
+    return float(10.0 ** round(math.log10(density / WATER)))
 
 
 def _lighter(model: ReaderModel, dense: Sequence[tuple[int, Matter]]) -> tuple[Edit, ...]:
@@ -118,16 +134,17 @@ def _lighter(model: ReaderModel, dense: Sequence[tuple[int, Matter]]) -> tuple[E
     made: tuple[Edit, ...] = ()
     written: dict[tuple[str, str, float], list[int]] = {}
     for body, found in dense:
-        factor = _factor(found)
+        factor = _tens(found.density)
         if inertial(model, body) is not None:
             kept = abs(math.log(found.radius * math.sqrt(factor))) < abs(math.log(found.radius))  # of the right mass
             about = found.about if kept else tuple(x / factor for x in found.about)
             made += set_inertial(model, body, found.mass / factor, found.centre, about)
             continue
-        for geom in model.simulation.geoms_of(body):
+        alone = _alone(model, body)
+        for geom in alone or model.simulation.geoms_of(body):
             for name in ("mass", "density"):
-                if text := model.value("geom", geom, name):
-                    written.setdefault((name, text, factor), []).append(geom)
+                if float(text := model.value("geom", geom, name) or "0"):
+                    written.setdefault((name, text, alone.get(geom, factor)), []).append(geom)
     of = model.simulation
     fixed = [geom for geom, body in enumerate(of.model("geom_bodyid")) if not of.model("body_weldid")[int(body)]]
     for (name, text, factor), geoms in written.items():

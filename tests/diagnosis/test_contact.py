@@ -433,6 +433,23 @@ def test_a_link_without_collision_is_told_where_something_could_meet_it(geom: st
     assert [each.elements[0] for each in found] == ['body "fore"'] * told
 
 
+@pytest.mark.parametrize(("other", "edits"), [(0.02, 3), (0.05, 1)])
+def test_what_is_as_deep_in_other_keyframes_and_in_its_own_place_is_lifted_there_too(other, edits):
+    box = BOX.format(z=other, more="")
+    keys = "".join(f'<key qpos="{x} 0 {z} 1 0 0 0"/>' for x, z in ((0, 0.02), (1, other), (2, 0.05)))
+    text = f"<mujoco><worldbody>{FLOOR}{box}</worldbody><keyframe>{keys}</keyframe></mujoco>"
+    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["overlap-at-start"]).causes
+    assert len(found.edit) == edits
+
+
+@pytest.mark.parametrize(("priority", "told"), [(1, [("condim", "1", "3")]), (0, [])])
+def test_friction_that_condim_switches_off_is_told_by_the_condim(priority, told):
+    more = f' friction="0.5" condim="1" priority="{priority}"'
+    text = f"<mujoco><worldbody>{FLOOR}{BOX.format(z=0.05, more=more)}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["attribute-without-effect"])
+    assert [(each.attribute, each.now, each.value) for each in found.hints] == told
+
+
 CUBE = '<body name="cube" pos="0 0 {}"><freejoint/><geom type="box" size="0.05 0.05 0.05"/></body>'
 WHEEL = '<body pos="0.1 {} 0"><joint axis="0 1 0"/><geom type="cylinder" size="0.33 0.01" zaxis="0 1 0"/></body>'
 CART = f'<body pos="0 0 {{}}"><freejoint/><geom size="0.01"/>{WHEEL.format(0.1)}{WHEEL.format(-0.1)}</body>'

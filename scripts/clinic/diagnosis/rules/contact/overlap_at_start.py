@@ -39,7 +39,7 @@ from clinic.diagnosis.probes.hulls import closed_holes
 from clinic.diagnosis.probes.overlap import at_start, beginning, buried, sunk_by_half
 from clinic.diagnosis.probes.shape import box, geoms_of_tree, root_of
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, Start
 from clinic.diagnosis.suspect import Level, Suspect
 
 TITLE = "Something begins inside of something else"
@@ -61,7 +61,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not found or (model.start.key < 0 and simulation.count("key")):
         return  # where there are keyframes, what begins is begun from one
     raised = _lifts(simulation, found)
-    edits = tuple(edit for root, lift in raised.items() for edit in _raised(model, root, lift + 1e-4 * lift))
+    edits = tuple(edit for root, lift in raised.items() for edit in _raised_alike(model, root, lift + 1e-4 * lift))
     names = tuple(simulation.name("body", root) for root in raised)
     depth = max(-contact.distance for _, contact in found.values())
     lifted = ", ".join(f"{each:.3g} m higher" for each in raised.values())
@@ -166,3 +166,19 @@ def _raised(model: ReaderModel, root: int, lift: float) -> tuple[Edit, ...]:
         return ()
     x, y, z = (element.get("pos") or "0 0 0").split()
     return (set_attribute(element, "pos", f"{x} {y} {float(z) + lift:.6g}"),)
+
+
+def _raised_alike(model: ReaderModel, root: int, lift: float) -> tuple[Edit, ...]:
+    """The same with every other keyframe, and the body's own place, where it is as low and buried too."""
+    made, here = _raised(model, root, lift), _height(model, root)
+    for key in range(-1, model.simulation.count("key")) if made and model.start.key >= 0 else ():
+        other = ReaderModel(model.engine, model.texts, model.source, Start(key=key))
+        if key != model.start.key and _height(other, root) == here:
+            made += _raised(other, root, lift) if buried(other.simulation).get(root, (0.0,))[0] > MOST else ()
+    return tuple(dict.fromkeys(made))
+
+
+def _height(model: ReaderModel, root: int) -> float:
+    """How high a free body begins."""
+    model.simulation.begin()
+    return model.simulation.data("qpos")[model.simulation.place(model.simulation.joints_of(root)[0]) + 2]

@@ -44,7 +44,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import GAIN_MUSCLE
 from clinic.diagnosis.probes.shape import FLUID, solid
 from clinic.diagnosis.reader_model import ReaderModel
@@ -101,14 +101,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         needed, value = idle.needs
         edits: tuple[Edit, ...] = ()
         if value.isalnum():
-            elements = [model.element(idle.kind, each) for each in found]
-            edits = tuple(set_attribute(element, needed, value) for element in elements if element is not None)
+            edits = model.set(idle.kind, found, needed, value)
         probe = counted("attributes without effect", len(found))
         names = tuple(of.name(idle.kind, each) for each in found)
-        now = model.value(idle.kind, found[0], idle.attribute) or ""
+        now = model.value(idle.kind, found[0], needed if edits else idle.attribute) or "left out" * bool(edits)
         at = model.element(idle.kind, found[0])
         healthy = f"with {needed} {value}".strip() if value else "left out"
-        yield Suspect(names, idle.attribute, now, value, edits, probe, 0, idle.says, healthy, level="hint", at=at)
+        attribute = needed if edits else idle.attribute
+        yield Suspect(names, attribute, now, value, edits, probe, 0, idle.says, healthy, level="hint", at=at)
 
 
 def _without_effect(model: ReaderModel, idle: Idle, each: int) -> bool:

@@ -564,3 +564,14 @@ def test_a_body_without_mass_gets_that_of_those_written_alike(geom, attribute, v
     text += "".join(f'<body name="w{n}" pos="{n} 0 1"><joint/>{each}</body>' for n, each in enumerate(wheels))
     (cause,) = diagnosed(f"{text}</worldbody></mujoco>", tmp_path, monkeypatch).causes
     assert (cause.rule, cause.attribute, cause.value) == ("massless-body", attribute, value)
+
+
+@pytest.mark.parametrize(("limits", "value"), [('range="-30 45"', "-0.5236 0.7854"), ("", "0 1")])
+def test_a_servo_without_the_control_range_that_its_class_wants_gets_that_of_its_joint(
+    limits, value, tmp_path, monkeypatch
+):
+    elbow = f'<body><joint name="elbow" axis="0 1 0" {limits}/><geom size="0.1"/></body>'
+    text = f"""<mujoco><default><position kp="10" kv="1" ctrllimited="true"/></default><worldbody>{elbow}</worldbody>
+<actuator><position joint="elbow"/></actuator></mujoco>"""
+    found = diagnosed(text, tmp_path, monkeypatch).causes[0]
+    assert (found.rule, found.attribute, found.value) == ("invalid-value", "ctrlrange", value)

@@ -32,6 +32,7 @@ from clinic.diagnosis.rules.errors._message import meant, mends, nearest, senten
 from clinic.diagnosis.rules.errors._remedy import remedied
 from clinic.diagnosis.rules.errors._scale import scaled_back
 from clinic.diagnosis.rules.errors._values import VALUES
+from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import ORIENTATIONS, Element
 from clinic.diagnosis.suspect import Suspect
 
@@ -113,12 +114,36 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             taken = (set_attribute(axis, "xyz", "1 0 0"),)
             says = f"{said}: an axis needs a length, and 1 0 0 is URDF's default."
             yield mends(axis, taken, says, attribute="xyz", now=axis.get("xyz"), value="1 0 0")
+    yield from _of_its_joint(model, said)
     yield from remedied(model, VALUES)
     for element in meant(model):
         for edit, now in _edits(said, element):
             value = edit.value if edit.action == "set" else "left out"
             says = f"{said.rstrip('.')}. {_advice(said, element, edit)}".strip()
             yield mends(element, (edit,), says, attribute=edit.attribute, now=now, value=value)
+
+
+def _of_its_joint(model: ReaderModel, said: str) -> Iterator[Suspect]:
+    """The range of the joint that a position servo without a control range drives."""
+    assert model.source is not None
+    written = [each for each in model.source.section("actuator") if each.attributes]
+    lacking = [each for each in written if each.tag == "position" and not each.get("ctrlrange")]
+    if "invalid control range" not in said or not lacking:
+        return
+    compiled = model.with_edits([set_attribute(each, "ctrlrange", "-1 1") for each in lacking])
+    for element in [each for each in meant(model) if each in lacking]:
+        joint = compiled.driven_joint(written.index(element)) if isinstance(compiled, Simulation) else None
+        if joint is not None and isinstance(compiled, Simulation) and compiled.model("jnt_limited")[joint]:
+            value = " ".join(f"{each:.4g}" for each in compiled.row("jnt_range", joint, 2))
+            says = f"{said.rstrip('.')}. The range of {compiled.name('joint', joint)}, in rad or m, is put in."
+            yield mends(
+                element,
+                (set_attribute(element, "ctrlrange", value),),
+                says,
+                attribute="ctrlrange",
+                now="left out",
+                value=value,
+            )
 
 
 def _advice(said: str, element: Element, edit: Edit) -> str:

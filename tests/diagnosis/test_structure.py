@@ -167,6 +167,18 @@ def test_a_loop_between_two_links_of_the_world_that_is_off_is_told_and_a_latch_i
     assert [each.elements[0] for each in found.hints] == told
 
 
+@pytest.mark.parametrize("eye", ["0.3 0 0", "0.2 0 0.1"])
+def test_a_swing_that_carries_a_loop_is_not_locked_by_it_though_it_begins_apart(eye):
+    swing = '<body><joint name="swing" axis="0 0 1"/><geom size="0.05"/>'
+    text = FOURBAR.replace("<worldbody>", f"<worldbody>{swing}").replace("</worldbody>", "</body></worldbody>")
+    text = text.replace('anchor="0.3 0 0"', 'site1="eye" site2="lug"').replace('body1="coupler" body2="rocker" ', "")
+    text = text.replace('<joint name="coupler"', f'<site name="eye" pos="{eye}"/><joint name="coupler"')
+    text = text.replace('<joint name="rocker"', '<site name="lug" pos="0.1 0 0.1"/><joint name="rocker"')
+    driven = '<actuator><velocity joint="swing" kv="1" ctrlrange="-3 3"/></actuator></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text.replace("</mujoco>", driven)}, select=["loop-locked"])
+    assert not found.hints
+
+
 def test_the_hinge_across_all_others_is_named_where_a_loop_locks():
     driven = '<actuator><velocity joint="crank" kv="1" ctrlrange="-3 3"/></actuator></mujoco>'
     text = FOURBAR.replace("</mujoco>", driven)

@@ -50,7 +50,18 @@ from collections.abc import Iterator, Sequence
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import BALL, FREE, HINGE
 from clinic.diagnosis.probes import tendons
-from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, WELD, by_mocap, ends, frames, kind_of, off_course
+from clinic.diagnosis.probes.equalities import (
+    CONNECT,
+    COUPLED,
+    WELD,
+    by_mocap,
+    ends,
+    frames,
+    held,
+    kind_of,
+    off_course,
+    sited,
+)
 from clinic.diagnosis.probes.vector import dot, sub, times, transpose, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import WIDTH, Simulation, kept
@@ -74,12 +85,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     if not any(of.model("eq_active0")) or of.count("dof") > LARGE:
         return
-    held = {joint: share for joint in _driven(of) if (share := _held(of, joint)) > MOST}
-    if not held:
+    stuck = {joint: share for joint in _driven(of) if (share := _held(of, joint)) > MOST}
+    if not stuck:
         return
-    worst = max(held, key=lambda joint: held[joint])
-    names = [of.name("joint", joint) for joint in sorted(held, key=lambda joint: -held[joint])]
-    probe = Probe("what no other joint takes away of a joint's pull at the connections", "", _most, tuple(held))
+    worst = max(stuck, key=lambda joint: stuck[joint])
+    names = [of.name("joint", joint) for joint in sorted(stuck, key=lambda joint: -stuck[joint])]
+    probe = Probe("what no other joint takes away of a joint's pull at the connections", "", _most, tuple(stuck))
     active = [each for each, on in enumerate(of.model("eq_active0")) if on][:FEW]
     holds = [
         each
@@ -87,7 +98,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if (edits := model.set("equality", [each], "active", "false")) and model.measured(probe, edits) <= MOST
     ]
     says = f"{names[0]} is driven, and no motion of the other joints lets it turn: of its pull at the equalities "
-    says += f"{100 * held[worst]:.0f} % is left."
+    says += f"{100 * stuck[worst]:.0f} % is left."
     if holds:
         says += f" Without {' or '.join(of.name('equality', each) for each in holds[:3])} it would."
     odd, edits = _across(model), tuple[Edit, ...]()
@@ -210,9 +221,16 @@ def _gaps(of: Simulation) -> Column:
         if not active or by_mocap(of, each):
             continue
         kind = kind_of(of, each)
-        made += [off_course(of, each)] if kind == COUPLED else sub(*ends(of, each)) if kind in (CONNECT, WELD) else []
+        made += [off_course(of, each)] if kind == COUPLED else _apart(of, each) if kind in (CONNECT, WELD) else []
         made += _turned(of, each) if kind == WELD else []
     return tuple(made)
+
+
+def _apart(of: Simulation, each: int) -> Sequence[float]:
+    """From one place that is to be held to the other, in the axes of the body that both hang on."""
+    bodies = [of.body_of("site", one) if sited(of, each) else max(one, 0) for one in held(of, each)]
+    common = next(body for body in of.ancestors(bodies[0]) if body in of.ancestors(bodies[1]))
+    return times(transpose(of.data_row("xmat", common, 9)), sub(*ends(of, each)))
 
 
 def _turned(of: Simulation, each: int) -> list[float]:

@@ -411,6 +411,7 @@ def test_a_wheel_below_its_speed_is_told_by_what_helps(wheel, told):
         select=["speed-not-reached"],
     )
     assert [(each.attribute, each.value) for each in found.hints] == [told]
+    assert 'Told 3 rad/s, joint "shoulder" misses' in found.hints[0].says
 
 
 @pytest.mark.parametrize(("mass", "told"), [(0.5, True), (0.02, False)])

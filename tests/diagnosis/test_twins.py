@@ -265,7 +265,10 @@ def test_where_nothing_tells_which_side_is_wrong_both_are_named():
     change = {f'{name}:range="{written[name.partition("_")[0]]}"': f'range="{new}"' for name, new in ranges.items()}
     (odd_one,) = unlike(robot(change, right="-60 30"))
     assert odd_one.elements == ('joint "left_rear"', 'joint "right_rear"')
-    assert odd_one.says.endswith("Nothing here tells which of the two is wrong.")
+    assert odd_one.says.endswith(
+        f"which of the two is wrong. {odd_one.elements[0]} has -32 62, {odd_one.elements[1]} -30 32."
+    )
+    assert (odd_one.value, odd_one.edit) == ("", ())
     assert odd_one.edit == (), "it might spoil the healthy side"
 
 
@@ -470,3 +473,27 @@ def test_fingers_on_the_same_side_of_both_hands_make_no_copy_of_mirrored_arms():
 
     torso = f'<body pos="0 0 1"><geom size="0.1"/>{arm("l", 1)}{arm("r", -1)}</body>'
     assert not unlike(f'<mujoco><compiler angle="radian"/><worldbody>{torso}</worldbody></mujoco>')
+
+
+def test_the_leg_that_goes_inward_beside_pairs_that_go_outward_is_the_one_that_is_turned():
+    def leg(name: str, x: float, y: float, turn: int) -> str:
+        links = "".join(
+            f'<body name="{name}_{part}" pos="{far} 0 0"><joint axis="0 1 0" range="-50 60"/>'
+            '<geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01"/>'
+            for part, far in (("femur", 0.05), ("tibia", 0.08))
+        )
+        return (
+            f'<body name="{name}_coxa" pos="{x} {y} 0" euler="0 0 {turn}"><joint axis="0 0 1" range="-40 40"/>'
+            f'<geom size="0.02"/>{links}</body></body></body>'
+        )
+
+    legs = "".join(
+        leg(f"{side}{part}", x, y, -90 if (side, part) == ("l", "m") else 90 if y > 0 else -90)
+        for part, x in (("f", 0.1), ("m", 0), ("r", -0.1))
+        for side, y in (("l", 0.08), ("r", -0.08))
+    )
+    text = f'<mujoco><worldbody><body pos="0 0 1"><freejoint/><geom size="0.05"/>{legs}</body></worldbody></mujoco>'
+    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["twin-turned"]).hints
+    assert found.elements == ('body "lm_coxa"', 'body "rm_coxa"')
+    assert found.edit[0].line == 1
+    assert "Nothing here tells" not in found.says

@@ -1,4 +1,4 @@
-"""A wheel does not get near the speed that its servo is told.
+"""A wheel, or what else turns round and round, does not get near the speed that its servo is told.
 
 A velocity servo gives kv times the error of the speed. Where that is less than friction and damping at a small error,
 the wheel turns slowly whatever is asked: kv is too small, or the joint's `damping` too large.
@@ -54,7 +54,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
-TITLE = "A wheel far below the speed it is told"
+TITLE = "A joint far below the speed it is told"
 FAMILIES = ("stuck", "slow")
 SINCE = "0.1"
 LEVEL = "hint"
@@ -88,7 +88,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     names = tuple(
         name for each in wheels for name in (of.name("joint", each.joint), of.name("actuator", each.actuator))
     )
-    says = f"Told {HALF * wheels[0].fastest:.3g} rad/s, the fastest wheel misses {100 * _missing(of):.0f} % after 2 s: "
+    who = "the fastest of them" if len(wheels) > 1 else names[0]
+    says = f"Told {HALF * wheels[0].fastest:.3g} rad/s, {who} misses {100 * _missing(of):.0f} % after 2 s: "
     says += f"kv is {wheels[0].gain:.3g}, damping {damping:.3g}" + f", the greatest force {most:.3g}" * limited + "."
     probe = Probe("share of the speed that is missing", "", _missing)
     for attribute, now, value, edits in (

@@ -8,7 +8,7 @@ from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.inertia import inertial
 from clinic.diagnosis.probes.siblings import FIELDS, SOME, odd_ones, swapped
 from clinic.diagnosis.probes.twins import Comparison, Twins, twins
-from clinic.diagnosis.probes.vector import dot
+from clinic.diagnosis.probes.vector import dot, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.twins._edits import COPIED, edits_of
 from clinic.diagnosis.rules.twins._side import INERTIAL, odd_side
@@ -22,6 +22,13 @@ EITHER = " Nothing here tells which of the two is wrong."
 TURNED = " The numbers are the same, and the axes are not each other's image as those of the other pairs are."
 PLACES = ("axis", "axis sign", "pos", "quat", "center of mass", "direction")
 PARTS = ("geom", "site", "camera")
+COMPILED = {
+    ("body", "pos"): ("body_pos", 3),
+    ("body", "mass"): ("body_mass", 1),
+    ("body", "center of mass"): ("body_ipos", 3),
+    ("joint", "axis"): ("jnt_axis", 3),
+    ("joint", "range"): ("jnt_range", 2),
+}
 ALONG = 0.9  # cosine of the angle between axes that count as one direction
 SAME = 1e-6  # m
 FAR = 4.0  # times the limit
@@ -145,15 +152,18 @@ def suspect(model: ReaderModel, found: Sequence[Comparison], clear: bool) -> Sus
     others = [
         simulation.name(first.kind, each.left + each.right - side) for each, side in zip(found, sides, strict=True)
     ]
-    says = _differs(simulation, found, others[0]) + SWAPPED * digits + TURNED * turned + EITHER * (not sure)
     attribute = "axis" if turned else first.quantity
+    says = _differs(simulation, found, others[0]) + SWAPPED * digits + TURNED * turned
+    now = _told(model, first.kind, sides[0], attribute)
+    says += "" if sure else EITHER + _both(model, first, attribute)
     if edits and first.quantity == "target":
         attribute = edits[0].attribute
+        now = _told(model, first.kind, sides[0], attribute)
     return Suspect(
         tuple(dict.fromkeys(names if sure else names + others)),
         attribute,
-        _told(model, first.kind, sides[0], attribute),
-        edits[0].value if edits else f"that of {others[0]}",
+        now,
+        edits[0].value if edits else f"that of {others[0]}" if sure else "",
         edits,
         probe,
         limit,
@@ -224,6 +234,17 @@ def _unlike(simulation: Simulation, *pairs: tuple[str, str, int, int]) -> float:
     return max(
         (each.unlike for each in found if (each.kind, each.quantity, each.left, each.right) in pairs), default=0.0
     )
+
+
+def _both(model: ReaderModel, each: Comparison, attribute: str) -> str:
+    """The values of both sides, as they are written, or in the compiled model; empty where they are the same."""
+    field, width = COMPILED.get((each.kind, attribute), ("", 0))
+    of, values = model.simulation, []
+    for side in (each.left, each.right):
+        compiled = written(of.row(field, side, width)) if field else ""
+        values.append(_told(model, each.kind, side, attribute) or compiled or "none")
+    names = [of.name(each.kind, side) for side in (each.left, each.right)]
+    return f" {names[0]} has {values[0]}, {names[1]} {values[1]}." if len({*values}) > 1 else ""
 
 
 def _told(model: ReaderModel, kind: str, side: int, attribute: str) -> str:

@@ -55,7 +55,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.probes.twins import Twins, twins
-from clinic.diagnosis.probes.vector import Vector, written
+from clinic.diagnosis.probes.vector import Vector, dot, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.twins._pair import EITHER
 from clinic.diagnosis.simulation import Simulation
@@ -85,8 +85,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             if _differs(turn, of.row("body_quat", body, 4)) and _with(of, body, turn, left) <= LEFT * before
         ]
         if found:
-            either = len({body for body, *_ in found}) > 1
-            yield _suspect(model, *found[0], left, EITHER * either)
+            odd = _inward(of, left, right)
+            told = [each for each in found if each[0] == odd] or found
+            either = len({body for body, *_ in told}) > 1
+            yield _suspect(model, *told[0], left, EITHER * either)
             return
 
 
@@ -94,7 +96,7 @@ def _suspect(model: ReaderModel, body: int, twin: int, turn: Vector, left: int, 
     of, element = model.simulation, model.element("body", body)
     before = _astray(of, left)
     edits: tuple[Edit, ...] = ()
-    if element is not None and model.source is not None and not model.source.urdf:
+    if element is not None and not either and model.source is not None and not model.source.urdf:
         others = [name for name in ORIENTATIONS[1:] if element.get(name)]
         edits = (set_attribute(element, "quat", written(turn)), *(remove_attribute(element, name) for name in others))
     names = of.name("body", body), of.name("body", twin)
@@ -105,6 +107,20 @@ def _suspect(model: ReaderModel, body: int, twin: int, turn: Vector, left: int, 
     probe = Probe("bodies, centres of mass and joints unlike their twins", "", _astray, (left,), dynamic=False)
     now, value = written(of.row("body_quat", body, 4)), written(turn)
     return Suspect(names, "quat", now, value, edits, probe, LEFT * before, says, "two sides alike")
+
+
+def _inward(of: Simulation, left: int, right: int) -> int | None:
+    """The one of a pair that goes on to the other side of its parent than the limbs of all other pairs; else None."""
+    found, parents = twins(of), of.model("body_parentid")
+    outward = {}
+    for body in {each for pair in found.pairs["body"] for each in pair}:
+        if (parents[body] == parents[left]) and (below := of.children.get(body)):
+            place = found.at("xpos", body)
+            ways = sub(found.at("xpos", below[0]), place), sub(place, found.at("xpos", int(parents[body])))
+            outward[body] = dot(*ways) > 0
+    others = {way for body, way in outward.items() if body not in (left, right)}
+    odd = [body for body in (left, right) if body in outward and len(others) == 1 and outward[body] not in others]
+    return odd[0] if len(odd) == 1 else None
 
 
 def _turned(of: Simulation) -> list[tuple[int, int]]:

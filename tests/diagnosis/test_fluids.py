@@ -45,7 +45,7 @@ def fish(option: str, geom: str = SHAPED, joint: str = "<freejoint/>") -> Diagno
         pytest.param(
             f"{WATER} {STILL}",
             'density="1000"',
-            [("attribute-without-effect", "fluidcoef", "ellipsoid")],
+            [("attribute-without-effect", "fluidshape", "ellipsoid")],
             id="not-shaped",
         ),
     ],

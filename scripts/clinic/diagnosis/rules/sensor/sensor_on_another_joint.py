@@ -28,8 +28,8 @@ Good:
 The number: how many sensors of a joint, site or body bear the name of another one, and not of their own; of a body, the
 name of a site that it has; of a reference, beside a word of what is measured in it. And those of three and more called
 alike, `boom_stroke` and `stick_stroke`, that read what all others do not, `boom_barrel` beside `stick_rod`, where
-`boom_rod` is there. A sensor `boom_stroke` of a joint `boom_cylinder` is left alone, though a hinge is called `boom`. Of
-568 healthy models none has one of a joint.
+`boom_rod` is there. A sensor `boom_stroke` of a joint `boom_cylinder` is left alone, though a hinge is called `boom`.
+Of 568 healthy models none has one of a joint.
 
 When it is wrong: a sensor that is called after a place, where a joint has the same name.
 """

@@ -31,8 +31,9 @@ Good:
 
 The number: groups of moving bodies, none of which hangs on another, that begin with all their solid geoms in the same
 places, of the same kinds and sizes, and touch. Of 499 healthy models none has one. Where a link goes back by what its
-parent goes forth, its sign is turned. And sites of one body, alike in name but for a number, with one place that is not
-its origin, and one orientation; sites of tendons are left out. Of two alone the second is put on the other side.
+parent goes forth, its sign is turned. And the two sites of a body that are called alike
+but for a number and read by sensors, in one place that is not its origin, and turned alike; the second is put on the
+other side.
 
 When it is wrong: parts that are meant to start in one place.
 """
@@ -44,9 +45,9 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import OBJ_SITE
 from clinic.diagnosis.probes.shape import solid
-from clinic.diagnosis.probes.tendons import path
-from clinic.diagnosis.probes.vector import Vector, at, norm, written
+from clinic.diagnosis.probes.vector import at, norm, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, how_many
@@ -73,41 +74,32 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         now = " ".join(f"{x:.4g}" for x in of.row("body_pos", odd, 3))
         names = tuple(dict.fromkeys((of.name("body", odd), *names)))
         yield Suspect(names, "pos", now, value, edits, probe, 0.1, says, "none")
-    for first, second in _sites(of).items():
+    for first, second in _sites(of):
         place, names = of.row("site_pos", second, 3), (of.name("site", second), of.name("site", first))
-        edits, value = (), "apart from each other"
-        if (mirrored := _mirrored(of, second)) is not None:
-            edits, value = model.set("site", [second], "pos", written(mirrored)), written(mirrored)
+        far = max(range(3), key=lambda i: abs(place[i]))
+        value = written([-x if i == far else x for i, x in enumerate(place)])
+        edits = model.set("site", [second], "pos", value)
         says = f"{names[1]} and {names[0]} are in one place of {of.name('body', of.body_of('site', second))}."
         probe = how_many("sites in the place of another one of their row", _sites)
         yield Suspect(names, "pos", written(place), value, edits, probe, 0, says, "none")
 
 
-def _row(name: str) -> str:
-    return re.sub(r"\d+", "#", name)
-
-
-def _sites(of: Simulation) -> dict[int, int]:
-    """Sites of one body that are called alike but for a number and stand in one place: by the first, the second."""
-    roped = {each for tendon in range(of.count("tendon")) for kind, each in path(of, tendon) if kind == "site"}
-    seen: dict[tuple[object, ...], int] = {}
-    made: dict[int, int] = {}
+def _sites(of: Simulation) -> list[tuple[int, int]]:
+    """The two sites of a body called alike but for a number, both read by sensors, that stand in one place."""
+    ends = [zip(of.model(f"sensor_{end}type"), of.model(f"sensor_{end}id"), strict=True) for end in ("obj", "ref")]
+    read = {int(site) for end in ends for kind, site in end if int(kind) == OBJ_SITE}
+    rows: dict[tuple[int, str], list[int]] = {}
     for site, name in enumerate(of.names("site")):
-        where = [round(x, 6) for x in (*of.row("site_pos", site, 3), *of.row("site_quat", site, 4))]
-        if any(where[:3]) and site not in roped and _row(name) != name:
-            first = seen.setdefault((of.body_of("site", site), _row(name), *where), site)
-            made |= {first: site} if first != site else {}
-    return made
+        if (row := re.sub(r"\d+", "#", name)) != name:
+            rows.setdefault((of.body_of("site", site), row), []).append(site)
+    pairs = [(row[0], row[1]) for row in rows.values() if len(row) == 2 and read.issuperset(row)]
+    return [pair for pair in pairs if _one_place(of, *pair)]
 
 
-def _mirrored(of: Simulation, site: int) -> Vector | None:
-    """The place of one of two sites of a row on the other side of their body, along its longest way; else None."""
-    names, body = of.names("site"), of.body_of("site", site)
-    beside = [name for each, name in enumerate(names) if of.body_of("site", each) == body]
-    place = of.row("site_pos", site, 3)
-    far = max(range(3), key=lambda i: abs(place[i]))
-    two = [_row(name) for name in beside].count(_row(names[site])) == 2
-    return tuple(-x if i == far else x for i, x in enumerate(place)) if two else None
+def _one_place(of: Simulation, one: int, other: int) -> bool:
+    """Whether two sites have one place, which is not their body's origin, and are turned alike."""
+    places = [(*of.row("site_pos", site, 3), *of.row("site_quat", site, 4)) for site in (one, other)]
+    return any(places[0][:3]) and all(abs(a - b) < NEAR for a, b in zip(*places, strict=True))
 
 
 def _turned_back(model: ReaderModel, bodies: Sequence[int]) -> tuple[Edit, ...]:

@@ -497,3 +497,9 @@ def test_the_leg_that_goes_inward_beside_pairs_that_go_outward_is_the_one_that_i
     assert found.elements == ('body "lm_coxa"', 'body "rm_coxa"')
     assert found.edit[0].line == 1
     assert "Nothing here tells" not in found.says
+
+
+def test_a_centre_in_millimetres_does_not_make_any_mirror_fit():
+    (found,) = unlike(robot({'left_rear:<inertial pos="0 0.05 0"': '<inertial pos="0 50 0"'}))
+    assert found.elements == ('body "left_rear"',)
+    assert found.value.startswith('<inertial pos="0 0.05 0"')

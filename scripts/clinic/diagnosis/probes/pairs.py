@@ -19,6 +19,7 @@ from clinic.diagnosis.simulation import Simulation
 KINDS = ("body", "joint", "geom", "site", "camera", "actuator", "sensor")
 SYMMETRIC = 0.85  # of the points fit their image: the parts are meant to be mirrored
 SAME, UNTURNED = 1e-3, 2.9  # m or quaternion's length that tells a copy; trace of a turn by 18 degrees
+ASTRAY = 20.0  # times as far as half of the points: what is there does not tell how large a side is
 FITS = 0.02  # of the size of what hangs on both sides: as far may a point be from its image
 
 
@@ -152,7 +153,10 @@ class Pairs:
         for common, pairs in groups.items():
             points = self._points(pairs)
             here, there = points[0]
-            size = max(1e-4, *(norm(sub(p, here)) for p, _ in points), *(norm(sub(q, there)) for _, q in points))
+            ways = sorted(
+                norm(sub(each, top)) for pair in points for each, top in zip(pair, (here, there), strict=True)
+            )
+            size = max([1e-4, *(way for way in ways if way <= ASTRAY * ways[len(ways) // 2])])
             telling = self._telling(pairs)
             image = self._copied(pairs) or self._best(common, pairs, self._points(telling), FITS * size)
             share = self._fit(telling, image, FITS * size)

@@ -237,14 +237,16 @@ def _unlike(simulation: Simulation, *pairs: tuple[str, str, int, int]) -> float:
 
 
 def _both(model: ReaderModel, each: Comparison, attribute: str) -> str:
-    """The values of both sides, as they are written, or in the compiled model; empty where they are the same."""
+    """The values of both sides, as they are written, or in the compiled model."""
     field, width = COMPILED.get((each.kind, attribute), ("", 0))
     of, values = model.simulation, []
     for side in (each.left, each.right):
         compiled = written(of.row(field, side, width)) if field else ""
         values.append(_told(model, each.kind, side, attribute) or compiled or "none")
     names = [of.name(each.kind, side) for side in (each.left, each.right)]
-    return f" {names[0]} has {values[0]}, {names[1]} {values[1]}." if len({*values}) > 1 else ""
+    if values[0] == values[1]:
+        return f" Both have {values[0]}." * (values[0] != "none")
+    return f" {names[0]} has {values[0]}, {names[1]} {values[1]}."
 
 
 def _told(model: ReaderModel, kind: str, side: int, attribute: str) -> str:

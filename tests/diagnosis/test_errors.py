@@ -575,3 +575,21 @@ def test_a_servo_without_the_control_range_that_its_class_wants_gets_that_of_its
 <actuator><position joint="elbow"/></actuator></mujoco>"""
     found = diagnosed(text, tmp_path, monkeypatch).causes[0]
     assert (found.rule, found.attribute, found.value) == ("invalid-value", "ctrlrange", value)
+
+
+@pytest.mark.parametrize(
+    ("tray", "qpos", "moved"),
+    [
+        pytest.param("", "0.1 0 0 0.1 1 0 0 0", '<body name="ball"><freejoint/>', id="at-the-origin"),
+        pytest.param('pos="0 0 1"', "0.1 0 0 1.1 1 0 0 0", '<frame pos="0 0 1"><body name="ball">', id="above-it"),
+        pytest.param("", "0.1", "", id="keyframes-without-it"),
+    ],
+)
+def test_a_ball_inside_its_tray_is_put_into_the_world_where_keyframes_have_it(tray, qpos, moved, tmp_path, monkeypatch):
+    ball = '<body name="ball"><freejoint/><geom size="0.1"/></body>'
+    body = f'<body name="tray" {tray}><joint axis="0 1 0"/><geom type="box" size="1 1 0.01"/>{ball}</body>'
+    text = f'<mujoco><worldbody>{body}</worldbody><keyframe><key qpos="{qpos}"/></keyframe></mujoco>'
+    (found,) = diagnosed(text, tmp_path, monkeypatch).causes
+    inserted = [edit.value for edit in found.edit if edit.action == "insert"]
+    assert (found.rule, len(inserted)) == ("misplaced-joint", bool(moved))
+    assert not moved or inserted[0].startswith(moved)

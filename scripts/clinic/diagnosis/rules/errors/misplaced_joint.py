@@ -31,7 +31,7 @@ Good:
 
 The number: none; the text compiles with the edit, which puts the joint into the body that it stands before, where that
 has none, a free one into the body below the world where that is a bare frame, or part of one mechanism with the body,
-and takes it out elsewhere.
+and takes it out elsewhere. Where keyframes have the place of a free body, the body itself is put into the world.
 
 When it is wrong: where the body is meant to move alone: move it below the world instead.
 """
@@ -43,6 +43,8 @@ from dataclasses import replace
 
 from clinic.diagnosis.edit import delete, insert, remove_attribute, set_attribute
 from clinic.diagnosis.edit import replace as written_anew
+from clinic.diagnosis.engine import CompileError
+from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence, told
 from clinic.diagnosis.source import Element
@@ -80,6 +82,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                     taken = (remove_attribute(joint, "type"),)
                     yield mends(joint, taken, says, attribute="type", now="free", value=kind)
             yield from (each for joint in joints if _free(joint) for each in _raised(model, joint, said))
+            yield from (each for joint in joints if _free(joint) for each in _to_the_world(model, joint, said))
             for joint in [each for each in joints if _free(each)] + joints[::-1]:
                 yield mends(joint, (delete(joint),), f"{said}. {SAYS[said.split()[0]]}", value="removed")
         elif said.startswith("plane only allowed"):
@@ -121,6 +124,30 @@ def _raised(model: ReaderModel, joint: Element, said: str) -> Iterator[Suspect]:
         says = f"{said}. Only a child of the world can be free: the joint is put into {told(bodies[-1])}."
         edits = (delete(joint), insert(bodies[-1], model.text_of(joint)))
         yield mends(joint, edits, says, value=f"moved into {told(bodies[-1])}")
+
+
+def _to_the_world(model: ReaderModel, joint: Element, said: str) -> Iterator[Suspect]:
+    """A body with a free joint put into the world, where it is, if the keyframes have the place of a free body."""
+    bodies = [each for each in joint.around() if each.tag == "body"]
+    still = model.with_edits((delete(joint),))
+    if len(bodies) < 2 or not isinstance(still, CompileError) or "keyframe" not in str(still) or not model.source:
+        return
+    keys = [delete(each) for each in model.source.section("keyframe")]
+    there, name = model.with_edits((delete(joint), *keys)), bodies[1].get("name")
+    if isinstance(there, CompileError) or not name or name not in there.names("body"):
+        return
+    there.as_written()
+    around = there.names("body").index(name)
+    place, turn = written(there.data_row("xpos", around, 3)), written(there.data_row("xquat", around, 4))
+    given = next((each.get("childclass") for each in bodies[1:] if each.get("childclass")), "")
+    frame = f'pos="{place}" ' * (place != "0 0 0") + f'quat="{turn}" ' * (turn != "1 0 0 0")
+    frame += f'childclass="{given}"' * bool(given)
+    text = model.text_of(bodies[0])
+    xml = f"<frame {frame.strip()}>{text}</frame>" if frame else text
+    edits = (delete(bodies[0]), insert(next(model.source.elements("worldbody")), xml))
+    if not isinstance(model.with_edits(edits), CompileError):
+        says = f"{said}. Only a child of the world can be free, and the keyframes have its place: it is put there."
+        yield mends(joint, edits, says, value=f"{told(bodies[0])} moved into the world")
 
 
 def _floating(model: ReaderModel, said: str) -> Iterator[Suspect]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
-from clinic.diagnosis.probes.vector import apart
+from clinic.diagnosis.probes.vector import apart, norm, sub
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
@@ -47,6 +48,7 @@ FIELDS = {  # attribute: field, width of a row, columns compared
     },
 }
 LENGTHS = ("pos", "center of mass")
+OF_THE_FRAME = (("geom", "pos"), ("body", "center of mass"))
 UNLIKE, SOME, LIKE = 25.0, 8.0, 0.1  # %
 
 
@@ -118,9 +120,23 @@ def odd_ones(simulation: Simulation, kind: str, more: float = UNLIKE) -> Iterato
                 first = rows[others[0]]
                 if any(_apart(rows[each], first) > LIKE for each in others) or (index, attribute) in seen:
                     continue
+                if (kind, attribute) in OF_THE_FRAME and _turned(simulation, kind, index, others[0]):
+                    continue
                 if (unlike := _apart(rows[index], first)) > more:
                     seen.add((index, attribute))
                     yield Odd(kind, attribute, index, tuple(others), unlike)
+
+
+def _turned(of: Simulation, kind: str, index: int, other: int) -> bool:
+    """Whether a body is another one in a frame that is turned: all that is in it is as far from each other."""
+    made = []
+    for body in (each if kind == "body" else of.body_of(kind, each) for each in (index, other)):
+        sites = [site for site in range(of.count("site")) if of.body_of("site", site) == body]
+        held = (("geom_pos", of.geoms_of(body)), ("site_pos", sites), ("body_pos", of.children.get(body, [])))
+        points = [of.row(field, each, 3) for field, some in held for each in some]
+        pairs = combinations([(0.0, 0.0, 0.0), of.row("body_ipos", body, 3), *points], 2)
+        made.append(tuple(norm(sub(one, another)) for one, another in pairs))
+    return len(made[0]) == len(made[1]) > 1 and _apart(made[0], made[1]) <= LIKE
 
 
 def _without_thumb(group: list[int], table: Sequence[Mapping[int, tuple[float, ...]]]) -> list[int]:

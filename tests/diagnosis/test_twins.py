@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from clinic.diagnosis.diagnose import Diagnosis, examine
 from clinic.diagnosis.edit import apply
@@ -503,3 +505,108 @@ def test_a_centre_in_millimetres_does_not_make_any_mirror_fit():
     (found,) = unlike(robot({'left_rear:<inertial pos="0 0.05 0"': '<inertial pos="0 50 0"'}))
     assert found.elements == ('body "left_rear"',)
     assert found.value.startswith('<inertial pos="0 0.05 0"')
+
+
+HAND = (
+    '<body name="{side}_hand" pos="{x} {y} -0.25"><geom size="0.02"/>'
+    '<body name="{side}_thumb" pos="0.01 0.03 -0.05"><joint name="{side}_thumb" axis="1 0 0" range="{thumb}"/>'
+    '<geom size="0.01" mass="0.1"/></body>'
+    '<body name="{side}_finger" pos="0 -0.03 -0.05"><joint name="{side}_finger" axis="-1 0 0" range="0 40"/>'
+    '<geom size="0.01" mass="0.1"/></body></body>'
+)
+
+
+@pytest.mark.parametrize(("thumb", "told"), [("0 40", []), ("0 60", ["range"])])
+def test_a_hand_that_is_its_own_mirror_image_may_be_a_copy(thumb, told):
+    """As mirror images, both fingers of the right hand would stand on the other side, and turn the other way."""
+    text = robot(right="-60 30").removesuffix("</body></worldbody></mujoco>")
+    hands = HAND.format(side="left", x=0, y=0.2, thumb="0 40") + HAND.format(side="right", x=0, y=-0.2, thumb=thumb)
+    found = unlike(f"{text}{hands}</body></worldbody></mujoco>")
+    assert [each.attribute for each in found if "thumb" in each.elements[0] and each.attribute == "range"] == told
+    assert not told or found
+    assert told or not found
+
+
+def odd(text: str, kind: str) -> list[str]:
+    """The quantities in which a pair of a kind differs."""
+    return [each.quantity for each in twins(simulated(text)).comparisons if each.odd and each.kind == kind]
+
+
+@pytest.mark.parametrize(("knee", "told"), [("-88 0", []), ("-86 0", ["range"])])
+def test_ends_of_ranges_that_differ_by_less_than_3_degrees_are_alike(knee, told):
+    toe = '<body name="{0}"><joint name="{0}" axis="0 1 0" range="-20 20"/><geom size="0.01"/></body>'
+    toes = "".join(toe.format(f"{side}_toe{i}") for side in ("FL", "FR") for i in range(3))
+    text = legs().replace('<body name="RL_thigh"', f'{toes}<body name="RL_thigh"')
+    assert (
+        odd(
+            text.replace('name="RL_knee" axis="0 1 0" range="-90 0"', f'name="RL_knee" axis="0 1 0" range="{knee}"'),
+            "joint",
+        )
+        == told
+    )
+
+
+@pytest.mark.parametrize(("knee", "told"), [("0 90", []), ("-90 0", ["range", "axis sign"])])
+def test_a_range_that_is_negated_with_its_axis_is_the_same_motion(knee, told):
+    turned = f'name="RL_knee" axis="0 -1 0" range="{knee}"'
+    assert odd(legs().replace('name="RL_knee" axis="0 1 0" range="-90 0"', turned), "joint") == told
+
+
+def test_two_contact_sensors_of_one_wall_and_a_finger_each_are_as_meant():
+    sensors = "".join(
+        f'<contact name="wall_{side}_found" geom1="wall" geom2="{side}_tip" data="found"/>'
+        for side in ("left", "right")
+    )
+    tips = {f'{side}_rear:<geom size="0.04"': f'<geom name="{side}_tip" size="0.04"' for side in ("left", "right")}
+    joints = "".join(f'<jointpos name="{n}" joint="{n}"/>' for p in PARTS for n in (f"left_{p}", f"right_{p}"))
+    text = robot(tips, right="-60 30").replace(
+        "<worldbody>", '<worldbody><geom name="wall" type="plane" size="1 1 1"/>'
+    )
+    assert not unlike(text.replace("</mujoco>", f"<sensor>{sensors}{joints}</sensor></mujoco>"))
+
+
+@pytest.mark.parametrize(("child", "told"), [("0 -0.03 -0.21", False), ("0 0 -0.21", True)])
+def test_a_frame_that_slides_along_its_own_hinge_moves_nothing(child, told):
+    text = legs().replace('<body name="RL_thigh" pos="-0.2 0.1 0">', '<body name="RL_thigh" pos="-0.2 0.13 0">')
+    text = text.replace('<body name="RL_calf" pos="0 0 -0.21">', f'<body name="RL_calf" pos="{child}">')
+    assert ("pos" in odd(text, "body")) == told
+
+
+@pytest.mark.parametrize(("right", "told"), [("0 0.05 0", False), ("0 0.04 0", True)])
+def test_the_centre_of_mass_of_one_mesh_used_twice_is_the_same_in_its_frame(right, told):
+    corners = " ".join(f"{x} {y} {z}" for x in (0, 0.02) for y in (0, 0.1) for z in (0, 0.02))
+    mesh = f'<mesh name="motor" vertex="{corners}"/>'
+    front, left, right_ = re.split("(?=<body name=.R[LR]_thigh)", legs())
+    thighs = [
+        each.replace('<inertial pos="0 0 -0.05" mass="0.4"', f'<inertial pos="{centre}" mass="0.4"').replace(
+            '<geom size="0.02" pos="0 0 -0.1"/>', '<geom type="mesh" mesh="motor"/>'
+        )
+        for each, centre in ((left, "0 0.05 0"), (right_, right))
+    ]
+    text = "".join((front, *thighs))
+    assert ("center of mass" in odd(text.replace("<worldbody>", f"<asset>{mesh}</asset><worldbody>"), "body")) == told
+
+
+@pytest.mark.parametrize(("y", "told"), [("0.0866025", []), ("0.06", ["center of mass"])])
+def test_a_rod_in_a_frame_that_is_turned_is_like_its_siblings(y, told):
+    rod = '<body name="rod_{0}"><joint axis="0 0 1"/><inertial pos="{1}" mass="1" diaginertia="1 1 1"/>'
+    rods = "".join(f'{rod.format(i, "0.1 0 0")}<geom pos="0.1 0 0" size="0.01"/></body>' for i in range(4))
+    rods += f'{rod.format(4, f"0.05 {y} 0")}<geom pos="0.05 0.0866025 0" size="0.01"/></body>'
+    found = odd_ones(simulated(f"<mujoco><worldbody>{rods}</worldbody></mujoco>"), "body")
+    assert [each.attribute for each in found] == told
+
+
+@pytest.mark.parametrize(("ends", "told"), [("", []), (' range="-60 60"', ["quat"])])
+def test_a_wheel_that_is_rolled_on_is_not_turned(ends, told):
+    def wheel(side: str, y: float, quat: str) -> str:
+        spoke = '<body name="{0}_{1}" pos="{2}"><joint axis="1 0 0"/><geom size="0.01"/></body>'
+        spokes = "".join(spoke.format(side, i, x) for i, x in enumerate(("0.1 0 0", "-0.05 0.03 0.08", "0 0 -0.1")))
+        joint = f'<joint name="{side}_wheel" axis="0 1 0"{ends}/>'
+        return f'<body name="{side}_wheel" pos="0 {y} 0" quat="{quat}">{joint}<geom size="0.05"/>{spokes}</body>'
+
+    wheels = wheel("left", 0.2, "0.8 0 0.6 0") + wheel("right", -0.2, "0.6 0 0.8 0")
+    text = robot(right="-60 30").removesuffix("</body></worldbody></mujoco>")
+    found = examine(
+        NativeEngine(), {"model.xml": f"{text}{wheels}</body></worldbody></mujoco>"}, select=["twin-turned"]
+    )
+    assert [each.attribute for each in found.hints] == told

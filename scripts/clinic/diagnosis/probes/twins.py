@@ -11,11 +11,13 @@ from clinic.diagnosis.engine import BALL, FREE, HINGE, MESH, SLIDE
 from clinic.diagnosis.probes.attached import attached
 from clinic.diagnosis.probes.couplings import couplings
 from clinic.diagnosis.probes.pairs import FITS, SYMMETRIC, Pairs
+from clinic.diagnosis.probes.same_part import copies, one_mesh
 from clinic.diagnosis.probes.vector import Vector, add, apart, diagonal, dot, norm, sub, times, turned
 from clinic.diagnosis.simulation import Simulation, kept
 
 EXACT, EXACT_MASS, PAIRS = 1.0, 4.0, 5  # %, %, and how many pairs there must be
 PLACED = {"pos", "center of mass", "inertia", "axis", "axis sign", "range", "ctrlrange", "quat", "direction"}
+LITTLE = math.radians(3)
 OWNERS = {"joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid", "camera": "cam_bodyid"}
 
 
@@ -52,12 +54,20 @@ class Comparison:
 
 
 class Twins(Pairs):
-    """The pairs of a model, and their quantities compared."""
+    """The pairs of a model, and their quantities compared.
+
+    Attributes:
+        mirrored: The comparisons with mirror images.
+        comparisons: The same without those that differ in what is one part used twice.
+    """
 
     def __init__(self, simulation: Simulation) -> None:
         super().__init__(simulation)
+        self.copies = copies(self)
         found = (each for each in self._compared() if math.isfinite(each.unlike) and not self._untold(each))
-        self.comparisons = self._sharpened([*found])
+        self.mirrored = self._sharpened([*found])
+        odd = {self.bodies(each)[0] for each in self.mirrored if each.odd and each.kind in ("body", "joint", "camera")}
+        self.comparisons = [each for each in self.mirrored if not each.odd or not self._used_twice(each, odd)]
 
     def group(self, each: Comparison) -> int:
         """The body that both sides of a comparison hang on; -1 for actuators and sensors."""
@@ -75,6 +85,13 @@ class Twins(Pairs):
             return pair
         field = self.of.model(OWNERS.get(each.kind, "jnt_bodyid"))
         return int(field[pair[0]]), int(field[pair[1]])
+
+    def _used_twice(self, each: Comparison, odd: set[int]) -> bool:
+        """Whether a pair is one part used twice, or of a chain that is a copy, as two odd bodies of it show."""
+        top = self.copies.get(self.bodies(each)[0])
+        part = each.quantity in ("center of mass", "inertia") and one_mesh(self.of, each.left, each.right)
+        placed = (each.kind, each.quantity, each.left) == ("body", "pos", top)
+        return part or (top is not None and not placed and sum(self.copies.get(body) == top for body in odd) > 1)
 
     def trusted(self, group: int, compared: list[Comparison]) -> bool:
         """Whether what hangs on a body on both sides is the other's image but for little."""
@@ -149,15 +166,8 @@ class Twins(Pairs):
     def _bodies(self, left: int, right: int) -> Iterator[Comparison]:
         of, pair = self.of, partial(Comparison, "body", left, right)
         image, size = self.images[left], self.size[left]
-        parents = [int(of.model("body_parentid")[each]) for each in (left, right)]
-        if parents[0] == parents[1]:
-            unlike = norm(sub(image.of(self.at("xpos", left)), self.at("xpos", right)))
-        else:
-            here, there = (
-                sub(self.at("xpos", b), self.at("xpos", p)) for b, p in zip((left, right), parents, strict=True)
-            )
-            unlike = norm(sub(times(image.matrix, here), there))
-        yield pair("pos", unlike, FITS * size, "m")
+        slid = self._slid(left, right) or self._slid(*(int(of.model("body_parentid")[each]) for each in (left, right)))
+        yield pair("pos", 0.0 if slid else norm(self._shift(left, right)), FITS * size, "m")
         masses = of.model("body_mass")[left], of.model("body_mass")[right]
         yield pair("mass", apart(*masses), 10)
         if min(masses) > 1e-9:
@@ -168,6 +178,24 @@ class Twins(Pairs):
             difference = sub(turned(image.matrix, tensors[0]), tensors[1])
             yield pair("inertia", 100 * norm(difference) / max(norm(tensors[0]), norm(tensors[1])), 25)
         yield pair("gravcomp", apart(of.model("body_gravcomp")[left], of.model("body_gravcomp")[right]), 5)
+
+    def _shift(self, left: int, right: int) -> Vector:
+        """From the right body to the image of its twin, seen from the bodies that they hang on."""
+        above, image = [int(self.of.model("body_parentid")[each]) for each in (left, right)], self.images[left]
+        if above[0] == above[1]:
+            return sub(image.of(self.at("xpos", left)), self.at("xpos", right))
+        here, there = (sub(self.at("xpos", b), self.at("xpos", p)) for b, p in zip((left, right), above, strict=True))
+        return sub(times(image.matrix, here), there)
+
+    def _slid(self, left: int, right: int) -> bool:
+        """Whether a body's frame is elsewhere on its own hinge's line, and what hangs on it is back in its place."""
+        if (left, right) not in self.pairs["body"] or left not in self.images:
+            return False
+        shift, near, joints = self._shift(left, right), FITS * self.size[left], self.of.joints_of(right)
+        lines = [add(shift, axis, -dot(shift, axis)) for axis in (self.at("xaxis", j) for j in joints)]
+        held = [pair for pair in self.pairs["body"] if pair[0] in self.of.children.get(left, [])]
+        back = [add(shift, self._shift(*pair)) for pair in held if pair[0] in self.images]
+        return bool(joints and back) and all(norm(each) <= near for each in (*lines, *back))
 
     def tensor(self, body: int) -> Vector:
         """A body's inertia about its centre of mass in the world's axes, in kg m2."""
@@ -196,8 +224,37 @@ class Twins(Pairs):
         if angle < 30:
             yield pair("limited", 100 * (limited[0] != limited[1]), 1)
             if all(limited):
-                unlike = _intervals(of.row("jnt_range", left, 2), of.row("jnt_range", right, 2), sign)
+                ranges = of.row("jnt_range", left, 2), of.row("jnt_range", right, 2)
+                little = of.joint_type(left) == HINGE and _apart(*ranges, sign) < LITTLE
+                unlike = 0.0 if little or self._crossed(left, right) else _intervals(*ranges, sign)
                 yield pair("range", unlike, 10)
+
+    def _crossed(self, left: int, right: int) -> bool:
+        """Whether a slide is the image of its twin's neighbour: both hands have finger a on the same side."""
+        of, parents, owners = self.of, self.of.model("body_parentid"), self.of.model("jnt_bodyid")
+        hands = [int(parents[int(owners[joint])]) for joint in (left, right)]
+        if of.joint_type(left) != SLIDE or hands[0] == hands[1]:
+            return False
+        beside = [each for each in self.pairs["joint"] if [int(parents[int(owners[one])]) for one in each] == hands]
+        for other in beside:
+            crosses = (left, other[1]), (other[0], right)
+            slides = other != (left, right) and all(of.joint_type(joint) == SLIDE for joint in other)
+            if slides and all(self._mirrored(*cross) for cross in crosses):
+                return True
+        return False
+
+    def _mirrored(self, left: int, right: int) -> bool:
+        """Whether axis and range of a joint are the image of another's."""
+        sign, angle = self.joint_sign(left, right)
+        ranges = [self.of.row("jnt_range", joint, 2) for joint in (left, right)]
+        return angle < 30 and _intervals(ranges[0], ranges[1], sign) < 1
+
+    def _negated(self, left: int, right: int) -> bool:
+        """Whether the range is negated with the axis, so that both turn the same way, and no other."""
+        ranges = [self.of.row("jnt_range", joint, 2) for joint in (left, right)]
+        sign, _ = self.joint_sign(left, right)
+        unlike, otherwise = (_intervals(ranges[0], ranges[1], one) for one in (sign, -sign))
+        return sign < 0 and unlike < 1 and otherwise > 10
 
     def _signs(self) -> Iterator[Comparison]:
         """Joint axes against the habit of the model: those along the normal of the mirror, and those across it."""
@@ -215,7 +272,8 @@ class Twins(Pairs):
                 axis = self.at("xaxis", left)
                 along = norm(add(times(self.images[body].matrix, axis), axis)) / 2  # 0 along the normal, 1 across it
                 sign, angle = self.joint_sign(left, right)
-                if (along < 0.3 or along > 0.85) and angle < 30 and self.of.joint_type(left) == HINGE:
+                hinge = self.of.joint_type(left) == HINGE and not self._negated(left, right)
+                if (along < 0.3 or along > 0.85) and angle < 30 and hinge:
                     normals[along < 0.3].append((left, right, sign))
             for found in normals.values():
                 most = sum(sign for _, _, sign in found)
@@ -283,7 +341,13 @@ class Twins(Pairs):
             if all(limited):
                 same = pair(f"{quantity}range", 0.0, 10)
                 ranges = [of.row(f"actuator_{quantity}range", each, 2) for each in (left, right)]
-                yield replace(same, unlike=_intervals(ranges[0], ranges[1], self.interval_sign(same)))
+                bounded = all(of.model("jnt_limited")[joint] for joint in (joints[0], joints[1]))
+                crossed = bounded and self._crossed(joints[0], joints[1])
+                sign = 1.0 if crossed else self.interval_sign(same)
+                own = (of.row("jnt_range", joint, 2) for joint in (joints[0], joints[1]))
+                inherited = bounded and all(_apart(*each, 1) < 1e-9 for each in zip(ranges, own, strict=True))
+                unlike = 0.0 if inherited else _intervals(ranges[0], ranges[1], sign)  # of the joints it is told
+                yield replace(same, unlike=unlike)
 
     def _sensors(self, left: int, right: int) -> Iterator[Comparison]:
         of, pair = self.of, partial(Comparison, "sensor", left, right)
@@ -291,15 +355,20 @@ class Twins(Pairs):
             return
         one, other = (attached(of, "sensor", each) for each in (left, right))
         partner = self.partner(*one) if one else None
-        if one and other and (partner is not None or one == other):
+        seen = [of.model("sensor_refid")[each] for each in (left, right)]  # as a contact sensor's other geom
+        if one and other and (partner is not None or (one == other and seen[0] == seen[1])):
             yield pair("target", 100 * (partner != other[1]), 1)
 
 
 def _intervals(left: Vector, right: Vector, sign: float) -> float:
     """How unlike a range is to its twin's image, in % of the wider."""
+    return 100 * _apart(left, right, sign) / max(left[1] - left[0], right[1] - right[0], 1e-9)
+
+
+def _apart(left: Vector, right: Vector, sign: float) -> float:
+    """How far an end of a range is from that of its twin's image."""
     image = left if sign > 0 else (-left[1], -left[0])
-    wide = max(left[1] - left[0], right[1] - right[0], 1e-9)
-    return 100 * max(abs(a - b) for a, b in zip(image, right, strict=True)) / wide
+    return max(abs(a - b) for a, b in zip(image, right, strict=True))
 
 
 @kept

@@ -54,8 +54,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
+from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.twins import Twins, twins
-from clinic.diagnosis.probes.vector import Vector, dot, sub, written
+from clinic.diagnosis.probes.vector import Vector, dot, of_quaternion, sub, times, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.twins._pair import EITHER
 from clinic.diagnosis.simulation import Simulation
@@ -69,6 +70,7 @@ LEVEL = "hint"
 UNPLANTED = "no pair of limbs in the bench's healthy models is written with a turn of its own"
 
 LEAST, LEFT, TURNED = 3, 0.2, 1e-3  # so many astray; the share that may stay so; what tells a turn from none
+ALONG = 0.999  # cosine of the angle between axles that lie alike
 FEW = 8  # pairs that are looked at, of those that are astray
 MIRRORS = ((1, 1, -1, -1), (1, -1, 1, -1), (1, -1, -1, 1))  # a turn seen in a mirror across x, y or z
 
@@ -84,6 +86,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             for turn in _mirrored(of, twin)
             if _differs(turn, of.row("body_quat", body, 4)) and _with(of, body, turn, left) <= LEFT * before
         ]
+        if any(_rolled_on(of, body, turn) for body, _, turn in found):
+            continue
         if found:
             odd = _inward(of, left, right)
             told = [each for each in found if each[0] == odd] or found
@@ -137,6 +141,17 @@ def _mirrored(of: Simulation, body: int) -> list[Vector]:
     return [tuple(sign * x for sign, x in zip(mirror, own, strict=True)) for mirror in MIRRORS]
 
 
+def _rolled_on(of: Simulation, body: int, turn: Vector) -> bool:
+    """Whether another turn leaves a wheel's axle as it lies, so that the wheel would come there by rolling."""
+    for joint in of.joints_of(body):
+        turns = (of.row("body_quat", body, 4), turn)
+        axles = [times(of_quaternion(each), of.row("jnt_axis", joint, 3)) for each in turns]
+        wheel = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
+        if wheel and abs(dot(*axles)) > ALONG:
+            return True
+    return False
+
+
 def _differs(one: Vector, other: Vector) -> bool:
     return min(max(abs(a - sign * b) for a, b in zip(one, other, strict=True)) for sign in (1, -1)) > TURNED
 
@@ -148,7 +163,7 @@ def _astray(of: Simulation, left: int) -> float:
 
 def _count(found: Twins, left: int) -> float:
     quantities = ("pos", "center of mass", "axis")
-    places = [each for each in found.comparisons if each.kind in ("body", "joint") and each.quantity in quantities]
+    places = [each for each in found.mirrored if each.kind in ("body", "joint") and each.quantity in quantities]
     return float(sum(each.odd and left in found.of.ancestors(found.bodies(each)[0]) for each in places))
 
 

@@ -267,3 +267,27 @@ def test_a_coupling_that_a_keyframe_tells_is_no_matter_of_the_followers_range() 
     assert not examine(NativeEngine(), {"model.xml": text}, select=["follower-out-of-range"]).causes
     text = text.replace("-31.4159 -0.08", "0 0")
     assert examine(NativeEngine(), {"model.xml": text}, select=["follower-out-of-range"]).causes
+
+
+@pytest.mark.parametrize(
+    ("qpos", "more", "level"),
+    [
+        pytest.param("0 0 0.05 0 0 0 1", "", "hint", id="a-box-half-a-turn-round"),
+        pytest.param("0 0 0.05 0 0 0 1", '<geom size="0.01" pos="0.05 0 0"/>', "cause", id="a-box-with-a-knob"),
+        pytest.param("0 0 0.05 0 0 0.707 0.707", "", "cause", id="a-box-turned-over"),
+    ],
+)
+def test_half_a_turn_that_nobody_sees_is_a_hint(qpos: str, more: str, level: str):
+    box = f'<body pos="0 0 0.05"><freejoint/><geom type="box" size="0.05 0.05 0.05"/>{more}</body>'
+    text = f'<mujoco><worldbody>{box}</worldbody><keyframe><key qpos="{qpos}"/></keyframe></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text}, select=["key-quaternion"])
+    assert [each.level for each in (*found.causes, *found.hints)] == [level]
+
+
+@pytest.mark.parametrize(("heights", "level"), [((0.05, 0.01), "hint"), ((0.01, 0.05), "cause")])
+def test_a_key_in_the_floor_behind_one_that_stands_is_a_hint(heights: tuple[float, float], level: str):
+    keys = "".join(f'<key qpos="0 0 {height} 1 0 0 0"/>' for height in heights)
+    box = '<body pos="0 0 0.05"><freejoint/><geom type="box" size="0.05 0.05 0.05"/></body>'
+    world = f'<worldbody><geom type="plane" size="5 5 0.1"/>{box}</worldbody>'
+    found = examine(NativeEngine(), {"model.xml": f"<mujoco>{world}<keyframe>{keys}</keyframe></mujoco>"})
+    assert [each.level for each in (*found.causes, *found.hints) if each.rule == "key-in-the-floor"] == [level]

@@ -24,6 +24,7 @@ Good:
     +     <key name="home" qpos="0 0 0.1 1 0 0 0"/>
 
 The number: how deep the deepest contact with a plane is at the keyframe, over the size of the model: 6 % and more.
+Where the first key stands well, a later one is a hint: it may be there for its joints alone.
 
 When it is wrong: something that is meant to be planted.
 """
@@ -36,7 +37,7 @@ from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.probes.key import reordered, start_at, sunk
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.suspect import Level, Suspect
 
 TITLE = "A keyframe is in the floor"
 FAMILIES = ("jumps-at-start", "explodes")
@@ -61,6 +62,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         size = max(max(places[i::3]) - min(places[i::3]) for i in range(3)) + max(of.model("geom_rbound"), default=0.0)
         if element is None or deep <= SHARE * size:
             continue
+        level: Level = "hint" if key and model.measured(sunk(0)) <= SHARE * size else "cause"
         qpos = list(of.data("qpos"))
         qpos[height] += deep
         yield Suspect(
@@ -74,4 +76,5 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"At the keyframe {of.name('body', of.free_bodies[0])} begins {1000 * deep:.3g} mm deep in a plane.",
             "at most 6 % of the robot's size",
             excess=deep / (SHARE * size),
+            level=level,
         )

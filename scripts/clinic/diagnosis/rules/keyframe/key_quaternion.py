@@ -23,7 +23,8 @@ Good:
     +     <key name="home" qpos="0 0 0.1 1 0 0 0"/>
 
 The number: the angle between the free body at the keyframe and at the model's start. Told for `0 0 0 1`, and
-where the body is tilted by more than 60 degrees and would be by less than 15 if w stood first.
+where the body is tilted by more than 60 degrees and would be by less than 15 if w stood first. Of a thing that is the
+same after half a turn, a box, it is a hint.
 
 When it is wrong: a robot that is meant to look back.
 """
@@ -34,6 +35,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.engine import MESH
 from clinic.diagnosis.probes.key import reordered, start_at
 from clinic.diagnosis.probes.vector import dot, of_quaternion, written
 from clinic.diagnosis.reader_model import ReaderModel
@@ -74,6 +76,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 LIMIT,
                 "Read as w x y z it turns the body round, or over; read as x y z w it stands as it does at the start.",
                 "w first: 1 0 0 0 is no rotation",
+                level="hint" if _tilt((w, x, y, z), start) < 1 and _round(of, body) else "cause",
             )
 
 
@@ -81,6 +84,15 @@ def _back(turn: Sequence[float]) -> bool:
     """Whether it is half a turn about z or near it, as a small turn about z is with w last."""
     w, x, _, z = turn
     return z > 0.995 or (z > 0.5 and abs(w) < 1e-6 and abs(x) < 1e-6)
+
+
+def _round(of: Simulation, body: int) -> bool:
+    """Whether a body is the same after half a turn about its z axis: its geoms are on it, and no mesh."""
+    geoms = of.geoms_of(body)
+    turns = (of_quaternion(of.row("geom_quat", geom, 4)) for geom in geoms)
+    level = all(max(map(abs, turn[6:])) > 1 - 1e-4 for turn in turns)
+    middle = all(math.hypot(*of.row("geom_pos", geom, 3)[:2]) < 1e-6 for geom in geoms)
+    return level and middle and not of.children.get(body) and all(of.model("geom_type")[geom] < MESH for geom in geoms)
 
 
 def _tilt(now: Sequence[float], start: Sequence[float]) -> float:

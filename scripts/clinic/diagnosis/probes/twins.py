@@ -226,28 +226,7 @@ class Twins(Pairs):
             if all(limited):
                 ranges = of.row("jnt_range", left, 2), of.row("jnt_range", right, 2)
                 little = of.joint_type(left) == HINGE and _apart(*ranges, sign) < LITTLE
-                unlike = 0.0 if little or self._crossed(left, right) else _intervals(*ranges, sign)
-                yield pair("range", unlike, 10)
-
-    def _crossed(self, left: int, right: int) -> bool:
-        """Whether a slide is the image of its twin's neighbour: both hands have finger a on the same side."""
-        of, parents, owners = self.of, self.of.model("body_parentid"), self.of.model("jnt_bodyid")
-        hands = [int(parents[int(owners[joint])]) for joint in (left, right)]
-        if of.joint_type(left) != SLIDE or hands[0] == hands[1]:
-            return False
-        beside = [each for each in self.pairs["joint"] if [int(parents[int(owners[one])]) for one in each] == hands]
-        for other in beside:
-            crosses = (left, other[1]), (other[0], right)
-            slides = other != (left, right) and all(of.joint_type(joint) == SLIDE for joint in other)
-            if slides and all(self._mirrored(*cross) for cross in crosses):
-                return True
-        return False
-
-    def _mirrored(self, left: int, right: int) -> bool:
-        """Whether axis and range of a joint are the image of another's."""
-        sign, angle = self.joint_sign(left, right)
-        ranges = [self.of.row("jnt_range", joint, 2) for joint in (left, right)]
-        return angle < 30 and _intervals(ranges[0], ranges[1], sign) < 1
+                yield pair("range", 0.0 if little else _intervals(*ranges, sign), 10)
 
     def _negated(self, left: int, right: int) -> bool:
         """Whether the range is negated with the axis, so that both turn the same way, and no other."""
@@ -342,12 +321,10 @@ class Twins(Pairs):
                 same = pair(f"{quantity}range", 0.0, 10)
                 ranges = [of.row(f"actuator_{quantity}range", each, 2) for each in (left, right)]
                 bounded = all(of.model("jnt_limited")[joint] for joint in (joints[0], joints[1]))
-                crossed = bounded and self._crossed(joints[0], joints[1])
-                sign = 1.0 if crossed else self.interval_sign(same)
                 own = (of.row("jnt_range", joint, 2) for joint in (joints[0], joints[1]))
                 inherited = bounded and all(_apart(*each, 1) < 1e-9 for each in zip(ranges, own, strict=True))
-                unlike = 0.0 if inherited else _intervals(ranges[0], ranges[1], sign)  # of the joints it is told
-                yield replace(same, unlike=unlike)
+                unlike = _intervals(ranges[0], ranges[1], self.interval_sign(same))
+                yield replace(same, unlike=0.0 if inherited else unlike)  # of the joints it is told
 
     def _sensors(self, left: int, right: int) -> Iterator[Comparison]:
         of, pair = self.of, partial(Comparison, "sensor", left, right)

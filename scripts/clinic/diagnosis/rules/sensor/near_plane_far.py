@@ -24,7 +24,8 @@ Good:
     +   <visual><map znear="0.0002"/></visual>
 
 The number: how far ahead of a camera that moves along the near plane is, over the size of what the camera is built on;
-more than 0.5, where something else is that near to it at the start.
+more than 0.5, where something else is that near to it at the start. A camera of the world is told where all of a
+mechanism before it is nearer than the plane.
 
 When it is wrong: a camera that only looks at what is far away.
 """
@@ -32,7 +33,7 @@ When it is wrong: a camera that only looks at what is far away.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import PLANE
@@ -50,6 +51,7 @@ UNPLANTED = "no harm is measured in images"
 
 FAR, NEAR = 0.5, 0.02  # of the size of what the camera is built on
 NEARLY = 1.5  # times the plane's distance
+IN_SIGHT = 0.9  # cosine
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -74,11 +76,22 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _ahead(of: Simulation, camera: int) -> float:
     """How far ahead the near plane is, over the size of what the camera is on board of; 0 for one that is not."""
-    places, size = _mechanisms(of).get(root_of(of)[int(of.model("cam_bodyid")[camera])], ((), 0.0))
+    owner = root_of(of)[int(of.model("cam_bodyid")[camera])]
+    plane = of.model("stat.extent")[0] * of.model("vis.map.znear")[0]
+    places, size = _mechanisms(of).get(owner, ((), 0.0))
     of.begin()
-    lens = of.data_row("cam_xpos", camera, 3)
+    lens, view = of.data_row("cam_xpos", camera, 3), of.data_row("cam_xmat", camera, 9)[2::3]
+    if not owner:  # of all that is before it, the far end of the nearest
+        seen = [far for each, _ in _mechanisms(of).values() if (far := _far_end(lens, view, each))]
+        return FAR * plane / min(seen) if seen else 0.0
     on_board = int(of.model("cam_mode")[camera]) == 0 and any(math.dist(lens, place) < size for place in places)
-    return of.model("stat.extent")[0] * of.model("vis.map.znear")[0] / size if on_board else 0.0
+    return plane / size if on_board else 0.0
+
+
+def _far_end(lens: Vector, view: Vector, places: Sequence[Vector]) -> float:
+    """How far ahead of a lens, which looks against `view`, the farthest of some places is; 0 if one is out of sight."""
+    ahead = [(-dot(view, sub(place, lens)), math.dist(place, lens)) for place in places]
+    return max(along for along, _ in ahead) if all(along > IN_SIGHT * far for along, far in ahead) else 0.0
 
 
 @kept

@@ -1,0 +1,29 @@
+"""Cameras: what is cut away before them."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.native import NativeEngine
+
+HALL = """<mujoco>{0}<worldbody><light pos="0 0 3"/>
+  <geom type="plane" size="0 0 1"/><geom type="box" size=".1 100 2" pos="100 0 2"/>
+  <camera name="side" pos="0 -{1} 1" xyaxes="1 0 0 0 .3 1"/>
+  <body name="car" pos="0 0 .1"><freejoint/><geom type="box" size=".4 .2 .05"/></body>
+</worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("visual", "away", "told"),
+    [
+        pytest.param("", 1, True, id="cut away"),
+        pytest.param("", 6, False, id="beyond the plane"),
+        pytest.param('<visual><map znear="0.001"/></visual>', 1, False, id="a nearer plane"),
+        pytest.param("", -1, False, id="behind the camera"),
+    ],
+)
+def test_a_camera_of_the_world_whose_near_plane_cuts_the_robot_away_is_told(visual: str, away: int, told: bool) -> None:
+    model = HALL.format(visual, away).replace("--", "")
+    found = examine(NativeEngine(), {"hall.xml": model}, select=["near-plane-far"]).hints
+    assert [each.elements for each in found] == [('camera "side"',)] * told
+    assert all(each.after is not None and each.after < 0.5 < each.before for each in found)

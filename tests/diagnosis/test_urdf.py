@@ -190,3 +190,14 @@ def test_a_base_that_is_the_world_is_of_one_mechanism_with_its_limbs(tmp_path, m
     found = examine(NativeEngine(), {"cup.urdf": text}, select=["hull-over-hole"])
     assert not found.error
     assert bool(found.causes or found.hints) == told
+
+
+@pytest.mark.parametrize(("tag", "told"), [("material", False), ("surface", True)])
+def test_the_colour_of_a_collision_is_no_finding(tag: str, told: bool) -> None:
+    link = (
+        f'<link name="base"><collision><geometry><sphere radius="1"/></geometry><{tag} name="red"/></collision></link>'
+    )
+    found = examine(
+        NativeEngine(), {"ball.urdf": f'<robot name="ball">{link}</robot>'}, select=["urdf-element-ignored"]
+    )
+    assert [each.attribute for each in found.hints] == [tag] * told

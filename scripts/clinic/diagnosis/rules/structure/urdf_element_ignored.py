@@ -49,7 +49,7 @@ INSIDE = {
     "joint": "origin parent child axis calibration dynamics limit mimic safety_controller disable_collision",
     "inertial": "origin mass inertia",
     "visual": "origin geometry material",
-    "collision": "origin geometry verbose contact_coefficients",
+    "collision": "origin geometry verbose contact_coefficients material",  # which only colours it
 }
 MEANT = {"pose": "origin", "limits": "limit", "dynamic": "dynamics", "axes": "axis"}
 

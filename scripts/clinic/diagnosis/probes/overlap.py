@@ -169,8 +169,8 @@ def _parents(model: ReaderModel) -> set[int]:
     return {body for root in roots(of) for body in of.ancestors(root) if body not in (0, root)}
 
 
-def sunk_by_half(of: Simulation, geom: int) -> bool:
-    """Whether a geom's middle is half its half height above what is below it."""
+def sunk_by_half(of: Simulation, geom: int, over: float = FALLS) -> bool:
+    """Whether a geom's middle is half its half height above what is below it; by `over` m more where it may fall."""
     kind, height = int(of.model("geom_type")[geom]), of.row("geom_size", geom, 3)
     half = height[1] if kind == CYLINDER else height[2]
     if kind not in (BOX, CYLINDER) or not solid(of, geom) or of.data_row("geom_xmat", geom, 9)[8] < UPRIGHT:
@@ -180,8 +180,7 @@ def sunk_by_half(of: Simulation, geom: int) -> bool:
     if moves and (body not in of.free_bodies or len(of.geoms_of(body)) != 1):
         return False
     wrong = LOOSE * half if moves else NEAR * half
-    over = FALLS if moves else 0.0
-    return any(-wrong < above - half / 2 < wrong + over for above in _above(of, geom, body))
+    return any(-wrong < above - half / 2 < wrong + over * moves for above in _above(of, geom, body))
 
 
 def _above(of: Simulation, geom: int, body: int) -> Iterator[float]:

@@ -153,10 +153,9 @@ class Pairs:
         for common, pairs in groups.items():
             points = self._points(pairs)
             here, there = points[0]
-            ways = sorted(
-                norm(sub(each, top)) for pair in points for each, top in zip(pair, (here, there), strict=True)
-            )
-            size = max([1e-4, *(way for way in ways if way <= ASTRAY * ways[len(ways) // 2])])
+            every = (norm(sub(each, top)) for pair in points for each, top in zip(pair, (here, there), strict=True))
+            ways = sorted([1e-4, *(way for way in every if way > 1e-4)])
+            size = max(way for way in ways if way <= ASTRAY * ways[len(ways) // 2])
             telling = self._telling(pairs)
             image = self._copied(pairs) or self._best(common, pairs, self._points(telling), FITS * size)
             share = self._fit(telling, image, FITS * size)

@@ -125,7 +125,9 @@ def _halved(model: ReaderModel, roots: Iterable[int], all_of_them: bool) -> tupl
     """Boxes of half the size, or those that would then stand on what they are in; nothing where another is buried."""
     simulation, sizes = model.simulation, dict[int, str]()
     for geom in (geom for root in roots for geom in geoms_of_tree(simulation, root)):
-        if int(simulation.model("geom_type")[geom]) != BOX or not (all_of_them or sunk_by_half(simulation, geom)):
+        if int(simulation.model("geom_type")[geom]) != BOX or not (
+            all_of_them or sunk_by_half(simulation, geom, over=0)
+        ):
             return ()
         sizes[geom] = " ".join(f"{each / 2:g}" for each in simulation.row("geom_size", geom, 3))
     return model.set_each("geom", "size", sizes)

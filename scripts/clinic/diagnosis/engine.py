@@ -11,7 +11,7 @@ from typing import NamedTuple, Protocol
 
 FREE, BALL, SLIDE, HINGE = range(4)  # mjtJoint
 PLANE, HFIELD, SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX, MESH = range(8)  # mjtGeom
-TRN_IN_PARENT, TRN_TENDON, TRN_SITE, TRN_BODY = 1, 3, 4, 5  # mjtTrn
+TRN_IN_PARENT, TRN_SITE, TRN_BODY = 1, 4, 5  # mjtTrn
 GAIN_MUSCLE, DYN_MUSCLE = 2, 4  # mjtGain; mjtDyn
 OBJ_SITE, OBJ_TENDON = 6, 18  # mjtObj
 WRAP_JOINT = 1  # mjtWrap

@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from clinic.diagnosis.engine import FREE, TRN_TENDON, WRAP_JOINT, Contact
+from clinic.diagnosis.engine import FREE, Contact
 from clinic.diagnosis.probes.servo import hold
 from clinic.diagnosis.probes.shape import size, solid
+from clinic.diagnosis.probes.tendons import TENDON, joints_of
 from clinic.diagnosis.probes.touch import Deciding, deciding
 from clinic.diagnosis.probes.vector import Vector, at, cross, dot, norm, sub, times, transpose, unit
 from clinic.diagnosis.simulation import Simulation, kept
@@ -94,12 +95,9 @@ def _moves(of: Simulation, actuator: int, joints: set[int]) -> bool:
     """Whether an actuator that has a control range moves one of these joints, by itself or by a tendon."""
     if not of.model("actuator_ctrllimited")[actuator]:
         return False
-    target = int(of.model("actuator_trnid")[2 * actuator])
-    if int(of.model("actuator_trntype")[actuator]) != TRN_TENDON:
+    if int(of.model("actuator_trntype")[actuator]) != TENDON:
         return of.driven_joint(actuator) in joints
-    first, count = (int(of.model(f"tendon_{each}")[target]) for each in ("adr", "num"))
-    kinds, objects = of.model("wrap_type"), of.model("wrap_objid")
-    return any(int(kinds[each]) == WRAP_JOINT and int(objects[each]) in joints for each in range(first, first + count))
+    return any(joint in joints for joint, _ in joints_of(of, int(of.model("actuator_trnid")[2 * actuator])))
 
 
 def _carried(of: Simulation, jaws: Jaws, body: int) -> Grasp | None:

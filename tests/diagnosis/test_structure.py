@@ -503,3 +503,14 @@ def test_a_small_link_that_is_far_from_another_is_told_on_a_long_mechanism(place
     text = f"<mujoco><worldbody>{jib}</worldbody></mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["link-far-off"]).hints
     assert [each.value for each in found] == told
+
+
+@pytest.mark.parametrize(
+    ("rest", "told"), [("-0.02", "0.02"), ("0.02", None), ("0", None)], ids=["towards the load", "against it", "none"]
+)
+def test_a_spring_that_rests_on_the_side_of_its_load_gets_the_other_sign(rest: str, told: str | None) -> None:
+    slide = f'<joint type="slide" axis="0 0 1" range="-0.05 0.05" stiffness="2000" damping="180" springref="{rest}"/>'
+    load = f'<body name="load" pos="0 0 1">{slide}<geom size="0.1" mass="4"/></body>'
+    text = f"<mujoco><worldbody>{load}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["spring-at-its-stop"]).hints
+    assert [(each.attribute, each.value) for each in found] == ([("springref", told)] if told else [])

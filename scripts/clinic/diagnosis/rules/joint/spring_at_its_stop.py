@@ -25,7 +25,8 @@ Good:
     +         <joint name="spring" type="slide" axis="0 0 1" stiffness="5000" damping="60" range="-0.03 0.03"/>
 
 The number: two seconds after the model was let go, how far a slide that has a spring and no actuator is from where the
-spring is at rest, as a share of the way to its limit; above 0.75, and where it stands still.
+spring is at rest, as a share of the way to its limit; above 0.75, and where it stands still. Or `springref` has the
+wrong sign: the load moves the slide by 0.3 of half its range, and with the other sign by a third of that at most.
 
 When it is wrong: a button, a pedal or a landing gear that is meant to be pressed down.
 """
@@ -48,12 +49,16 @@ LEVEL = "hint"
 UNPLANTED = "healthy models have few slides with springs"
 
 MOST, USUAL, STILL = 0.75, 0.3, 0.05  # of the way to the limit; m/s
+LEAVES, BACK = 0.3, 0.35  # of half of the range; of that, with the other sign
 ROUNDS = 4  # for the load on a spring at its stop shows only once the stop does not bear it
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The slides whose springs what rests on them presses to their limits, all together."""
     of = model.simulation
+    if (turned := _other_sign(model)) is not None:
+        yield turned
+        return
     pressed = {joint: share for joint in _springs(of) if (share := _pressed(of, joint)) > MOST}
     if not pressed:
         return
@@ -78,6 +83,33 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         f"{of.name('joint', worst)} stands at {percent:.0f} % of the way from its spring's rest to its limit.",
         "near the middle of the travel",
     )
+
+
+def _other_sign(model: ReaderModel) -> Suspect | None:
+    """Springs with a rest of their own that the load moves far from the start, and with the other sign does not."""
+    of = model.simulation
+    alike: dict[float, list[int]] = {}
+    for joint in _springs(of):
+        alike.setdefault(of.model("qpos_spring")[of.place(joint)], []).append(joint)
+    for rest, joints in alike.items():
+        probe = Probe("share of its travel by which a spring gives way to the load", "", _leaves, tuple(joints))
+        edits = model.set("joint", joints, "springref", f"{-rest:g}") if rest else ()
+        if edits and (before := model.measured(probe)) > LEAVES and model.measured(probe, edits) <= BACK * before:
+            names = tuple(of.name("joint", joint) for joint in joints)
+            says = f"{names[0]} rests at {rest:g}, on the side to which the load pushes it."
+            return Suspect(names, "springref", f"{rest:g}", f"{-rest:g}", edits, probe, LEAVES, says, "next to nothing")
+    return None
+
+
+def _leaves(of: Simulation, *joints: int) -> float:
+    """How far the slides come to rest from the start, over half of their range; 0 where one moves."""
+    end, made = let_go(of).end, 0.0
+    for joint in joints:
+        low, high = of.row("jnt_range", joint, 2)
+        if end is None or abs(end.qvel[of.dof(joint)]) > STILL:
+            return 0.0
+        made = max(made, 2 * abs(end.qpos[of.place(joint)] - of.model("qpos0")[of.place(joint)]) / (high - low))
+    return made
 
 
 def _springs(of: Simulation) -> list[int]:

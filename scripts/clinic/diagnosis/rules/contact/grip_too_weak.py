@@ -7,6 +7,7 @@ for more. How hard a position servo presses is its `kp` times how far its target
 Bad:
 
     <mujoco>
+      <option cone="elliptic" impratio="20"/>
       <worldbody>
         <geom type="plane" size="1 1 0.1"/>
         <body name="left" pos="-0.04 0 0.06">

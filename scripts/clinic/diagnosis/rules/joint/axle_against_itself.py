@@ -11,7 +11,7 @@ Bad:
         <body name="car" pos="0 0 0.1">
           <freejoint/>
           <geom type="box" size="0.2 0.08 0.02" pos="0 0 0.03"/>
-          <geom size="0.05" pos="0.15 0 -0.05" friction="0.01"/>
+          <geom size="0.05" pos="0.15 0 -0.05" friction="0.01" priority="1"/>
           <body name="left" pos="-0.1 0.15 0">
             <joint name="left" axis="0 1 0"/>
             <geom type="cylinder" size="0.1 0.02" euler="90 0 0"/>

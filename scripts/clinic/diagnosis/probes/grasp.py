@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from clinic.diagnosis.engine import FREE, Contact
 from clinic.diagnosis.probes.servo import hold
 from clinic.diagnosis.probes.shape import size, solid
-from clinic.diagnosis.probes.tendons import TENDON, joints_of
+from clinic.diagnosis.probes.tendons import joints_of, pulled
 from clinic.diagnosis.probes.touch import Deciding, deciding
 from clinic.diagnosis.probes.vector import Vector, at, cross, dot, norm, sub, times, transpose, unit
 from clinic.diagnosis.simulation import Simulation, kept
@@ -95,9 +95,9 @@ def _moves(of: Simulation, actuator: int, joints: set[int]) -> bool:
     """Whether an actuator that has a control range moves one of these joints, by itself or by a tendon."""
     if not of.model("actuator_ctrllimited")[actuator]:
         return False
-    if int(of.model("actuator_trntype")[actuator]) != TENDON:
+    if (tendon := pulled(of).get(actuator)) is None:
         return of.driven_joint(actuator) in joints
-    return any(joint in joints for joint, _ in joints_of(of, int(of.model("actuator_trnid")[2 * actuator])))
+    return any(joint in joints for joint, _ in joints_of(of, tendon))
 
 
 def _carried(of: Simulation, jaws: Jaws, body: int) -> Grasp | None:
@@ -109,8 +109,7 @@ def _carried(of: Simulation, jaws: Jaws, body: int) -> Grasp | None:
             closing = _closing(of, jaws, body, end)
             for pair in _pairs(of, jaws, closing):
                 if _closed(of, jaws, body, end, pair, closing) and (held := _held(of, jaws, body)):
-                    pressing = [each for each in of.engine.contacts() if body in _sides(of, each) and each.force > 0]
-                    decided = {each: deciding(of, each) for each in pressing}
+                    decided = {each: deciding(of, each) for _, each, _ in pressing(of, of.engine.contacts(), body)}
                     forces = [(each.force, one.friction) for each, one in decided.items()]
                     weight = tuple(of.model("body_mass")[body] * x for x in _across(gravity, held[0].normal))
                     return Grasp(
@@ -193,16 +192,20 @@ def _closed(of: Simulation, jaws: Jaws, body: int, end: int, pair: tuple[int, in
 
 def _held(of: Simulation, jaws: Jaws, body: int) -> tuple[Contact, Contact] | None:
     """Two contacts with which the jaws press on the thing from opposite sides."""
-    pressed: dict[int, list[tuple[Contact, Vector]]] = {}
-    for contact in of.engine.contacts():
+    pressed = pressing(of, of.engine.contacts(), body)
+    one, other = ([each[1:] for each in pressed if each[0] == side] for side in jaws.sides)
+    return next(((a, b) for a, inwards in one for b, back in other if dot(inwards, back) < OPPOSITE), None)
+
+
+def pressing(of: Simulation, contacts: Iterable[Contact], body: int) -> list[tuple[int, Contact, Vector]]:
+    """All that presses on a body: the other body, the contact, and its normal into the body."""
+    made = []
+    for contact in contacts:
         sides = _sides(of, contact)
         if body in sides and contact.force > 0:
             sign = 1 if sides[1] == body else -1
-            normal = tuple(sign * x for x in contact.normal)
-            pressed.setdefault(sides[0] + sides[1] - body, []).append((contact, normal))
-    one, other = (pressed.get(side, []) for side in jaws.sides)
-    facing = ((a, b) for a, inwards in one for b, back in other if dot(inwards, back) < OPPOSITE)
-    return next(facing, None)
+            made.append((sum(sides) - body, contact, tuple(sign * x for x in contact.normal)))
+    return made
 
 
 def _sides(of: Simulation, contact: Contact) -> list[int]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import partial
 
 from clinic.diagnosis.engine import MESH
@@ -30,19 +29,12 @@ def copies(found: Pairs) -> dict[int, int]:
     """By body on the left: the body of a pair from which on all is written alike on the right, but for its place."""
     of, made = found.of, dict[int, int]()
     for left, right in sorted(found.pairs["body"], key=lambda pair: len(of.ancestors(pair[0]))):
-        below, other = [*_below(of, left)], [*_below(of, right)]
+        below, other = of.below(left)[1:], of.below(right)[1:]
         alike = len(below) == len(other) > 1 and all(map(partial(_written_alike, of), below, other))
         if alike and left not in made:
             own = [left] * _written_alike(of, left, right, INERTIAL)
             made |= dict.fromkeys((*own, *below), left)
     return made
-
-
-def _below(of: Simulation, body: int) -> Iterator[int]:
-    """What hangs on a body, in the order of the tree."""
-    for child in of.children.get(body, []):
-        yield child
-        yield from _below(of, child)
 
 
 def _written_alike(of: Simulation, left: int, right: int, fields: Fields = (*PLACED, *INERTIAL)) -> bool:

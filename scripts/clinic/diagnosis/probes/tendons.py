@@ -20,6 +20,13 @@ def joints_of(of: Simulation, tendon: int) -> list[tuple[int, float]]:
     return [(int(of.model("wrap_objid")[each]), of.model("wrap_prm")[each]) for each in range(first, first + number)]
 
 
+@kept
+def pulled(of: Simulation) -> dict[int, int]:
+    """The tendon that each actuator on one pulls, by actuator."""
+    kinds = enumerate(of.model("actuator_trntype"))
+    return {each: int(of.model("actuator_trnid")[2 * each]) for each, kind in kinds if int(kind) == TENDON}
+
+
 def path(of: Simulation, tendon: int) -> list[tuple[str, int]]:
     """What a tendon goes through, in order: sites and geoms, or the joints of a fixed one; by kind and number."""
     first, number = int(of.model("tendon_adr")[tendon]), int(of.model("tendon_num")[tendon])

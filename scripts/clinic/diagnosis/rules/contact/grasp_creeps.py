@@ -47,12 +47,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from clinic.diagnosis.probes.grasp import grasps, leaves
+from clinic.diagnosis.probes.grasp import OPPOSITE, grasps, leaves, pressing
 from clinic.diagnosis.probes.push import creeps
 from clinic.diagnosis.probes.run import let_go
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.vector import dot
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A grasp that creeps"
@@ -61,7 +62,6 @@ SINCE = "0.1"
 CASE = "box-creeps-out-of-grasp"
 UNPLANTED = "nothing is held in a grasp at the start of a healthy model"
 
-OPPOSITE = 0.7
 MOST, SLOW = 0.05, 0.01  # radii a second; of a hint, in jaws that closed on it
 SHARE, HALF = 0.2, 0.6  # of it, with an edit that helps
 FIRM = 3.0  # times the weight, that friction carries
@@ -73,7 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not any(of.model("opt.gravity")):
         return
     passes = of.model("opt.noslip_iterations")[0] > 0
-    hung = None if passes else next(_hung(model), None)
+    hung = None if passes else next(_hung(of), None)
     slides = (each.body for each in grasps(of) if each.weight * FIRM < each.carries and each.leaves > SLOW)
     if hung is not None:
         yield _noslip(model, hung, creeps(hung), MOST)
@@ -99,25 +99,19 @@ def _noslip(model: ReaderModel, body: int, probe: Probe, limit: float) -> Suspec
     return Suspect(names, "noslip_iterations", now, "10", edits, probe, limit, says, share=SHARE)
 
 
-def _hung(model: ReaderModel) -> Iterator[int]:
+def _hung(of: Simulation) -> Iterator[int]:
     """The free bodies that moving parts alone press on from both sides."""
-    of = model.simulation
     end, bodies, owner = let_go(of).end, of.model("geom_bodyid"), root_of(of)
     contacts = end.contacts if end else ()
     for body in of.free_bodies:
         trees = [[owner[int(bodies[geom])] for geom in contact.geoms] for contact in contacts]
         others = [tree for pair in trees if body in pair for tree in pair if tree != body]
-        if _squeezed(model, body) and not set(others) & {0, *of.free_bodies}:
+        if _squeezed(of, body) and not set(others) & {0, *of.free_bodies}:
             yield body
 
 
-def _squeezed(model: ReaderModel, body: int) -> bool:
+def _squeezed(of: Simulation, body: int) -> bool:
     """Whether contacts press on a body from opposite sides."""
-    run, bodies = let_go(model.simulation), model.simulation.model("geom_bodyid")
-    pressed = []
-    for contact in run.end.contacts if run.end else ():
-        sides = [int(bodies[geom]) for geom in contact.geoms]
-        if body in sides and contact.force > 0:
-            sign = 1 if sides[1] == body else -1
-            pressed.append((sign * contact.normal[0], sign * contact.normal[1], sign * contact.normal[2]))
-    return any(dot(one, other) < -OPPOSITE for one in pressed for other in pressed)
+    end = let_go(of).end
+    normals = [normal for *_, normal in pressing(of, end.contacts if end else (), body)]
+    return any(dot(one, other) < OPPOSITE for one in normals for other in normals)

@@ -172,15 +172,15 @@ def _raised(model: ReaderModel, root: int, lift: float) -> tuple[Edit, ...]:
 
 def _raised_alike(model: ReaderModel, root: int, lift: float) -> tuple[Edit, ...]:
     """The same with every other keyframe, and the body's own place, where it is as low and buried too."""
-    made, here = _raised(model, root, lift), _height(model, root)
-    for key in range(-1, model.simulation.count("key")) if made and model.start.key >= 0 else ():
+    of, here, made = model.simulation, model.start.key, _raised(model, root, lift)
+    others = [key for key in range(-1, of.count("key")) if made and here >= 0 and key != here]
+    for key in [each for each in others if _height(of, root, each) == _height(of, root, here)]:
         other = ReaderModel(model.engine, model.texts, model.source, Start(key=key))
-        if key != model.start.key and _height(other, root) == here:
-            made += _raised(other, root, lift) if buried(other.simulation).get(root, (0.0,))[0] > MOST else ()
+        made += _raised(other, root, lift) if buried(other.simulation).get(root, (0.0,))[0] > MOST else ()
     return tuple(dict.fromkeys(made))
 
 
-def _height(model: ReaderModel, root: int) -> float:
-    """How high a free body begins."""
-    model.simulation.begin()
-    return model.simulation.data("qpos")[model.simulation.place(model.simulation.joints_of(root)[0]) + 2]
+def _height(of: Simulation, root: int, key: int) -> float:
+    """How high a free body is at a keyframe; at the model's own start for -1."""
+    of.engine.reset(key)
+    return of.data("qpos")[of.place(of.joints_of(root)[0]) + 2]

@@ -102,32 +102,29 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _fingers(model: ReaderModel) -> Iterator[Suspect]:
     """Fingers that collide, and with none of what is free to be held, all together."""
     of = model.simulation
-    fingers, held = _missing(of)
-    if not fingers:
+    missing = _missing(of)
+    if not missing:
         return
-    types, affinities = (int(of.model(f"geom_{mask}")[held[0]]) for mask in ("contype", "conaffinity"))
+    fingers, held = list(missing), next(iter(missing.values()))
+    types, affinities = (int(of.model(f"geom_{mask}")[held]) for mask in ("contype", "conaffinity"))
     attribute, bits = ("conaffinity", types) if types else ("contype", affinities)
     value = str(bits | int(of.model(f"geom_{attribute}")[fingers[0]]))
     now = f"{int(of.model(f'geom_{attribute}')[fingers[0]])}"
     names, edits = tuple(of.name("geom", geom) for geom in fingers), model.set("geom", fingers, attribute, value)
-    says = f"No finger has a bit in common with {of.name('geom', held[0])}, which is free to be held."
-    probe = Probe("geoms of fingers that touch nothing free", "", _count_missing, (), dynamic=False)
+    says = f"No finger has a bit in common with {of.name('geom', held)}, which is free to be held."
+    probe = how_many("geoms of fingers that touch nothing free", _missing)
     yield Suspect(names, attribute, now, value, edits, probe, 0, says, "a bit in common")
 
 
-def _count_missing(of: Simulation) -> float:
-    return float(len(_missing(of)[0]))
-
-
-def _missing(of: Simulation) -> tuple[list[int], list[int]]:
-    """The geoms of fingers and of what is free beside them, where none of the ones touches one of the others."""
+def _missing(of: Simulation) -> dict[int, int]:
+    """The geoms of fingers, where none of them touches anything free beside them, with the first that is."""
     owner, names, bodies = root_of(of), of.names("body"), [int(body) for body in of.model("geom_bodyid")]
     solids = [geom for geom in range(of.count("geom")) if solid(of, geom) and owner[bodies[geom]]]
     fingers = [geom for geom in solids if GRIP.search(names[bodies[geom]])]
     robots = {owner[bodies[geom]] for geom in fingers}
     held = [geom for geom in solids if owner[bodies[geom]] in of.free_bodies and owner[bodies[geom]] not in robots]
     meet = any(collides(of, a, b) or pair_of(of, a, b) is not None for a in fingers for b in held)
-    return ([], []) if meet or not held else (fingers, held)
+    return {} if meet or not held else dict.fromkeys(fingers, held[0])
 
 
 def _ground(model: ReaderModel) -> Iterator[Suspect]:

@@ -52,7 +52,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.couplings import couplings
-from clinic.diagnosis.probes.tendons import TENDON, joints_of
+from clinic.diagnosis.probes.tendons import joints_of, pulled
 from clinic.diagnosis.probes.vector import Vector, dot, sub, unit, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -91,12 +91,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _driven_apart(of: Simulation) -> list[int]:
     """The tendons that drive two wheels of an axle, which nothing else drives, in opposite directions."""
-    driven = [
-        int(of.model("actuator_trnid")[2 * each])
-        for each, kind in enumerate(of.model("actuator_trntype"))
-        if int(kind) == TENDON
-    ]
-    made = []
+    driven, made = dict.fromkeys(pulled(of).values()), []
     for tendon in driven:
         pairs = joints_of(of, tendon)
         joints = {joint for joint, _ in pairs}

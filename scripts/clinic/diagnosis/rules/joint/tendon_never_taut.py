@@ -39,7 +39,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.tendons import TENDON, joints_of
+from clinic.diagnosis.probes.tendons import joints_of, pulled
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect, counted, rounded
@@ -104,14 +104,7 @@ def _acts(of: Simulation, tendon: int) -> bool:
     """Whether a spring, a damper, friction or an actuator acts on a tendon, or it is one of joints."""
     fixed = bool(joints_of(of, tendon))
     passive = any(of.model(f"tendon_{what}")[tendon] for what in ("stiffness", "damping", "frictionloss"))
-    return (
-        fixed
-        or passive
-        or any(
-            int(kind) == TENDON and int(of.model("actuator_trnid")[2 * each]) == tendon
-            for each, kind in enumerate(of.model("actuator_trntype"))
-        )
-    )
+    return fixed or passive or tendon in pulled(of).values()
 
 
 def _rope(of: Simulation, tendon: int) -> bool:

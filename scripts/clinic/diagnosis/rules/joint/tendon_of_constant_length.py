@@ -51,7 +51,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import OBJ_TENDON
 from clinic.diagnosis.probes.couplings import couplings
-from clinic.diagnosis.probes.tendons import TENDON, joints_of, path
+from clinic.diagnosis.probes.tendons import joints_of, path, pulled
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import REFERENCES, Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -91,10 +91,7 @@ def _used(of: Simulation, tendon: int) -> float:
     """How much a tendon of constant length is used; 0 for another one."""
     if not _constant(of, tendon):
         return 0.0
-    driven = sum(
-        int(kind) == TENDON and int(of.model("actuator_trnid")[2 * each]) == tendon
-        for each, kind in enumerate(of.model("actuator_trntype"))
-    )
+    driven = list(pulled(of).values()).count(tendon)
     read = zip(of.model("sensor_objtype"), of.model("sensor_objid"), strict=True)
     uses = [of.model("tendon_limited")[tendon], of.model("tendon_stiffness")[tendon]]
     return float(driven + sum(map(bool, uses)) + sum((int(a), int(b)) == (OBJ_TENDON, tendon) for a, b in read))

@@ -52,7 +52,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes import equalities
 from clinic.diagnosis.probes.copied import Line, misled
-from clinic.diagnosis.probes.tendons import TENDON, joints_of
+from clinic.diagnosis.probes.tendons import joints_of, pulled
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, how_many
@@ -70,37 +70,31 @@ ACTS = ("stiffness", "damping", "frictionloss", "limited")
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each actuator that leaves the tendon of its name alone."""
     of = model.simulation
-    for actuator, (pulled, meant) in _misled(of).items():
-        now, value = (of.names("tendon")[each] for each in (pulled, meant))
+    for actuator, (wrong, meant) in _misled(of).items():
+        now, value = (of.names("tendon")[each] for each in (wrong, meant))
         edits = model.set("actuator", [actuator], "tendon", value)
         name = of.name("actuator", actuator)
-        shared = "as another one does" if list(_pulls(of).values()).count(pulled) > 1 else "a spring"
-        says = f"{name} pulls {of.name('tendon', pulled)}, {shared}, and {of.name('tendon', meant)} is pulled by none."
+        shared = "as another one does" if list(pulled(of).values()).count(wrong) > 1 else "a spring"
+        says = f"{name} pulls {of.name('tendon', wrong)}, {shared}, and {of.name('tendon', meant)} is pulled by none."
         probe = how_many("actuators that pull another tendon than that of their name", _misled)
         yield Suspect((name,), "tendon", now, value, edits, probe, 0, says, "the tendon of its name")
 
 
 def _misled(of: Simulation) -> dict[int, tuple[int, int]]:
     """By actuator: the tendon that it pulls, and the one that it is called like."""
-    pulls = _pulls(of)
+    pulls = pulled(of)
     times, words = Counter(pulls.values()), [_words(name) for name in of.names("tendon")]
     idle = [tendon for tendon in range(of.count("tendon")) if tendon not in times]
     names, tendons = of.names("actuator"), of.names("tendon")
-    lines = {each: Line(tendons[pulled], (names[each],)) for each, pulled in pulls.items()}
+    lines = {each: Line(tendons[tendon], (names[each],)) for each, tendon in pulls.items()}
     copied = misled(lines, [tendons[each] for each in idle])
     made = {each: (pulls[each], tendons.index(name)) for each, name in copied.items()}
-    for actuator, pulled in pulls.items():
-        own = _words(names[actuator]) - words[pulled]
-        meant = [tendon for tendon in idle if any(_called(word, own) for word in words[tendon])]
-        if times[pulled] > 1 and len(meant) == 1:
-            made[actuator] = (pulled, meant[0])
+    for actuator, tendon in pulls.items():
+        own = _words(names[actuator]) - words[tendon]
+        meant = [each for each in idle if any(_called(word, own) for word in words[each])]
+        if times[tendon] > 1 and len(meant) == 1:
+            made[actuator] = (tendon, meant[0])
     return made | _on_a_spring(of, pulls)
-
-
-def _pulls(of: Simulation) -> dict[int, int]:
-    """By actuator on a tendon: that."""
-    kinds = enumerate(of.model("actuator_trntype"))
-    return {each: int(of.model("actuator_trnid")[2 * each]) for each, kind in kinds if int(kind) == TENDON}
 
 
 def _on_a_spring(of: Simulation, pulls: dict[int, int]) -> dict[int, tuple[int, int]]:

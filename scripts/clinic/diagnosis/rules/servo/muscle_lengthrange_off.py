@@ -40,7 +40,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import GAIN_MUSCLE
-from clinic.diagnosis.probes.tendons import TENDON, reach
+from clinic.diagnosis.probes.tendons import pulled, reach
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -76,10 +76,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _lengths(of: Simulation, actuator: int) -> tuple[float, float] | None:
     """The ends of a muscle's length in m, where a tendon makes it and its joints have ranges."""
-    if int(of.model("actuator_trntype")[actuator]) != TENDON:
-        return None
-    gear = of.gear(actuator)
-    found = reach(of, int(of.model("actuator_trnid")[2 * actuator]))
+    tendon, gear = pulled(of).get(actuator), of.gear(actuator)
+    found = reach(of, tendon) if tendon is not None else None
     ends = sorted(gear * each for each in found) if found else []
     return (ends[0], ends[1]) if ends and ends[1] > ends[0] else None
 

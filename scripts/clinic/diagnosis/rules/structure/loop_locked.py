@@ -147,10 +147,7 @@ def _others_axis(of: Simulation, odd: int) -> Column:
 def _driven(of: Simulation) -> list[int]:
     """The hinges and slides that actuators drive, themselves or by a fixed tendon."""
     found = list(of.drivers)
-    for each, kind in enumerate(of.model("actuator_trntype")):
-        if int(kind) == tendons.TENDON:
-            tendon = int(of.model("actuator_trnid")[2 * each])
-            found += [joint for joint, _ in tendons.joints_of(of, tendon)]
+    found += [joint for tendon in tendons.pulled(of).values() for joint, _ in tendons.joints_of(of, tendon)]
     return list(dict.fromkeys(found))
 
 

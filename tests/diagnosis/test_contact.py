@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 from clinic.diagnosis.diagnose import examine
-from clinic.diagnosis.edit import apply
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import rules
 
@@ -311,36 +310,6 @@ def test_friction_is_given_to_geoms_and_pairs_in_their_own_form():
     assert {edit.value for edit in told.edit} == {"1 0.005 0.0001", "1 1 0.005 0.0001 0.0001"}
 
 
-JAW = '<body pos="0 .026 0"><joint name="jaw" type="slide" axis="0 -1 0"/><geom size="{0}" type="box"/></body>'
-PALM = f'<body name="palm" pos="0 0 1"><joint name="turn"/><geom pos="0 -.03 0" size="{{0}}" type="box"/>{JAW}</body>'
-THING = '<body name="thing"><freejoint/><geom size=".02 .015 .02" type="box" mass="0.1"/></body>'
-GRIPPER = (
-    '<mujoco><default><geom friction="{1}"/></default>{3}<worldbody><geom type="plane" size="1 1 1" pos="0 0 -0.02"/>'
-    f"{PALM.format('.02 .01 .02')}{THING}</worldbody><actuator>"
-    '<position name="grip" joint="jaw" kp="{0}" kv="20" ctrlrange="0 0.04" forcerange="-{2} {2}"/>'
-    '<position joint="turn" kp="1" kv="0.01"/></actuator></mujoco>'
-)
-
-
-@pytest.mark.parametrize(
-    ("model", "told"),
-    [
-        (GRIPPER.format(2000, 1, 30, ""), [("grasp-creeps", "impratio", "10")]),
-        (GRIPPER.format(2000, 1, 30, '<option cone="elliptic" impratio="10"/>'), []),
-        (GRIPPER.format(2000, 1, 30, '<option noslip_iterations="10"/>'), []),
-        (GRIPPER.format(30, 1, 30, '<option cone="elliptic" impratio="100"/>'), [("grip-too-weak", "kp", "150")]),
-        (GRIPPER.format(400, 0.02, 30, '<option cone="elliptic" impratio="100"/>'), [("grasp-slips", "friction", "1")]),
-        (GRIPPER.format(2000, 1, 30, "").replace("<freejoint/>", ""), []),
-    ],
-)
-def test_what_a_jaw_and_its_palm_would_lift_is_tried_between_them(model, told):
-    found = examine(NativeEngine(), {"model.xml": model}, select=["grasp-creeps", "grip-too-weak", "grasp-slips"])
-    assert [(each.rule, each.attribute, each.value) for each in (*found.causes, *found.hints)] == told
-    edits = [edit for each in (*found.causes, *found.hints) for edit in each.edit]
-    fixed = examine(NativeEngine(), apply({"model.xml": model}, edits))
-    assert not {"grasp-creeps", "grip-too-weak", "grasp-slips"} & {each.rule for each in (*fixed.causes, *fixed.hints)}
-
-
 FOOT = '<body pos="0.1 0 -0.5"><joint axis="0 1 0" pos="0 0 .25"/><geom name="foot" size=".05"{0}/></body>'
 WALKER = (
     '<mujoco><worldbody><geom name="floor" type="plane" size="2 2 .1"/><body name="trunk" pos="0 0 .6"><freejoint/>'
@@ -356,6 +325,7 @@ NONE = ' contype="0" conaffinity="0"'
         (WALKER.format("", "", ""), []),
         (WALKER.format(NONE, NONE, '<contact><pair geom1="foot" geom2="floor"/></contact>'), []),
     ],
+    ids=["masks at the foot", "masks everywhere", "a pair"],
 )
 def test_a_robot_that_only_its_feet_hold_up_sinks_to_them(model, told):
     found = examine(NativeEngine(), {"model.xml": model}, select=["masks"])

@@ -1,0 +1,231 @@
+"""What drives a joint, and what it cannot move: idle joints, springs, friction, motors of uneven strength."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import Diagnosis, examine
+from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.rules import rules
+
+
+def diagnosed(text: str) -> Diagnosis:
+    return examine(NativeEngine(), {"model.xml": text})
+
+
+def causes(found: Diagnosis) -> list[str]:
+    return [each.rule for each in found.causes]
+
+
+@pytest.mark.parametrize(("kind", "told"), [("muscle", False), ("motor", True)])
+def test_two_muscles_pull_one_joint_and_two_motors_do_not(kind, told):
+    links = ""
+    for name in ("wrist", "elbow", "shoulder"):
+        joint = f'<joint name="{name}" axis="0 1 0" damping="1" range="-60 60"/>'
+        links = f'<body pos="0.2 0 0">{joint}<geom type="capsule" size="0.02" fromto="0 0 0 0.2 0 0"/>{links}</body>'
+    lengths = ' lengthrange="-1 1"' if kind == "muscle" else ""
+    both = (f'<{kind} joint="{joint}" gear="{gear}"{lengths}/>' for joint in ("shoulder", "elbow") for gear in (5, -5))
+    text = f"<mujoco><worldbody>{links}</worldbody><actuator>{''.join(both)}</actuator></mujoco>"
+    assert ("driven-twice" in [each.rule for each in diagnosed(text).hints]) is told
+
+
+ROLLERS = """
+<mujoco>
+  <worldbody>
+    {bodies}
+  </worldbody>
+  <actuator>
+    {motors}
+  </actuator>
+</mujoco>
+"""
+
+
+def rollers(**change: str) -> list[tuple[str, tuple[str, ...]]]:
+    """What is found of five rollers, each by itself; `m3` is the line of a motor in place of its own."""
+    numbers = range(5)
+    bodies = "".join(
+        f'<body pos="{0.2 * each} 0 1"><joint name="r{each}" axis="0 1 0" damping="0.01" armature="0.01"/>'
+        '<geom type="cylinder" size="0.05 0.2" zaxis="0 1 0"/></body>'
+        for each in numbers
+    )
+    motors = {f"m{each}": f'joint="r{each}" kv="1" ctrlrange="-5 5"' for each in numbers} | change
+    lines = "".join(f'<velocity name="{name}" {rest}/>' for name, rest in motors.items())
+    found = diagnosed(ROLLERS.format(bodies=bodies, motors=lines))
+    return [(each.rule, each.elements) for each in (*found.causes, *found.hints)]
+
+
+def test_rollers_that_stand_by_themselves_are_compared():
+    assert rollers() == []
+    assert rollers(m3='joint="r3" kv="0.001" ctrlrange="-5 5"')[0] == ("strength-unlike-others", ('actuator "m3"',))
+    ((rule, elements), *_) = rollers(m3='joint="r2" kv="1" ctrlrange="-5 5"')
+    assert (rule, elements) == ("driven-twice", ('actuator "m3"', 'actuator "m2"', 'joint "r2"'))
+
+
+def test_an_actuator_that_is_called_like_the_beginning_of_an_idle_joint_was_meant_for_it():
+    pole = '<body><joint name="hinge" axis="0 1 0"/><geom type="capsule" fromto="0 0 0 0 0 0.5" size="0.02"/></body>'
+    cart = f'<body pos="0 0 1"><joint name="slider" type="slide" axis="1 0 0"/><geom size="0.1"/>{pole}</body>'
+    text = f'<mujoco><worldbody>{cart}</worldbody><actuator><motor name="slide" joint="{{}}"/></actuator></mujoco>'
+    found = {joint: causes(diagnosed(text.format(joint))) for joint in ("hinge", "slider")}
+    assert found == {"hinge": ["actuator-on-another-joint"], "slider": []}
+
+
+@pytest.mark.parametrize(
+    ("ram", "told"),
+    [("boom_cylinder", []), ("stick_cylinder", ["actuator-on-another-joint", "sensor-on-another-joint"])],
+)
+def test_a_hinge_that_a_ram_of_its_name_moves_is_not_the_one_that_was_meant(ram, told):
+    rod = f'<joint name="{ram}" type="slide"/><geom size="0.1"/>'
+    boom = f'<body pos="0 0 1"><joint name="boom" axis="0 1 0"/><geom size="0.1" pos="1 0 0"/><body>{rod}</body></body>'
+    joint = f'joint="{ram}"'
+    driven = f'<actuator><position name="boom" kp="1e4" {joint}/></actuator>'
+    sensed = f'<sensor><jointpos name="boom_stroke" {joint}/></sensor>'
+    found = diagnosed(f"<mujoco><worldbody>{boom}</worldbody>{driven}{sensed}</mujoco>")
+    assert [each.rule for each in (*found.causes, *found.hints) if "another-joint" in each.rule] == told
+
+
+@pytest.mark.parametrize(("mass", "told"), [(0.5, True), (0.02, False)])
+def test_a_gripper_may_be_weaker_than_the_arm_that_carries_it(mass: float, told: bool):
+    text = rules()["strength-unlike-others"].example("Good").replace('gear="20"', 'gear="0.9"')
+    text = text.replace('fromto="0 0 0 0.05 0 0"', f'fromto="0 0 0 0.05 0 0" mass="{mass}"')
+    found = examine(NativeEngine(), {"model.xml": text}, select=["strength-unlike-others"]).hints
+    assert [each.elements for each in found] == [('actuator "toe"',)] * told
+
+
+@pytest.mark.parametrize(("driven", "told"), [("wrist", []), ("f1", ['actuator "A_f1"'])])
+def test_a_wrist_may_be_stronger_than_the_fingers_that_it_carries(driven, told):
+    fingers = "".join(
+        f'<body pos="0.1 {0.03 * each} 0"><joint name="f{each}" axis="0 1 0" damping="0.1" armature="0.002"/>'
+        '<geom type="capsule" fromto="0 0 0 0.06 0 0" size="0.008" mass="0.02"/></body>'
+        for each in range(4)
+    )
+    names = ("wrist", *(f"f{each}" for each in range(4)))
+    servos = "".join(
+        f'<position name="A_{name}" joint="{name}" kp="{20 if name == driven else 2}" kv="0.1"/>' for name in names
+    )
+    text = '<mujoco><option gravity="0 0 0"/><worldbody><body pos="0 0 1"><joint name="wrist" axis="0 1 0" damping="1" '
+    text += f'armature="0.01"/><geom type="box" size="0.05 0.05 0.01" pos="0.05 0 0" mass="0.1"/>{fingers}</body>'
+    found = examine(
+        NativeEngine(),
+        {"model.xml": f"{text}</worldbody><actuator>{servos}</actuator></mujoco>"},
+        select=["strength-unlike-others"],
+    )
+    assert [name for each in found.hints for name in each.elements] == told
+
+
+@pytest.mark.parametrize(("rest", "told"), [("-75", False), ("160", True)])
+def test_a_spring_that_holds_a_door_shut_is_well(rest, told):
+    doors = "".join(
+        f'<body pos="{x} 0 1"><joint name="d{x}" axis="0 1 0" range="0 85" stiffness="5" damping="1" springref="{{}}"/>'
+        '<geom type="box" size="0.2 0.3 0.01" pos="0.2 0 0" mass="1"/></body>'
+        for x in range(3)
+    )
+    text = f"<mujoco><worldbody>{doors.format('0', '0', rest)}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["spring-far-off"])
+    assert bool(found.hints or found.causes) == told
+
+
+@pytest.mark.parametrize(
+    ("hip", "knee", "mended"),
+    [
+        ('position class="leg"', 'motor class="leg"', ['<position class="leg" joint="knee" ctrlrange="-0.5 1.4"/>']),
+        ('position kp="20"', "motor", []),
+        ('position class="leg" kp="20"', 'motor class="leg"', []),
+    ],
+)
+def test_a_motor_of_a_class_that_gives_the_gains_of_servos_is_written_as_one(hip, knee, mended):
+    link = '<body pos="0 0 1"><joint name="{0}" axis="0 1 0" range="{1}"/><geom size="0.1" mass="1"/>{2}</body>'
+    text = (
+        '<mujoco><compiler angle="radian"/><default><default class="leg"><position kp="20" kv="1"/></default></default>'
+        f"<worldbody>{link.format('hip', '-1.1 0.7', link.format('knee', '-0.5 1.4', ''))}</worldbody><actuator>"
+        f'<{hip} joint="hip" ctrlrange="-1.1 0.7"/><{knee} joint="knee" ctrlrange="-0.5 1.4"/></actuator></mujoco>'
+    )
+    (told,) = examine(NativeEngine(), {"model.xml": text}, select=["motor-for-position"]).hints
+    assert [each.value for each in told.edit] == mended
+
+
+@pytest.mark.parametrize(
+    ("joint", "told"),
+    [
+        pytest.param('frictionloss="40"', [("joint-frozen", "frictionloss")], id="friction"),
+        pytest.param('stiffness="150" springref="0.25"', [("spring-against-servo", "stiffness")], id="spring"),
+        pytest.param('frictionloss="1" stiffness="2" springref="0.25"', [], id="well"),
+    ],
+)
+def test_what_a_motor_at_a_site_cannot_move_is_told(joint, told):
+    text = f"""<mujoco><compiler angle="radian"/><worldbody><body>
+      <joint name="hinge" axis="0 0 1" range="-1.7 0" damping="1.2" {joint}/>
+      <geom type="box" size="0.45 0.02 1" pos="0.45 0 1" mass="9"/><site name="grip" pos="0.74 0 1"/></body></worldbody>
+    <actuator><motor site="grip" gear="0 -1 0 0 0 0" ctrlrange="-40 40"/></actuator></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["joint-frozen", "spring-against-servo"]).hints
+    assert [(each.rule, each.attribute) for each in found] == told
+    assert all(each.after is not None for each in found)
+
+
+@pytest.mark.parametrize(
+    ("kv", "force", "told"),
+    [
+        pytest.param(0.02, 'forcerange="-8 8"', True, id="a-weak-gain-of-a-strong-servo"),
+        pytest.param(0.02, 'forcerange="-1 1"', False, id="of-a-weak-one"),
+        pytest.param(0.02, "", False, id="of-one-without-limits"),
+        pytest.param(0.2, 'forcerange="-8 8"', False, id="a-gain-that-is-strong-enough"),
+    ],
+)
+def test_a_wheel_that_needs_seconds_to_its_speed_is_told(kv, force, told):
+    text = rules()["speed-not-reached"].example("Good").replace('kv="0.2"', f'kv="{kv}" {force}')
+    text = text.replace('damping="0.01"', 'damping="0.001"').replace('mass="3"', 'mass="12"')
+    found = examine(NativeEngine(), {"model.xml": text}, select=["speed-not-reached"]).hints
+    assert [(each.attribute, each.value) for each in found] == [("kv", "0.4")] * told
+
+
+@pytest.mark.parametrize(
+    ("waist", "count", "told"),
+    [
+        pytest.param('range="-40 60"', 8, True, id="alone-among-eight"),
+        pytest.param('range="-40 60"', 5, False, id="among-five"),
+        pytest.param("", 8, False, id="without-a-range"),
+        pytest.param('range="-40 60" stiffness="9"', 8, False, id="on-a-spring"),
+    ],
+)
+def test_the_only_joint_of_a_robot_that_nothing_drives_is_told(waist: str, count: int, told: bool) -> None:
+    names = ["neck", "hip", "knee", "ankle", "elbow", "shoulder", "wrist", "jaw"][:count]
+    limbs = "".join(f'<body><joint name="{name}" axis="1 0 0"/><geom size="0.05"/></body>' for name in names)
+    torso = f'<body><joint name="waist" axis="0 1 0" {waist}/><geom size="0.1"/></body>'
+    servos = "".join(f'<position joint="{name}" kp="50"/>' for name in names)
+    trunk = f'<body pos="0 0 1"><freejoint/><geom size="0.1"/>{torso}{limbs}</body>'
+    text = f"<mujoco><worldbody>{trunk}</worldbody><actuator>{servos}</actuator></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["joint-not-driven"]).hints
+    assert [each.elements for each in found] == [('joint "waist"',)] * told
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "told"),
+    [
+        pytest.param("", 'stiffness="1"', False, id="a-spring-of-its-own"),
+        pytest.param('stiffness="1"', 'stiffness="1"', True, id="the-spring-of-its-twin"),
+    ],
+)
+def test_a_spring_that_the_driven_twin_has_too_moves_nothing(left: str, right: str, told: bool) -> None:
+    text = rules()["joint-not-driven"].example("Bad")
+    for side, spring in (("left", left), ("right", right)):
+        text = text.replace(f'<joint name="{side}_arm"', f'<joint name="{side}_arm" {spring}')
+    found = examine(NativeEngine(), {"model.xml": text}, select=["joint-not-driven"]).hints
+    assert [each.elements for each in found] == [('joint "right_arm"',)] * told
+
+
+@pytest.mark.parametrize(
+    ("nut", "ctrlrange", "values"),
+    [
+        pytest.param("", "-0.2 0.02", ["-20 2"], id="the-followers-own"),
+        pytest.param("", "-20 2", [], id="what-leads-all-over"),
+        pytest.param("", "-5 2", [], id="a-third"),
+        pytest.param('range="-1146 115"', "-20 2", [], id="with-a-range"),
+    ],
+)
+def test_a_servo_that_leads_another_joint_next_to_nowhere_is_told(nut: str, ctrlrange: str, values: list[str]) -> None:
+    joints = f'<joint name="nut" {nut}/>', '<joint name="quill" type="slide" range="-0.2 0.02"/>'
+    links = "".join(f'<body>{joint}<geom size="0.03"/></body>' for joint in joints)
+    screw = '<equality><joint joint1="quill" joint2="nut" polycoef="0 0.01 0 0 0"/></equality>'
+    servo = f'<actuator><position joint="nut" kp="2" kv="1" ctrlrange="{ctrlrange}"/></actuator>'
+    text = f"<mujoco><worldbody>{links}</worldbody>{screw}{servo}</mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["control-range-too-narrow"])
+    assert [each.value for each in found.hints] == values

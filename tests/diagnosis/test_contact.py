@@ -403,6 +403,16 @@ def test_a_link_without_collision_is_told_where_something_could_meet_it(geom: st
     assert [each.elements[0] for each in found] == ['body "fore"'] * told
 
 
+@pytest.mark.parametrize(("symptom", "told"), [("", []), ("falls-through", ['body "trunk"', 'geom of body "trunk"'])])
+def test_a_robot_of_which_the_feet_alone_collide_is_told_to_whom_it_falls_through(symptom: str, told: list[str]):
+    foot = '<body pos="{x} 0 -0.2"><joint axis="0 1 0"/><geom size="0.03"/></body>'
+    trunk = '<freejoint/><geom type="box" size="0.2 0.1 0.05" contype="0" conaffinity="0"/>'
+    robot = f'<body name="trunk" pos="0 0 0.3">{trunk}{foot.format(x=0.1)}{foot.format(x=-0.1)}</body>'
+    text = f"<mujoco><worldbody>{FLOOR}{robot}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"dog.xml": text}, select=["link-without-collision"], symptom=symptom).hints
+    assert [name for each in found for name in each.elements] == told
+
+
 @pytest.mark.parametrize(("other", "edits"), [(0.02, 3), (0.05, 1)])
 def test_what_is_as_deep_in_other_keyframes_and_in_its_own_place_is_lifted_there_too(other, edits):
     box = BOX.format(z=other, more="")

@@ -117,14 +117,15 @@ def test_links_in_grams_for_each_cubic_centimetre_are_told_beside_a_heavy_trunk(
 @pytest.mark.parametrize(
     ("ball", "option", "told"),
     [
-        pytest.param('density="7.8"', "", ["7800"], id="steel"),
-        pytest.param('density="25"', "", [], id="foam"),
-        pytest.param('density="7.8" mass="0.03"', "", [], id="with-a-mass"),
-        pytest.param('density="7.8"', '<option density="1000"/>', [], id="in-water"),
+        pytest.param('size="0.01" density="7.8"', "", ["7800"], id="steel"),
+        pytest.param('size="0.01" density="25"', "", [], id="foam"),
+        pytest.param('size="0.01" density="7.8" mass="0.03"', "", [], id="with-a-mass"),
+        pytest.param('mass="1" size="0.7"', "", [], id="of-a-kilogram"),
+        pytest.param('size="0.01" density="7.8"', '<option density="1000"/>', [], id="in-water"),
     ],
 )
 def test_a_free_body_in_grams_for_each_cubic_centimetre_is_told(ball: str, option: str, told: list[str]):
-    body = f'<body pos="0 0 1"><freejoint/><geom size="0.01" {ball}/></body>'
+    body = f'<body pos="0 0 1"><freejoint/><geom {ball}/></body>'
     text = f'<mujoco>{option}<worldbody><geom type="plane" size="5 5 1"/>{body}</worldbody></mujoco>'
     found = examine(NativeEngine(), {"model.xml": text}, select=["lighter-than-air"]).hints
     assert [each.value for each in found] == told
@@ -217,3 +218,31 @@ def test_the_one_geom_of_a_body_that_is_denser_than_metal_is_made_lighter_by_its
     (found,) = examine(NativeEngine(), {"model.xml": text}, select=["denser-than-metal"]).causes
     assert (found.elements[0], found.now, found.value) == ('geom "battery"', "250", "0.25")
     assert [(each.attribute, each.value) for each in found.edit] == [("mass", "0.25")]
+
+
+@pytest.mark.parametrize(("place", "told"), [("0 0 0.005", True), ("0 0 0.4", False)])
+def test_a_link_of_which_a_small_part_is_drawn_is_not_denser_than_metal(place: str, told: bool):
+    inertial = f'<inertial pos="{place}" mass="1.2" diaginertia="0.006 0.006 0.001"/>'
+    body = f'<body pos="0 0 1"><joint axis="0 1 0"/>{inertial}<geom size="0.01"/></body>'
+    text = f"<mujoco><worldbody>{body}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["denser-than-metal"]).causes
+    assert bool(found) == told
+
+
+@pytest.mark.parametrize(
+    ("ball", "motor", "told"),
+    [
+        pytest.param("", True, ["1000 (default)"], id="heavier than the robot"),
+        pytest.param('mass="0.5"', True, [], id="with a mass"),
+        pytest.param("", False, [], id="without a robot"),
+    ],
+)
+def test_a_ball_of_water_is_told_where_it_is_heavier_than_the_robot(ball: str, motor: bool, told: list[str]):
+    drone = (
+        '<body pos="0 0 1"><freejoint/><geom type="box" size="0.1 0.1 0.02" mass="0.4"/><site name="thrust"/></body>'
+    )
+    thing = f'<body pos="0 0 2"><freejoint/><geom size="0.05" {ball}/></body>'
+    drive = '<actuator><motor site="thrust" gear="0 0 1 0 0 0"/></actuator>' if motor else ""
+    text = f"<mujoco><worldbody>{drone}{thing}</worldbody>{drive}</mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["heavy-by-default"]).hints
+    assert [each.now for each in found] == told

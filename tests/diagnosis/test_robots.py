@@ -110,3 +110,12 @@ def test_a_ball_joint_is_none_of_the_data_sheet() -> None:
     )
     assert ball != GO2
     assert told(ball.replace('<motor joint="FL_hip_joint" ctrlrange="-23.7 23.7"/>', "")) == []
+
+
+@pytest.mark.parametrize(("elbow", "values"), [(56, ["28"]), (28, [])])
+def test_an_arm_whose_elbow_has_the_torque_of_its_shoulder_is_told(elbow: int, values: list[str]) -> None:
+    torques = {"shoulder_pan": 56, "shoulder_lift": 56, "elbow": elbow, "wrist_1": 12, "wrist_2": 12, "wrist_3": 12}
+    links = "".join(f'<body pos="0 0 0.1"><joint name="{name}" axis="0 1 0"/><geom size="0.04"/>' for name in torques)
+    motors = "".join(f'<motor joint="{name}" ctrlrange="-{most} {most}"/>' for name, most in torques.items())
+    arm = f"<worldbody>{links}{6 * '</body>'}</worldbody><actuator>{motors}</actuator>"
+    assert [each.value for each in told(f'<mujoco model="ur3e">{arm}</mujoco>')] == values

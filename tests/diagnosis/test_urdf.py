@@ -58,7 +58,10 @@ def test_a_joint_at_a_link_that_is_not_there_is_told(parent: str, value: str) ->
     assert (cause.rule, cause.now, cause.value) == ("unknown-reference", parent, value)
 
 
-@pytest.mark.parametrize(("height", "says"), [(-0.03, ""), (-0.01, "20 mm above"), (-0.04, "10 mm lower")])
+@pytest.mark.parametrize(
+    ("height", "says"),
+    [(-0.03, ""), (-0.029, ""), (-0.028, "2 mm above"), (-0.01, "20 mm above"), (-0.04, "10 mm lower")],
+)
 def test_a_caster_ends_where_the_wheels_do(height: float, says: str) -> None:
     wheel = (
         '<body name="{0}_wheel" pos="-0.1 {1} 0"><joint axis="0 1 0"/>'
@@ -69,6 +72,18 @@ def test_a_caster_ends_where_the_wheels_do(height: float, says: str) -> None:
     text = f'<mujoco><worldbody><body name="base" pos="0 0 0.1">{base}</body></worldbody></mujoco>'
     found = examine(NativeEngine(), {"rover.xml": text}, select=["wheels-off-the-ground"]).hints
     assert [says in each.says for each in found] == [True] * bool(says)
+
+
+@pytest.mark.parametrize(("geom", "told"), [("", True), ('<geom size="0.02"/>', False)])
+def test_a_caster_without_a_geom_is_told(geom: str, told: bool) -> None:
+    wheel = '<body name="{0}_wheel" pos="-0.1 {1} 0"><geom type="cylinder" size="0.05 0.01" zaxis="0 1 0"/></body>'
+    caster = (
+        f'<body name="caster" pos="0.12 0 -0.03"><inertial pos="0 0 0" mass="0.1" diaginertia="1e-5 1e-5 1e-5"/>{geom}'
+    )
+    parts = f"{caster}</body>{wheel.format('left', 0.1)}{wheel.format('right', -0.1)}"
+    text = f'<mujoco><worldbody><body name="base"><freejoint/>{parts}</body></worldbody></mujoco>'
+    found = examine(NativeEngine(), {"rover.xml": text}, select=["wheels-off-the-ground"]).hints
+    assert [each.elements for each in found] == [('body "caster"',)] * told
 
 
 @pytest.mark.parametrize(("radius", "told"), [(0.055, False), (0.045, True)])

@@ -21,8 +21,8 @@ class Joint(NamedTuple):
 
     pattern: re.Pattern[str]
     effort: float  # 0 where it is not known
-    low: float
-    high: float
+    low: float = -math.inf  # where none is known
+    high: float = math.inf
 
     @property
     def turns(self) -> bool:

@@ -7,7 +7,7 @@ import re
 WHEEL = re.compile(r"wheel|tyre|tire(?![a-z])", re.IGNORECASE)
 OTHER = re.compile(
     r"steer|caster|castor|susp|fork|hub|spare|swivel|mount|knuckle|motor|axle|arm|leg|guard|cover|fender|well|yaw|camber"
-    r"|pivot|hand|prism|valve|flywheel|reaction|wheel_?(base|chair)",
+    r"|pivot|hand|prism|valve|stator|flywheel|reaction|wheel_?(base|chair)",
     re.IGNORECASE,
 )
 

@@ -38,7 +38,8 @@ Good:
 The number: how many of a robot's links have geoms and none that collides; one alone is told, or two, of five and more,
 where it is more than half as large as the link in the middle, weighs more than 2 % of the robot, is not by three
 quarters inside of the boxes around the links beside it, and the link before it collides; or one limb, such as a tail,
-of up to a third of the links and more than 5 % of the mass.
+of up to a third of the links and more than 5 % of the mass. With `--symptom falls-through` it tells all such links of a
+robot that is free and stands on others.
 
 When it is wrong: a link that another one encloses.
 """
@@ -67,11 +68,12 @@ ENCLOSED, NEAR, MOST_POINTS = 0.75, 0.01, 300  # of its points; m; of a geom
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The links that alone do not collide, all together."""
     of = model.simulation
-    found = _bare(of)
+    kind = _free_and_bare if model.symptom == FAMILIES[0] else _bare
+    found = kind(of)
     if not found:
         return
     geoms = [geom for body in found for geom in of.geoms_of(body)]
-    probe = how_many("links without a geom that collides", _bare)
+    probe = how_many("links without a geom that collides", kind)
     names = (*(of.name("body", body) for body in found), *(of.name("geom", geom) for geom in geoms))
     says = f"{of.name('body', found[0])} has no geom that can touch anything, and the other links have one."
     masks = masks_told(of, geoms[0])
@@ -82,12 +84,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _bare(of: Simulation) -> list[int]:
     """The links that touch nothing, of robots of which nearly all do."""
     owner, welds, parents = root_of(of), of.model("body_weldid"), of.model("body_parentid")
-    links: dict[int, list[int]] = {}
-    for geom, body in enumerate(of.model("geom_bodyid")):
-        if not clear(of, geom) or solid(of, geom):
-            links.setdefault(int(welds[int(body)]), []).append(geom)
-    paired = in_pairs(of)
-    hard = {link for link, geoms in links.items() if any(solid(of, geom) or geom in paired for geom in geoms)} | {0}
+    links, hard = _links(of)
     size = {link: max(of.model("geom_rbound")[geom] for geom in geoms) for link, geoms in links.items()}
     robots: dict[int, list[int]] = {}
     for link in links:
@@ -107,6 +104,25 @@ def _bare(of: Simulation) -> list[int]:
             whole = (_limb(of, first, robot) for first in limb)
             made += [link for links in whole if {*links} <= {*bare} for link in links]
     return made
+
+
+def _free_and_bare(of: Simulation) -> list[int]:
+    """All links that touch nothing, of robots that are free and stand on others of their links."""
+    owner, (links, hard) = root_of(of), _links(of)
+    standing = {owner[link] for link in hard} & {*of.free_bodies}
+    return [link for link in links if link not in hard and owner[link] in standing]
+
+
+def _links(of: Simulation) -> tuple[dict[int, list[int]], set[int]]:
+    """The geoms of each link that can be seen, and the links that can touch something, the world among them."""
+    links: dict[int, list[int]] = {}
+    for geom, body in enumerate(of.model("geom_bodyid")):
+        if not clear(of, geom) or solid(of, geom):
+            links.setdefault(int(of.model("body_weldid")[int(body)]), []).append(geom)
+    paired = in_pairs(of)
+    return links, {
+        link for link, geoms in links.items() if any(solid(of, each) or each in paired for each in geoms)
+    } | {0}
 
 
 def _light(of: Simulation, link: int) -> bool:

@@ -84,7 +84,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _dense(found: Matter) -> bool:
-    """Whether a body is denser than metal: by far, where its geoms are too small to show it."""
+    """Whether a body is denser than metal: by far, where its geoms are too small to show it.
+
+    None whose centre of mass lies farther outside of them than they are long: they are a small part of it.
+    """
+    if found.radius > SHOWN[1] and found.outside > max(found.half):
+        return False
     return found.density > METAL * (1 if found.radius < SHOWN[1] else PARTLY)
 
 

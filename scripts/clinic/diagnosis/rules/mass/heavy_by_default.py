@@ -20,8 +20,9 @@ Good:
     -       <geom type="box" size="0.2 0.2 0.2"/>
     +       <geom type="box" size="0.2 0.2 0.2" mass="2"/>
 
-The number: the mass of a free body alone, where no geom of it has a `mass` or a `density` but 0: more than 5 kg. Of 289
-healthy models one has such an object, a ball of 14 kg.
+The number: the mass of a free body alone, where no geom of it has a `mass` or a `density` but 0: more than 5 kg, or
+more than all else that moves, where that is driven and has masses of its own. Of 289 healthy models one has such an
+object, a ball of 14 kg.
 
 When it is wrong: a block of wood, ice or water of that size.
 """
@@ -50,17 +51,19 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if model.source is None or any(each.get("settotalmass") for each in model.source.elements("compiler")):
         return
     parents, masses = of.model("body_parentid"), of.model("body_mass")
-    found = [
+    alone = [
         body
         for body in of.free_bodies
-        if masses[body] > HEAVY
-        and body not in parents
-        and model.element("body", body) is not None
-        and inertial(model, body) is None
-        and all(_weight(model, geom, name) for geom in of.geoms_of(body) for name in ("mass", "density"))
+        if body not in parents and model.element("body", body) is not None and _by_default(model, body)
     ]
+    others = [body for body in of.moving_bodies if body not in alone]
+    robot = sum(masses[body] for body in others)
+    driven = of.count("actuator") and others and not any(_by_default(model, body) for body in others)
+    limit = min(HEAVY, robot) if driven else HEAVY
+    found = [body for body in alone if masses[body] > limit]
     if found:
         worst = max(found, key=lambda body: masses[body])
+        beside = "" if masses[worst] > HEAVY else f" All else that moves weighs {rounded(robot)} kg."
         yield Suspect(
             tuple(of.name("body", body) for body in found),
             "density",
@@ -68,11 +71,18 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "that of the object",
             (),
             mass_of((worst,)),
-            HEAVY,
+            limit,
             f"{of.name('body', worst)} weighs {rounded(masses[worst])} kg: nothing says its mass, and the default is "
-            "that of water.",
+            f"that of water.{beside}",
             "below 5 kg, or with a mass of its own",
         )
+
+
+def _by_default(model: ReaderModel, body: int) -> bool:
+    """Whether a body has geoms, and nothing says what they or it weigh, or that they do not."""
+    geoms = model.simulation.geoms_of(body)
+    unsaid = all(_weight(model, geom, name) for geom in geoms for name in ("mass", "density"))
+    return bool(geoms) and unsaid and inertial(model, body) is None
 
 
 def _weight(model: ReaderModel, geom: int, attribute: str) -> bool:

@@ -32,8 +32,9 @@ Good:
 
 The number: how far below the wheels the lowest other geom reaches at the start, or how far a root that is called a
 footprint is from the ground under the wheels: more than 1 mm, and less than a wheel's radius. Or how far above the
-ground of two wheels the caster ends: more than 2 mm, and than a 20th of a wheel's radius. A wheel is the last body
-of a mechanism, on a level hinge without limits, and gravity is along z.
+ground of two wheels the caster ends: more than 0.8 mm, and than a 40th of a wheel's radius; or how many casters beside
+two wheels have no geom that can touch the ground. A wheel is the last body of a mechanism, on a level hinge without
+limits, and gravity is along z.
 
 When it is wrong: wheels that are let down later, on a suspension.
 """
@@ -46,9 +47,10 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import CYLINDER, HINGE, SPHERE
 from clinic.diagnosis.probes.shape import in_world, root_of, solid
+from clinic.diagnosis.probes.wheels import is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "Something lower than the wheels, or a caster above them"
 FAMILIES = ("drifts", "slips", "jumps-at-start", "stuck")
@@ -58,7 +60,7 @@ LEVEL = "hint"
 UNPLANTED = "nearly no healthy model stands on wheels"
 
 CASTER = re.compile(r"caster|castor|ball_?wheel|roller", re.IGNORECASE)
-ALOFT = 0.002  # m
+ALOFT, SHARE = 0.0008, 1 / 40  # m; of the radius of a wheel
 LEAST, LEVEL_ENOUGH = 0.001, 0.1  # m; of the axle's direction along the vertical
 
 
@@ -69,6 +71,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     across, along, down = of.model("opt.gravity")
     if math.hypot(across, along) > abs(down):
         return  # another axis than z is up
+    if found := _without_geom(of):
+        names, probe = tuple(of.name("body", body) for body in found), how_many("casters without a geom", _without_geom)
+        says = f"{names[0]} has no geom that can touch the ground: on two wheels alone the robot tips."
+        yield Suspect(names, "geom", "none", "a sphere", (), probe, 0, says, "0")
     for root, wheels in _wheels(of).items():
         lowest = min(wheels, key=lambda geom: _bottom(of, geom))
         ground, radius = _bottom(of, lowest), of.model("geom_size")[3 * lowest]
@@ -83,7 +89,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             yield Suspect(
                 (of.name("geom", low), body), "pos", where, f"{below:.3g} mm higher", (), probe, LEAST, says, "0"
             )
-        aloft = [geom for geom in _casters(of, root, wheels) if _bottom(of, geom) - ground > max(ALOFT, radius / 20)]
+        aloft = [geom for geom in _casters(of, root, wheels) if _bottom(of, geom) - ground > max(ALOFT, SHARE * radius)]
         if aloft:
             high = max(aloft, key=lambda geom: _bottom(of, geom))
             above = 1000 * (_bottom(of, high) - ground)
@@ -138,6 +144,25 @@ def _casters(of: Simulation, root: int, wheels: list[int]) -> list[int]:
     if len({bodies[geom] for geom in wheels if geom not in named}) != 2:
         return []
     return sorted(named, key=lambda geom: _bottom(of, geom))[:1]
+
+
+def _without_geom(of: Simulation) -> list[int]:
+    """What is called a caster and has no geom that collides, on it or below it, in free robots with two wheels."""
+    owners, names = root_of(of), of.names("body")
+    hard = {
+        above
+        for geom, body in enumerate(of.model("geom_bodyid"))
+        if solid(of, geom)
+        for above in of.ancestors(int(body))
+    }
+    made = []
+    for root in of.free_bodies:
+        parts = [body for body, owner in enumerate(owners) if owner == root]
+        casters = [body for body in parts if CASTER.search(names[body])]
+        wheels = [body for body in parts if body in hard and is_wheel(names[body])]
+        if len(wheels) == 2 and not hard & {*casters}:
+            made += casters
+    return made
 
 
 def _called(of: Simulation, geom: int) -> str:

@@ -15,6 +15,7 @@ from clinic.diagnosis import process
 from clinic.diagnosis.finding import DIES, FAILS, KILLED, LATE
 from clinic.diagnosis.process import DiagnosisError, Request, diagnose
 from clinic.diagnosis.simulation import Start
+from folders import CORNER, FOLDERS, write_model
 
 TALL = """<mujoco>
   <option timestep="0.01"/>
@@ -26,21 +27,6 @@ TALL = """<mujoco>
   </worldbody>
 </mujoco>
 """
-CORNER = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
-PART = "<asset><mesh name='part' file='{}'/></asset><worldbody><geom type='mesh' mesh='part'/></worldbody>"
-FOLDERS = {  # of which MuJoCo finds all files where it has the path of the model, and not where it has its text
-    "a file that is not in the folder of meshes": {
-        "parts/part.obj": CORNER,
-        "robots/arm/part.xml": f"<mujoco>{PART.format('../../parts/part.obj')}</mujoco>",
-        "robots/arm/model.xml": "<mujoco><compiler meshdir='../../parts'/><include file='part.xml'/></mujoco>",
-    },
-    "a file beside an included one of an included one": {
-        "parts/one/part.obj": CORNER,
-        "parts/part.xml": f"<mujoco>{PART.format('one/part.obj')}</mujoco>",
-        "parts/scene.xml": "<mujoco><include file='part.xml'/></mujoco>",
-        "robots/arm/model.xml": "<mujoco><include file='../../parts/scene.xml'/></mujoco>",
-    },
-}
 DIES_ON_A_RULE = """
 import base64, os, pickle, sys
 from clinic.diagnosis import process
@@ -84,11 +70,7 @@ def test_files_that_lie_on_no_disk_are_given_beside_the_text():
 
 @pytest.mark.parametrize("files", FOLDERS.values(), ids=FOLDERS.keys())
 def test_files_are_found_as_mujoco_finds_them_for_a_path(tmp_path, files):
-    for name, text in files.items():
-        path = tmp_path / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-    assert not diagnose(tmp_path / "robots/arm/model.xml", select=["masks"]).error
+    assert not diagnose(write_model(tmp_path, files), select=["masks"]).error
 
 
 def test_where_the_engine_dies_that_is_a_finding_and_the_other_rules_are_tried(monkeypatch):

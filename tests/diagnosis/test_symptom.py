@@ -15,6 +15,7 @@ from clinic.record.case import load_case
 from clinic.record.checkout import cache_folder
 from clinic.record.families import families
 from clinic.work.cache import Cache
+from folders import FOLDERS, write_model
 
 RADIANS = "its ranges are in radians, and the compiler that says so comes from the program that composes it"
 ELSEWHERE = "it does jump as it stands; the program that loads it begins from another pose"
@@ -118,6 +119,13 @@ def test_a_measurement_that_fails_says_so_and_the_diagnosis_stands(root):
     case = load_case(root / "cases" / "servo-sags")
     said = measure("sags", "rows = 1 / 0", NativeEngine(), {"model.xml": case.text}, Start())
     assert said.printed == "they end with ZeroDivisionError: division by zero"
+
+
+@pytest.mark.parametrize("files", FOLDERS.values(), ids=FOLDERS.keys())
+def test_a_model_whose_files_are_found_by_its_path_is_measured(root, tmp_path, files):
+    told = diagnose(write_model(tmp_path, files), symptom="sags", select=["masks"]).measured
+    assert told is not None
+    assert told.printed == "it is none of these: no row applies\n"
 
 
 def test_what_takes_too_long_is_ended(root, monkeypatch):

@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+from os.path import relpath
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from clinic.publish.bundle import diagnosis_files
 from clinic.record.case import read_cases
 from clinic.record.checkout import cache_folder
 from clinic.work.cache import Cache
+from folders import FOLDERS
 
 pytestmark = pytest.mark.xdist_group("parity")
 APART = {"memory-full"}  # after it the page's engine cannot be trusted, and the page begins a new one
@@ -59,6 +61,22 @@ def test_the_page_finds_what_python_finds(root: Path, models: dict[str, str], tm
 
     assert len(models) >= 20
     assert {name: told(found) for name, found in there.items()} == {name: told(found) for name, found in here.items()}
+
+
+def test_the_page_finds_files_as_mujoco_finds_them_for_a_path(root: Path, tmp_path: Path) -> None:
+    models = [
+        {
+            "text": folder.pop("robots/arm/model.xml"),
+            "files": {relpath(name, "robots/arm"): folder[name] for name in folder},
+        }
+        for folder in (dict(each) for each in FOLDERS.values())
+    ]
+    missing = {"text": models[1]["text"], "files": {}}
+    asked = tmp_path / "models.json"
+    asked.write_text(json.dumps([*models, missing]), encoding="utf-8")
+    *found, error = output(root, [node() or "", "tests/playground/compile.mjs", str(asked)])
+    assert found == [1] * len(models)
+    assert "opening file '../../parts/scene.xml'" in error
 
 
 def output(root: Path, command: list[str], **environment: str) -> Any:

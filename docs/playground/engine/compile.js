@@ -3,6 +3,8 @@
 /** @import {MainModule, MjModel} from "@mujoco/mujoco" */
 
 const MAIN = "clinic-main.xml"; // `from_xml_string` would take the name `model.xml`, which a file may have
+const UNOPENED = "opening file";
+const DEEP = "/of".repeat(16); // where the model's folder is, when its paths are absolute
 
 /**
  * Compiles a text.
@@ -13,13 +15,39 @@ const MAIN = "clinic-main.xml"; // `from_xml_string` would take the name `model.
  * @throws {Error} with what MuJoCo says
  */
 export function compile(mujoco, text, files) {
+  const all = new Map([...files, ...encoded([[MAIN, text]])]);
+  try {
+    return loaded(mujoco, MAIN, all);
+  } catch (error) {
+    if (!String(error).includes(UNOPENED)) throw error;
+    try {
+      // MuJoCo loses a `..` of what it puts together of relative folders
+      return loaded(mujoco, absolute(MAIN), new Map([...all].map(([path, bytes]) => [absolute(path), bytes])));
+    } catch {
+      throw error;
+    }
+  }
+}
+
+/**
+ * @param {MainModule} mujoco
+ * @param {string} main
+ * @param {Map<string, Uint8Array>} files
+ * @returns {MjModel}
+ */
+function loaded(mujoco, main, files) {
   const vfs = new mujoco.MjVFS();
   try {
-    for (const [path, bytes] of new Map([...files, ...encoded([[MAIN, text]])])) vfs.addBuffer(path, bytes);
-    return mujoco.MjModel.from_xml_path(MAIN, vfs);
+    for (const [path, bytes] of files) vfs.addBuffer(path, bytes);
+    return mujoco.MjModel.from_xml_path(main, vfs);
   } finally {
     vfs.delete();
   }
+}
+
+/** @param {string} path from the model's folder */
+function absolute(path) {
+  return decodeURIComponent(new URL(encodeURIComponent(path).replaceAll("%2F", "/"), `file://${DEEP}/`).pathname);
 }
 
 /**

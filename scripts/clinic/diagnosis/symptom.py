@@ -36,7 +36,7 @@ def measure(family: str, code: str, engine: NativeEngine, texts: Mapping[str, st
     try:
         with _bounded(), warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()) as out:
             warnings.simplefilter("ignore")
-            spec = _spec(engine, texts)
+            spec = engine.spec(texts)
             native = NativeModel(spec.compile)
             simulation = Simulation(native, start or Start())
             simulation.begin_from(start or Start(key=0 if simulation.count("key") else -1))
@@ -46,12 +46,6 @@ def measure(family: str, code: str, engine: NativeEngine, texts: Mapping[str, st
         return Measured(family, {}, (), f"they end with {type(error).__name__}: {' '.join(str(error).split())}")
     said = read(out.getvalue())
     return Measured(family, said.values, tuple(said.told), said.printed)
-
-
-def _spec(engine: NativeEngine, texts: Mapping[str, str]) -> mujoco.MjSpec:
-    main, *others = texts
-    include = {name: texts[name].encode() for name in others}
-    return mujoco.MjSpec.from_string(texts[main], include=include, assets=engine.assets)
 
 
 @contextlib.contextmanager

@@ -134,6 +134,19 @@ def test_joints_that_all_have_a_point_for_a_range_are_told(ends: str, told: bool
     assert [each.elements for each in found] == [('joint "axle"',)] * told
 
 
+@pytest.mark.parametrize(("name", "told"), [("elbow", True), ("left_wheel", False)])
+def test_a_wheel_without_a_range_is_well_beside_joints_that_have_one(name: str, told: bool) -> None:
+    joint = (
+        '<link name="{0}_link"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
+        '</inertial></link><joint name="{0}" type="revolute"><parent link="base"/><child link="{0}_link"/>'
+        "<limit {1}/></joint>"
+    )
+    joints = joint.format("hip", 'lower="-1" upper="1"') + joint.format(name, 'effort="1"')
+    text = f'<robot name="r"><link name="base"/>{joints}</robot>'
+    found = examine(NativeEngine(), {"r.urdf": text}, select=["range-empty"]).hints
+    assert [each.elements for each in found] == [(f'joint "{name}"',)] * told
+
+
 def test_a_moment_that_the_twin_link_has_is_the_one_that_is_told() -> None:
     link = (
         '<link name="{0}_arm"><inertial><mass value="1"/><inertia ixx="0.0007" iyy="0.0065" izz="{1}" ixy="0" ixz="0"'

@@ -36,6 +36,7 @@ from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.limits import unstopped
 from clinic.diagnosis.probes.servo import servos
 from clinic.diagnosis.probes.twins import twins
+from clinic.diagnosis.probes.wheels import is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect, counted
@@ -81,7 +82,8 @@ def _urdf(model: ReaderModel) -> Iterator[Suspect]:
         limit = joint.first("limit")
         low, high = (float(limit.get(name) or "0") if limit is not None else 0.0 for name in ("lower", "upper"))
         if limit is None or not {"lower", "upper"} & set(limit.attributes):
-            found.setdefault("left out", []).append(joint)
+            if not is_wheel(joint.get("name")):
+                found.setdefault("left out", []).append(joint)
         elif low >= high:
             found.setdefault("a point" if low == high else "written from its upper end to its lower", []).append(joint)
         else:

@@ -106,19 +106,20 @@ def _sinks_to_its_feet(model: ReaderModel, root: int, surface: int, meeting: lis
     able = {of.body_of("geom", geom) for geom in meeting}
     passing = [geom for geom in geoms_of_tree(of, root) if of.body_of("geom", geom) not in able]
     foot = next((geom for geom in meeting if collides(of, geom, surface)), None)
-    if foot is None or root in able or not of.geoms_of(root):
+    if foot is None or root in able:
         return
     masks = {each: f"{int(of.model(f'geom_{each}')[foot])}" for each in ("contype", "conaffinity")}
     edits = tuple(edit for name, value in masks.items() for edit in model.set("geom", passing, name, value))
-    names = (of.name("body", root), *(of.name("geom", geom) for geom in passing))
+    links = [body for body in of.below(root) if body not in able and not of.geoms_of(body)] if not passing else []
+    names = (*(of.name("body", body) for body in links or [root]), *(of.name("geom", geom) for geom in passing))
     says = (
         f"{of.name('geom', surface)} carries {of.name('body', min(able))}, and the rest of the robot sinks through it."
     )
     yield Suspect(
         names,
-        "contype, conaffinity",
-        masks_told(of, passing[0]),
-        ", ".join(masks.values()),
+        "contype, conaffinity" if passing else "geom",
+        masks_told(of, passing[0]) if passing else "none",
+        ", ".join(masks.values()) if passing else "one that collides",
         edits,
         below(root, surface),
         limit(of, root),

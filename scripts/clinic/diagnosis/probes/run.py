@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from clinic.diagnosis.engine import Contact
+from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
@@ -96,8 +98,19 @@ def fastest() -> Probe:
     return Probe("fastest joint after letting go", "rad/s", _fastest)
 
 
+@kept
+def size(simulation: Simulation) -> float:
+    """How large the model is in m: its extent, or its largest tree of bodies where somebody wrote a smaller extent."""
+    owner, trees = root_of(simulation), dict[int, list[Sequence[float]]]()
+    places = let_go(simulation).start.xipos
+    for body in simulation.moving_bodies:
+        trees.setdefault(owner[body], []).append(places[3 * body : 3 * body + 3])
+    spreads = [max(axis) - min(axis) for tree in trees.values() for axis in zip(*tree, strict=True)]
+    return max([simulation.model("stat.extent")[0], *spreads, 1e-9])
+
+
 def _sunk(simulation: Simulation) -> float:
-    return let_go(simulation).deepest / max(simulation.model("stat.extent")[0], 1e-9)
+    return let_go(simulation).deepest / size(simulation)
 
 
 def sunk() -> Probe:

@@ -105,7 +105,7 @@ def size(simulation: Simulation) -> float:
     places = let_go(simulation).start.xipos
     for body in simulation.moving_bodies:
         trees.setdefault(owner[body], []).append(places[3 * body : 3 * body + 3])
-    spreads = [max(axis) - min(axis) for tree in trees.values() for axis in zip(*tree, strict=True)]
+    spreads: list[float] = [max(axis) - min(axis) for tree in trees.values() for axis in zip(*tree, strict=True)]
     return max([simulation.model("stat.extent")[0], *spreads, 1e-9])
 
 

@@ -27,7 +27,7 @@ The number: the model's own weight at the joint over the gain, in the worst of 1
 Or a robot with a free base goes down by a quarter of its height within 1 s, its servos told to stay where they are, and
 one of them bends by more than 0.45 rad. A hint tells of one that stands for a second and has lost half of its height
 after 5 s, and that with three times the stiffness stands; where it stands with twice as much, its balance was left to a
-controller.
+controller, and only `--symptom sags` tells it.
 Or more than 45 % of a step of 0.1 rad is left after 1 s, without gravity; a hint for what follows within 2 s and
 carries less than a twentieth of the mass, as a neck does. Where the base is fixed, a hint tells of hinges that sag by
 more than 0.085 rad, and of slides that sag by more than 10 % of their range: fingers with 40 mm that swing by 5 mm as
@@ -135,7 +135,7 @@ def _tips(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
         return
     own = list(seen.bent)
     least, edits = (_stronger(model, {each: more * each.stiffness for each in own}) for more in (NEARLY, STIFFER))
-    falls = model.measured(goes_down(LONG), least) > LOST / 2
+    falls = model.symptom == FAMILIES[0] or model.measured(goes_down(LONG), least) > LOST / 2
     if not (edits and falls) or model.measured(goes_down(LONG), edits) > LOST / 2:
         return
     names = tuple(of.name("actuator", each.actuator) for each in own)

@@ -6,6 +6,7 @@ import pytest
 from clinic.diagnosis.diagnose import examine
 from clinic.diagnosis.edit import apply
 from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.rules import rules
 
 HAND = """
 <mujoco>
@@ -179,3 +180,12 @@ def test_what_a_jaw_and_its_palm_would_lift_is_tried_between_them(model, told):
     edits = [edit for each in (*found.causes, *found.hints) for edit in each.edit]
     fixed = examine(NativeEngine(), apply({"model.xml": model}, edits))
     assert not {"grasp-creeps", "grip-too-weak", "grasp-slips"} & {each.rule for each in (*fixed.causes, *fixed.hints)}
+
+
+@pytest.mark.parametrize(("symptom", "told"), [("", []), ("slips", ["grasp-creeps"]), ("sags", [])])
+def test_a_slow_creep_is_told_to_whom_something_slips(symptom: str, told: list[str]):
+    text = rules()["grasp-creeps"].example("Bad")
+    text = text.replace("<worldbody>", '<option cone="elliptic" impratio="10"/><worldbody>', 1)
+    found = examine(NativeEngine(), {"model.xml": text}, select=["grasp-creeps"], symptom=symptom)
+    assert [each.rule for each in found.hints] == told
+    assert not found.causes

@@ -189,3 +189,17 @@ def test_a_slow_creep_is_told_to_whom_something_slips(symptom: str, told: list[s
     found = examine(NativeEngine(), {"model.xml": text}, select=["grasp-creeps"], symptom=symptom)
     assert [each.rule for each in found.hints] == told
     assert not found.causes
+
+
+def test_of_two_hands_each_is_mended_for_itself():
+    hand = PALM.format('.02 .01 .02" priority="1')
+    other = hand.replace('pos="0 0 1"', 'pos="1 0 1"')
+    for name in ("palm", "jaw", "turn"):
+        other = other.replace(f'"{name}"', f'"other_{name}"')
+    model = GRIPPER.format(400, 0.02, 30, '<option cone="elliptic" impratio="100"/>')
+    model = model.replace(PALM.format(".02 .01 .02"), hand + other)
+    grip = '<position joint="other_jaw" kp="400" kv="20" ctrlrange="0 0.04" forcerange="-30 30"/>'
+    (told,) = examine(
+        NativeEngine(), {"model.xml": model.replace("<actuator>", f"<actuator>{grip}")}, select=["grasp-slips"]
+    ).causes
+    assert len(told.edit) == 4

@@ -229,13 +229,15 @@ def _slides(of: Simulation, jaws: Jaws, body: int, weight: Vector) -> float:
     return norm(sub(seen[-1], seen[len(seen) // 2 - 1])) / (of.steps(CARRYING) * of.timestep / 2)
 
 
-def _needed(simulation: Simulation, body: int) -> float:
-    return max((each.weight / max(each.carries, 1e-9) for each in grasps(simulation) if each.body == body), default=0.0)
+def _needed(simulation: Simulation, body: int, palm: int) -> float:
+    held = (each for each in grasps(simulation) if (each.body, each.jaws.palm) == (body, palm))
+    return max((each.weight / max(each.carries, 1e-9) for each in held), default=0.0)
 
 
-def needed(body: int) -> Probe:
-    """The weight of what is held over what the friction of the jaws carries; above 1 it slips."""
-    return Probe("weight over what friction of the closed fingers carries", "", _needed, (body,))
+def needed(grasp: Grasp) -> Probe:
+    """The weight of what is held over what the friction of these jaws carries; above 1 it slips."""
+    title = "weight over what friction of the closed fingers carries"
+    return Probe(title, "", _needed, (grasp.body, grasp.jaws.palm))
 
 
 def _leaves(simulation: Simulation, body: int) -> float:

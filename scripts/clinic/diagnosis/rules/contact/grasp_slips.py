@@ -61,7 +61,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     for found in grasps(of):
         low = [each for each in found.deciding if each.friction < LOW]
-        if found.weight <= found.carries or not low or model.measured(needed(found.body)) <= 1:
+        if found.weight <= found.carries or not low or model.measured(needed(found)) <= 1:
             continue
         least = min(each.friction for each in low)
         says = (
@@ -75,7 +75,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"{least:g}",
             "1",
             edits,
-            needed(found.body),
+            needed(found),
             1.0,
             says,
             "0.5 to 1 for rubber",

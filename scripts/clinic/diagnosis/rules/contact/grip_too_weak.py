@@ -74,7 +74,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"The jaws press with {found.force:.3g} N in all, of which friction carries {found.carries:.3g} N; "
             f"{of.name('body', found.body)} weighs {found.weight:.3g} N."
         )
-        first, probe = found.jaws.actuators[0], needed(found.body)
+        first, probe = found.jaws.actuators[0], needed(found)
         now, value = f"{of.gain(first)[0]:g}", f"{gains[first]:g}"
         yield Suspect(names, "kp", now, value, edits, probe, 1 / FEW, says, "a third of what is carried", level="hint")
         return

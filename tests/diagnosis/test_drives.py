@@ -229,3 +229,25 @@ def test_a_servo_that_leads_another_joint_next_to_nowhere_is_told(nut: str, ctrl
     text = f"<mujoco><worldbody>{links}</worldbody>{screw}{servo}</mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["control-range-too-narrow"])
     assert [each.value for each in found.hints] == values
+
+
+@pytest.mark.parametrize(
+    ("throttle", "told"),
+    [
+        pytest.param('position kp="0.05"', ["wheel-held"], id="angle"),
+        pytest.param('velocity kv="0.05"', [], id="speed"),
+        pytest.param("motor", [], id="torque"),
+    ],
+)
+def test_a_servo_that_holds_two_wheels_by_a_tendon_is_told(throttle: str, told: list[str]) -> None:
+    wheels = "".join(
+        f'<body name="{side}_wheel" pos="0 {y} 0"><joint name="{side}_spin" axis="0 1 0"/><geom size="0.05"/></body>'
+        for side, y in (("left", 0.1), ("right", -0.1))
+    )
+    car = f'<body pos="0 0 0.05"><freejoint/><geom type="box" size="0.1 0.05 0.02"/>{wheels}</body>'
+    ends = "".join(f'<joint joint="{side}_spin" coef="0.5"/>' for side in ("left", "right"))
+    text = f"""<mujoco><worldbody><geom type="plane" size="1 1 0.1"/>{car}</worldbody>
+      <tendon><fixed name="axle">{ends}</fixed></tendon>
+      <actuator><{throttle} tendon="axle" ctrlrange="-60 60"/></actuator></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["wheel-held"]).hints
+    assert [each.rule for each in found] == told

@@ -1,7 +1,8 @@
 """A wheel cannot go on turning: a position servo drives it, it has no joint, or dry friction holds it.
 
-`<position>` stands where `<velocity>` or `<motor>` was meant, and turns the wheel to an angle, where it stops; or two
-of four wheels have no joint, and drag; or `frictionloss` is above all that the ground can turn a wheel with.
+`<position>` stands where `<velocity>` or `<motor>` was meant, and turns the wheel to an angle, where it stops, by its
+joint or by the tendon of a differential; or two of four wheels have no joint, and drag; or `frictionloss` is above all
+that the ground can turn a wheel with.
 
 Bad:
 
@@ -48,6 +49,7 @@ import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, HINGE, MESH, SPHERE
+from clinic.diagnosis.probes import tendons
 from clinic.diagnosis.probes.servo import servos
 from clinic.diagnosis.probes.shape import root_of, solid
 from clinic.diagnosis.probes.wheels import is_wheel
@@ -89,6 +91,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _held(of: Simulation) -> dict[int, str]:
     """The wheels that cannot go on turning, and why."""
     by_joint = {each.joint for each in servos(of)}
+    lines = [line for each, line in tendons.pulled(of).items() if tendons.servo(of, each)]
+    by_joint |= {joint for line in lines for joint, _ in tendons.joints_of(of, line)}
     wheels, owner = _wheels(of), root_of(of)
     turning = {owner[body] for body in wheels if _hinges(of, body)}
     made = {}

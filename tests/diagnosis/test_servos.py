@@ -428,3 +428,61 @@ def test_a_servo_that_rings_beside_its_twin_of_the_same_gains_moves_what_is_unli
         ]
     }
     assert found == {0.3: ["hint"], 3: ["cause"]}
+
+
+@pytest.mark.parametrize(
+    ("force", "told"),
+    [pytest.param(0.6, [("hint", "forcerange", "3")], id="stands-on-it"), pytest.param(6, [], id="has-some-left")],
+)
+def test_motors_that_give_all_they_can_to_stand_still_are_told(force: float, told: list[tuple[str, str, str]]) -> None:
+    legs = "".join(
+        f'<body pos="{x} {y} 0" euler="0 0 {turn}"><joint name="leg{i}" axis="0 1 0" range="-60 60" damping="0.1" '
+        'armature="0.004"/><geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.05" contype="0"/>'
+        '<geom type="capsule" fromto="0.2 0 0 0.2 0 -0.08" size="0.02" mass="0.05"/></body>'
+        for i, (x, y, turn) in enumerate(((0.1, 0.1, 45), (0.1, -0.1, -45), (-0.1, 0.1, 135), (-0.1, -0.1, -135)))
+    )
+    trunk = f'<body pos="0 0 0.1"><freejoint/><geom type="box" size="0.1 0.1 0.02" mass="2" contype="0"/>{legs}</body>'
+    servos = "".join(f'<position joint="leg{i}" kp="40" kv="1" forcerange="-{force} {force}"/>' for i in range(4))
+    floor = '<geom type="plane" size="2 2 0.1"/>'
+    text = f"<mujoco><worldbody>{floor}{trunk}</worldbody><actuator>{servos}</actuator></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["force-range-too-small"])
+    assert [(each.level, each.attribute, each.value) for each in (*found.causes, *found.hints)] == told
+
+
+@pytest.mark.parametrize(
+    ("force", "open_by", "told"),
+    [(300, 0, ["1500"]), (3000, 0, []), (300, 0.2, [])],
+    ids=["too weak", "strong", "not closed at the start"],
+)
+def test_a_ram_that_cannot_carry_what_its_loop_puts_on_it_is_told(
+    force: float, open_by: float, told: list[str]
+) -> None:
+    rod = (
+        '<body pos="0 0 0.3"><joint name="ram" type="slide" axis="0 0 1" range="-0.1 0.1" damping="100"/>'
+        '<geom type="capsule" fromto="0 0 0 0 0 0.2" size="0.01" mass="1"/>'
+        f'<site name="eye" pos="0 0 {0.2 + open_by}"/></body>'
+    )
+    text = f"""<mujoco><worldbody>
+      <body pos="0 0 1.5"><joint axis="0 1 0" range="-40 40"/><site name="lug" pos="0.3 0 0"/>
+        <geom type="capsule" fromto="0 0 0 1 0 0" size="0.03" mass="20"/></body>
+      <body pos="0.3 0 1"><joint axis="0 1 0" damping="1"/>
+        <geom type="capsule" fromto="0 0 0 0 0 0.2" size="0.02" mass="1"/>{rod}</body></worldbody>
+      <equality><connect site1="eye" site2="lug"/></equality>
+      <actuator><position joint="ram" kp="60000" kv="2000" forcerange="-{force} {force}"/></actuator></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["force-range-too-small"]).causes
+    assert [each.value for each in found] == told
+
+
+@pytest.mark.parametrize(("elbow", "told"), [("3", [("actuatorfrcrange", "15")]), ("20", [])])
+def test_a_motor_far_harder_pressed_than_the_one_that_carries_it_is_told(
+    elbow: str, told: list[tuple[str, str]]
+) -> None:
+    link = '<joint name="{0}" axis="0 1 0" range="-90 90" damping="1" actuatorfrcrange="-{1} {1}"/>'
+    link += '<geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="1"/>'
+    forearm = f'<body pos="0.3 0 0">{link.format("elbow", elbow)}</body>'
+    text = f"""<mujoco><worldbody><body pos="0 0 1">{link.format("shoulder", 60)}{forearm}</body></worldbody>
+      <actuator><position joint="shoulder" kp="200" kv="10"/><position joint="elbow" kp="100" kv="5"/></actuator>
+    </mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["force-range-too-small"])
+    assert not found.causes
+    assert [(each.attribute, each.value) for each in found.hints] == told

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from clinic.diagnosis.engine import HINGE, SLIDE
-from clinic.diagnosis.probes.equalities import CONNECT
-from clinic.diagnosis.probes.servo import alone, servos
+from clinic.diagnosis.probes.equalities import CONNECT, gap, kind_of
+from clinic.diagnosis.probes.servo import Servo, alone, hold, servos
+from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 POSES = 16
 SPREAD = 0.5  # rad or m, of a joint without a range
+HANGS, FULL, TOLD = 1.0, 0.98, 0.01  # s; of the greatest force; of its range, that a servo may be told to leave
+CLOSED = 0.01  # of the model's extent
 
 
 def poses(simulation: Simulation) -> list[list[float]]:
@@ -97,3 +101,76 @@ def strain(actuators: Sequence[int]) -> Probe:
     """The share of its greatest force that a servo needs to hold the model's own weight."""
     title = f"the model's own weight at the joint over the greatest force of its servo, over {POSES + 1} poses"
     return Probe(title, "", _strain, (tuple(actuators),), dynamic=False)
+
+
+@kept
+def carriers(simulation: Simulation) -> dict[Servo, Servo]:
+    """For each hinge's servo with a limited force the hardest-pressed of those that carry it and as much, or more."""
+    of, load = simulation, loads(simulation)
+    limited = {each.joint: each for each in servos(of) if each.hinge and math.isfinite(each.force)}
+    made = {}
+    for joint, servo in limited.items():
+        above = [each for body in of.ancestors(of.body_of("joint", joint))[1:] for each in of.joints_of(body)]
+        carry = [limited[each] for each in above if each in limited and load[limited[each].dof] >= load[servo.dof] > 0]
+        if carry:
+            made[servo] = max(carry, key=lambda each: strains(of)[each.actuator])
+    return made
+
+
+def _outdone(simulation: Simulation, actuators: Sequence[int]) -> float:
+    found, over = strains(simulation), carriers(simulation)
+    shares = [found[one.actuator] / found[other.actuator] for one, other in over.items() if one.actuator in actuators]
+    return max(shares, default=0.0)
+
+
+def outdone(actuators: Sequence[int]) -> Probe:
+    """How many times the share of its force that a servo needs is that of the servos that carry it."""
+    title = "share of its greatest force that the weight takes, over that of the servos which carry the joint"
+    return Probe(title, "", _outdone, (tuple(actuators),), dynamic=False)
+
+
+@kept
+def yielded(simulation: Simulation) -> dict[Servo, float]:
+    """How far servos of closed loops that hold the start give way to gravity, where they give all that they can.
+
+    In rad or m; the contacts are off. None of a robot that stands freely, or whose loops are open at the start.
+    """
+    of, owner = simulation, root_of(simulation)
+    of.begin()
+    loops = [each for each, on in enumerate(of.model("eq_active0")) if on and kind_of(of, each) == CONNECT]
+    least = CLOSED * of.model("stat.extent")[0]
+    if not loops or any((gap(of, each) or 0.0) > least for each in loops) or not any(of.model("opt.gravity")):
+        return {}
+    begun = {
+        each: of.position(each.joint)
+        for each in servos(of)
+        if math.isfinite(each.force) and owner[of.body_of("joint", each.joint)] not in of.free_bodies
+    }
+    with alone(of, gravity=True):
+        hold(of)
+        for _ in of.run(HANGS, samples=4) if begun else ():
+            if of.unstable():
+                return {}
+    forces, targets = of.data("qfrc_actuator"), of.data("ctrl")
+    return {
+        each: abs(of.position(each.joint) - place)
+        for each, place in begun.items()
+        if abs(forces[each.dof]) >= FULL * each.force
+        and abs(each.target(targets[each.actuator]) - place) <= TOLD * travel(each)
+    }
+
+
+def travel(servo: Servo) -> float:
+    """How far a joint goes in rad or m: its range, or what is usual where it has none."""
+    return servo.range[1] - servo.range[0] if servo.range else 2 * SPREAD
+
+
+def _yields(simulation: Simulation, actuators: Sequence[int]) -> float:
+    found = yielded(simulation).items()
+    return max((way / travel(each) for each, way in found if each.actuator in actuators), default=0.0)
+
+
+def yields(actuators: Sequence[int]) -> Probe:
+    """How far servos of a closed loop give way to the weight."""
+    title = f"how far the weight moves a servo's joint within {HANGS:g} s that is told to hold the start"
+    return Probe(title, "of its range", _yields, (tuple(actuators),))

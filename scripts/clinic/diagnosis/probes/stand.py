@@ -81,3 +81,13 @@ def goes_down(seconds: float = SECONDS) -> Probe:
     """How far a robot goes down whose servos hold the start."""
     title = f"height that the base loses within {seconds:g} s while all servos hold the start"
     return Probe(title, "of its height", _lost, (seconds,))
+
+
+def _at_their_limit(simulation: Simulation) -> float:
+    return float(len(stance(simulation).full))
+
+
+def at_their_limit() -> Probe:
+    """How many servos give all they can under a robot that stands."""
+    title = f"servos that give all they can after {SECONDS:g} s in which all of them hold the start"
+    return Probe(title, "", _at_their_limit)

@@ -514,3 +514,27 @@ def test_a_spring_that_rests_on_the_side_of_its_load_gets_the_other_sign(rest: s
     text = f"<mujoco><worldbody>{load}</worldbody></mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["spring-at-its-stop"]).hints
     assert [(each.attribute, each.value) for each in found] == ([("springref", told)] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("site", "euler", "more", "told"),
+    [
+        pytest.param("tip", "0 -40 0", "", None, id="inside"),
+        pytest.param("axle", "0 -40 0", "", ("site", "tip"), id="another site"),
+        pytest.param("tip", "0 40 0", "", ("euler", "0 -40 0"), id="another sign"),
+        pytest.param("axle", "0 -40 0", '<site name="end" pos="-1.8 0 0"/>', None, id="two sites would do"),
+        pytest.param("far", "0 -40 0", "", None, id="nothing does"),
+    ],
+)
+def test_the_one_thing_that_brings_a_tendon_into_its_range_is_told(
+    site: str, euler: str, more: str, told: tuple[str, str] | None
+) -> None:
+    text = f"""<mujoco><worldbody><geom type="plane" size="9 9 1"/><site name="axle" pos="0 0 1.5"/>
+      <body pos="0 0 1.5" euler="{euler}"><joint name="axle" axis="0 1 0" damping="1"/><site name="tip" pos="-1.9 0 0"/>
+        <geom type="capsule" fromto="0 0 0 -1.9 0 0" size="0.03" contype="0"/>{more}</body>
+      <body pos="-0.6 0 0.075"><freejoint/><geom size="0.075" mass="3"/><site name="pouch"/></body>
+      <body pos="0 0 2"><site name="far" pos="0 4 0"/></body></worldbody>
+      <tendon><spatial name="sling" range="0 1.02" limited="true"><site site="{site}"/><site site="pouch"/></spatial>
+      {'<spatial><site site="far"/><site site="tip"/></spatial>' if site == "far" else ""}</tendon></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["tendon-outside-range"]).hints
+    assert [(each.attribute, each.value) for each in found if each.attribute != "range"] == ([told] if told else [])

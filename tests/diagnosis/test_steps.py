@@ -153,3 +153,20 @@ def test_damping_against_which_no_equality_holds_is_told_and_not_the_timestep(da
     assert [(each.rule, each.elements) for each in (*found.causes, *found.hints)] == [
         ("damping-explicit", ('joint "ram"',))
     ] * told
+
+
+@pytest.mark.parametrize(
+    ("step", "stiffness", "told"),
+    [
+        pytest.param(0.02, 420, ["0.002"], id="five steps a period"),
+        pytest.param(0.002, 420, [], id="forty-seven steps"),
+        pytest.param(0.02, 40, [], id="a soft spring"),
+        pytest.param(0.02, 0, [], id="no spring"),
+    ],
+)
+def test_a_spring_of_which_a_period_has_few_steps_is_told(step: float, stiffness: float, told: list[str]) -> None:
+    slide = f'<joint type="slide" axis="0 0 1" range="-0.02 0.02" stiffness="{stiffness}" springref="0.01"/>'
+    text = f"""<mujoco><option timestep="{step}" integrator="implicitfast"/><worldbody>
+      <body pos="0 0 1">{slide}<geom size="0.02" mass="0.1"/></body></worldbody></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["timestep-too-long"]).hints
+    assert [each.value for each in found] == told

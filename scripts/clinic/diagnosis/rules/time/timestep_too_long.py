@@ -27,8 +27,10 @@ The number: the fastest joint within 2 s after letting go (100 rad/s are 16 turn
 much a joint's speed jumps to and fro from step to step after a nudge, how fast it is under command, and how deep
 contacts are. Of the steps that are tried (a half, a quarter, and so on) the longest that brings it to a tenth is told,
 of a depth under command to a third. One that is shorter by a twentieth must not do: a cable that whips about goes to
-infinity at one step and not at the next. Beyond 0.04 s it is told as a hint, however calm: of 290 healthy models none
-has more than 0.03 s. Nothing is told where a tendon starts far outside of its range, which another rule tells.
+infinity at one step and not at the next. A hint tells of a spring that swings within 6 steps, where a tenth of the step
+takes its joint elsewhere, by more than 15 % of its range; in 260 healthy models a period has 10 steps and more. Beyond
+0.04 s the timestep is told as a hint, however calm: of 290 healthy models none has more than 0.03 s. Nothing is told
+where a tendon starts far outside of its range, which another rule tells.
 
 When it is wrong: something that is meant to spin fast. A gain or a spring that shakes at 2 ms too is the fault itself.
 """
@@ -42,6 +44,7 @@ from clinic.diagnosis.probes.drive import commanded, pressed_in
 from clinic.diagnosis.probes.run import fastest, sunk
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.probes.solver import patient
+from clinic.diagnosis.probes.springs import coarse, strays
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.joint.tendon_outside_range import far_outside
 from clinic.diagnosis.rules.time.damping_explicit import overdamped
@@ -56,6 +59,7 @@ FAST = 100.0  # rad/s
 SECONDS, WHOLE = 2.0, 0.9  # what is run, and the share of it that a run with a shorter step has to last
 SUNK, PRESSED = 0.05, 0.035  # of the model's extent
 UNUSUAL = 0.04  # s
+STRAYS, FINE = 0.15, 10  # of a spring's range, from where a tenth of the step takes it
 CHANCE = 0.95  # of the step: what is well at that is no matter of its length
 TENTH, THIRD, HALF = 0.1, 1 / 3, 0.5  # what is left of a symptom that is gone; contacts are never without depth
 
@@ -89,6 +93,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 now, value = f"{step:g}", f"{step / divisor:g}"
                 yield Suspect(("the timestep",), "timestep", now, value, edits, probe, limit, says, share=share)
                 return
+    if coarse(of) and (before := model.measured(strays())) > STRAYS:
+        joint, steps = min(coarse(of).items(), key=lambda each: each[1])
+        edits = model.option("timestep", f"{step / FINE:g}")
+        says = f"The spring of {of.name('joint', joint)} swings within {steps:.2g} steps, too few to follow it."
+        now, value = f"{step:g}", f"{step / FINE:g}"
+        healthy = "10 steps and more in 260 healthy models"
+        told = Suspect(("the timestep",), "timestep", now, value, edits, strays(), STRAYS, says, healthy, level="hint")
+        if model.measured(strays(), edits) <= THIRD * before:
+            yield told
+            return
     if step > UNUSUAL:
         edits = model.option("timestep", "0.002")
         says = f"What moves at 1 m/s gets {1000 * step:.0f} mm on in a step of {step:g} s before anything can meet it."

@@ -1,0 +1,60 @@
+"""Springs of joints that a timestep is too coarse for: where they are, beside where a tenth of the step takes them."""
+
+from __future__ import annotations
+
+import math
+
+from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.simulation import Simulation, kept
+from clinic.diagnosis.suspect import Probe
+
+COARSE = 1.0  # the step times the natural frequency in rad/s: a period has 2 pi over that many steps
+SECONDS, SAMPLES, FINER = 1.0, 20, 10
+STEPS = 20000  # at most, of the finer run
+
+
+@kept
+def coarse(simulation: Simulation) -> dict[int, float]:
+    """The hinges and slides whose springs swing within few steps, and how many steps a period has."""
+    of, made = simulation, dict[int, float]()
+    for joint, stiffness in enumerate(of.model("jnt_stiffness")):
+        if stiffness > 0 and of.joint_type(joint) in (HINGE, SLIDE):
+            turned = of.timestep * math.sqrt(stiffness * of.model("dof_invweight0")[of.dof(joint)])
+            if turned > COARSE:
+                made[joint] = 2 * math.pi / turned
+    return made
+
+
+def _way(simulation: Simulation, step: float) -> list[list[float]]:
+    """Where the springs are at so many moments of a second, computed with a timestep."""
+    of, made = simulation, list[list[float]]()
+    of.engine.write_model("opt.timestep", [step])
+    try:
+        of.begin()
+        for _ in range(SAMPLES):
+            of.engine.step(max(1, round(SECONDS / SAMPLES / step)))
+            made.append([of.position(joint) for joint in coarse(of)])
+    finally:
+        of.engine.write_model("opt.timestep", [of.timestep])
+    return made
+
+
+@kept
+def _strays(simulation: Simulation) -> float:
+    of, step = simulation, simulation.timestep
+    if not coarse(of) or FINER * SECONDS / step > STEPS:
+        return 0.0
+    mine, finer = _way(of, step), _way(of, step / FINER)
+    ranges = [of.row("jnt_range", joint, 2) if of.model("jnt_limited")[joint] else (0.0, 1.0) for joint in coarse(of)]
+    apart = (
+        abs(one - other) / (high - low)
+        for there, here in zip(mine, finer, strict=True)
+        for one, other, (low, high) in zip(there, here, ranges, strict=True)
+    )
+    return max(apart) if not of.unstable() else math.inf
+
+
+def strays() -> Probe:
+    """How far springs of few steps a period are from where a tenth of the step takes them, within a second."""
+    title = "how far a spring's joint is from where a tenth of the step takes it, within 1 s"
+    return Probe(title, "of its range", _strays)

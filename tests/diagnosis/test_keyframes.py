@@ -291,3 +291,26 @@ def test_a_key_in_the_floor_behind_one_that_stands_is_a_hint(heights: tuple[floa
     world = f'<worldbody><geom type="plane" size="5 5 0.1"/>{box}</worldbody>'
     found = examine(NativeEngine(), {"model.xml": f"<mujoco>{world}<keyframe>{keys}</keyframe></mujoco>"})
     assert [each.level for each in (*found.causes, *found.hints) if each.rule == "key-in-the-floor"] == [level]
+
+
+@pytest.mark.parametrize(
+    ("gear", "rest", "ctrl", "floor", "told"),
+    [
+        pytest.param("2", "-0.25", "0.34", "", [], id="in balance"),
+        pytest.param("-2", "-0.25", "0.34", "", [("gear", "2")], id="gear"),
+        pytest.param("2", "-0.25", "-0.34", "", [("ctrl", "0.34")], id="control"),
+        pytest.param("2", "0.25", "0.34", "", [("springref", "-0.25")], id="spring"),
+        pytest.param("-2", "-0.25", "0.1", "", [], id="no sign would do"),
+        pytest.param("-2", "-0.25", "0.34", '<geom size="0.05" pos="0.05 0 1"/>', [], id="touches something"),
+    ],
+)
+def test_a_motor_that_pushes_a_keyframe_off_is_told_by_the_sign_that_would_hold_it(
+    gear: str, rest: str, ctrl: str, floor: str, told: list[tuple[str, str]]
+) -> None:
+    hinge = f'<joint name="lever" axis="0 0 1" stiffness="0.8" springref="{rest}" range="-1 1" damping="0.01"/>'
+    text = f"""<mujoco><compiler angle="radian"/><worldbody>{floor}
+      <body pos="0 0 1">{hinge}<geom type="capsule" fromto="0 0 0 0.1 0 0" size="0.01"/></body></worldbody>
+      <actuator><motor joint="lever" gear="{gear}"/></actuator>
+      <keyframe><key qpos="0.6" ctrl="{ctrl}"/></keyframe></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["key-out-of-balance"]).hints
+    assert [(each.attribute, each.value) for each in found] == told

@@ -251,3 +251,25 @@ def test_a_servo_that_holds_two_wheels_by_a_tendon_is_told(throttle: str, told: 
       <actuator><{throttle} tendon="axle" ctrlrange="-60 60"/></actuator></mujoco>"""
     found = examine(NativeEngine(), {"model.xml": text}, select=["wheel-held"]).hints
     assert [each.rule for each in found] == told
+
+
+@pytest.mark.parametrize(
+    ("gear", "twist", "told"),
+    [
+        pytest.param("0 0 -1", "handle", ["0 -1 0 0 0 0"], id="turns the handle"),
+        pytest.param("0 -1 0", "handle", [], id="opens the door"),
+        pytest.param("0 0 -1", "door", [], id="the door has its own"),
+        pytest.param("-1 0 0", "handle", [], id="moves nothing"),
+    ],
+)
+def test_a_motor_at_a_site_that_turns_what_is_driven_anyhow_is_told(gear: str, twist: str, told: list[str]) -> None:
+    handle = (
+        '<body pos="0.8 0 0"><joint name="handle" axis="0 -1 0" range="-5 40"/><site name="grip" pos="-0.1 0 0"/>'
+        '<geom type="capsule" fromto="0 0 0 -0.12 0 0" size="0.01"/></body>'
+    )
+    text = f"""<mujoco><worldbody><body pos="0 0 1"><joint name="door" axis="0 0 1" range="-90 0"/>
+      <geom type="box" size="0.45 0.02 0.9" pos="0.45 0 0" mass="20" contype="0"/>{handle}</body></worldbody>
+      <actuator><motor joint="{twist}" ctrlrange="-1 1"/><motor site="grip" gear="{gear} 0 0 0" ctrlrange="-40 40"/>
+      </actuator></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["driven-twice"]).hints
+    assert [each.value for each in found] == told

@@ -29,7 +29,8 @@ Good:
 
 The number: how many other actuators of the same gain, bias and dynamics drive the joint, where a joint of its mechanism
 is driven by none. One that is called like the driven joint, but for what sets the names of the actuators apart, was
-meant.
+meant. So is a motor at a site whose force moves joints with an actuator of their own, where a joint that carries the
+site has none, and another axis of the site moves that one with ten times the lever, over 17 poses.
 
 When it is wrong: two motors on one axle, or a pair of muscles that a joint stands for.
 """
@@ -39,13 +40,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import DYN_MUSCLE, HINGE, SLIDE
+from clinic.diagnosis.engine import DYN_MUSCLE, HINGE, SLIDE, TRN_SITE
 from clinic.diagnosis.probes.copied import Line, misled
+from clinic.diagnosis.probes.load import poses
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.siblings import of_a_row
+from clinic.diagnosis.probes.vector import at, cross, sub, times, transpose
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.simulation import Simulation, kept
+from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "Two actuators on one joint"
 FAMILIES = ("stuck", "sags", "drifts")
@@ -54,11 +57,13 @@ LEVEL = "hint"
 UNPLANTED = "an actuator on another joint is planted for actuator-on-another-joint"
 
 KINDS = ("gaintype", "biastype", "dyntype")
+SHARE, SOME = 0.1, 0.01  # of the lever of the best axis; m
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each joint that is driven twice, beside one that is not driven."""
     of = model.simulation
+    yield from _astray(model)
     for joint, driving in twice(of).items():
         meant, idle = _meant(of, joint, driving), [of.name("joint", each) for each in _idle(of, joint)[:3]]
         wrong, value, edits = driving[-1], ", ".join(idle), tuple[Edit, ...]()
@@ -70,6 +75,64 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         says = f"{' and '.join(names)} drive {of.name('joint', joint)}, and nothing drives {', '.join(idle)}."
         now, at = of.names("joint")[joint] * bool(meant), model.element("actuator", wrong)
         yield Suspect((*names, of.name("joint", joint)), "joint", now, value, edits, probe, 0, says, "one each", at=at)
+
+
+def _astray(model: ReaderModel) -> Iterator[Suspect]:
+    """Each motor at a site that does what another actuator does, and nothing to a joint that has none."""
+    of = model.simulation
+    for actuator, (moved, idle, axis) in astray(of).items():
+        gear = of.row("actuator_gear", actuator, 6)
+        now, wanted = (" ".join(f"{x:g}" for x in each) for each in (gear, _along(gear, axis)))
+        names = tuple(of.name(*each) for each in (("actuator", actuator), ("joint", moved), ("joint", idle)))
+        says = f"{names[0]} moves {names[1]}, which has an actuator of its own, and not {names[2]}, which has none."
+        probe = how_many("motors at sites that move what is driven anyhow", astray)
+        edits = model.set("actuator", [actuator], "gear", wanted)
+        yield Suspect(names, "gear", now, wanted, edits, probe, 0, says, "one each", level="hint")
+
+
+def _along(gear: Sequence[float], axis: int) -> list[float]:
+    """A gear of one force, along another axis of its site."""
+    (force,) = (each for each in gear[:3] if each)
+    return [force if each == axis else 0.0 for each in range(6)]
+
+
+@kept
+def astray(of: Simulation) -> dict[int, tuple[int, int, int]]:
+    """By motor at a site: a driven joint that it moves, one that it never moves, and the site's axis that does."""
+    made = {}
+    for actuator, kind in enumerate(of.model("actuator_trntype")):
+        site, beside = (int(each) for each in of.row("actuator_trnid", actuator, 2))
+        gear = of.row("actuator_gear", actuator, 6)
+        one = sum(each != 0 for each in gear) == 1 and any(gear[:3])
+        if int(kind) != TRN_SITE or beside >= 0 or not one:
+            continue
+        above = [joint for body in of.ancestors(of.body_of("site", site)) for joint in of.joints_of(body)]
+        if any(of.joint_type(joint) not in (HINGE, SLIDE) for joint in above):
+            continue
+        levers = _levers(of, site, above)
+        own = next(axis for axis in range(3) if gear[axis])
+        moved = [joint for joint in above if levers[joint][own] > max(SHARE * max(levers[joint]), SOME)]
+        idle = [joint for joint in above if joint not in of.drivers and joint not in moved]
+        far = {joint: max(range(3), key=lambda axis: levers[joint][axis]) for joint in idle}
+        meant = [joint for joint in idle if levers[joint][far[joint]] > SOME]
+        if moved and all(joint in of.drivers for joint in moved) and len(meant) == 1:
+            made[actuator] = (moved[0], meant[0], far[meant[0]])
+    return made
+
+
+def _levers(of: Simulation, site: int, joints: Sequence[int]) -> dict[int, list[float]]:
+    """The most that a force of 1 N along each axis of a site does to joints over poses within their ranges."""
+    made = {joint: [0.0] * 3 for joint in joints}
+    for pose in poses(of):
+        of.engine.write("qpos", pose)
+        of.engine.forward()
+        place, turn = at(of.data("site_xpos"), site), transpose(of.data_row("site_xmat", site, 9))
+        for joint in joints:
+            way = at(of.data("xaxis"), joint)
+            if of.joint_type(joint) == HINGE:
+                way = cross(way, sub(place, at(of.data("xanchor"), joint)))
+            made[joint] = [max(pair) for pair in zip(made[joint], map(abs, times(turn, way)), strict=True)]
+    return made
 
 
 def _meant(of: Simulation, joint: int, driving: Sequence[int]) -> dict[int, int]:

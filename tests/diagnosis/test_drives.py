@@ -273,3 +273,22 @@ def test_a_motor_at_a_site_that_turns_what_is_driven_anyhow_is_told(gear: str, t
       </actuator></mujoco>"""
     found = examine(NativeEngine(), {"model.xml": text}, select=["driven-twice"]).hints
     assert [each.value for each in found] == told
+
+
+@pytest.mark.parametrize(
+    ("winch", "joint", "told"),
+    [
+        pytest.param('gear="1" ctrlrange="0 100"', "", [], id="lifts"),
+        pytest.param('gear="-1" ctrlrange="0 100"', "", ["1"], id="pushes down"),
+        pytest.param('gear="-1" ctrlrange="-100 100"', "", [], id="both ways"),
+        pytest.param('gear="-1" ctrlrange="0 100"', 'stiffness="500"', [], id="a spring lifts"),
+        pytest.param('gear="-1" ctrlrange="0 100"', 'range="0 1"', [], id="presses on its stop"),
+        pytest.param('gear="-1" ctrlrange="0 10"', "", [], id="weaker than the weight"),
+    ],
+)
+def test_a_motor_of_one_side_that_pushes_with_the_weight_is_told(winch: str, joint: str, told: list[str]) -> None:
+    load = f'<body pos="0 0 1"><joint name="lift" type="slide" axis="0 0 1" damping="5" {joint}/><geom size="0.1"'
+    text = f"""<mujoco><worldbody>{load} mass="5"/></body></worldbody>
+      <actuator><motor joint="lift" {winch}/></actuator></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["servo-one-sided"]).hints
+    assert [each.value for each in found] == told

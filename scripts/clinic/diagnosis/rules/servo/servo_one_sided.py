@@ -25,6 +25,8 @@ Good:
 The number: how many position servos have a force range of which one end is less than a 20th of the other, a control
 range that ends at 0 where a fifth of the joint's range and more lies beyond, or a negative gear. Of 96 healthy models
 with servos none has such a force range or gear, and one such a control range.
+So is a motor whose control has one sign, on a joint without a spring that it could hold at the start against a weight
+of a tenth of its force and more, and that pushes the way that the weight goes.
 
 When it is wrong: a rope, a finger that a spring opens, or a joint that is counted the other way round on purpose.
 """
@@ -37,7 +39,7 @@ from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.servo.control_range_too_wide import inherited
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A servo that works to one side only, or to the wrong one"
 FAMILIES = ("stuck", "drifts", "sags")
@@ -46,11 +48,20 @@ LEVEL = "hint"
 UNPLANTED = "whether a joint needs both sides, only its maker knows"
 
 LITTLE, END, BEYOND = 0.05, 0.001, 0.2
+WEIGHT, AT_ITS_END = 0.1, 0.01  # of the motor's force; of the range
+KINDS = ("gain", "bias", "dyn")
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """Servos of one side, together by what makes them so."""
+    """Servos of one side, together by what makes them so, and motors that push with the weight alone."""
     of = model.simulation
+    for actuator in sinking(of):
+        joint, gear = of.driven_joint(actuator) or 0, of.gear(actuator)
+        name, moved = of.name("actuator", actuator), of.name("joint", joint)
+        says = f"{name} pushes {moved} to one side, to which the weight pulls it; no spring or actuator brings it back."
+        probe = how_many("motors that push with the weight alone", sinking)
+        edits, now, value = model.set("actuator", [actuator], "gear", f"{-gear:g}"), f"{gear:g}", f"{-gear:g}"
+        yield Suspect((name, moved), "gear", now, value, edits, probe, 0, says, "against the weight, or both sides")
     for attribute in ("forcerange", "ctrlrange", "gear"):
         found = [each for each in servos(of) if _one_sided(of, each, attribute)]
         if not found:
@@ -62,6 +73,24 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         names = tuple(of.name("actuator", each) for each in numbers)
         probe = Probe(f"servos of one side by their {attribute}", "", _count, (attribute, *numbers), dynamic=False)
         yield Suspect(names, attribute, now, value, edits, probe, 0, says, "both sides", level="hint")
+
+
+def sinking(of: Simulation) -> list[int]:
+    """The motors of one side that could hold their joint's weight at the start, and push the way that it goes."""
+    of.begin()
+    bias, made = of.data("qfrc_bias"), []
+    for joint, (actuator, *others) in of.drivers.items():
+        low, high = of.row("actuator_ctrlrange", actuator, 2)
+        motor = not any(int(of.model(f"actuator_{kind}type")[actuator]) for kind in KINDS)
+        one_sided = of.model("actuator_ctrllimited")[actuator] and low * high == 0 and low < high
+        if others or not motor or not one_sided or of.model("jnt_stiffness")[joint]:
+            continue
+        force, weight = of.gain(actuator)[0] * of.gear(actuator) * (low + high), -bias[of.dof(joint)]
+        least, most = of.row("jnt_range", joint, 2) if of.model("jnt_limited")[joint] else (-1e9, 1e9)
+        left = most - of.position(joint) if force > 0 else of.position(joint) - least
+        if force * weight > 0 and WEIGHT * abs(force) < abs(weight) < abs(force) and left > AT_ITS_END * (most - least):
+            made.append(actuator)
+    return made
 
 
 def _one_sided(of: Simulation, servo: Servo, attribute: str) -> bool:

@@ -78,7 +78,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def sinking(of: Simulation) -> list[int]:
     """The motors of one side that could hold their joint's weight at the start, and push the way that it goes."""
     of.begin()
-    bias, made = of.data("qfrc_bias"), []
+    bias, made = of.data("qfrc_bias"), list[int]()
+    if of.model("opt.gravity")[2] >= 0:
+        return made  # what is wrong is which way things fall
     for joint, (actuator, *others) in of.drivers.items():
         low, high = of.row("actuator_ctrlrange", actuator, 2)
         motor = not any(int(of.model(f"actuator_{kind}type")[actuator]) for kind in KINDS)

@@ -292,3 +292,14 @@ def test_a_motor_of_one_side_that_pushes_with_the_weight_is_told(winch: str, joi
       <actuator><motor joint="lift" {winch}/></actuator></mujoco>"""
     found = examine(NativeEngine(), {"model.xml": text}, select=["servo-one-sided"]).hints
     assert [each.value for each in found] == told
+
+
+def test_a_motor_of_one_side_is_right_where_gravity_points_up():
+    lift = (
+        '<body pos="0 0 1"><joint name="lift" type="slide" axis="0 0 1" damping="5"/><geom size="0.1" mass="5"/></body>'
+    )
+    text = (
+        f'<mujoco><option gravity="0 0 9.81"/><worldbody>{lift}</worldbody>'
+        '<actuator><motor joint="lift" ctrlrange="0 100"/></actuator></mujoco>'
+    )
+    assert not examine(NativeEngine(), {"model.xml": text}, select=["servo-one-sided"]).hints

@@ -420,6 +420,28 @@ def test_a_chain_whose_hinges_are_on_one_line_is_told(axis: str, links: int, att
         assert 'type="ball"' in apply({"model.xml": text}, found[0].edit)["model.xml"]
 
 
+@pytest.mark.parametrize(
+    ("names", "axes", "told"),
+    [
+        (("roll", "pitch"), ("1 0 0", "1 0 0"), ('joint "pitch"', "0 1 0")),
+        (("roll", "pitch"), ("0 1 0", "0 1 0"), ('joint "roll"', "1 0 0")),
+        (("roll", "pitch"), ("1 0 0", "0 1 0"), None),
+        (("waist_yaw", "head_pan"), ("0 0 1", "0 0 1"), None),
+        (("base", "turret"), ("0 0 1", "0 0 1"), None),
+    ],
+    ids=["inner", "outer", "two axes", "one turn", "no turns"],
+)
+def test_two_rings_whose_names_say_two_turns_do_not_turn_about_one_line(names, axes, told):
+    outer, inner = (
+        f'<joint name="{name}" axis="{axis}"/><geom size="0.1"/>' for name, axis in zip(names, axes, strict=True)
+    )
+    text = f"<mujoco><worldbody><body pos='0 0 1'>{outer}<body>{inner}</body></body></worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["joints-on-one-line"]).hints
+    assert [(each.elements[0], each.value) for each in found] == ([told] if told else [])
+    for each in found:
+        assert not examine(NativeEngine(), apply({"model.xml": text}, each.edit), select=["joints-on-one-line"]).hints
+
+
 AXLE = rules()["axle-against-itself"].example("Bad")
 STRAIGHT = rules()["axle-against-itself"].example("Good")
 MOTOR = '<velocity tendon="shaft" kv="0.1"/>'

@@ -22,19 +22,21 @@ Good:
 The number: joints of a body that move it as one before them does: hinges whose axes lie within 1 % of the model's size
 on one line, and slides that are parallel. Three links and more of a chain, each with one hinge, that all turn about one
 line are told as a hint: the chain twists and does not bend. Where no axis is written, z is the axis, along the links.
+Two rings, one on the other, are told where their names say two of the turns roll, pitch and yaw.
 
 When it is wrong: two motors on one shaft, each with an armature of its own.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import delete
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.key import rekeyed
 from clinic.diagnosis.probes.run import let_go
-from clinic.diagnosis.probes.vector import Vector, cross, norm, sub
+from clinic.diagnosis.probes.vector import Vector, cross, norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, how_many
@@ -45,12 +47,16 @@ SINCE = "0.1"
 UNPLANTED = "a second joint on the line of the first is a fault at every strength"
 
 LINKS = 3
+AXES = {"roll": 0, "pitch": 1, "tilt": 1, "yaw": 2, "pan": 2}
+TURNS = re.compile(rf"(?i)(?<![a-z])({'|'.join(AXES)})(?![a-z])")
+ALONG = 0.5  # of a unit vector
 NEAR, PARALLEL = 0.01, 0.001  # of the model's extent; the sine of an angle
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The joints that move their bodies as one before them, and the hinges of a chain on one line, all together."""
     yield from _twisted(model)
+    yield from _rings(model)
     of, source = model.simulation, model.source
     again = _again(of)
     if not again:
@@ -78,6 +84,43 @@ def _twisted(model: ReaderModel) -> Iterator[Suspect]:
     attribute, now, value = ("type", "hinge", "ball") if bare else ("axis", "along the chain", "across it")
     probe = how_many("hinges of a chain on one line", _in_line)
     yield Suspect(names, attribute, now, value, edits, probe, 0, says, "a chain that bends", level="hint")
+
+
+def _rings(model: ReaderModel) -> Iterator[Suspect]:
+    """The pairs of hinges on one line whose names say two turns; the odd one gets the axis that its name says."""
+    of = model.simulation
+    for pair in _gimbals(of):
+        axes = {joint: of.row("jnt_axis", joint, 3) for joint in pair}
+        odd, said = next(
+            (each for each in _said(of, *pair).items() if abs(axes[each[0]][each[1]]) < ALONG), (pair[0], -1)
+        )
+        names = tuple(of.name("joint", joint) for joint in sorted(pair, key=lambda joint: joint != odd))
+        value = written([float(i == said) for i in range(3)]) if said >= 0 else ""
+        says = f"{of.name('joint', pair[0])} turns about the line of {of.name('joint', pair[1])}, on which it hangs."
+        probe = how_many("hinges on the line of another that is called another turn", _gimbals)
+        edits = model.set("joint", [odd], "axis", value) if value else ()
+        yield Suspect(names, "axis", written(axes[odd]), value, edits, probe, 0, says, "two axes", level="hint")
+
+
+def _said(of: Simulation, *joints: int) -> dict[int, int]:
+    """The axis that a joint is called after, of those that are called after one."""
+    found = {joint: TURNS.findall(of.names("joint")[joint]) for joint in joints}
+    return {joint: AXES[words[0].lower()] for joint, words in found.items() if len(words) == 1}
+
+
+def _gimbals(of: Simulation) -> list[tuple[int, int]]:
+    """The hinges that are called after another turn than the one that they hang on, and lie on its line; with it."""
+    of.begin()
+    near, made = NEAR * of.model("stat.extent")[0], []
+    for joint in range(of.count("joint")):
+        body = of.body_of("joint", joint)
+        above = of.joints_of(int(of.model("body_parentid")[body]))
+        if len(above) == len(of.joints_of(body)) == 1:
+            pair = joint, above[0]
+            hinges = all(of.joint_type(each) == HINGE for each in pair)
+            if hinges and len({*_said(of, *pair).values()}) == len(pair) and _same_line(of, *pair, near):
+                made.append(pair)
+    return made
 
 
 def _in_line(of: Simulation) -> list[int]:

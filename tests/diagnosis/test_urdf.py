@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.edit import apply
 from clinic.diagnosis.finding import Diagnosis
 from clinic.diagnosis.native import NativeEngine
 
@@ -229,3 +230,22 @@ def test_the_colour_of_a_collision_is_no_finding(tag: str, told: bool) -> None:
         NativeEngine(), {"ball.urdf": f'<robot name="ball">{link}</robot>'}, select=["urdf-element-ignored"]
     )
     assert [each.attribute for each in found.hints] == [tag] * told
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "told"),
+    [
+        ("telescope", "revolute", True),
+        ("telescope", "prismatic", False),
+        ("slider_crank", "revolute", False),
+        ("axle", "revolute", False),
+    ],
+)
+def test_a_revolute_joint_that_is_called_a_telescope_is_told(name: str, kind: str, told: bool) -> None:
+    text = ROVER.format(i=0.3, parent="base").replace('"axle" type="continuous"', f'"{name}" type="{kind}"')
+    text = text.replace("</joint>", '<limit lower="0" upper="0.9" effort="9" velocity="1"/></joint>')
+    found = examine(NativeEngine(), {"rover.urdf": text}, select=["hinge-for-slide"]).hints
+    assert [(each.attribute, each.value) for each in found] == [("type", "prismatic")] * told
+    for each in found:
+        mended = apply({"rover.urdf": text}, each.edit)
+        assert 'type="prismatic"' in mended["rover.urdf"]

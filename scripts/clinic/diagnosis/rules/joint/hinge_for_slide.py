@@ -24,9 +24,10 @@ Good:
     +       <joint name="finger" type="slide" axis="0 1 0" range="0 0.04" damping="1"/>
 
 The number: hinges for which nobody wrote a type, and which are called a slide, or their actuator is; or which something
-drives or a spring holds, in a range below 0.15 rad that is so narrow as it is written, too. And the one hinge in a
-narrow range of which all others slide whose names end in the same word: `boom_ram` beside `stick_ram` and `bucket_ram`.
-It gets their class where it has another one.
+drives or a spring holds, in a range below 0.15 rad that is so narrow as it is written, too. In a URDF, which writes all
+types, a revolute joint that is called a slide. And the one hinge in a narrow range of which all others slide whose
+names end in the same word: `boom_ram` beside `stick_ram` and `bucket_ram`. It gets their class where it has another
+one.
 
 When it is wrong: a hinge that bends by a few degrees, such as a flexure.
 """
@@ -50,13 +51,14 @@ UNPLANTED = "a joint of another type is planted as that of a pair"
 
 NARROW = 0.15  # rad
 SISTERS = 2
-SLIDES = re.compile(r"(?<![a-z])(slide|slider|sliding|prismatic|linear|rail)(?![a-z])", re.IGNORECASE)
+SLIDES = re.compile(r"(?<![a-z])(slide|slider|sliding|prismatic|linear|rail|telescop\w*)(?![a-z])", re.IGNORECASE)
+HINGED = re.compile("crank|pivot|hinge|rot", re.IGNORECASE)
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The hinges that are meant to slide, all together."""
     of, source = model.simulation, model.source
-    if source is None or source.urdf:
+    if source is None:
         return
     yield from _of_another_class(model)
     ranges = _ranges(of)
@@ -66,12 +68,15 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not found:
         return
     low, high = of.row("jnt_range", found[0], 2)
-    says = (
-        f"{called.get(found[0], f'It turns from {low:.3g} to {high:.3g} rad')}: it is a hinge, for no type is written."
-    )
-    names, edits = tuple(of.name("joint", joint) for joint in found), model.set("joint", found, "type", "slide")
+    said = called.get(found[0], f"It turns from {low:.3g} to {high:.3g} rad")
+    says, now, value = f"{said}: it is a hinge, for no type is written.", "left out", "slide"
+    edits, element = model.set("joint", found, "type", value), model.element("joint", found[0])
+    if source.urdf and element:
+        says, now, value = f"{said}: it is a hinge, and turns.", element.get("type"), "prismatic"
+        edits = tuple(set_attribute(each, "type", value) for joint in found if (each := model.element("joint", joint)))
+    names = tuple(of.name("joint", joint) for joint in found)
     probe = how_many("hinges with the range or the name of a slide", _hinges, *found)
-    yield Suspect(names, "type", "left out", "slide", edits, probe, 0, says, "a slide")
+    yield Suspect(names, "type", now, value, edits, probe, 0, says, "a slide")
 
 
 def unlike_slides(of: Simulation) -> dict[int, list[int]]:
@@ -106,11 +111,13 @@ def _of_another_class(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _called(model: ReaderModel, joint: int) -> str:
-    """What calls a joint without a type a slide, in words: it or each of its actuators; empty where nothing does."""
-    of = model.simulation
-    if of.joint_type(joint) != HINGE or model.value("joint", joint, "type") or model.element("joint", joint) is None:
+    """What calls a hinge a slide, in words: it or each of its actuators; empty where nothing does, or MJCF its type."""
+    of, element = model.simulation, model.element("joint", joint)
+    typed = not model.urdf and model.value("joint", joint, "type")
+    if of.joint_type(joint) != HINGE or typed or element is None:
         return ""
-    if SLIDES.search(of.names("joint")[joint]):
+    name = of.names("joint")[joint]
+    if SLIDES.search(name) and not (model.urdf and HINGED.search(name)):
         return "It is called a slide"
     drivers = of.drivers.get(joint, [])
     if drivers and all(SLIDES.search(of.names("actuator")[each]) for each in drivers):

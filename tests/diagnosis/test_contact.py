@@ -448,3 +448,45 @@ def test_what_begins_in_the_floor_for_its_size_is_made_smaller(inside, z, told):
     text = f"<mujoco><worldbody>{FLOOR}{inside.format(z)}</worldbody></mujoco>"
     (found,) = examine(NativeEngine(), {"model.xml": text}, select=["overlap-at-start"]).causes
     assert (found.attribute, found.value) == told
+
+
+CLASSES = (
+    '<mujoco><default><default class="panel"><geom contype="2" conaffinity="2"/></default>'
+    '<default class="bolt"><geom contype="4" conaffinity="2"/></default></default><worldbody>{}</worldbody></mujoco>'
+)
+
+
+@pytest.mark.parametrize(
+    ("geoms", "told"),
+    [
+        ('<geom name="bolt" class="panel" size="0.1"/>', ("panel", "bolt")),
+        ('<geom name="bolt" size="0.1"/>', ("left out", "bolt")),
+        ('<geom name="bolt" class="bolt" size="0.1"/>', None),
+        ('<geom name="bolt" class="panel" size="0.1"/><geom class="bolt" size="0.1"/>', None),
+        ('<geom name="lid" class="panel" size="0.1"/>', None),
+        ('<geom size="0.1" class="panel"/><site name="bolt"/>', None),
+    ],
+    ids=["another class", "no class", "its class", "a class in use", "another name", "nothing for sites"],
+)
+def test_what_is_called_as_a_class_that_nothing_uses_is_told(geoms: str, told: tuple[str, str] | None) -> None:
+    found = examine(NativeEngine(), {"model.xml": CLASSES.format(geoms)}, select=["class-not-reached"]).hints
+    assert [(each.now, each.value) for each in found] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("geom", "joint", "told"),
+    [
+        ('class="deco" friction="0.4"', "<freejoint/>", True),
+        ('class="deco"', "<freejoint/>", False),
+        ('contype="0" conaffinity="0" friction="0.4"', "<freejoint/>", False),
+        ('class="deco" friction="0.4"', "<joint/>", False),
+        ('friction="0.4"', "<freejoint/>", False),
+    ],
+    ids=["friction of its own", "no friction", "masks of its own", "not free", "collides"],
+)
+def test_friction_of_a_free_body_whose_class_touches_nothing_is_told(geom: str, joint: str, told: bool) -> None:
+    deco = '<default><default class="deco"><geom contype="0" conaffinity="0"/></default></default>'
+    body = f'<body pos="0 0 1">{joint}<geom {geom} size="0.1"/></body>'
+    text = f"<mujoco>{deco}<worldbody>{FLOOR}{body}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["attribute-without-effect"]).hints
+    assert [(each.attribute, each.value) for each in found] == [("contype", "1")] * told

@@ -28,7 +28,9 @@ Good:
     +     <body name="upper" pos="0 0 1" childclass="arm">
 
 The number: how many driven joints have no class and none of damping, armature and frictionloss, where a class gives
-joints some of it, which no joint uses, or more than there are such driven joints.
+joints some of it, which no joint uses, or more than there are such driven joints. And how many elements are called as a
+class that nothing uses and that has something for their kind: a geom `bolt` of class `panel`, beside a class `bolt`. Of
+1113 models one has such a geom, a cube without the friction of class `cube`.
 
 When it is wrong: a class that is meant for other joints, which are the only ones with damping.
 """
@@ -38,22 +40,26 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
+from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.source import Element, Source
 from clinic.diagnosis.suspect import Suspect, counted
 
-TITLE = "A default class that does not reach a joint"
+TITLE = "A default class that does not reach what it is for"
 FAMILIES = ("oscillates", "explodes", "drifts")
 SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "which class a joint was meant to have, only its maker knows"
 
+KINDS = ("joint", "geom", "site", "camera", "light")
 FIELDS = ("damping", "armature", "frictionloss")
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """The driven joints that no class reaches, all together."""
+    """What is called as a class that nothing uses, and the driven joints that no class reaches, all together."""
     of, source = model.simulation, model.source
+    if source is not None and not source.urdf:
+        yield from _namesakes(source)
     if source is None or source.urdf or not (classes := _classes(source)):
         return
     driven = sorted(of.drivers)
@@ -66,6 +72,21 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     probe = counted("driven joints that no class reaches", len(bare))
     names = tuple(of.name("joint", joint) for joint in bare)
     yield Suspect(names, "class", "left out", name, (), probe, 0, says, "damping and armature of a class")
+
+
+def _namesakes(source: Source) -> Iterator[Suspect]:
+    """The elements that are called as a class which no element uses, and which has something for their kind."""
+    used = {each.get(name) for each in source.root.walk() for name in ("class", "childclass") if each.tag != "default"}
+    leaves = [each for each in source.elements("default") if each.first("default") is None and each.parent]
+    unused = {name: each for each in leaves if (name := each.get("class")) not in used}
+    called = [each for each in source.of_bodies(*KINDS) if each.get("name") and each.get("name") in unused]
+    found = [each for each in called if unused[each.get("name")].first(each.tag)]
+    for each in found:
+        name, now = each.get("name"), _class(each)
+        says = f"Class {name} is used by nothing, and what is called so has {f'class {now}' if now else 'no class'}."
+        probe = counted("elements that are called as a class that nothing uses", len(found))
+        edits = (set_attribute(each, "class", name),)
+        yield Suspect((f'{each.tag} "{name}"',), "class", now or "left out", name, edits, probe, 0, says, name, at=each)
 
 
 def _classes(source: Source) -> list[str]:

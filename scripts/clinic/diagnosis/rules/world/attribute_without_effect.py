@@ -3,8 +3,9 @@
 `biasprm` needs `biastype="affine"`: without it a `<general>` is a motor, its control a force. `lengthrange` tells a
 muscle how its tendon's length is scaled, and nobody else; `<position>` with a `ctrlrange` holds a length. `springref`
 needs a `stiffness`, `fluidcoef` a `fluidshape` and that a `density` or a `viscosity` of the `<option>`, and the
-`friction` of a geom that decides by its `priority` a `condim` above 1. A `forcerange` is off by `forcelimited="false"`,
-and a `ctrlrange` by `ctrllimited="false"`.
+`friction` of a geom that decides by its `priority` a `condim` above 1; one that is written for a free body needs a
+`contype` where its class has none for it. A `forcerange` is off by `forcelimited="false"`, and a `ctrlrange` by
+`ctrllimited="false"`.
 
 Bad:
 
@@ -46,7 +47,7 @@ from typing import NamedTuple
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import GAIN_MUSCLE
-from clinic.diagnosis.probes.shape import FLUID, solid
+from clinic.diagnosis.probes.shape import FLUID, in_pairs, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, counted
@@ -84,6 +85,7 @@ IDLE = {
     Idle("actuator", "ctrlrange", ("ctrllimited", "true"), "ctrllimited says false: it takes any control."),
     Idle("joint", "springref", ("stiffness", "above 0"), "Without stiffness there is no spring."),
     Idle("geom", "friction", ("condim", "3"), "With condim 1, which decides here, a contact has no friction."),
+    Idle("geom", "friction", ("contype", "1"), "It is of a free body that touches nothing: its class has contype 0."),
     Idle("geom", "fluidcoef", ("fluidshape", "ellipsoid"), "Without fluidshape its coefficients are not read."),
     Idle("geom", "fluidshape", ("", "density or viscosity of <option>"), "There is no fluid: both are 0 in <option>."),
 }
@@ -113,6 +115,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _without_effect(model: ReaderModel, idle: Idle, each: int) -> bool:
     written = model.value(idle.kind, each, idle.attribute)
+    if idle.needs[0] == "contype":
+        return _untouched(model, each)
     if written is None or not any(word.strip("0.-+") for word in written.split()) or written == "none":
         return False
     return not _read(model.simulation, idle.attribute, each)
@@ -137,6 +141,17 @@ def _read(of: Simulation, attribute: str, each: int) -> bool:
             return bool(of.model("geom_fluid")[FLUID * each])
         case _:
             return any(of.model(f"opt.{what}")[0] for what in ("density", "viscosity"))
+
+
+def _untouched(model: ReaderModel, geom: int) -> bool:
+    """Whether a geom with a friction of its own gets masks of 0 from its class, on a free body that touches nothing."""
+    of, element = model.simulation, model.element("geom", geom)
+    body, paired = of.body_of("geom", geom), in_pairs(of)
+    if element is None or "friction" not in element.attributes or body not in of.free_bodies:
+        return False
+    every = [each for below in of.below(body) for each in of.geoms_of(below)]
+    bare = not any(solid(of, each) or each in paired for each in every)
+    return bare and not {"contype", "conaffinity"} & element.attributes.keys()
 
 
 def _slick(of: Simulation, geom: int) -> bool:

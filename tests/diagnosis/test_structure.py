@@ -326,6 +326,25 @@ def test_an_object_that_lies_on_something_and_has_no_joint_is_told(
 
 
 @pytest.mark.parametrize(
+    ("geom", "tool", "beside", "told"),
+    [
+        pytest.param('mass="0.04"', "vacuum", "", True, id="nothing else to hold"),
+        pytest.param("", "vacuum", "", False, id="no mass"),
+        pytest.param('mass="0.04"', "probe", "", False, id="no gripper"),
+        pytest.param('mass="0.04"', "vacuum", '<body><freejoint/><geom size="0.1"/></body>', False, id="a free one"),
+        pytest.param('mass="0.04" pos="0.2 0 0"', "vacuum", "", True, id="aside"),
+    ],
+)
+def test_what_has_a_mass_is_what_a_gripper_is_to_hold_where_nothing_is_free(geom, tool, beside, told):
+    chip = f'<body name="chip" pos="0.3 0 0.02"><geom type="box" size="0.02 0.02 0.02" {geom}/></body>'
+    arm = f'<body name="{tool}" pos="0 0 0.3"><joint type="slide" damping="1"/><geom size="0.02"/></body>'
+    floor = '<geom type="plane" size="2 2 0.1"/>'
+    text = f"<mujoco><worldbody>{floor}{chip}{arm}{beside}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["object-without-joint"]).hints
+    assert [each.elements for each in found] == [('body "chip"',)] * told
+
+
+@pytest.mark.parametrize(
     ("geom", "height", "told"),
     [
         pytest.param('size="0.2"', 1, True, id="a ball in the air"),

@@ -25,8 +25,9 @@ Good:
 The number: bodies of the world without joints and without others on them that collide, and whose mass somebody wrote
 down (the mass of what cannot move has no effect), or that are called a cube, a ball, a bottle and the like: those that
 hang in the air, and reach neither a plane nor another thing that stands still. What lies on something is told where it
-is called so, is smaller than 30 cm, and has a mass that is written, or the model a gripper; and what looks like another
-that can move; and a ball in the air whose one joint, a hinge through its middle, moves it nowhere.
+is called so, is smaller than 30 cm, and has a mass that is written, or the model a gripper; or, whatever it is called,
+where it has a mass, and the model a gripper and nothing free to hold. And so is what looks like another that can move;
+and a ball in the air whose one joint, a hinge through its middle, moves it nowhere.
 
 When it is wrong: a lamp, or an obstacle that is meant to stay where it is.
 """
@@ -105,7 +106,9 @@ def _weighed(model: ReaderModel) -> Iterator[int]:
         weighed = any((model.value("geom", geom, "mass") or "0") != "0" for geom in geoms)
         weighed = weighed or inertial(model, body) is not None
         called = len(geoms) == 1 and bool(OBJECT.search(of.names("body")[body]))
-        held = called and (weighed or gripper) and of.model("geom_rbound")[geoms[0]] < SMALL
+        wanted = called and (weighed or gripper)
+        wanted = wanted or (weighed and gripper and len(geoms) == 1 and not of.free_bodies)
+        held = wanted and of.model("geom_rbound")[geoms[0]] < SMALL
         if geoms and (held or ((weighed or called) and _height(of, body) > HANGS)):
             yield body
 

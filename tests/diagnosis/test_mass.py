@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.edit import apply
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.probes.matter import matter
 from clinic.diagnosis.simulation import Simulation, Start
@@ -246,3 +247,26 @@ def test_a_ball_of_water_is_told_where_it_is_heavier_than_the_robot(ball: str, m
     text = f"<mujoco><worldbody>{drone}{thing}</worldbody>{drive}</mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["heavy-by-default"]).hints
     assert [each.now for each in found] == told
+
+
+@pytest.mark.parametrize(
+    ("pos", "inertia", "shift", "told"),
+    [
+        ("0 0 1", "7.4 8.9 1.52", 0.455, "0.455 0 1"),
+        ("0.45 0 1", "7.4 8.9 1.52", 0.455, None),
+        ("0 0 1", "7.4 8.9 1.52", 0.1, None),
+        ("0 0 1", "7.4 7.4 0.02", 0.455, None),
+        ("0 0 1", "1.5 1.5 1.5", 0.455, None),
+        ("-0.02 0 1", "7.4 8.9 1.52", 0.455, None),
+    ],
+    ids=["on the hinge", "in the middle", "geoms on both sides", "narrow", "a placeholder", "beside the hinge"],
+)
+def test_an_inertia_that_has_no_room_about_a_centre_on_the_hinge_is_told(pos, inertia, shift, told):
+    leaf = f'<geom type="box" size="0.445 0.02 1" pos="{shift} 0 1"/>'
+    own = f'<inertial pos="{pos}" mass="22" diaginertia="{inertia}"/>'
+    door = f'<body name="door" pos="0 0 0.02">{own}<joint axis="0 0 1"/>{leaf}</body>'
+    text = {"model.xml": f"<mujoco><worldbody>{door}</worldbody></mujoco>"}
+    found = examine(NativeEngine(), text, select=["centre-at-the-joint"]).hints
+    assert [each.value for each in found] == ([f"pos {told}"] if told else [])
+    for each in found:
+        assert not examine(NativeEngine(), apply(text, each.edit), select=["centre-at-the-joint"]).hints

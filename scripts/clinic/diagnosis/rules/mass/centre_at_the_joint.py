@@ -33,6 +33,10 @@ Good:
 The number: how far the middle of the geoms is from the joint, in half lengths of the box around them; told from 0.7 on
 of one link that a hinge turns, where no other is so; of several where the joint is half of that outside of the box.
 
+And a centre on the hinge's axis, near the edge of the geoms, beside an inertia of its own that has no room then: mass
+between a and b whose centre is c has a mean square distance from it of (b - c)(c - a) at most. Twice that is told,
+where there is room about the middle of the geoms.
+
 When it is wrong: a link that a counterweight balances.
 """
 
@@ -43,7 +47,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.inertia import set_inertial
 from clinic.diagnosis.probes.matter import explicit, matter
-from clinic.diagnosis.probes.vector import norm, sub, written
+from clinic.diagnosis.probes.vector import add, cross, dot, norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -56,6 +60,7 @@ LEVEL = "hint"
 UNPLANTED = "which link a counterweight balances, only its maker knows"
 
 FAR, OUTSIDE = 0.7, 0.5
+ON, TWICE, TINY = 1e-4, 2.0, 1e-2  # of the size of the body; times the room; of the room
 LIGHT = 0.01  # of the mass of all
 
 
@@ -68,20 +73,44 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if len(found) != 1:
         found = [(body, each) for body, each in found if each.outside > OUTSIDE * max(each.half)]
     if len(heavy) - len(here) < 2:
-        return
-    for body, each in found:
-        far = norm(each.solid_centre)
+        found = []
+    for body, each in heavy:
+        far, crowded = norm(sub(each.solid_centre, each.centre)), _crowded(of, body)
+        if (body, each) not in found and crowded <= TWICE:
+            continue
+        probe = Probe("middle of the geoms from the centre of mass", "half lengths", _apart, (body,), dynamic=False)
+        if crowded > TWICE:
+            probe = Probe("spread of the mass over the room for it", "times", _crowded, (body,), dynamic=False)
         yield Suspect(
             (of.name("body", body),),
             "inertial",
-            "pos 0 0 0",
+            f"pos {written(each.centre)}",
             f"pos {written(each.solid_centre)}",
             set_inertial(model, body, each.mass, each.solid_centre, each.about),
-            Probe("middle of the geoms from the centre of mass", "half lengths", _apart, (body,), dynamic=False),
-            FAR,
+            probe,
+            TWICE if crowded > TWICE else FAR,
             f"{each.mass:.3g} kg lie in its joint, and the middle of its geoms {far:.3g} m from there.",
             "where the geoms are",
         )
+
+
+def _crowded(of: Simulation, body: int) -> float:
+    """How often the spread of a body's mass is what fits into its geoms beside a centre on its hinge's axis.
+
+    0 where the centre is off the axis, the inertia no measured one, or does not fit about the geoms' own centre either.
+    """
+    joints, found = of.joints_of(body), matter(of, body)
+    if len(joints) != 1 or found is None or found.even:
+        return 0.0
+    axis, off = of.row("jnt_axis", joints[0], 3), sub(found.centre, of.row("jnt_pos", joints[0], 3))
+    apart = sub(found.solid_centre, found.centre)
+    across = [abs(x) for x in add(apart, axis, -dot(apart, axis))]
+    side = across.index(max(across))
+    low, high = (found.middle[side] + sign * found.half[side] for sign in (-1, 1))
+    spread = (sum(found.about[::4]) / 2 - found.about[4 * side]) / found.mass
+    room, own = ((high - at[side]) * (at[side] - low) for at in (found.centre, found.solid_centre))
+    on_axis = norm(cross(axis, off)) < ON * max(found.half)
+    return spread / max(room, TINY * own) if on_axis and 0 < spread < own else 0.0
 
 
 def _turns(of: Simulation, body: int) -> bool:

@@ -71,3 +71,9 @@ def test_a_medium_that_a_swimmer_is_not_made_for_is_told(
 def test_a_free_joint_on_a_spring_of_the_default_is_told_where_nothing_weighs(joint: str, told: bool) -> None:
     found = [each for each in fish(f"{WATER} {STILL}", joint=joint).hints if each.rule == "root-on-springs"]
     assert [(each.attribute, each.after) for each in found] == [("stiffness", 0.0)] * told
+
+
+@pytest.mark.parametrize(("density", "told"), [("1", "1000"), ("1.1", "1100"), ("1000", None), ("30", None)])
+def test_a_swimmer_with_a_density_in_g_per_cm3_is_told(density: str, told: str | None) -> None:
+    found = fish(f"{WATER} {STILL}", f'density="{density}" fluidshape="ellipsoid"').hints
+    assert [each.value for each in found if each.attribute == "density"] == ([told] if told else [])

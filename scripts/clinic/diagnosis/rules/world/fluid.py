@@ -26,7 +26,8 @@ its weight; below 0.1 is well. A little viscosity is a usual way to bring what d
 
 Where geoms have a `fluidshape`, the medium is meant, and hints tell what does not fit it: water's viscosity of 0.0009
 without a density, or, beside the density of water, written in mPa s. What has 0.8 to 1.25 times the density of a liquid
-and sinks is told too, for MuJoCo has no buoyancy: it takes `gravity="0 0 0"`, or `gravcomp`.
+and sinks is told too, for MuJoCo has no buoyancy: it takes `gravity="0 0 0"`, or `gravcomp`. And so is a swimmer whose
+`density` is that of a solid in g/cm3, and less than a fiftieth of the liquid's.
 
 When it is wrong: a boat. What cannot fall, or has no gravity, is left alone.
 """
@@ -38,7 +39,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import GRAVITY_OFF
 from clinic.diagnosis.probes.matter import matter
-from clinic.diagnosis.probes.shape import FLUID, falling, size, swims
+from clinic.diagnosis.probes.shape import FLUID, falling, geoms_of_tree, roots, size, swims
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -54,6 +55,7 @@ MEDIUM = (  # air, what is told, what is told where geoms are shaped for it, and
 )
 WATER, THIN, THICK = (995.0, 1035.0), (0.0005, 0.002), (0.5, 2.0)  # kg/m3, fresh and salt; Pa s, and mPa s
 AFLOAT = 0.8, 1.25  # of the medium's density
+NOTHING, SOLID = 0.02, (0.3, 20.0)  # of the medium's density; g/cm3
 
 
 def _held_back(simulation: Simulation) -> float:
@@ -74,6 +76,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if shaped:
         yield from _unfit(model)
         yield from _sinking(model)
+        yield from _light(model)
     if not any(simulation.model("opt.gravity")) or int(simulation.model("opt.disableflags")[0]) & GRAVITY_OFF:
         return
     probe = Probe("drag of a fall", "of the weight", _held_back, dynamic=False)
@@ -121,6 +124,26 @@ def _sinking(model: ReaderModel) -> Iterator[Suspect]:
     says = f"{names[0]} is as dense as the medium of {medium:g} kg/m3, and sinks: MuJoCo has no buoyancy."
     edits = model.option("gravity", "0 0 0")
     yield Suspect(("gravity", *names), "gravity", now, "0 0 0", edits, probe, 0, says, "0 0 0", level="hint")
+
+
+def _light(model: ReaderModel) -> Iterator[Suspect]:
+    """The swimmers that weigh next to nothing in a liquid, by a density that is right in g/cm3."""
+    of = model.simulation
+    for root in (each for each in roots(of) if swims(of, each) and _dense(of, each) < NOTHING):
+        geoms = geoms_of_tree(of, root)
+        texts = {model.value("geom", geom, "density") or "" for geom in geoms}
+        text, name = texts.pop(), of.name("body", root)
+        if texts or not text or not SOLID[0] < float(text) < SOLID[1]:
+            continue
+        value = f"{1000 * float(text):g}"
+        says = f"{name} has {text} kg/m3 in a liquid of {of.model('opt.density')[0]:g}; in g/cm3 it is that of a solid."
+        probe = Probe("density of the liquid over the swimmer's", "", _thinner, (root,), dynamic=False)
+        edits = model.set("geom", geoms, "density", value)
+        yield Suspect((name,), "density", text, value, edits, probe, 1 / NOTHING, says, "as its liquid", level="hint")
+
+
+def _thinner(of: Simulation, root: int) -> float:
+    return 1 / max(_dense(of, root), 1e-12)
 
 
 def _dense(of: Simulation, root: int) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from clinic.diagnosis.diagnose import Diagnosis, examine
+from clinic.diagnosis.edit import apply
 from clinic.diagnosis.native import NativeEngine
 
 FISH = """<mujoco>
@@ -77,3 +78,32 @@ def test_a_free_joint_on_a_spring_of_the_default_is_told_where_nothing_weighs(jo
 def test_a_swimmer_with_a_density_in_g_per_cm3_is_told(density: str, told: str | None) -> None:
     found = fish(f"{WATER} {STILL}", f'density="{density}" fluidshape="ellipsoid"').hints
     assert [each.value for each in found if each.attribute == "density"] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("axis", "size", "more", "told"),
+    [
+        ("0 1 0", "0.04 0.005 0.03", "", ("axis", "0 0 1")),
+        ("0 0 1", "0.04 0.005 0.03", "", None),
+        ("1 0 0", "0.04 0.005 0.03", "", None),
+        ("0 1 0", "0.04 0.02 0.03", "", None),
+        ("0 1 0", "0.04 0.005 0.03", '<joint axis="0 0 1"/>', None),
+        ("0 1 0", "0.04 0.005 0.03", '<geom size="0.01 0.01 0.02"/>', None),
+    ],
+    ids=["about its normal", "flaps", "rolls", "thick", "flaps too", "with a rod across"],
+)
+def test_a_fin_that_turns_in_its_own_plane_is_told(axis, size, more, told):
+    text = FISH.format(option=f"{WATER} {STILL}", geom=SHAPED, joint="<freejoint/>")
+    text = text.replace('"tail" axis="0 0 1"/>', f'"tail" axis="{axis}" range="-40 40"/>{more}')
+    text = {"model.xml": text.replace('"0.04 0.005 0.03"', f'"{size}"')}
+    found = examine(NativeEngine(), text, select=["fin-in-its-plane"]).hints
+    assert [(each.attribute, each.value) for each in found] == ([told] if told else [])
+
+
+def test_a_fin_on_what_turns_about_the_same_axis_gets_the_other_size():
+    text = FISH.format(option=f"{WATER} {STILL}", geom=SHAPED, joint='<joint axis="0 0 1"/>')
+    text = text.replace('"tail" axis="0 0 1"', '"tail" axis="0 0 1" range="-40 40"')
+    fish_ = {"model.xml": text.replace("0.04 0.005 0.03", "0.04 0.03 0.005")}
+    (found,) = examine(NativeEngine(), fish_, select=["fin-in-its-plane"]).hints
+    assert (found.attribute, found.value) == ("size", "0.04 0.005 0.03")
+    assert not examine(NativeEngine(), apply(fish_, found.edit), select=["fin-in-its-plane"]).hints

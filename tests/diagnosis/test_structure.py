@@ -579,3 +579,36 @@ def test_the_one_thing_that_brings_a_tendon_into_its_range_is_told(
       {'<spatial><site site="far"/><site site="tip"/></spatial>' if site == "far" else ""}</tendon></mujoco>"""
     found = examine(NativeEngine(), {"model.xml": text}, select=["tendon-outside-range"]).hints
     assert [(each.attribute, each.value) for each in found if each.attribute != "range"] == ([told] if told else [])
+
+
+LOOP = rules()["loop-not-assembled"].example("Good")
+STANDING = LOOP.replace("<worldbody>", '<worldbody><geom size="0.1" pos="0 0 1"/>')
+TURNED = LOOP.replace('"rocker" pos="0.5 0 1"', '"rocker" pos="0.5 0 1" euler="0 90 0"').replace(
+    '"-0.3 0 0"', '"0 0 -0.3"'
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "right", "wrong", "told"),
+    [
+        (LOOP, '"-0.3 0 0"', '"0.3 0 0"', ('site "hole"', "pos", "-0.3 0 0")),
+        (STANDING, '"0.5 0 1"', '"0.5 1 0"', ('body "rocker"', "pos", "0.5 0 1")),
+        (LOOP, '"0.5 0 1"', '"-0.5 0 1"', ('body "rocker"', "pos", "0.5 0 1")),
+        (LOOP, '"-0.3 0 0"', '"-0.2 0 0"', ('site "pin"', "pos", "-0.3 0 0")),
+        (TURNED, ' euler="0 90 0"', "", ('site "hole"', "pos", "-0.3 0 0")),
+        (
+            TURNED.replace("0 90 0", "0 60 0").replace('"0 0 -0.3"', '"-0.15 0 -0.259808"'),
+            ' euler="0 60 0"',
+            "",
+            ('body "rocker"', "quat", "0.866025 0 0.5 0"),
+        ),
+    ],
+    ids=["a site's sign", "exchanged", "a body's sign", "another length", "another axis", "orientation left out"],
+)
+def test_a_loop_that_a_slip_of_the_pen_opens_is_closed_there(text, right, wrong, told):
+    assert text.count(right) == 1
+    broken = {"model.xml": text.replace(right, wrong)}
+    (found,) = examine(NativeEngine(), broken, select=["loop-not-assembled"]).hints
+    assert (found.elements[0], found.attribute, found.value) == told
+    assert not examine(NativeEngine(), apply(broken, found.edit), select=["loop-not-assembled"]).hints
+    assert not examine(NativeEngine(), {"model.xml": text}, select=["loop-not-assembled"]).hints

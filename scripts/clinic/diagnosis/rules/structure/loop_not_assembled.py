@@ -31,7 +31,9 @@ Good:
 
 The number: how far apart the two places are at the start that an equality holds together, as a share of the model's
 extent; below 1 % is well. The second site is moved to where the first one is, or `relpose` is left out, so that the
-start counts as assembled. From a keyframe it is a hint.
+start counts as assembled. But where all but a thousandth of the gap goes once two numbers in the `pos` of one site or
+body of the loop are exchanged, or one has another sign, or once a body without an orientation is turned about its own
+hinge, that is the edit; of several the one that makes the model smallest. From a keyframe it is a hint.
 
 When it is wrong: something that is to be pulled in. Bodies that are moved by `mocap` are left out, but for a weld with
 a `relpose` of its own that puts the other body more than 10 % of the extent away.
@@ -39,14 +41,17 @@ a `relpose` of its own that puts the other body more than 10 % of the extent awa
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.equalities import CONNECT, WELD, by_mocap, ends, gap, held, kind_of, sited
-from clinic.diagnosis.probes.vector import sub, times, transpose, written
+from clinic.diagnosis.probes.vector import Vector, add, cross, dot, sub, times, transpose, unit, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.structure.equality_copied import copied_ends
 from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.source import ORIENTATIONS
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A loop that is not closed at the start"
@@ -56,6 +61,7 @@ CASE = "linkage-jumps-at-start"
 LEVEL = "hint"
 UNPLANTED = "the healthy models connect and weld nothing but what is moved by mocap"
 
+CLOSED, MANY, LONG = 1e-3, 3, 12  # of the gap; loops that are open; bodies of a loop
 APART, PUSHED = 0.01, 0.1  # of the model's extent; where mocap moves one of the two
 
 
@@ -72,15 +78,86 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         ):
             continue
         edits = _edits(model, each) if of.begin_with.key < 0 else ()
-        kind = "site" if sited(of, each) else "body"
+        kind, attribute, now = ("site", "pos", "") if sited(of, each) else ("body", "relpose", "")
         names = tuple(of.name(kind, it) for it in held(of, each))
         far = 1000 * apart * of.model("stat.extent")[0]
         says = f"They are {far:.3g} mm apart at the start, and are to be in one place."
-        yield Suspect(
-            names, "pos" if sited(of, each) else "relpose", "", edits[0].value if edits else "", edits,
-            Probe("gap that an equality has to close at the start", "of the extent", _gap, (each,), dynamic=False),
-            APART, says, "closed at the start",
-        )  # fmt: skip
+        if edits and sited(of, each) and (slip := _slip(model, each)) is not None:
+            odd, attribute, now, edits = slip
+            says = f"{names[0]} and {names[1]} are {far:.3g} mm apart at the start; with this value they meet."
+            names = tuple(dict.fromkeys((odd, *names)))
+        probe = Probe("gap that an equality has to close at the start", "of the extent", _gap, (each,), dynamic=False)
+        value = edits[-1].value if edits else ""
+        yield Suspect(names, attribute, now, value, edits, probe, APART, says, "closed at the start")
+
+
+def _slip(model: ReaderModel, each: int) -> tuple[str, str, str, tuple[Edit, ...]] | None:
+    """What of a loop closes it by a slip of the pen undone: its name, the attribute, its value and the edits."""
+    of, ends_ = model.simulation, held(model.simulation, each)
+    bodies = [of.body_of("site", it) for it in ends_]
+    if len(_apart(of)) > MANY or model.urdf:
+        return None
+    lines = [of.ancestors(body) for body in bodies]
+    loop = [body for body in (*lines[0], *lines[1]) if not (body in lines[0] and body in lines[1])][:LONG]
+    tries = []
+    for kind, index in (*(("site", it) for it in ends_), *(("body", body) for body in loop)):
+        place, element = of.row(f"{kind}_pos", index, 3), model.element(kind, index)
+        written_ = _slips(place) if element is not None and element.get("pos") else ()
+        tries += [(kind, index, "pos", written(place), value) for value in written_]
+    for body in loop:
+        element = model.element("body", body)
+        bare = element is not None and not set(ORIENTATIONS) & element.attributes.keys()
+        if bare and (turn := _turn(of, each, body)):
+            tries.append(("body", body, "quat", "left out", written(turn)))
+    most = model.measured(_all_gaps()) - (1 - CLOSED) * _gap(of, each)
+    found = []
+    for kind, index, attribute, now, value in tries:
+        edits = model.set(kind, [index], attribute, value)
+        if edits and model.measured(_all_gaps(), edits) <= most:
+            found.append((of.name(kind, index), attribute, now, edits))
+    return min(found, key=lambda each: round(model.measured(_extent(), each[-1]), 6), default=None)
+
+
+def _slips(place: Vector) -> list[str]:
+    """A place with two of its numbers exchanged, or with another sign of one."""
+    flipped = [tuple(-x if i == at else x for i, x in enumerate(place)) for at in range(3) if place[at]]
+    x, y, z = place
+    swapped = [each for each in ((y, x, z), (z, y, x), (x, z, y)) if each != place]
+    return [written(each) for each in (*swapped, *flipped)]
+
+
+def _turn(of: Simulation, each: int, body: int) -> Vector:
+    """The quaternion about a body's one hinge that brings one end of an equality nearest to the other; else nothing."""
+    joints = of.joints_of(body)
+    if len(joints) != 1 or of.joint_type(joints[0]) != HINGE:
+        return ()
+    of.begin()
+    axis, anchor = (of.data_row(name, joints[0], 3) for name in ("xaxis", "xanchor"))
+    mine = next(i for i, it in enumerate(held(of, each)) if body in of.ancestors(of.body_of("site", it)))
+    ways = [sub(end, anchor) for end in ends(of, each)]
+    own, other = (unit(add(way, axis, -dot(way, axis))) for way in (ways[mine], ways[1 - mine]))
+    angle = math.atan2(dot(axis, cross(own, other)), dot(own, other))
+    return (math.cos(angle / 2), *(math.sin(angle / 2) * x for x in of.row("jnt_axis", joints[0], 3)))
+
+
+def _all_gaps() -> Probe:
+    return Probe("all gaps that equalities have to close at the start", "of the extent", _gaps, dynamic=False)
+
+
+def _extent() -> Probe:
+    return Probe("size of the model", "m", _size, dynamic=False)
+
+
+def _size(of: Simulation) -> float:
+    return of.model("stat.extent")[0]
+
+
+def _gaps(of: Simulation) -> float:
+    return sum(_gap(of, each) for each in range(of.count("equality")))
+
+
+def _apart(of: Simulation) -> list[int]:
+    return [each for each in range(of.count("equality")) if _gap(of, each) > APART]
 
 
 def _gap(simulation: Simulation, each: int) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.edit import apply
 from clinic.diagnosis.native import NativeEngine
 
 HALL = """<mujoco>{0}<worldbody><light pos="0 0 3"/>
@@ -27,3 +28,24 @@ def test_a_camera_of_the_world_whose_near_plane_cuts_the_robot_away_is_told(visu
     found = examine(NativeEngine(), {"hall.xml": model}, select=["near-plane-far"]).hints
     assert [each.elements for each in found] == [('camera "side"',)] * told
     assert all(each.after is not None and each.after < 0.5 < each.before for each in found)
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "told"),
+    [
+        ("1 0 0 0 0 1", "-1 0 0 0 0 1", None),
+        ("1 0 0 0 0 1", "1 0 0 0 0 1", ('camera "eye_r"', "-1 0 0 0 0 1")),
+        ("-1 0 0 0 0 1", "-1 0 0 0 0 1", ('camera "eye_l"', "1 0 0 0 0 1")),
+        ("0 -1 0 0 0 1", "0 -1 0 0 0 1", None),
+    ],
+    ids=["to both sides", "both to the left", "both to the right", "both ahead"],
+)
+def test_an_eye_that_is_turned_as_the_other_one_and_looks_at_it_is_told(left, right, told):
+    eyes = (
+        f'<camera name="eye_l" pos=".1 .03 0" xyaxes="{left}"/><camera name="eye_r" pos=".1 -.03 0" xyaxes="{right}"/>'
+    )
+    text = {"fish.xml": f"<mujoco><worldbody><body><freejoint/><geom size='.02'/>{eyes}</body></worldbody></mujoco>"}
+    found = examine(NativeEngine(), text, select=["camera-blocked"]).hints
+    assert [(each.elements[0], each.value) for each in found] == ([told] if told else [])
+    for each in found:
+        assert not examine(NativeEngine(), apply(text, each.edit), select=["camera-blocked"]).hints

@@ -612,3 +612,27 @@ def test_a_loop_that_a_slip_of_the_pen_opens_is_closed_there(text, right, wrong,
     assert (found.elements[0], found.attribute, found.value) == told
     assert not examine(NativeEngine(), apply(broken, found.edit), select=["loop-not-assembled"]).hints
     assert not examine(NativeEngine(), {"model.xml": text}, select=["loop-not-assembled"]).hints
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "out", "told"),
+    [
+        (0.03, -0.03, -1, None),
+        (0.03, 0.03, -1, ('body "fin_r"', "0 -0.03 0")),
+        (-0.03, -0.03, -1, ('body "fin_l"', "0 0.03 0")),
+        (0, 0, -1, None),
+        (0.03, 0.03, 1, None),
+    ],
+    ids=["on both sides", "both on the left", "both on the right", "in the middle", "no images"],
+)
+def test_twins_in_one_place_whose_geoms_are_mirror_images_are_told(left, right, out, told):
+    fins = "".join(
+        f'<body name="fin_{side}" pos="0 {y} 0"><joint/><geom type="box" size=".01 .02 .01" pos="0 {way * 0.02} 0" '
+        'contype="0"/></body>'
+        for side, y, way in (("l", left, 1), ("r", right, out))
+    )
+    text = {"fish.xml": f"<mujoco><worldbody><body><freejoint/><geom size='.03'/>{fins}</body></worldbody></mujoco>"}
+    found = examine(NativeEngine(), text, select=["parts-coincide"]).hints
+    assert [(each.elements[0], each.value) for each in found] == ([told] if told else [])
+    for each in found:
+        assert not examine(NativeEngine(), apply(text, each.edit), select=["parts-coincide"]).hints

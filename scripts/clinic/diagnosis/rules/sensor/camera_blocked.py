@@ -29,6 +29,9 @@ is drawn. Nor does what is nearer than `znear` times the extent, 1 % of the mode
 A camera that is below a plane and does not look up is told too, where what carries it, or most of what there is to see,
 is above.
 
+And so is the one of a left and a right camera of a body, turned alike, that looks towards the other: two eyes that look
+ahead are beside each other.
+
 When it is wrong: a camera that watches a part of its own mount.
 """
 
@@ -39,11 +42,12 @@ from itertools import product
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import MESH, PLANE
-from clinic.diagnosis.probes.vector import add, dot, sub, times, transpose, written
+from clinic.diagnosis.probes.sides import by_name
+from clinic.diagnosis.probes.vector import add, dot, sub, times, transpose, unit, written
 from clinic.diagnosis.probes.view import HEAD, axes, opening, things, through, turned
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A camera that looks into its own mount"
 FAMILIES = ("camera",)
@@ -53,12 +57,14 @@ UNPLANTED = "few healthy models have a camera on a body"
 
 MOST = 8.5  # of nine rays
 UPRIGHT = 0.7  # cosine of a floor's slope
+SAME, BESIDE = 1e-6, 0.8  # of quaternions; cosine of the angle between a view and the way to the twin
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each camera on a moving body that sees that body alone, or on a head that sees its robot alone."""
     of = model.simulation
     yield from _buried(model)
+    yield from _inwards(model)
     moving = set(of.moving_bodies)
     for camera, body in enumerate(of.model("cam_bodyid")):
         if int(body) in moving and _blocked(of, camera) > MOST:
@@ -87,6 +93,35 @@ def _buried(model: ReaderModel) -> Iterator[Suspect]:
         says = f"It is {deep:.2g} m below a floor."
         name, value = of.name("camera", camera), edits[0].value if edits else "above the floor"
         yield Suspect((name,), "pos", written(place), value, edits, probe, 0, says, "above the floor")
+
+
+def _inwards(model: ReaderModel) -> Iterator[Suspect]:
+    """Each camera that has the orientation of its twin, and looks towards it through what carries both."""
+    of = model.simulation
+    for camera, twin in _copied(of):
+        right, up, _ = axes(of, camera)
+        edits = turned(model, camera, sub((0.0, 0.0, 0.0), right), up)
+        names = of.name("camera", camera), of.name("camera", twin)
+        says = f"It is turned as {names[1]} is, and looks towards it; that one looks away."
+        value = edits[-1].value if edits else "the mirror image of its twin"
+        probe = how_many("cameras that look towards their twins, which look away", _copied)
+        yield Suspect(names, "xyaxes", "", value, edits, probe, 0, says, "both away from each other", level="hint")
+
+
+def _copied(of: Simulation) -> list[tuple[int, int]]:
+    """The cameras on a body that look towards their left or right twin on it and are turned as that is, with it."""
+    of.begin()
+    made = []
+    for pair in by_name(of, "camera"):
+        bodies = {int(of.model("cam_bodyid")[each]) for each in pair}
+        turns = [of.row("cam_quat", each, 4) for each in pair]
+        if len(bodies) == 2 or 0 in bodies or max(map(abs, sub(*turns))) > SAME:
+            continue
+        way = unit(sub(*(of.data_row("cam_xpos", each, 3) for each in reversed(pair))))
+        towards = dot(axes(of, pair[0])[2], way)
+        if abs(towards) > BESIDE:
+            made.append(pair if towards > 0 else (pair[1], pair[0]))
+    return made
 
 
 def _depth(of: Simulation, camera: int) -> float:

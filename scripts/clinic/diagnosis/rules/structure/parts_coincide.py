@@ -31,9 +31,11 @@ Good:
 
 The number: groups of moving bodies, none of which hangs on another, that begin with all their solid geoms in the same
 places, of the same kinds and sizes, and touch. Of 499 healthy models none has one. Where a link goes back by what its
-parent goes forth, its sign is turned. And the two sites of a body that are called alike
-but for a number and read by sensors, in one place that is not its origin, and turned alike; the second is put on the
-other side.
+parent goes forth, its sign is turned.
+
+So are the two sites of a body that are called alike but for a number and read by sensors, in one place that is not its
+origin, and turned alike; the second is put on the other side. And a left and a right body that hang in one place, aside
+of the middle of what they hang on, and whose geoms are mirror images.
 
 When it is wrong: parts that are meant to start in one place.
 """
@@ -47,7 +49,8 @@ from itertools import combinations
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import OBJ_SITE
 from clinic.diagnosis.probes.shape import solid
-from clinic.diagnosis.probes.vector import at, norm, written
+from clinic.diagnosis.probes.sides import by_name
+from clinic.diagnosis.probes.vector import at, norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, how_many
@@ -74,6 +77,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         now = " ".join(f"{x:.4g}" for x in of.row("body_pos", odd, 3))
         names = tuple(dict.fromkeys((of.name("body", odd), *names)))
         yield Suspect(names, "pos", now, value, edits, probe, 0.1, says, "none")
+    for odd, other in _one_side(of):
+        moved, side = list(of.row("body_pos", odd, 3)), _mirrored(of, odd, other)
+        moved[side] = -moved[side]
+        names, value = (of.name("body", odd), of.name("body", other)), written(moved)
+        says = f"{names[0]} and {names[1]} hang in one place, and their geoms are mirror images."
+        now, edits = written(of.row("body_pos", odd, 3)), model.placed(odd, moved)
+        probe = how_many("left and right bodies in one place", _one_side)
+        yield Suspect(names, "pos", now, value, edits, probe, 0, says, "none")
     for first, second in _sites(of):
         place, names = of.row("site_pos", second, 3), (of.name("site", second), of.name("site", first))
         far = max(range(3), key=lambda i: abs(place[i]))
@@ -82,6 +93,34 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         says = f"{names[1]} and {names[0]} are in one place of {of.name('body', of.body_of('site', second))}."
         probe = how_many("sites in the place of another one of their row", _sites)
         yield Suspect(names, "pos", written(place), value, edits, probe, 0, says, "none")
+
+
+def _one_side(of: Simulation) -> list[tuple[int, int]]:
+    """The pairs in one place aside of their parent's middle, that body first whose geoms go to the other side."""
+    made = []
+    for pair in by_name(of, "body"):
+        side, above = _mirrored(of, *pair), {int(of.model("body_parentid")[each]) for each in pair}
+        places = [(*of.row("body_pos", each, 3), *of.row("body_quat", each, 4)) for each in pair]
+        if side < 0 or len(above) > 1 or norm(sub(*places)) > NEAR or abs(places[0][side]) < NEAR:
+            continue
+        middle = [of.row("geom_pos", geom, 3)[side] for geom in of.geoms_of(*above)]
+        if middle and abs(sum(middle)) < len(middle) * abs(places[0][side]) / 2:
+            own = of.row("geom_pos", of.geoms_of(pair[0])[0], 3)[side]
+            made.append(pair if own * places[0][side] < 0 else (pair[1], pair[0]))
+    return made
+
+
+def _mirrored(of: Simulation, one: int, other: int) -> int:
+    """The axis across which the geoms of two bodies are mirror images; -1 for none."""
+    places = [[of.row("geom_pos", geom, 3) for geom in of.geoms_of(body)] for body in (one, other)]
+    sizes = [[of.row("geom_size", geom, 3) for geom in of.geoms_of(body)] for body in (one, other)]
+    if not places[0] or sizes[0] != sizes[1]:
+        return -1
+    for side in range(3):
+        images = [tuple(-x if i == side else x for i, x in enumerate(place)) for place in places[0]]
+        if abs(images[0][side]) > NEAR and all(norm(sub(*both)) < NEAR for both in zip(images, places[1], strict=True)):
+            return side
+    return -1
 
 
 def _sites(of: Simulation) -> list[tuple[int, int]]:

@@ -636,3 +636,33 @@ def test_twins_in_one_place_whose_geoms_are_mirror_images_are_told(left, right, 
     assert [(each.elements[0], each.value) for each in found] == ([told] if told else [])
     for each in found:
         assert not examine(NativeEngine(), apply(text, each.edit), select=["parts-coincide"]).hints
+
+
+@pytest.mark.parametrize(
+    ("name", "coefficients", "axis", "told"),
+    [
+        ("antiroll", (1, 1), "0 0 1", ('tendon "antiroll_f"', "-1")),
+        ("bar", (1, 1), "0 0 1", ('tendon "bar_f"', "the same sign in both")),
+        ("antiroll", (1, -1), "0 0 1", None),
+        ("antiroll", (1, 1), "0 0 -1", None),
+        ("antiroll", (2, 2), "0 0 1", None),
+        ("bar", (1, 1), "rear", None),
+    ],
+    ids=["a bar against roll", "any", "alike", "the axis is turned", "other coefficients", "over the same two"],
+)
+def test_a_tendon_that_adds_left_and_right_beside_one_that_does_not_is_told(name, coefficients, axis, told):
+    wheels = "".join(
+        f'<body pos="{x} {y} 0"><joint name="{side}_susp" type="slide" axis="{axis if side == "fr" else "0 0 1"}"/>'
+        '<geom size="0.1"/></body>'
+        for side, x, y in (("fl", 1, 1), ("fr", 1, -1), ("rl", -1, 1), ("rr", -1, -1))
+    )
+    front, rear = (
+        f'<fixed name="{name}_{end}" stiffness="9"><joint joint="{end}l_susp" coef="{a}"/>'
+        f'<joint joint="{end}r_susp" coef="{b}"/></fixed>'
+        for end, (a, b) in (("f", coefficients), ("r", (1, -1)))
+    )
+    front = front.replace('joint="f', 'joint="r') if axis == "rear" else front
+    text = {"car.xml": f"<mujoco><worldbody>{wheels}</worldbody><tendon>{front}{rear}</tendon></mujoco>"}
+    text["car.xml"] = text["car.xml"].replace('axis="rear"', 'axis="0 0 1"')
+    found = examine(NativeEngine(), text, select=["tendon-unlike-siblings"]).hints
+    assert [(each.elements[0], each.value) for each in found] == ([told] if told else [])

@@ -60,16 +60,23 @@ Good:
 The number: of three fixed tendons and more whose names differ by a finger or a number alone, and of which all but one
 have the same coefficients over joints as far from each other in the tree, how many stand apart.
 
+And of two whose names differ in one word, each over a left and a right joint with as large coefficients, how many add
+the joints where the other takes one from the other. The one that adds is told where it is called a bar against roll.
+
 When it is wrong: a finger that is meant to be coupled in another way.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
+from itertools import combinations
 
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.probes.siblings import WHICH
+from clinic.diagnosis.probes.sides import by_name
 from clinic.diagnosis.probes.tendons import joints_of
+from clinic.diagnosis.probes.vector import dot
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, how_many
@@ -80,7 +87,8 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "few healthy models have three tendons that are alike"
 
-ENOUGH, LIKE = 3, 1e-3
+BAR = re.compile(r"(?i)anti.?roll|sway|stabili")
+ENOUGH, LIKE, PARALLEL = 3, 1e-3, 0.95
 
 Shape = tuple[tuple[int | None, float], ...]  # of each joint: how far above the first it is, and its coefficient
 
@@ -102,6 +110,40 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             says = f"It goes to {of.name('joint', joint)}, which is of another branch; {told} go to joints of one."
         edits = _edits(model, tendon, which, attribute, value)
         yield Suspect((name,), attribute, now, value, edits, probe, 0, says, "tendons alike")
+    for adds, takes in _opposed(of):
+        coefficient, names = joints_of(of, adds)[1][1], (of.name("tendon", adds), of.name("tendon", takes))
+        says = f"{names[0]} adds the motions of left and right, and {names[1]} takes one from the other."
+        bar = BAR.search(of.names("tendon")[adds])
+        value = f"{-coefficient:g}" if bar else "the same sign in both"
+        edits = _edits(model, adds, 1, "coef", value) if bar else ()
+        probe = how_many("pairs of tendons of which one adds and one takes away", _opposed)
+        yield Suspect(names, "coef", f"{coefficient:g}", value, edits, probe, 0, says, "tendons alike")
+
+
+def _opposed(of: Simulation) -> list[tuple[int, int]]:
+    """The pairs of tendons over left and right, called alike but for a word, of which the first alone adds the two."""
+    made = []
+    twins = {frozenset(pair) for pair in by_name(of, "joint")}
+    over = {tendon: joints_of(of, tendon) for tendon in range(of.count("tendon"))}
+    for pair in combinations([each for each, part in over.items() if frozenset(dict(part)) in twins], 2):
+        words = [re.split(r"[_\W]+|(?<=[a-z])(?=[A-Z0-9])", of.names("tendon")[each]) for each in pair]
+        same = dict(over[pair[0]]).keys() == dict(over[pair[1]]).keys()  # a differential has one of each
+        if same or len(words[0]) != len(words[1]) or sum(a != b for a, b in zip(*words, strict=True)) != 1:
+            continue
+        sizes = [sorted(abs(coefficient) for _, coefficient in over[each]) for each in pair]
+        adds = [_adds(of, over[each]) for each in pair]
+        if sizes[0] == sizes[1] and adds[0] * adds[1] < 0:
+            made.append(pair if adds[0] > 0 else (pair[1], pair[0]))
+    return made
+
+
+def _adds(of: Simulation, part: Sequence[tuple[int, float]]) -> float:
+    """Above 0 where two parallel joints of one kind are added, below where one is taken from the other; else 0."""
+    of.as_written()
+    (one, first), (other, second) = part
+    along = dot(*(of.data_row("xaxis", joint, 3) for joint in (one, other)))
+    same = of.joint_type(one) == of.joint_type(other) and abs(along) > PARALLEL
+    return first * second * along if same else 0.0
 
 
 def _odd(of: Simulation) -> dict[int, list[int]]:

@@ -666,3 +666,27 @@ def test_a_tendon_that_adds_left_and_right_beside_one_that_does_not_is_told(name
     text["car.xml"] = text["car.xml"].replace('axis="rear"', 'axis="0 0 1"')
     found = examine(NativeEngine(), text, select=["tendon-unlike-siblings"]).hints
     assert [(each.elements[0], each.value) for each in found] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("second", "last", "half", "told"),
+    [
+        ("0.25 0 0.05", "0.2 0 0", 0.12, None),
+        ("0.52 0 0.05", "0.2 0 0", 0.12, "0.25 0 0.05"),
+        ("-0.23 0 0.05", "0.2 0 0", 0.05, "0.23 0 0.05"),
+        ("0.6 0 0.05", "0.2 0 0", 0.12, None),
+        ("0.52 0 0.05", "0.6 0 0", 0.12, None),
+    ],
+    ids=["well", "digits", "sign", "no slip", "two of them"],
+)
+def test_the_one_link_that_a_slip_puts_away_from_the_one_before_is_told(second, last, half, told):
+    text = ""
+    for place, size in ((last, 0.12), ("0.1 0 0", 0.12), (second, half), ("0 0 0.3", 0.12)):
+        box = f'<geom type="box" size="{size} 0.05 0.03" pos="{size} 0 0.02"/>'
+        text = f'<body pos="{place}"><joint/>{box}{text}</body>'
+    base = f'<body name="base"><geom size="0.1" pos="0 0 0.2"/>{text}</body>'
+    model = {"arm.xml": f"<mujoco><worldbody>{base}</worldbody></mujoco>"}
+    found = examine(NativeEngine(), model, select=["link-off-the-end"]).hints
+    assert [each.value for each in found] == ([told] if told else [])
+    for each in found:
+        assert not examine(NativeEngine(), apply(model, each.edit), select=["link-off-the-end"]).hints

@@ -27,6 +27,9 @@ The number: where the next link with a joint begins, in lengths of a capsule or 
 origin: 10, 100 or 1000 times as far, where no other geom is; a tenth, where the rod is the one that is unlike the
 others; or at its beginning, where the next one's is a rod in the same direction.
 
+And, of links of any shape that hinges move, the one that is more than 0.3 of its size away from what it hangs on, where
+two and more others all touch theirs, and so does it with two digits of its `pos` exchanged, or with another sign.
+
 When it is wrong: a telescope that is drawn pushed in.
 """
 
@@ -35,10 +38,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import CAPSULE, CYLINDER
+from clinic.diagnosis.engine import CAPSULE, CYLINDER, HFIELD, HINGE, PLANE
+from clinic.diagnosis.probes.shape import boxes
 from clinic.diagnosis.probes.vector import Vector, add, dot, norm, of_quaternion, sub, times, unit, written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A link off the end of the one before"
@@ -48,12 +52,15 @@ AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "where a link belongs, only a drawing tells"
 
+APART, TOUCHES, LINKS, LARGE = 0.3, 0.05, 3, 100  # sizes of the link; bodies
 WITHIN, PARALLEL, SLENDER, OFF = 0.15, 0.985, 1.5, 0.5
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each link that is in one line with the rod before it, and not at its end."""
     of = model.simulation
+    if (alone := _alone(of)) is not None:
+        yield from _slipped(model, alone)
     for body in of.moving_bodies:
         parent, share = int(of.model("body_parentid")[body]), _share(of, body)
         if not parent or not of.joints_of(body) or share == 1:
@@ -77,6 +84,74 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield Suspect(
             tuple(names), attribute, now, value, edits, probe, OFF, says, "at the end of a rod, or on its way"
         )
+
+
+def _slipped(model: ReaderModel, body: int) -> Iterator[Suspect]:
+    """The link that is away from what it hangs on, where a slip of the pen in its place tells why."""
+    of, probe = model.simulation, Probe("a link from the one before", "of its size", _gap, (body,), dynamic=False)
+    place = of.row("body_pos", body, 3)
+    meets = [each for each in _slips(place) if model.measured(probe, model.placed(body, each)) <= TOUCHES]
+    if not meets:
+        return
+    value, above = max(meets, key=norm), of.name("body", int(of.model("body_parentid")[body]))
+    names = (of.name("body", body), above)
+    says = f"It begins {_gap(of, body):.2g} times its own size away from {above}; all other links touch theirs."
+    edits = model.placed(body, value)
+    yield Suspect(names, "pos", written(place), written(value), edits, probe, APART, says, "at the link before")
+
+
+def _slips(place: Vector) -> Iterator[Vector]:
+    """A place with two neighbouring digits of a number exchanged, or another sign of it."""
+    for at, number in enumerate(place):
+        text = f"{abs(number):.6g}"
+        pairs = [i for i in range(len(text) - 1) if text[i : i + 2].isdigit()] if "e" not in text else []
+        swapped = {float(text[:i] + text[i + 1] + text[i] + text[i + 2 :]) for i in pairs}
+        for other in {math.copysign(each, number) for each in swapped} | {-number}:
+            if other != number:
+                yield tuple(other if i == at else x for i, x in enumerate(place))
+
+
+def _alone(of: Simulation) -> int | None:
+    """The one link that is away from what it hangs on, where all others touch it and are two at least."""
+    found = _gaps(of)
+    away = [body for body, gap in found.items() if gap > TOUCHES]
+    return away[0] if len(away) == 1 and len(found) >= LINKS and found[away[0]] > APART else None
+
+
+def _gap(of: Simulation, body: int) -> float:
+    return _gaps(of).get(body, 0.0)
+
+
+@kept
+def _gaps(of: Simulation) -> dict[int, float]:
+    """How far the links that hinges alone move are from what they hang on, box from box, in sizes of their own.
+
+    What is fixed to a body is part of it; bodies that hang on the world are left out, and large models.
+    """
+    if of.count("body") > LARGE:
+        return {}
+    of.as_written()
+    kinds, welds, links = of.model("geom_type"), of.model("body_weldid"), dict[int, list[int]]()
+    shapes = [geom for geom, kind in enumerate(kinds) if int(kind) not in (PLANE, HFIELD)]
+    every = boxes(of, shapes)
+    for geom in shapes:
+        if on := of.body_of("geom", geom):
+            links.setdefault(int(welds[on]), []).append(geom)
+    made = {}
+    for body in of.moving_bodies:
+        joints, parent = of.joints_of(body), int(of.model("body_parentid")[body])
+        own, above = links.get(int(welds[body]), []), links.get(int(welds[parent]), [])
+        hinged = bool(joints) and all(of.joint_type(joint) == HINGE for joint in joints)
+        if hinged and parent and own and above:
+            gaps = [_between(every[one], every[other]) for one in own for other in above]
+            made[body] = min(gaps) / max(2 * max(_radius(of, geom) for geom in own), 1e-12)
+    return made
+
+
+def _between(one: tuple[Vector, Vector], other: tuple[Vector, Vector]) -> float:
+    """How far two boxes along the world's axes are apart, in m."""
+    places, halves = zip(one[0], other[0], strict=True), zip(one[1], other[1], strict=True)
+    return norm([max(0.0, abs(a - b) - c - d) for (a, b), (c, d) in zip(places, halves, strict=True)])
 
 
 def _odd_rod(of: Simulation, geom: int, rod: Vector, place: Vector) -> bool:

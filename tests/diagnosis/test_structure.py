@@ -690,3 +690,30 @@ def test_the_one_link_that_a_slip_puts_away_from_the_one_before_is_told(second, 
     assert [each.value for each in found] == ([told] if told else [])
     for each in found:
         assert not examine(NativeEngine(), apply(model, each.edit), select=["link-off-the-end"]).hints
+
+
+@pytest.mark.parametrize(
+    ("size", "more", "told"),
+    [
+        ("0.18 0.004 0.012", "", "0.09 0.004 0.012"),
+        ("0.09 0.004 0.012", "", None),
+        ("0.4 0.004 0.012", "", None),
+        ("0.18 0.02 0.012", "", None),
+        ("0.18 0.004 0.012", '<geom type="box" size="0.25 0.2 0.01"/>', None),
+    ],
+    ids=["full length", "half", "out with half, too", "of another width", "on a larger plate"],
+)
+def test_the_one_wall_that_sticks_out_of_a_maze_is_told(size: str, more: str, told: str | None) -> None:
+    rim = "".join(
+        f'<geom type="box" pos="{x} {y} 0.012" size="{half}"/>'
+        for x, y, half in (
+            (0, 0.146, "0.15 0.004 0.012"),
+            (0, -0.146, "0.15 0.004 0.012"),
+            (0.146, 0, "0.004 0.15 0.012"),
+            (-0.146, 0, "0.004 0.15 0.012"),
+        )
+    )
+    wall = f'<geom name="wall" type="box" pos="-0.05 0.05 0.012" size="{size}"/>'
+    model = {"maze.xml": f"<mujoco><worldbody><body><joint/>{rim}{wall}{more}</body></worldbody></mujoco>"}
+    found = examine(NativeEngine(), model, select=["full-lengths"]).hints
+    assert [each.value for each in found] == ([told] if told else [])

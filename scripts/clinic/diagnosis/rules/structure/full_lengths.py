@@ -22,7 +22,8 @@ Good:
     +     <geom name="step" type="box" size="0.15 0.6 0.05" pos="0.65 0 0.05"/>
 
 The number: upright boxes and cylinders whose middle is as high above a plane, or above the box that they stand on, as a
-half of their half height: with half the size they would stand on it.
+half of their half height: with half the size they would stand on it. And a wall of a maze: of four boxes and more of a
+body that are as wide and as high, the one that ends beyond all its other boxes, and with half its length would not.
 
 When it is wrong: a box that is to be sunk by exactly so much.
 """
@@ -32,10 +33,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.engine import CYLINDER
+from clinic.diagnosis.engine import BOX, CYLINDER
 from clinic.diagnosis.probes.overlap import sunk_by_half
+from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect, counted
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Suspect, counted, how_many
 
 TITLE = "A size with full lengths"
 FAMILIES = ("jumps-at-start", "explodes", "wrong-numbers")
@@ -43,10 +46,19 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "how large a box should be, only its maker knows"
 
+WALLS, OUT = 3, 0.02  # others in a row; of the length of all others
+
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """All boxes and cylinders that would stand on something with half their size."""
+    """All boxes and cylinders that would stand on something with half their size, and walls that stick out."""
     of = model.simulation
+    for geom in _sticking_out(of):
+        half = of.row("geom_size", geom, 3)
+        value = written([x / 2 if x == max(half) else x for x in half])
+        says = "It ends beyond all else of its body, and with half its length would not; the others are as wide."
+        probe = how_many("walls that stick out of their body", _sticking_out)
+        wall = (of.name("geom", geom),)
+        yield Suspect(wall, "size", written(half), value, model.set("geom", [geom], "size", value), probe, 0, says, "")
     of.begin()
     found = [geom for geom in range(of.count("geom")) if sunk_by_half(of, geom)]
     placed = [(geom, element) for geom in found if (element := model.element("geom", geom)) is not None]
@@ -62,3 +74,31 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = "A size is half a length, and with half of it it would stand on what it is sunk into."
     now, probe = placed[0][1].get("size"), counted("boxes that are sunk by half their half height", len(placed))
     yield Suspect(names, "size", now, edits[0].value, tuple(edits), probe, 0.5, says, "half lengths")
+
+
+def _sticking_out(of: Simulation) -> list[int]:
+    """The walls that end beyond all other boxes of their body and with half the length do not, one of a body."""
+    kinds, made = of.model("geom_type"), []
+    for body in range(1, of.count("body")):
+        boxes = [geom for geom in of.geoms_of(body) if int(kinds[geom]) == BOX and _upright(of, geom)]
+        found = [geom for geom in boxes if _sticks_out(of, geom, [each for each in boxes if each != geom])]
+        made += found if len(found) == 1 else []
+    return made
+
+
+def _upright(of: Simulation, geom: int) -> bool:
+    return of.row("geom_quat", geom, 4)[0] == 1
+
+
+def _sticks_out(of: Simulation, geom: int, others: list[int]) -> bool:
+    half, place = of.row("geom_size", geom, 3), of.row("geom_pos", geom, 3)
+    row = [each for each in others if sorted(of.row("geom_size", each, 3))[:2] == sorted(half)[:2]]
+    if len(row) < WALLS:
+        return False
+    along = half.index(max(half))
+    ends = [(of.row("geom_pos", each, 3)[along], of.row("geom_size", each, 3)[along]) for each in others]
+    low, high = min(at - size for at, size in ends), max(at + size for at, size in ends)
+    beyond, inside = (
+        max(low - place[along] + size, place[along] + size - high) for size in (half[along], half[along] / 2)
+    )
+    return beyond > OUT * (high - low) and inside <= 0

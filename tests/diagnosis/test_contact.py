@@ -490,3 +490,23 @@ def test_friction_of_a_free_body_whose_class_touches_nothing_is_told(geom: str, 
     text = f"<mujoco>{deco}<worldbody>{FLOOR}{body}</worldbody></mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["attribute-without-effect"]).hints
     assert [(each.attribute, each.value) for each in found] == [("contype", "1")] * told
+
+
+@pytest.mark.parametrize(
+    ("height", "house", "plane", "told"),
+    [
+        (-0.1, 0.25, FLOOR, "0 0 0.2"),
+        (0.2, 0.25, FLOOR, None),
+        (0.05, 0.25, FLOOR, None),
+        (-0.1, 0.05, FLOOR, None),
+        (-0.3, 0.4, FLOOR, None),
+        (-0.1, 0.25, "", None),
+    ],
+    ids=["mostly below", "on it", "a little below", "with its joint", "wholly below", "no floor"],
+)
+def test_a_base_of_the_world_that_is_in_the_floor_for_the_most_part_is_told(height, house, plane, told):
+    arm = f'<body pos="0 0 {house}"><joint axis="0 0 1"/><geom size="0.2" contype="0" conaffinity="0"/></body>'
+    base = f'<body name="tracks" pos="0 0 {height}"><geom type="box" size="0.7 0.5 0.2"/>{arm}</body>'
+    model = {"digger.xml": f"<mujoco><worldbody>{plane}{base}</worldbody></mujoco>"}
+    found = examine(NativeEngine(), model, select=["overlap-at-start"]).hints
+    assert [(each.elements, each.value) for each in found] == ([(('body "tracks"',), told)] if told else [])

@@ -270,3 +270,13 @@ def test_an_inertia_that_has_no_room_about_a_centre_on_the_hinge_is_told(pos, in
     assert [each.value for each in found] == ([f"pos {told}"] if told else [])
     for each in found:
         assert not examine(NativeEngine(), apply(text, each.edit), select=["centre-at-the-joint"]).hints
+
+
+@pytest.mark.parametrize(("side", "told"), [(0.02, ["inertial-forgotten"]), (0.012, [])])
+def test_pads_of_some_grams_make_no_difference(side: float, told: list[str]):
+    pad = f'<body pos="0 0 0.05"><geom type="box" size="{side} {side} {side}"/></body>'
+    finger = '<joint axis="0 1 0"/><inertial pos="0 0 0" mass="0.02" diaginertia="1e-5 1e-5 1e-5"/>'
+    hand = '<freejoint/><inertial pos="0 0 0" mass="1" diaginertia="1e-3 1e-3 1e-3"/>'
+    text = f'<mujoco><worldbody><body>{hand}<body pos="0 0 0.1">{finger}{pad}</body></body></worldbody></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text}, select=["inertial-forgotten"]).hints
+    assert [each.rule for each in found] == told

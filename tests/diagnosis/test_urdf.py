@@ -249,3 +249,15 @@ def test_a_revolute_joint_that_is_called_a_telescope_is_told(name: str, kind: st
     for each in found:
         mended = apply({"rover.urdf": text}, each.edit)
         assert 'type="prismatic"' in mended["rover.urdf"]
+
+
+@pytest.mark.parametrize(("links", "told"), [((1, 2), False), ((0, 1), True)], ids=["an arm's", "a robot's"])
+def test_the_base_of_an_arm_may_weigh_what_it_does(links: tuple[int, int], told: bool) -> None:
+    moving = (
+        '<link name="{1}"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
+        '</inertial></link><joint name="{1}" type="continuous"><parent link="{0}"/><child link="{1}"/></joint>'
+    )
+    base = '<link name="l0"><collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link>'
+    chain = moving.format("l0", "l1") + moving.format(f"l{links[0]}", "l2") + moving.format(f"l{links[1]}", "l3")
+    found = examine(NativeEngine(), {"r.urdf": f'<robot name="r">{base}{chain}</robot>'}, select=["inertial-forgotten"])
+    assert [each.elements for each in found.hints] == [('body "l0"',)] * told

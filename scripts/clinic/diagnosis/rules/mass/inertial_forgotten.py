@@ -38,7 +38,8 @@ Good:
 The number: told is one body where two others of its mechanism have an `<inertial>`, or two where three in four have
 one, and no geom of theirs has a mass or a density written on itself. So are parts without a joint, all together, whose
 geoms add more than 15 % to the mass of the link they are fixed to, where that link has an `<inertial>` of its own: a
-foot's collision geoms weigh as water does.
+foot's collision geoms weigh as water does. What weighs less than 30 g, or than a tenth of all that moves, is
+left alone.
 
 When it is wrong: a body that was added by hand and is as heavy as its geoms.
 """
@@ -52,6 +53,7 @@ from clinic.diagnosis.probes.matter import mass_of
 from clinic.diagnosis.probes.shape import root_of, roots
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.mass import visual_mass
+from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A body without its inertial"
@@ -61,7 +63,7 @@ AFLOAT = True
 LEVEL = "hint"
 
 SHARE, FEW = 0.75, 2
-NOTHING = 1e-6  # kg: a frame without mass
+LITTLE, PART = 0.03, 0.1  # kg, or of all that moves where that is less: what makes no difference
 MORE = 0.15  # of the link's mass
 
 
@@ -78,11 +80,13 @@ def _jointed(model: ReaderModel) -> Iterator[Suspect]:
     of, owner = model.simulation, root_of(model.simulation)
     for root in roots(of):
         jointed = [body for body, top in enumerate(owner) if top == root and of.joints_of(body)]
-        bare = [body for body in jointed if model.element("body", body) and inertial(model, body) is None]
+        stands = model.urdf and root in of.free_bodies and len(of.children.get(root, [])) < FEW  # an arm's base
+        own = [body for body in jointed if not (stands and body == root)]
+        bare = [body for body in own if model.element("body", body) and inertial(model, body) is None]
         others = len(jointed) - len(bare)
         if not bare or len(bare) > FEW or others < (2 if len(bare) == 1 else max(3, SHARE * len(jointed))):
             continue
-        for body in (each for each in bare if of.model("body_mass")[each] > NOTHING):
+        for body in (each for each in bare if of.model("body_mass")[each] > _little(of)):
             placed = [each for geom in of.geoms_of(body) if (each := model.element("geom", geom)) is not None]
             if not (placed or (model.source and model.source.urdf and of.geoms_of(body))) or any(
                 (each.get(name) or "0") != "0" for each in placed for name in ("mass", "density")
@@ -114,8 +118,9 @@ def _fixed(model: ReaderModel) -> Iterator[Suspect]:
         written = any(model.value("geom", geom, name) for geom in geoms for name in ("mass", "density"))
         if not written and masses[body] > MORE * masses[link]:
             found[body] = link
-    if found:
-        mass, first = sum(masses[body] for body in found), next(iter(found.values()))
+    mass = sum(masses[body] for body in found)
+    if found and mass > _little(of):
+        first = next(iter(found.values()))
         holder = of.name("body", first)
         yield Suspect(
             tuple(of.name("body", body) for body in found),
@@ -129,3 +134,7 @@ def _fixed(model: ReaderModel) -> Iterator[Suspect]:
             'density="0", where the link\'s <inertial> has all of its mass',
             level="hint",
         )
+
+
+def _little(of: Simulation) -> float:
+    return min(LITTLE, PART * of.moving_mass)

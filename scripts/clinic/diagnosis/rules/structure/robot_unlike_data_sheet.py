@@ -112,7 +112,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _mass(model: ReaderModel, robot: Robot, joints: dict[int, list[Joint]]) -> Iterator[Suspect]:
     of, bodies = model.simulation, model.simulation.model("jnt_bodyid")
     tops = tuple(dict.fromkeys(root_of(of)[int(bodies[joint])] for joint in joints))
-    if not robot.mass or len(tops) != 1 or _heavy(of, tops[0], robot.mass) <= HEAVY:
+    kinds = {line.pattern for line in robot.joints}
+    whole = 2 * len({line.pattern for lines in joints.values() for line in lines}) >= len(kinds)
+    if not robot.mass or not whole or len(tops) != 1 or _heavy(of, tops[0], robot.mass) <= HEAVY:
         return
     now, value = f"{_weight(of, tops[0]):.3g} kg", f"{robot.mass:.3g} kg"
     says = f"It weighs {now}, and {robot.names[0]} weighs {value}."

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.probes.attached import attached
+from clinic.diagnosis.probes.comparison import Comparison
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
-from clinic.diagnosis.probes.twins import Comparison, Twins, twins
+from clinic.diagnosis.probes.twins import Twins, twins
 from clinic.diagnosis.probes.vector import sub, times, transpose, turned, written
 from clinic.diagnosis.reader_model import ReaderModel
 

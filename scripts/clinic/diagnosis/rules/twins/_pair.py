@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.comparison import Comparison
 from clinic.diagnosis.probes.inertia import inertial
 from clinic.diagnosis.probes.siblings import FIELDS, SOME, odd_ones, swapped
-from clinic.diagnosis.probes.twins import Comparison, Twins, twins
+from clinic.diagnosis.probes.twins import Twins, twins
 from clinic.diagnosis.probes.vector import dot, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.twins._edits import COPIED, edits_of

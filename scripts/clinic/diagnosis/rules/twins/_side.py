@@ -6,11 +6,12 @@ import math
 from collections import Counter
 
 from clinic.diagnosis.probes.attached import attached
+from clinic.diagnosis.probes.comparison import Comparison
 from clinic.diagnosis.probes.inertia import inertial
 from clinic.diagnosis.probes.matter import matter
 from clinic.diagnosis.probes.overlap import at_start, of_relatives
 from clinic.diagnosis.probes.siblings import FIELDS, LIKE, odd_ones
-from clinic.diagnosis.probes.twins import Comparison, twins
+from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.probes.vector import dot, norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.twins._edits import COPIED, edits_of

@@ -1,0 +1,167 @@
+"""Welds, connections and loops that are off, that lock or that do not reach."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import Diagnosis, examine
+from clinic.diagnosis.edit import apply
+from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.rules import rules
+
+TIED = """
+<mujoco>
+  <worldbody>
+    <body name="arm" pos="0 0 1">
+      <joint name="lift" type="slide" axis="0 0 1" damping="5"/>
+      <geom type="box" size="0.05 0.05 0.02" contype="0" conaffinity="0"/>
+    </body>
+    <body name="tool" pos="0 0 {height}">
+      <freejoint/>
+      <geom type="sphere" size="0.02"/>
+    </body>
+  </worldbody>
+  <equality>
+    <weld body1="arm" body2="tool" active="false" relpose="0 0 -0.08 1 0 0 0"/>
+  </equality>
+</mujoco>
+"""
+
+
+def found(text: str, rule: str) -> list[str]:
+    """What a rule says of a model, and that its edits unsay it."""
+    told: Diagnosis = examine(NativeEngine(), {"model.xml": text}, select=[rule])
+    return [each.says for each in (*told.causes, *told.hints)]
+
+
+def test_a_weld_that_is_off_is_told_where_its_parts_stand_as_if_it_held():
+    assert found(TIED.format(height="0.92"), "switched-off") != []
+    assert found(TIED.format(height="0.5"), "switched-off") == []
+
+
+FOURBAR = """
+<mujoco>
+  <worldbody>
+    <body name="crank" pos="0 0 1">
+      <joint name="crank" axis="0 1 0"/>
+      <geom type="capsule" fromto="0 0 0 0 0 0.1" size="0.01"/>
+      <body name="coupler" pos="0 0 0.1">
+        <joint name="coupler" axis="0 1 0"/>
+        <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.01"/>
+      </body>
+    </body>
+    <body name="rocker" pos="0.3 0 1">
+      <joint name="rocker" axis="0 1 0"/>
+      <geom type="capsule" fromto="0 0 0 0 0 0.1" size="0.01"/>
+    </body>
+  </worldbody>
+  <equality>
+    <connect name="loop" body1="coupler" body2="rocker" anchor="0.3 0 0"/>
+  </equality>
+</mujoco>
+"""
+
+
+@pytest.mark.parametrize(("free", "told"), [("", ['equality "loop"']), ("<freejoint/>", [])])
+def test_a_loop_between_two_links_of_the_world_that_is_off_is_told_and_a_latch_is_not(free, told):
+    off = FOURBAR.replace('anchor="0.3 0 0"', 'anchor="0.3 0 0" active="false"')
+    off = off.replace('<joint name="rocker" axis="0 1 0"/>', free or '<joint name="rocker" axis="0 1 0"/>')
+    found = examine(NativeEngine(), {"model.xml": off}, select=["switched-off"])
+    assert [each.elements[0] for each in found.hints] == told
+
+
+@pytest.mark.parametrize("eye", ["0.3 0 0", "0.2 0 0.1"])
+def test_a_swing_that_carries_a_loop_is_not_locked_by_it_though_it_begins_apart(eye):
+    swing = '<body><joint name="swing" axis="0 0 1"/><geom size="0.05"/>'
+    text = FOURBAR.replace("<worldbody>", f"<worldbody>{swing}").replace("</worldbody>", "</body></worldbody>")
+    text = text.replace('anchor="0.3 0 0"', 'site1="eye" site2="lug"').replace('body1="coupler" body2="rocker" ', "")
+    text = text.replace('<joint name="coupler"', f'<site name="eye" pos="{eye}"/><joint name="coupler"')
+    text = text.replace('<joint name="rocker"', '<site name="lug" pos="0.1 0 0.1"/><joint name="rocker"')
+    driven = '<actuator><velocity joint="swing" kv="1" ctrlrange="-3 3"/></actuator></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text.replace("</mujoco>", driven)}, select=["loop-locked"])
+    assert not found.hints
+
+
+def test_the_hinge_across_all_others_is_named_where_a_loop_locks():
+    driven = '<actuator><velocity joint="crank" kv="1" ctrlrange="-3 3"/></actuator></mujoco>'
+    text = FOURBAR.replace("</mujoco>", driven)
+    across = text.replace('name="rocker" axis="0 1 0"', 'name="rocker" axis="0 0 1"')
+    assert across != text
+    locked = [each for each in examine(NativeEngine(), {"model.xml": across}).hints if each.rule == "loop-locked"]
+    assert [(each.attribute, each.value) for each in locked] == [("axis", "0 1 0")]
+    assert locked[0].elements == ('joint "crank"', 'equality "loop"', 'joint "rocker"')
+    assert "loop-locked" not in [each.rule for each in examine(NativeEngine(), {"model.xml": text}).hints]
+
+
+@pytest.mark.parametrize(("mass", "told"), [(50, True), (1, False)])
+def test_a_weld_that_a_load_pulls_apart_is_told(mass, told):
+    text = f"""
+<mujoco>
+  <worldbody>
+    <body name="hook" pos="0 0 2"><geom size="0.05"/></body>
+    <body name="ball" pos="0 0 1.8">
+      <freejoint/>
+      <geom size="0.05" mass="0.1"/>
+      <site name="below"/>
+    </body>
+    <body pos="0 0 1.2">
+      <joint type="slide" axis="0 0 1" damping="20"/>
+      <geom size="0.1" mass="{mass}"/>
+      <site name="load"/>
+    </body>
+  </worldbody>
+  <tendon>
+    <spatial stiffness="1000" damping="1"><site site="below"/><site site="load"/></spatial>
+  </tendon>
+  <equality>
+    <weld body1="hook" body2="ball"/>
+  </equality>
+</mujoco>
+"""
+    says = found(text, "soft-equality")
+    assert [" apart where the equality holds them together" in each for each in says] == [True] * told
+
+
+@pytest.mark.parametrize(("place", "told"), [("0.35 0 1", False), ("0.9 0.3 1", True)])
+def test_a_cable_that_does_not_reach_what_it_is_connected_to_is_told(place: str, told: bool) -> None:
+    text = f"""<mujoco><worldbody>
+      <body name="first" pos="0 0 1"><geom type="capsule" fromto="0 0 0 0.15 0 0" size="0.01"/>
+        <body name="end" pos="0.15 0 0"><joint axis="0 1 0" damping="1"/>
+          <geom type="capsule" fromto="0 0 0 0.15 0 0" size="0.01"/></body></body>
+      <body name="box" pos="{place}"><geom type="box" size="0.05 0.05 0.05"/></body></worldbody>
+    <equality><connect body1="box" body2="end" anchor="-0.05 0 0"/></equality></mujoco>"""
+    found = [each for each in examine(NativeEngine(), {"model.xml": text}).hints if each.rule == "anchor-far-off"]
+    assert bool(found) is told
+    assert not found or 'Put body "end" where it is to be held' in found[0].says
+
+
+LOOP = rules()["loop-not-assembled"].example("Good")
+STANDING = LOOP.replace("<worldbody>", '<worldbody><geom size="0.1" pos="0 0 1"/>')
+TURNED = LOOP.replace('"rocker" pos="0.5 0 1"', '"rocker" pos="0.5 0 1" euler="0 90 0"').replace(
+    '"-0.3 0 0"', '"0 0 -0.3"'
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "right", "wrong", "told"),
+    [
+        (LOOP, '"-0.3 0 0"', '"0.3 0 0"', ('site "hole"', "pos", "-0.3 0 0")),
+        (STANDING, '"0.5 0 1"', '"0.5 1 0"', ('body "rocker"', "pos", "0.5 0 1")),
+        (LOOP, '"0.5 0 1"', '"-0.5 0 1"', ('body "rocker"', "pos", "0.5 0 1")),
+        (LOOP, '"-0.3 0 0"', '"-0.2 0 0"', ('site "pin"', "pos", "-0.3 0 0")),
+        (TURNED, ' euler="0 90 0"', "", ('site "hole"', "pos", "-0.3 0 0")),
+        (
+            TURNED.replace("0 90 0", "0 60 0").replace('"0 0 -0.3"', '"-0.15 0 -0.259808"'),
+            ' euler="0 60 0"',
+            "",
+            ('body "rocker"', "quat", "0.866025 0 0.5 0"),
+        ),
+    ],
+    ids=["a site's sign", "exchanged", "a body's sign", "another length", "another axis", "orientation left out"],
+)
+def test_a_loop_that_a_slip_of_the_pen_opens_is_closed_there(text, right, wrong, told):
+    assert text.count(right) == 1
+    broken = {"model.xml": text.replace(right, wrong)}
+    (found,) = examine(NativeEngine(), broken, select=["loop-not-assembled"]).hints
+    assert (found.elements[0], found.attribute, found.value) == told
+    assert not examine(NativeEngine(), apply(broken, found.edit), select=["loop-not-assembled"]).hints
+    assert not examine(NativeEngine(), {"model.xml": text}, select=["loop-not-assembled"]).hints

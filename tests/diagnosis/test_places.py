@@ -1,0 +1,172 @@
+"""Parts that are where they cannot be: links, twins, sites and walls."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.edit import apply
+from clinic.diagnosis.native import NativeEngine
+
+
+@pytest.mark.parametrize(
+    ("sites", "values"),
+    [
+        pytest.param('<site name="slot1" pos="-0.04 0 0.01"/><site name="slot2" pos="-0.04 0 0.01"/>', ["0.04 0 0.01"]),
+        pytest.param('<site name="slot1" pos="-0.04 0 0.01"/><site name="slot2" pos="0.04 0 0.01"/>', []),
+        pytest.param('<site name="target0"/><site name="target1"/>', []),  # code puts them somewhere
+        pytest.param('<site name="grasp" pos="0.1 0 0"/><site name="tool" pos="0.1 0 0"/>', []),
+        pytest.param(
+            '<site name="ray1" pos="0.1 0 0" zaxis="1 0 0"/><site name="ray2" pos="0.1 0 0" zaxis="1 1 0"/>', []
+        ),
+        pytest.param("".join(f'<site name="pin{i}" pos="{x} 0 0"/>' for i, x in enumerate((0.1, 0.1, 0.3))), []),
+    ],
+)
+def test_numbered_sites_of_one_body_in_one_place_are_told(sites: str, values: list[str]) -> None:
+    names = re.findall('name="(.*?)"', sites)
+    sensors = "".join(f'<framepos objtype="site" objname="{name}"/>' for name in names)
+    tray = f'<worldbody><body name="tray"><geom size="0.1"/>{sites}</body></worldbody>'
+    text = f"<mujoco>{tray}<sensor>{sensors}</sensor></mujoco>"
+    assert not examine(NativeEngine(), {"model.xml": f"<mujoco>{tray}</mujoco>"}, select=["parts-coincide"]).hints
+    found = examine(NativeEngine(), {"model.xml": text}, select=["parts-coincide"]).hints
+    assert [each.value for each in found] == values
+
+
+@pytest.mark.parametrize(("place", "told"), [("0 0 -16", ["0 0 -0.16"]), ("0 0 -0.16", []), ("0 0 -3", [])])
+def test_a_small_link_that_is_far_from_another_is_told_on_a_long_mechanism(place: str, told: list[str]) -> None:
+    camera = f'<body pos="{place}"><joint axis="0 1 0"/><geom size="0.15"/></body>'
+    yoke = f'<body pos="2 0 0"><joint axis="0 0 1"/><geom size="0.1"/>{camera}</body>'
+    jib = f'<body pos="0 0 1"><joint axis="0 1 0"/><geom type="box" size="1 0.1 0.1" pos="1 0 0"/>{yoke}</body>'
+    text = f"<mujoco><worldbody>{jib}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["link-far-off"]).hints
+    assert [each.value for each in found] == told
+
+
+@pytest.mark.parametrize(
+    ("site", "euler", "more", "told"),
+    [
+        pytest.param("tip", "0 -40 0", "", None, id="inside"),
+        pytest.param("axle", "0 -40 0", "", ("site", "tip"), id="another site"),
+        pytest.param("tip", "0 40 0", "", ("euler", "0 -40 0"), id="another sign"),
+        pytest.param("axle", "0 -40 0", '<site name="end" pos="-1.8 0 0"/>', None, id="two sites would do"),
+        pytest.param("far", "0 -40 0", "", None, id="nothing does"),
+    ],
+)
+def test_the_one_thing_that_brings_a_tendon_into_its_range_is_told(
+    site: str, euler: str, more: str, told: tuple[str, str] | None
+) -> None:
+    text = f"""<mujoco><worldbody><geom type="plane" size="9 9 1"/><site name="axle" pos="0 0 1.5"/>
+      <body pos="0 0 1.5" euler="{euler}"><joint name="axle" axis="0 1 0" damping="1"/><site name="tip" pos="-1.9 0 0"/>
+        <geom type="capsule" fromto="0 0 0 -1.9 0 0" size="0.03" contype="0"/>{more}</body>
+      <body pos="-0.6 0 0.075"><freejoint/><geom size="0.075" mass="3"/><site name="pouch"/></body>
+      <body pos="0 0 2"><site name="far" pos="0 4 0"/></body></worldbody>
+      <tendon><spatial name="sling" range="0 1.02" limited="true"><site site="{site}"/><site site="pouch"/></spatial>
+      {'<spatial><site site="far"/><site site="tip"/></spatial>' if site == "far" else ""}</tendon></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["tendon-outside-range"]).hints
+    assert [(each.attribute, each.value) for each in found if each.attribute != "range"] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "out", "told"),
+    [
+        (0.03, -0.03, -1, None),
+        (0.03, 0.03, -1, ('body "fin_r"', "0 -0.03 0")),
+        (-0.03, -0.03, -1, ('body "fin_l"', "0 0.03 0")),
+        (0, 0, -1, None),
+        (0.03, 0.03, 1, None),
+    ],
+    ids=["on both sides", "both on the left", "both on the right", "in the middle", "no images"],
+)
+def test_twins_in_one_place_whose_geoms_are_mirror_images_are_told(left, right, out, told):
+    fins = "".join(
+        f'<body name="fin_{side}" pos="0 {y} 0"><joint/><geom type="box" size=".01 .02 .01" pos="0 {way * 0.02} 0" '
+        'contype="0"/></body>'
+        for side, y, way in (("l", left, 1), ("r", right, out))
+    )
+    text = {"fish.xml": f"<mujoco><worldbody><body><freejoint/><geom size='.03'/>{fins}</body></worldbody></mujoco>"}
+    found = examine(NativeEngine(), text, select=["parts-coincide"]).hints
+    assert [(each.elements[0], each.value) for each in found] == ([told] if told else [])
+    for each in found:
+        assert not examine(NativeEngine(), apply(text, each.edit), select=["parts-coincide"]).hints
+
+
+@pytest.mark.parametrize(
+    ("name", "coefficients", "axis", "told"),
+    [
+        ("antiroll", (1, 1), "0 0 1", ('tendon "antiroll_f"', "-1")),
+        ("bar", (1, 1), "0 0 1", ('tendon "bar_f"', "the same sign in both")),
+        ("antiroll", (1, -1), "0 0 1", None),
+        ("antiroll", (1, 1), "0 0 -1", None),
+        ("antiroll", (2, 2), "0 0 1", None),
+        ("bar", (1, 1), "rear", None),
+    ],
+    ids=["a bar against roll", "any", "alike", "the axis is turned", "other coefficients", "over the same two"],
+)
+def test_a_tendon_that_adds_left_and_right_beside_one_that_does_not_is_told(name, coefficients, axis, told):
+    wheels = "".join(
+        f'<body pos="{x} {y} 0"><joint name="{side}_susp" type="slide" axis="{axis if side == "fr" else "0 0 1"}"/>'
+        '<geom size="0.1"/></body>'
+        for side, x, y in (("fl", 1, 1), ("fr", 1, -1), ("rl", -1, 1), ("rr", -1, -1))
+    )
+    front, rear = (
+        f'<fixed name="{name}_{end}" stiffness="9"><joint joint="{end}l_susp" coef="{a}"/>'
+        f'<joint joint="{end}r_susp" coef="{b}"/></fixed>'
+        for end, (a, b) in (("f", coefficients), ("r", (1, -1)))
+    )
+    front = front.replace('joint="f', 'joint="r') if axis == "rear" else front
+    text = {"car.xml": f"<mujoco><worldbody>{wheels}</worldbody><tendon>{front}{rear}</tendon></mujoco>"}
+    text["car.xml"] = text["car.xml"].replace('axis="rear"', 'axis="0 0 1"')
+    found = examine(NativeEngine(), text, select=["tendon-unlike-siblings"]).hints
+    assert [(each.elements[0], each.value) for each in found] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("second", "last", "half", "told"),
+    [
+        ("0.25 0 0.05", "0.2 0 0", 0.12, None),
+        ("0.52 0 0.05", "0.2 0 0", 0.12, "0.25 0 0.05"),
+        ("-0.23 0 0.05", "0.2 0 0", 0.05, "0.23 0 0.05"),
+        ("0.6 0 0.05", "0.2 0 0", 0.12, None),
+        ("0.52 0 0.05", "0.6 0 0", 0.12, None),
+    ],
+    ids=["well", "digits", "sign", "no slip", "two of them"],
+)
+def test_the_one_link_that_a_slip_puts_away_from_the_one_before_is_told(second, last, half, told):
+    text = ""
+    for place, size in ((last, 0.12), ("0.1 0 0", 0.12), (second, half), ("0 0 0.3", 0.12)):
+        box = f'<geom type="box" size="{size} 0.05 0.03" pos="{size} 0 0.02"/>'
+        text = f'<body pos="{place}"><joint/>{box}{text}</body>'
+    base = f'<body name="base"><geom size="0.1" pos="0 0 0.2"/>{text}</body>'
+    model = {"arm.xml": f"<mujoco><worldbody>{base}</worldbody></mujoco>"}
+    found = examine(NativeEngine(), model, select=["link-off-the-end"]).hints
+    assert [each.value for each in found] == ([told] if told else [])
+    for each in found:
+        assert not examine(NativeEngine(), apply(model, each.edit), select=["link-off-the-end"]).hints
+
+
+@pytest.mark.parametrize(
+    ("size", "more", "told"),
+    [
+        ("0.18 0.004 0.012", "", "0.09 0.004 0.012"),
+        ("0.09 0.004 0.012", "", None),
+        ("0.4 0.004 0.012", "", None),
+        ("0.18 0.02 0.012", "", None),
+        ("0.18 0.004 0.012", '<geom type="box" size="0.25 0.2 0.01"/>', None),
+    ],
+    ids=["full length", "half", "out with half, too", "of another width", "on a larger plate"],
+)
+def test_the_one_wall_that_sticks_out_of_a_maze_is_told(size: str, more: str, told: str | None) -> None:
+    rim = "".join(
+        f'<geom type="box" pos="{x} {y} 0.012" size="{half}"/>'
+        for x, y, half in (
+            (0, 0.146, "0.15 0.004 0.012"),
+            (0, -0.146, "0.15 0.004 0.012"),
+            (0.146, 0, "0.004 0.15 0.012"),
+            (-0.146, 0, "0.004 0.15 0.012"),
+        )
+    )
+    wall = f'<geom name="wall" type="box" pos="-0.05 0.05 0.012" size="{size}"/>'
+    model = {"maze.xml": f"<mujoco><worldbody><body><joint/>{rim}{wall}{more}</body></worldbody></mujoco>"}
+    found = examine(NativeEngine(), model, select=["full-lengths"]).hints
+    assert [each.value for each in found] == ([told] if told else [])

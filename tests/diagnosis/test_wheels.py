@@ -1,0 +1,80 @@
+"""Wheels, axles and what steers them."""
+
+from __future__ import annotations
+
+import pytest
+from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.rules import rules
+
+
+@pytest.mark.parametrize(
+    ("shape", "told"),
+    [
+        pytest.param('type="ellipsoid" size="0.05 0.03 0.05"', False, id="on the hinge"),
+        pytest.param('type="ellipsoid" size="0.05 0.03 0.05" pos="0.004 0 0.003"', True, id="beside it"),
+        pytest.param('type="ellipsoid" size="0.05 0.05 0.03"', True, id="flat"),
+        pytest.param('type="sphere" size="0.05" pos="0 0 0.001"', False, id="a little beside it"),
+    ],
+)
+def test_a_wheel_whose_middle_is_beside_its_hinge_is_told(shape: str, told: bool) -> None:
+    wheels = "".join(
+        f'<body name="wheel_{i}" pos="{x} {y} 0"><joint name="steer_{i}" axis="0 0 1" range="-30 30"/>'
+        f'<joint name="wheel_{i}" axis="0 1 0"/><geom {shape}/></body>'
+        for i, (x, y) in enumerate(((0.1, 0.1), (0.1, -0.1), (-0.1, 0.1), (-0.1, -0.1)))
+    )
+    car = f'<body pos="0 0 0.05"><freejoint/><geom type="box" size="0.1 0.05 0.02"/>{wheels}</body>'
+    text = f'<mujoco><worldbody><geom type="plane" size="5 5 0.1"/>{car}</worldbody></mujoco>'
+    assert bool(examine(NativeEngine(), {"model.xml": text}, select=["wheel-not-round"]).hints) is told
+
+
+AXLE = rules()["axle-against-itself"].example("Bad")
+STRAIGHT = rules()["axle-against-itself"].example("Good")
+MOTOR = '<velocity tendon="shaft" kv="0.1"/>'
+
+
+@pytest.mark.parametrize(
+    ("text", "changes", "values"),
+    [
+        pytest.param(STRAIGHT, [('"right" axis="0 1 0"', '"right" axis="0 -1 0"')], ["-0.5"], id="opposite-axes"),
+        pytest.param(AXLE, [('"right" axis="0 1 0"', '"right" axis="0 -1 0"')], [], id="axes-and-signs"),
+        pytest.param(AXLE, [(MOTOR, MOTOR + '<motor joint="left"/>')], [], id="something-else-drives"),
+        pytest.param(AXLE, [(MOTOR, "")], [], id="nothing-drives"),
+        pytest.param(AXLE, [('"right" axis="0 1 0"', '"right" axis="0 1 0" range="0 90"')], [], id="with-a-range"),
+        pytest.param(AXLE, [('"right" pos="-0.1 -0.15 0"', '"right" pos="-0.4 0.15 0"')], [], id="one-behind-another"),
+    ],
+)
+def test_a_tendon_that_drives_two_wheels_of_an_axle_apart_is_told(
+    text: str, changes: list[tuple[str, str]], values: list[str]
+) -> None:
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    found = examine(NativeEngine(), {"model.xml": text}, select=["axle-against-itself"]).hints
+    assert [each.value for each in found] == values
+
+
+@pytest.mark.parametrize(
+    ("place", "axis", "factor", "told"),
+    [
+        ("0 -0.1 0", "0 0 1", -1, True),
+        ("0 -0.1 0", "0 0 1", 1, False),
+        ("0 -0.1 0", "0 0 -1", 1, True),
+        ("0.3 0.1 0", "0 0 1", -1, False),  # of another axle
+        ("0 -0.1 0", "0 1 0", -1, False),  # no steering
+    ],
+)
+def test_a_coupling_that_steers_two_wheels_of_an_axle_apart_is_told(
+    place: str, axis: str, factor: int, told: bool
+) -> None:
+    fork = '<body pos="{1}"><joint name="{0}" axis="{2}" range="-30 30"/><geom size="0.02"/><body><joint axis="0 1 0"/>'
+    forks = "".join(
+        fork.format(*each) + '<geom size="0.05"/></body></body>'
+        for each in (("left", "0 0.1 0", "0 0 1"), ("right", place, axis))
+    )
+    tie = f'<equality><joint joint1="right" joint2="left" polycoef="0 {factor} 0.1 0 0"/></equality>'
+    text = (
+        f'<mujoco><worldbody><body pos="0 0 1"><freejoint/><geom size="0.1"/>{forks}</body></worldbody>{tie}</mujoco>'
+    )
+    found = examine(NativeEngine(), {"model.xml": text}, select=["axle-against-itself"]).hints
+    assert [each.value for each in found] == [f"0 {-factor} 0.1 0 0"] * told

@@ -49,3 +49,36 @@ def test_an_eye_that_is_turned_as_the_other_one_and_looks_at_it_is_told(left, ri
     assert [(each.elements[0], each.value) for each in found] == ([told] if told else [])
     for each in found:
         assert not examine(NativeEngine(), apply(text, each.edit), select=["camera-blocked"]).hints
+
+
+@pytest.mark.parametrize(
+    ("place", "told"),
+    [("0 -750 550", "0 -0.75 0.55"), ("0 -75 55", "0 -0.75 0.55"), ("0 -0.75 0.55", None), ("0 -15 11", None)],
+    ids=["mm", "cm", "m", "far"],
+)
+def test_a_camera_from_which_the_model_is_a_dot_is_brought_near(place: str, told: str | None) -> None:
+    camera = f'<camera name="web" pos="{place}" xyaxes="1 0 0 0 .4 .92"/>'
+    text = {"m.xml": f"<mujoco><worldbody>{camera}<body><joint/><geom size='.15'/></body></worldbody></mujoco>"}
+    found = examine(NativeEngine(), text, select=["camera-sees-nothing"]).hints
+    assert [each.value for each in found] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("axes", "fingers", "told"),
+    [
+        ("0 1 0 .2 0 .98", 2, "0 -1 0 0.2 0 0.9798"),
+        ("0 -1 0 .2 0 .98", 2, None),
+        ("0 1 0 .2 0 .98", 1, None),
+        ("1 0 0 0 0 1", 2, None),
+    ],
+    ids=["backwards", "ahead", "a probe", "sideways"],
+)
+def test_a_camera_on_a_hand_that_looks_away_from_its_fingers_is_told(axes, fingers, told):
+    slide = '<joint type="slide" axis="0 1 0"/>'
+    finger = f'<body name="finger{{0}}" pos=".05 {{1}} 0">{slide}<geom size=".01" pos=".03 0 0"/></body>'
+    both = "".join(finger.format(*each) for each in (("_l", 0.02), ("_r", -0.02))[:fingers])
+    camera = f'<camera name="wrist" pos="0 0 .06" xyaxes="{axes}"/>'
+    hand = f'<body name="hand" pos="0 0 1"><joint/><geom size=".02"/>{camera}{both}'
+    text = {"hand.xml": f"<mujoco><worldbody>{hand}</body></worldbody></mujoco>"}
+    found = examine(NativeEngine(), text, select=["camera-blocked"]).hints
+    assert [each.value for each in found] == ([told] if told else [])

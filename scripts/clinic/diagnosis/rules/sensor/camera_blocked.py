@@ -30,13 +30,15 @@ A camera that is below a plane and does not look up is told too, where what carr
 is above.
 
 And so is the one of a left and a right camera of a body, turned alike, that looks towards the other: two eyes that look
-ahead are beside each other.
+ahead are beside each other. So is the camera on a hand that looks the other way than the fingers on it are, to 45
+degrees.
 
 When it is wrong: a camera that watches a part of its own mount.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from itertools import product
 
@@ -44,7 +46,7 @@ from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import MESH, PLANE
 from clinic.diagnosis.probes.sides import by_name
 from clinic.diagnosis.probes.vector import add, dot, sub, times, transpose, unit, written
-from clinic.diagnosis.probes.view import HEAD, axes, opening, things, through, turned
+from clinic.diagnosis.probes.view import FIXED, HEAD, axes, opening, things, through, turned
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, how_many
@@ -57,6 +59,8 @@ UNPLANTED = "few healthy models have a camera on a body"
 
 MOST = 8.5  # of nine rays
 UPRIGHT = 0.7  # cosine of a floor's slope
+FINGER = re.compile(r"(?i)finger|jaw|claw|thumb")
+ALONG = 0.7  # cosine of the angle between a view and the fingers' middle
 SAME, BESIDE = 1e-6, 0.8  # of quaternions; cosine of the angle between a view and the way to the twin
 
 
@@ -65,6 +69,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     yield from _buried(model)
     yield from _inwards(model)
+    yield from _backwards(model)
     moving = set(of.moving_bodies)
     for camera, body in enumerate(of.model("cam_bodyid")):
         if int(body) in moving and _blocked(of, camera) > MOST:
@@ -106,6 +111,35 @@ def _inwards(model: ReaderModel) -> Iterator[Suspect]:
         value = edits[-1].value if edits else "the mirror image of its twin"
         probe = how_many("cameras that look towards their twins, which look away", _copied)
         yield Suspect(names, "xyaxes", "", value, edits, probe, 0, says, "both away from each other", level="hint")
+
+
+def _backwards(model: ReaderModel) -> Iterator[Suspect]:
+    """Each camera on a hand that looks the other way than its fingers point, turned by half a turn about its up."""
+    of = model.simulation
+    for camera in range(of.count("camera")):
+        if _along_fingers(of, camera) < -ALONG:
+            right, up, _ = axes(of, camera)
+            edits = turned(model, camera, sub((0.0, 0.0, 0.0), right), up)
+            name, value = of.name("camera", camera), edits[-1].value if edits else "towards the fingers"
+            probe = Probe("cosine of its view and the way from the fingers", "", _away, (camera,), dynamic=False)
+            says = f"It looks away from the fingers of {of.name('body', int(of.model('cam_bodyid')[camera]))}."
+            yield Suspect((name,), "xyaxes", "", value, edits, probe, ALONG, says, "along the fingers", level="hint")
+
+
+def _away(of: Simulation, camera: int) -> float:
+    return -_along_fingers(of, camera)
+
+
+def _along_fingers(of: Simulation, camera: int) -> float:
+    """The cosine of a camera's view and the way from its hand to the middle of the fingers on it; 0 without two."""
+    body = int(of.model("cam_bodyid")[camera])
+    names = of.names("body")
+    fingers = [each for each in of.children.get(body, []) if FINGER.search(names[each]) and of.joints_of(each)]
+    if not body or len(fingers) < 2 or int(of.model("cam_mode")[camera]) != FIXED:
+        return 0.0
+    of.begin()
+    middle = [sum(of.data_row("subtree_com", each, 3)[i] for each in fingers) / len(fingers) for i in range(3)]
+    return dot(axes(of, camera)[2], unit(sub(middle, of.data_row("xpos", body, 3))))
 
 
 def _copied(of: Simulation) -> list[tuple[int, int]]:

@@ -23,7 +23,8 @@ Good:
 
 The number: the share of visible geoms, floors left out, of which neither the middle nor a corner of the box around it
 is in the image; 1 is nothing in sight. By geometry, for a square image where `resolution` does not say otherwise, at
-the start.
+the start. A camera of the world is told, too, where all that is to be seen takes less than 0.5 % of the image's height:
+its place is in mm.
 
 When it is wrong: things come into view later, or the camera is meant for the floor. Cameras on moving bodies are left
 alone, and of one that is called a head's there is a hint.
@@ -31,9 +32,11 @@ alone, and of one that is called a head's there is a hint.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.view import HEAD, aimed, onlookers, sees, things
+from clinic.diagnosis.probes.vector import written
+from clinic.diagnosis.probes.view import HEAD, aimed, middle, onlookers, opening, sees, things
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Level, Probe, Suspect
@@ -43,6 +46,8 @@ FAMILIES = ("camera",)
 SINCE = "0.1"
 
 MOST = 0.999
+LEAST, CLOSE, OUTSIDE = 0.005, 20.0, 1.2  # of the image's height; of the model's; of its radius
+UNITS = (("mm", 1000), ("cm", 100))
 
 
 def _unseen(simulation: Simulation, camera: int) -> float:
@@ -50,10 +55,46 @@ def _unseen(simulation: Simulation, camera: int) -> float:
     return 1.0 - sum(sees(simulation, camera, geom) for geom in there) / len(there) if there else 0.0
 
 
+def _small(simulation: Simulation, camera: int) -> float:
+    """What all that is to be seen takes of the image's height."""
+    centre, there = middle(simulation), things(simulation)
+    if centre is None or simulation.model("cam_bodyid")[camera]:
+        return 1.0
+    far = math.dist(centre, simulation.data_row("cam_xpos", camera, 3))
+    reach = [math.dist(centre, simulation.data_row("geom_xpos", geom, 3)) for geom in there]
+    radius = max(each + simulation.model("geom_rbound")[geom] for each, geom in zip(reach, there, strict=True))
+    return radius / max(far * opening(simulation, camera)[0], 1e-9)
+
+
+def _in_mm(model: ReaderModel, camera: int, small: float) -> Iterator[Suspect]:
+    """A camera so far away that all of the model is a dot: its place is in mm, or else in cm."""
+    of, place = model.simulation, model.simulation.row("cam_pos", camera, 3)
+    probe = Probe("height of the image over that of the model in it", "", _over, (camera,), dynamic=False)
+    tries = [(unit, model.set("camera", [camera], "pos", written([x / by for x in place]))) for unit, by in UNITS]
+    outside = OUTSIDE * opening(of, camera)[0]
+    near = ((unit, each) for unit, each in tries if each and outside < model.measured(probe, each) < CLOSE)
+    unit, edits = next(near, ("", ()))
+    says = (
+        f"All of the model takes {100 * small:.2g} % of its image's height."
+        + f" As {unit} its place is near." * bool(unit)
+    )
+    value = edits[0].value if edits else "nearer"
+    yield Suspect(
+        (of.name("camera", camera),), "pos", written(place), value, edits, probe, 1 / LEAST, says, level="hint"
+    )
+
+
+def _over(of: Simulation, camera: int) -> float:
+    return 1 / _small(of, camera)
+
+
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each camera that looks from outside and has nothing in sight."""
     simulation = model.simulation
     for camera in onlookers(simulation):
+        if (small := _small(simulation, camera)) < LEAST:
+            yield from _in_mm(model, camera, small)
+            continue
         if simulation.count("geom") and _unseen(simulation, camera) > MOST:
             edits = aimed(model, camera)
             probe = Probe("out of sight", "of all geoms but floors", _unseen, (camera,), dynamic=False)

@@ -107,3 +107,20 @@ def test_a_fin_on_what_turns_about_the_same_axis_gets_the_other_size():
     (found,) = examine(NativeEngine(), fish_, select=["fin-in-its-plane"]).hints
     assert (found.attribute, found.value) == ("size", "0.04 0.005 0.03")
     assert not examine(NativeEngine(), apply(fish_, found.edit), select=["fin-in-its-plane"]).hints
+
+
+@pytest.mark.parametrize(
+    ("option", "told"),
+    [
+        pytest.param('density="1225" viscosity="0.000018"', "1.225", id="g/m3"),
+        pytest.param('density="1.225" viscosity="0.000018"', None, id="kg/m3"),
+        pytest.param('density="1225" viscosity="0.0012"', None, id="brine"),
+    ],
+)
+def test_a_density_of_air_in_grams_is_told_by_the_viscosity_beside_it(option: str, told: str | None) -> None:
+    drone = (
+        '<body pos="0 0 1"><freejoint/><geom type="box" size="0.1 0.1 0.02" mass="2" fluidshape="ellipsoid"/></body>'
+    )
+    text = {"drone.xml": f"<mujoco><option {option}/><worldbody>{drone}</worldbody></mujoco>"}
+    found = examine(NativeEngine(), text, select=["fluid"]).hints
+    assert [each.value for each in found if each.attribute == "density"] == ([told] if told else [])

@@ -26,8 +26,9 @@ its weight; below 0.1 is well. A little viscosity is a usual way to bring what d
 
 Where geoms have a `fluidshape`, the medium is meant, and hints tell what does not fit it: water's viscosity of 0.0009
 without a density, or, beside the density of water, written in mPa s. What has 0.8 to 1.25 times the density of a liquid
-and sinks is told too, for MuJoCo has no buoyancy: it takes `gravity="0 0 0"`, or `gravcomp`. And so is a swimmer whose
-`density` is that of a solid in g/cm3, and less than a fiftieth of the liquid's.
+and sinks is told too, for MuJoCo has no buoyancy: it takes `gravity="0 0 0"`, or `gravcomp`. And so is a density of air
+in g/m3, 1225 beside a viscosity of 0.000018, where geoms are shaped or it holds back too little to be a cause; and a
+swimmer whose `density` is that of a solid in g/cm3, and less than a fiftieth of the liquid's.
 
 When it is wrong: a boat. What cannot fall, or has no gravity, is left alone.
 """
@@ -54,6 +55,7 @@ MEDIUM = (  # air, what is told, what is told where geoms are shaped for it, and
     ("viscosity", 0.00002, 0.01, 2.0, "Pa s"),
 )
 WATER, THIN, THICK = (995.0, 1035.0), (0.0005, 0.002), (0.5, 2.0)  # kg/m3, fresh and salt; Pa s, and mPa s
+AIR, GAS = (1.1, 1.35), (1.6e-5, 2.0e-5)  # kg/m3, and Pa s, of air
 AFLOAT = 0.8, 1.25  # of the medium's density
 NOTHING, SOLID = 0.02, (0.3, 20.0)  # of the medium's density; g/cm3
 
@@ -80,12 +82,29 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not any(simulation.model("opt.gravity")) or int(simulation.model("opt.disableflags")[0]) & GRAVITY_OFF:
         return
     probe = Probe("drag of a fall", "of the weight", _held_back, dynamic=False)
+    if shaped or model.measured(probe) <= MOST:
+        yield from _in_grams(model)
     for name, usual, most, liquid, unit in MEDIUM:
         now = simulation.model(f"opt.{name}")[0]
         if now > (liquid if shaped else most):
             says = f"The medium has {now:g} {unit}; air has {usual:g}."
             edits = model.option(name, f"{usual:g}")
             yield Suspect((name,), name, f"{now:g}", f"{usual:g}", edits, probe, MOST, says, f"{usual:g} {unit}, air")
+
+
+def _in_grams(model: ReaderModel) -> Iterator[Suspect]:
+    """A density that is that of air in g/m3, beside the viscosity of air."""
+    of = model.simulation
+    density, viscosity = (of.model(f"opt.{name}")[0] for name in ("density", "viscosity"))
+    if AIR[0] < density / 1000 < AIR[1] and GAS[0] < viscosity < GAS[1]:
+        now, value = f"{density:g}", f"{density / 1000:g}"
+        says = f"The viscosity of {viscosity:g} Pa s is that of air, and {now} is the density of air in g/m3."
+        probe, edits = Probe("density of the medium", "kg/m3", _density, dynamic=False), model.option("density", value)
+        yield Suspect(("density",), "density", now, value, edits, probe, AIR[1], says, f"{value} kg/m3", level="hint")
+
+
+def _density(of: Simulation) -> float:
+    return of.model("opt.density")[0]
 
 
 def _unfit(model: ReaderModel) -> Iterator[Suspect]:

@@ -68,6 +68,20 @@ def test_a_touch_site_that_does_not_reach_its_geom_is_told(site: str, count: int
 
 
 @pytest.mark.parametrize(
+    ("shin", "attribute"),
+    [
+        pytest.param("", "contype, conaffinity", id="nothing collides"),
+        pytest.param('<geom size="0.02" pos="0 0 0.5"/>', "pos", id="another geom does"),
+    ],
+)
+def test_of_a_touch_site_about_a_geom_that_cannot_touch_the_masks_are_told(shin: str, attribute: str) -> None:
+    foot = '<geom name="foot" size="0.035" contype="0" conaffinity="0"/><site name="foot" size="0.04"/>'
+    body = f'<body pos="0 0 1"><joint type="slide" axis="0 0 1"/>{shin}{foot}</body>'
+    (found,) = told("touch-site-off-the-surface", body, '<touch site="foot"/>')
+    assert found.attribute == attribute
+
+
+@pytest.mark.parametrize(
     ("sensor", "told_of"),
     [
         pytest.param('objtype="site" objname="tip" reftype="site" refname="tip"', 1, id="itself"),

@@ -25,7 +25,8 @@ Good:
     +       <site name="pad" type="box" size="0.014 0.01 0.032"/>
 
 The number: 1 for a site of which all of 7 x 7 x 7 points lie more than 1 mm inside of the same geom, or that is farther
-from all geoms of its body that collide. Bodies with meshes or planes are left alone.
+from all geoms of its body that collide. Bodies with meshes or planes are left alone. Where no geom of the body
+collides, and one is at the site, that one's masks are told.
 
 When it is wrong: geoms that code lets collide later.
 """
@@ -68,6 +69,15 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         body = of.name("body", of.body_of("site", site))
         inside = why == INSIDE
+        if geoms := _bare_at(of, site):
+            edits = model.set("geom", geoms, "contype", "1") + model.set("geom", geoms, "conaffinity", "1")
+            names = of.name("geom", geoms[0]), of.name("sensor", sensor), of.name("site", site)
+            probe = Probe("1 where no contact can be inside of a touch sensor's site", "", _off, (site,), dynamic=False)
+            says = f"No geom of {body} collides, {names[0]} neither, which is in {names[2]}: the sensor reads 0."
+            yield Suspect(
+                names, "contype, conaffinity", "0, 0", "1, 1", edits, probe, 0.5, says, "a geom that collides"
+            )
+            continue
         yield Suspect(
             (of.name("sensor", sensor), of.name("site", site)),
             "size" if inside else "pos",
@@ -79,6 +89,18 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"{of.name('site', site)} of {body} {why}: the sensor reads 0.",
             "a site that holds the surface",
         )
+
+
+def _bare_at(of: Simulation, site: int) -> list[int]:
+    """The geoms that a touch sensor's site is about, and that cannot touch, where no geom of its body can."""
+    own, pairs = of.geoms_of(of.body_of("site", site)), in_pairs(of)
+    if any(solid(of, geom) or geom in pairs for geom in own):
+        return []
+    of.begin()
+    place = of.data_row("site_xpos", site, 3)
+    return [
+        geom for geom in own if math.dist(place, of.data_row("geom_xpos", geom, 3)) < of.model("geom_rbound")[geom]
+    ][-1:]
 
 
 def _off(of: Simulation, site: int) -> float:

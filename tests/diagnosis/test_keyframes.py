@@ -140,6 +140,22 @@ def test_a_keyframe_in_degrees_is_told_of_hinges_without_a_range(qpos: str, othe
 
 
 @pytest.mark.parametrize(
+    ("ctrl", "mended"),
+    [("0.1 90", "0.00174533 1.5708"), ("0.1 1.5", "0.1 1.5"), ("0 0", "0 0")],
+    ids=["degrees", "radians", "elsewhere"],
+)
+def test_controls_that_hold_a_keyframe_in_degrees_are_mended_with_it(ctrl: str, mended: str):
+    joint = '<joint name="{0}" axis="0 1 0" range="-115 115"/><geom size="0.1" pos="0 0 0.3"/>'
+    arm = f'<body name="a">{joint.format("one")}<body name="b" pos="0 0 0.6">{joint.format("two")}</body></body>'
+    servos = "".join(f'<position joint="{name}" kp="90"/>' for name in ("one", "two"))
+    key = f'<keyframe><key name="home" qpos="0.1 90" ctrl="{ctrl}"/></keyframe>'
+    text = {"m.xml": f"<mujoco><worldbody>{arm}</worldbody><actuator>{servos}</actuator>{key}</mujoco>"}
+    found = examine(NativeEngine(), text, select=["key-outside-range"])
+    (each,) = (*found.causes, *found.hints)
+    assert f'ctrl="{mended}"' in apply(text, each.edit)["m.xml"]
+
+
+@pytest.mark.parametrize(
     ("name", "height", "told"),
     [("stand", 0.65, True), ("stand", 0.51, False), ("drop", 0.65, False)],
     ids=["in-the-air", "on-the-floor", "by-its-name"],

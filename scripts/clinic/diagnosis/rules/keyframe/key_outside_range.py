@@ -27,12 +27,12 @@ Good:
     +     <key name="home" qpos="0.2 1.2"/>
 
 The number: how far the worst joint is outside: 0.1 rad or 4 cm, and more. Where the joint's servo is told to hold it
-there, and may be, the joint's range is what is told. What would be inside in degrees, or far inside with the other
-sign, is written so, and two that would be inside in each other's place are exchanged; else it is put to the end of the
-range. A joint that every one of several keyframes puts outside is a hint that its range is wrong. Where
-no servo and no other keyframe moves it, the range may as well have the wrong sign, and nothing is edited. Of hinges
-without a range a whole multiple of 15 from 30 on is told as a hint, where no other keyframe turns them by more than
-once.
+there, and may be, the joint's range is what is told. What would be inside in degrees, with the controls that are equal
+to it, or far inside with the other sign, is written so, and two that would be inside in each other's place are
+exchanged; else it is put to the end of the range. A joint that every one of several keyframes puts outside is a hint
+that its range is wrong. Where no servo and no other keyframe moves it, the range may as well have the wrong sign, and
+nothing is edited. Of hinges without a range a whole multiple of 15 from 30 on is told as a hint, where no other
+keyframe turns them by more than once.
 
 When it is wrong: a limit that is soft on purpose.
 """
@@ -43,9 +43,10 @@ import math
 from collections.abc import Collection, Iterator, Mapping
 from itertools import combinations
 
-from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.key import against_range, beyond, outside, reordered, start_at, weighed
+from clinic.diagnosis.probes.servo import servos
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
@@ -88,6 +89,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if in_degrees:  # all of them were written alike
             hinges = [joint for joint in range(of.count("joint")) if of.joint_type(joint) == HINGE]
             meant |= {joint: math.radians(of.position(joint)) for joint in hinges}
+        controls = _controls(of, element) if in_degrees else ()
         for joint, position in meant.items():
             qpos[of.place(joint)] = position
         worst = max(off, key=lambda joint: weighed(of, joint, off[joint]))
@@ -101,13 +103,24 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "qpos",
             element.get("qpos"),
             written(qpos),
-            (set_attribute(element, "qpos", written(qpos)),),
+            (set_attribute(element, "qpos", written(qpos)), *controls),
             outside(key),
             LIMIT,
             says + " As degrees it would be inside." * in_degrees,
             "inside of the ranges",
             excess=weighed(of, worst, off[worst]) / LIMIT,
         )
+
+
+def _controls(of: Simulation, key: Element) -> tuple[Edit, ...]:
+    """The controls of a keyframe in rad, where servos are to hold the hinges where it has them in degrees."""
+    ctrl = [float(each) for each in key.get("ctrl").split()]
+    holds = {each.actuator: of.position(each.joint) for each in servos(of) if of.joint_type(each.joint) == HINGE}
+    alike = [each for each, at in holds.items() if len(ctrl) == of.count("actuator") and ctrl[each] == at]
+    if not any(abs(ctrl[each]) > 2 * math.pi for each in alike):
+        return ()
+    made = [math.radians(each) if actuator in alike else each for actuator, each in enumerate(ctrl)]
+    return (set_attribute(key, "ctrl", written(made)),)
 
 
 def _either(of: Simulation, key: int, joint: int, beyond: float) -> bool:

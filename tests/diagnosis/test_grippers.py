@@ -203,3 +203,22 @@ def test_of_two_hands_each_is_mended_for_itself():
         NativeEngine(), {"model.xml": model.replace("<actuator>", f"<actuator>{grip}")}, select=["grasp-slips"]
     ).causes
     assert len(told.edit) == 4
+
+
+@pytest.mark.parametrize(
+    ("axis", "factor", "attribute", "value"),
+    [("0 -1 0", -1, "multiplier", "1"), ("0 1 0", 1, "xyz", "0 -1 0")],
+    ids=["factor", "axis"],
+)
+def test_of_fingers_of_a_urdf_the_factor_is_told_where_it_leads_out_of_the_range(axis, factor, attribute, value):
+    inertia = '<inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/>'
+    inertial = f'<inertial><mass value="0.1"/>{inertia}</inertial>'
+    finger = (
+        '<link name="{0}">{4}</link><joint name="{0}_joint" type="prismatic"><parent link="palm"/><child link="{0}"/>'
+        '<origin xyz="0 {1} 0"/><axis xyz="{2}"/><limit lower="0" upper="0.04" effort="9" velocity="1"/>{3}</joint>'
+    )
+    mimic = f'<mimic joint="left_joint" multiplier="{factor}"/>'
+    both = finger.format("left", 0.01, "0 1 0", "", inertial) + finger.format("right", -0.01, axis, mimic, inertial)
+    text = {"g.urdf": f'<robot name="g"><link name="palm"/>{both}</robot>'}
+    found = examine(NativeEngine(), text, select=["fingers-move-together"]).hints
+    assert [(each.attribute, each.value) for each in found] == [(attribute, value)]

@@ -81,7 +81,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         coefficients = written([factors[0], *(-x for x in factors[1:])])
         within = lost(of, (coupling,)) <= 0.5
         edit = set_attribute(joint, "axis", turned)
-        if axis is not None:
+        led = model.element("joint", follower)
+        mimic = led.first("mimic") if led is not None else None
+        if mimic is not None and mimic.get("multiplier") and not within:
+            edit = set_attribute(mimic, "multiplier", f"{-factors[1]:g}")
+        elif axis is not None:
             edit = set_attribute(axis, "xyz", turned)
         elif element is not None and not within:
             edit = set_attribute(element, "polycoef", coefficients)

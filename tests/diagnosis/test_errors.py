@@ -200,7 +200,9 @@ AGAIN = '<inertial><mass value="1"/></inertial>'
     ("changes", "rule", "value"),
     [
         ({"mass": ""}, "left-out", "1"),
-        ({"mass": '<mass value="0"/>'}, "massless-body", "1"),
+        ({"mass": '<mass value="0"/>'}, "massless-body", "0.0025"),
+        ({"mass": '<mass value="0"/>', "shape": '<cylinder radius="0.1" length="0.1"/>'}, "massless-body", "0.26"),
+        ({"mass": '<mass value="0"/>', "shape": '<box size="0.1 0.1 0.1"/>'}, "massless-body", "0.6"),
         ({"more": AGAIN}, "given-twice", "removed"),
         ({"kind": "floating", "top": APART}, "misplaced-joint", "world"),
         ({"shape": '<sphere radius="0"/>'}, "invalid-value", "0.001"),

@@ -21,6 +21,30 @@ def mass_of_a_ball(inertial: Element | None) -> str:
     return rounded(mean / BALL) if mean > 0 else "0.01"
 
 
+def mass_of_its_shape(inertial: Element) -> tuple[str, str]:
+    """The mass that a URDF's link has as the first of its shapes, by the inertia which is written, and the kind."""
+    inertia = inertial.first("inertia")
+    link = inertial.parent.children if inertial.parent else []
+    drawn = [each.first("geometry") for tag in ("collision", "visual") for each in link if each.tag == tag]
+    shapes = [shape for geometry in drawn[:1] if geometry for shape in geometry.children]
+    try:
+        mean = sum(float(inertia.get(name)) for name in ("ixx", "iyy", "izz")) / 3 if inertia else 0.0
+        each = _mean_of(shapes[0]) if shapes else 0.0
+    except ValueError:
+        return "", ""
+    return (rounded(mean / each), shapes[0].tag) if mean > 0 and each > 0 else ("", "")
+
+
+def _mean_of(shape: Element) -> float:
+    """The mean of the three moments of inertia of a shape for each kg, in m2; 0 for a mesh."""
+    if shape.tag == "box":
+        return sum(float(each) ** 2 for each in shape.get("size").split()) / 18
+    radius = float(shape.get("radius") or "0")
+    if shape.tag == "cylinder":
+        return (radius**2 + float(shape.get("length")) ** 2 / 6) / 3
+    return 0.4 * radius**2 if shape.tag == "sphere" else 0.0
+
+
 def moments_of_a_ball(inertia: Element) -> Suspect:
     """All moments that an inertia of URDF lacks: those off the diagonal are zero."""
     mass = inertia.parent.first("mass") if inertia.parent else None

@@ -20,12 +20,12 @@ Good:
             <joint name="turn" axis="0 0 1"/>
     +       <inertial pos="0 0 0" mass="0.01" diaginertia="1e-5 1e-5 1e-5"/>
 
-The number: mjMINVAL is 1e-15. The edit gives a body without mass 10 g, or, where its inertia is written, what a ball
-of 50 mm radius with that has; and a body without inertia that of such a ball. A body whose geoms do have mass is too
-small: a box of 0.1 mm has an inertia of 2e-18 kg m2; the compiler then gives all bodies the least that it takes, and
-lengths in mm are better. Where a mesh has a `scale` below 0.01, it is taken for one that was in metres already: a
-thousand times as much is tried first. Where two bodies and more are written alike but for the class or mass of one
-geom, a wheel among wheels, it gets theirs.
+The number: mjMINVAL is 1e-15. The edit gives a body without mass 10 g, or, where its inertia is written, what a ball of
+50 mm radius with that has, or, in URDF, the link's own box, cylinder or sphere; and a body without inertia that of such
+a ball. A body whose geoms do have mass is too small: a box of 0.1 mm has an inertia of 2e-18 kg m2; the compiler then
+gives all bodies the least that it takes, and lengths in mm are better. Where a mesh has a `scale` below 0.01, it is
+taken for one that was in metres already: a thousand times as much is tried first. Where two bodies and more are written
+alike but for the class or mass of one geom, a wheel among wheels, it gets theirs.
 
 When it is wrong: the body may not be meant to move: then its joint is too much.
 """
@@ -36,7 +36,7 @@ from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit, delete, insert, remove_attribute, replace, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.errors._ball import mass_of_a_ball
+from clinic.diagnosis.rules.errors._ball import mass_of_a_ball, mass_of_its_shape
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence
 from clinic.diagnosis.rules.errors._scale import scaled_back
 from clinic.diagnosis.source import Element
@@ -72,7 +72,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             says = f"{named} moves and has no mass: {said}."
             own = inertial.first("mass") if inertial and model.source.urdf else inertial
             if inertial and own and (value := mass_of_a_ball(inertial)) != UNKNOWN:
-                says += f" With {value} kg a ball of 50 mm radius has its inertia."
+                own_mass, shape = mass_of_its_shape(inertial) if inertial and model.source.urdf else ("", "")
+                value, shape = own_mass or value, f"its {shape}" if shape else "a ball of 50 mm radius"
+                says += f" With {value} kg {shape} has its inertia."
                 edits = (set_attribute(own, "value" if model.source.urdf else "mass", value),)
                 yield mends(element, edits, says, attribute="mass", now="0", value=value)
                 return

@@ -9,6 +9,7 @@ import pytest
 from clinic.diagnosis.diagnose import Diagnosis, examine
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import rules
 from clinic.diagnosis.simulation import Start
@@ -170,3 +171,22 @@ def test_a_spring_of_which_a_period_has_few_steps_is_told(step: float, stiffness
       <body pos="0 0 1">{slide}<geom size="0.02" mass="0.1"/></body></worldbody></mujoco>"""
     found = examine(NativeEngine(), {"model.xml": text}, select=["timestep-too-long"]).hints
     assert [each.value for each in found] == told
+
+
+@pytest.mark.parametrize(("links", "told"), [(3, True), (14, False)], ids=["whole", "cut short"])
+def test_a_command_for_which_a_shorter_step_leaves_no_time_is_no_proof(links: int, told: bool, monkeypatch) -> None:
+    calm = 0.0006  # s: the step from which on nothing is fast
+
+    def measured(model: ReaderModel, probe: Probe, edits: Sequence[Edit] = ()) -> float:
+        step = float(edits[0].value) if edits else model.simulation.timestep
+        return 300.0 if probe == commanded() and step > calm else 0.0
+
+    chain = ""
+    for number in range(links):
+        chain = f'<body pos="0 0 .1"><joint name="j{number}" type="ball"/><geom size=".02"/>{chain}</body>'
+    motor = '<actuator><motor joint="j0" gear="0 0 1" ctrlrange="-1 1"/></actuator>'
+    option = '<option timestep="0.002"/>'
+    text = {"model.xml": f"<mujoco>{option}<worldbody>{chain}</worldbody>{motor}</mujoco>"}
+    monkeypatch.setattr(ReaderModel, "measured", measured)
+    model = ReaderModel(NativeEngine(), text, read_source(text), Start())
+    assert bool(list(rules()["timestep-too-long"].suspects(model))) is told

@@ -280,3 +280,65 @@ def test_pads_of_some_grams_make_no_difference(side: float, told: list[str]):
     text = f'<mujoco><worldbody><body>{hand}<body pos="0 0 0.1">{finger}{pad}</body></body></worldbody></mujoco>'
     found = examine(NativeEngine(), {"model.xml": text}, select=["inertial-forgotten"]).hints
     assert [each.rule for each in found] == told
+
+
+@pytest.mark.parametrize(
+    ("geoms", "told"),
+    [
+        pytest.param("0.5 0.3 0.4", ["inertial-ignored"], id="more than the inertial"),
+        pytest.param("0.5 0.6", [], id="the same"),
+        pytest.param("1.1 1.1", [], id="drawn and colliding"),
+        pytest.param("0.3 0.2", [], id="less"),
+        pytest.param("1.5", [], id="one"),
+    ],
+)
+def test_masses_of_geoms_that_an_inertial_leaves_out_are_told(geoms: str, told: list[str]):
+    own = "1.1" if "1.1" in geoms or "0.6" in geoms else "0.9"
+    shapes = "".join(f'<geom size="0.05" mass="{mass}"/>' for mass in geoms.split())
+    hub = f'<inertial pos="0 0 0" mass="{own}" diaginertia="0.004 0.004 0.006"/>{shapes}'
+    text = f'<mujoco><worldbody><body name="hub" pos="0 0 1"><freejoint/>{hub}</body></worldbody></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text}, select=["inertial-ignored"]).hints
+    assert [each.rule for each in found] == told
+
+
+@pytest.mark.parametrize(
+    ("load", "more", "told"),
+    [
+        pytest.param('gravcomp="1"', "", True, id="what hangs"),
+        pytest.param('gravcomp="0.3"', "", False, id="a part of it"),
+        pytest.param('gravcomp="1"', '<motor joint="swing"/>', False, id="held by a motor"),
+    ],
+)
+def test_a_load_that_hangs_without_a_weight_is_told(load: str, more: str, told: bool):
+    swing = '<joint name="swing" axis="0 1 0"/><geom size=".05" pos="0 0 -.1"/>'
+    hung = f'<body name="load" pos="0 0 -.3" {load}>{swing}</body>'
+    drone = f'<body name="drone" pos="0 0 2"><freejoint/><geom size=".1"/>{hung}</body>'
+    text = {"m.xml": f"<mujoco><worldbody>{drone}</worldbody><actuator>{more}</actuator></mujoco>"}
+    found = examine(NativeEngine(), text, select=["gravcomp-on-some"]).hints
+    assert [each.elements for each in found] == [('body "load"',)] * told
+
+
+@pytest.mark.parametrize(("left", "right", "value"), [(-0.2, -0.2, "0.4 0.2 0"), (0.2, 0.2, "0.4 -0.2 0")])
+def test_a_left_and_a_right_geom_in_one_place_are_mirrored(left: float, right: float, value: str):
+    forks = "".join(
+        f'<geom name="fork_{side}" type="box" size="0.4 0.05 0.01" pos="0.4 {y} 0"/>'
+        for side, y in (("l", left), ("r", right))
+    )
+    text = {"m.xml": f"<mujoco><worldbody><body pos='0 0 1'><joint/>{forks}</body></worldbody></mujoco>"}
+    found = examine(NativeEngine(), text, select=["geom-twice"])
+    assert [each.value for each in found.hints] == [value]
+    assert not found.causes
+
+
+def test_a_mass_that_a_class_gives_a_geom_is_no_lost_inertial():
+    inner = '<inertial pos="0 0 0.1" mass="0.5" diaginertia="0.002 0.002 0.0005"/><geom size="0.03"/>'
+    geom = '<geom class="pad" type="box" size="0.03 0.006 0.012"/>'
+    pad = f'<body name="pad" pos="0 0 0.2"><joint type="slide"/>{geom}</body>'
+    chain = f'<body pos="0 0 0.2"><joint/>{inner}{pad}</body>'
+    default = '<default><default class="pad"><geom {}/></default></default>'
+    told = []
+    for given in ('mass="0.06"', 'density="4000"'):
+        text = f"<mujoco>{default.format(given)}<worldbody><body><joint/>{inner}{chain}</body></worldbody></mujoco>"
+        found = examine(NativeEngine(), {"m.xml": text}, select=["inertial-forgotten"]).hints
+        told.append([each.elements for each in found])
+    assert told == [[], [('body "pad"',)]]

@@ -19,8 +19,8 @@ Good:
             <geom type="box" size="0.05 0.02 0.04"/>
     -       <geom type="box" size="0.05 0.02 0.04"/>
 
-The number: the body's mass, and without the copy. Geoms count as the same when type, size, place, mesh, masks and
-color are.
+The number: the body's mass, and without the copy. Geoms count as the same when type, size, place, mesh, masks and color
+are. Of two that are called left and right the one is told whose y is on the other side.
 
 When it is wrong: two layers that are meant; more than two copies in a model are.
 """
@@ -32,10 +32,12 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import delete
 from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.probes.matter import mass_of
+from clinic.diagnosis.probes.sides import by_name
 from clinic.diagnosis.probes.tendons import path
+from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A geom stands twice"
 FAMILIES = ("wrong-mass", "sags", "drifts")
@@ -52,6 +54,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     copies = [(body, *pair) for body in range(1, of.count("body")) for pair in _copies(of, body)]
     for body, geom, first in copies if len(copies) <= MANY else ():
+        if {geom, first} in map(set, by_name(of, "geom")):
+            yield from _twins(model, geom, first)
+            continue
         element = model.element("geom", geom)
         edits = (delete(element),) if element is not None else ()
         without = model.with_edits(edits)
@@ -73,11 +78,29 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         )
 
 
-def _copies(of: Simulation, body: int) -> Iterator[tuple[int, int]]:
+def _twins(model: ReaderModel, *pair: int) -> Iterator[Suspect]:
+    """A left and a right geom in one place: the one that is on the other side than it is called, x being ahead."""
+    of = model.simulation
+    left, right = next(each for each in by_name(of, "geom") if set(each) == set(pair))
+    x, y, z = of.row("geom_pos", left, 3)
+    wrong, twin = (left, right) if y < 0 else (right, left)
+    value, name = written((x, -y, z)), of.name("geom", wrong)
+    edits = model.set_each("geom", "pos", {wrong: value}) if y else ()
+    probe = how_many("geoms that stand twice in a body", _copies, of.body_of("geom", wrong))
+    says = f"It has the place of {of.name('geom', twin)}: a left and a right one stand on two sides."
+    yield Suspect(
+        (name, of.name("geom", twin)), "pos", written((x, y, z)), value, edits, probe, 0, says,
+        "the mirror image of its twin", level="hint",
+    )  # fmt: skip
+
+
+def _copies(of: Simulation, body: int) -> list[tuple[int, int]]:
     """Geoms of a body that are like one before them, and that one."""
+    made = []
     first: dict[tuple[float, ...], int] = {}
     wraps = {index for tendon in range(of.count("tendon")) for kind, index in path(of, tendon) if kind == "geom"}
     for geom in of.geoms_of(body):
         key = tuple(round(x, 6) for name, width in FIELDS.items() for x in of.row(f"geom_{name}", geom, width))
         if first.setdefault(key, geom) != geom and not {geom, first[key]} & wraps:  # each tendon has its own
-            yield geom, first[key]
+            made.append((geom, first[key]))
+    return made

@@ -28,8 +28,9 @@ Good:
     -       <body name="fore" pos="0.3 0 0">
     +       <body name="fore" pos="0.3 0 0" gravcomp="1">
 
-The number: the share of the moving mass of a mechanism on a fixed base that is not compensated; above 2 % is told.
-A hint tells of a free body that has `gravcomp` of 0.9 and more where no other has any: it floats.
+The number: the share of the moving mass of a mechanism on a fixed base that is not compensated; above 2 % is told. A
+hint tells of a free body that has `gravcomp` of 0.9 and more where no other has any: it floats; and of the one link of
+a free robot that has it and hangs on joints without a motor and a spring.
 
 When it is wrong: an arm that is to feel what it holds. Where only the last links lack it, or half of
 the mass does, it is a hint.
@@ -62,6 +63,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         tree = [body for body, top in enumerate(owner) if top == root and masses[body] > 0]
         if any(of.joint_type(joint) == FREE for joint in of.joints_of(root)):
             yield from _floats(model, tree)
+            yield from _hangs(model, tree)
             continue
         bare = [body for body in tree if compensated[body] == 0]
         joints = [joint for body in tree for joint in of.joints_of(body)]
@@ -104,6 +106,24 @@ def _floats(model: ReaderModel, tree: list[int]) -> Iterator[Suspect]:
         yield Suspect(
             names, "gravcomp", now, "0", edits, probe, FLOATS - 0.01, says, "0 for what is to fall", level="hint"
         )
+
+
+def _hangs(model: ReaderModel, tree: list[int]) -> Iterator[Suspect]:
+    """The one link of a free robot that gravity does not pull, and that no motor holds."""
+    of, compensated = model.simulation, model.simulation.model("body_gravcomp")
+    light = [body for body in tree if compensated[body] >= FLOATS]
+    if len(light) != 1 or any(compensated[body] for body in tree if body not in light):
+        return
+    lines = {joint for body in of.ancestors(light[0]) for joint in of.joints_of(body)}
+    drivers = {*of.drivers} | {joint for joint in lines if of.model("jnt_stiffness")[joint]}
+    hinges = {joint for joint in lines if of.joint_type(joint) != FREE}
+    if not hinges or hinges & drivers or not any(of.model("opt.gravity")):
+        return
+    name, now = of.name("body", light[0]), f"{compensated[light[0]]:g}"
+    says = f"Of {len(tree)} links it alone has gravcomp, and it hangs on joints that nothing drives: it has no weight."
+    probe = Probe("share of its gravity that is taken away", "", _least, tuple(light), dynamic=False)
+    edits = model.set("body", light, "gravcomp", "0")
+    yield Suspect((name,), "gravcomp", now, "0", edits, probe, FLOATS - 0.01, says, "0 for what hangs", level="hint")
 
 
 def _least(simulation: Simulation, *bodies: int) -> float:

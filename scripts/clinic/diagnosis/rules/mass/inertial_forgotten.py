@@ -36,10 +36,10 @@ Good:
     +           <inertial pos="0.1 0 0" mass="1" diaginertia="0.001 0.004 0.004"/>
 
 The number: told is one body where two others of its mechanism have an `<inertial>`, or two where three in four have
-one, and no geom of theirs has a mass or a density written on itself. So are parts without a joint, all together, whose
-geoms add more than 15 % to the mass of the link they are fixed to, where that link has an `<inertial>` of its own: a
-foot's collision geoms weigh as water does. What weighs less than 30 g, or than a tenth of all that moves, is
-left alone.
+one, and no geom of theirs has a density written on itself, or a mass on itself or in its class. So are parts without a
+joint, all together, whose geoms add more than 15 % to the mass of the link they are fixed to, where that link has an
+`<inertial>` of its own: a foot's collision geoms weigh as water does. What weighs less than 30 g, or than a tenth of
+all that moves, is left alone.
 
 When it is wrong: a body that was added by hand and is as heavy as its geoms.
 """
@@ -88,9 +88,10 @@ def _jointed(model: ReaderModel) -> Iterator[Suspect]:
             continue
         for body in (each for each in bare if of.model("body_mass")[each] > _little(of)):
             placed = [each for geom in of.geoms_of(body) if (each := model.element("geom", geom)) is not None]
-            if not (placed or (model.source and model.source.urdf and of.geoms_of(body))) or any(
-                (each.get(name) or "0") != "0" for each in placed for name in ("mass", "density")
-            ):
+            weighed = any((each.get("density") or "0") != "0" for each in placed) or any(
+                (model.value("geom", geom, "mass") or "0") != "0" for geom in of.geoms_of(body)
+            )
+            if weighed or not (placed or (model.source and model.source.urdf and of.geoms_of(body))):
                 continue
             mass = of.model("body_mass")[body]
             says = f"{others} others have an <inertial>; its {mass:.3g} kg are those of its geoms."

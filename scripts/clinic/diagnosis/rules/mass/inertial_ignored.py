@@ -20,7 +20,9 @@ Good:
 
     -   <compiler inertiafromgeom="true"/>
 
-The number: how much a body's mass is off the one that its `<inertial>` says; more than a fifth.
+The number: how much a body's mass is off the one that its `<inertial>` says; more than a fifth. Without the attribute
+it is the other way round, and a body is told whose geoms have masses of their own, which add to more than a fifth above
+that of its `<inertial>`, unless each is that: drawn and colliding copies.
 
 When it is wrong: an `<inertial>` that was left in the file and is known to be wrong.
 """
@@ -29,6 +31,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.edit import delete
 from clinic.diagnosis.probes.inertia import inertial
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -40,11 +43,12 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "no healthy model has the attribute and an <inertial>"
 
-MOST = 0.2
+MOST, SAME = 0.2, 0.02
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The bodies whose mass is not that of their `<inertial>`, all together."""
+    yield from _masked(model)
     of = model.simulation
     if model.source is None or not any(
         each.get("inertiafromgeom") == "true" for each in model.source.elements("compiler")
@@ -73,6 +77,32 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         "the mass that is written",
         level="hint",
     )
+
+
+def _masked(model: ReaderModel) -> Iterator[Suspect]:
+    """The bodies whose `<inertial>` leaves out masses that are written on their geoms."""
+    of = model.simulation
+    for body, mass in _written(model).items():
+        element, own = inertial(model, body), of.model("body_mass")[body]
+        edits = (delete(element),) if element is not None else ()
+        says = (
+            f"Its geoms have {mass:.3g} kg, as is written on them, and do not count: the <inertial> says {own:.3g} kg."
+        )
+        probe = Probe("share by which a body's mass is off its geoms'", "", _off, (body, mass), dynamic=False)
+        wanted = "one of the two"
+        yield Suspect((of.name("body", body),), "mass", f"{own:.4g}", f"{mass:.4g}", edits, probe, MOST, says, wanted)
+
+
+def _written(model: ReaderModel) -> dict[int, float]:
+    """By body with an `<inertial>` that is less: the mass of its geoms; copies of what it says are not added."""
+    of, made = model.simulation, dict[int, float]()
+    for body in of.moving_bodies if model.source is not None and not model.urdf else ():
+        own, element = of.model("body_mass")[body], inertial(model, body)
+        masses = [float(each) for geom in of.geoms_of(body) if (each := model.value("geom", geom, "mass"))]
+        drawn = all(abs(mass - own) < SAME * own for mass in masses)
+        if element is not None and len(masses) > 1 and sum(masses) > (1 + MOST) * own and not drawn:
+            made[body] = sum(masses)
+    return made
 
 
 def _off(of: Simulation, body: int, mass: float) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.edit import apply
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import rules
 
@@ -510,3 +511,57 @@ def test_a_base_of_the_world_that_is_in_the_floor_for_the_most_part_is_told(heig
     model = {"digger.xml": f"<mujoco><worldbody>{plane}{base}</worldbody></mujoco>"}
     found = examine(NativeEngine(), model, select=["overlap-at-start"]).hints
     assert [(each.elements, each.value) for each in found] == ([(('body "tracks"',), told)] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("rail", "told"),
+    [
+        pytest.param('type="capsule" fromto="-1.3 0 0 1.3 0 0" size="0.02"', True, id="through the cart"),
+        pytest.param('type="capsule" fromto="-1.3 0 -0.07 1.3 0 -0.07" size="0.02"', False, id="flush"),
+        pytest.param('type="capsule" fromto="-0.5 0 0 0.2 0 0" size="0.02"', False, id="not along all of the way"),
+        pytest.param('type="plane" size="2 2 0.1" pos="0 0 -0.045"', False, id="a floor"),
+    ],
+)
+def test_a_cart_that_is_in_its_rail_all_the_way_is_told(rail, told):
+    slide = '<joint name="slider" type="slide" axis="1 0 0" range="-1 1"/>'
+    cart = f'<body name="cart">{slide}<geom type="box" size="0.12 0.06 0.05" mass="1"/></body>'
+    text = {"model.xml": f"<mujoco><worldbody><geom {rail}/>{cart}</worldbody></mujoco>"}
+    found = examine(NativeEngine(), text, select=["rubs-on-its-base"]).hints
+    assert [each.elements[0] for each in found] == ['joint "slider"'] * told
+    for each in found:
+        assert not examine(NativeEngine(), apply(text, each.edit), select=["rubs-on-its-base"]).hints
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "value"),
+    [(0.002, -0.006, "0 0.006 0"), (0.006, -0.002, "0 -0.006 0"), (0.006, -0.006, None), (0.003, -0.003, None)],
+    ids=["left", "right", "apart", "both alike"],
+)
+def test_of_two_fingers_in_each_other_the_nearer_one_is_told(left, right, value):
+    finger = (
+        '<body name="{0}_finger" pos="0 {1} 0"><joint type="slide" axis="0 {2} 0" range="0 0.04"/>'
+        '<geom type="box" size="0.01 0.005 0.03" pos="0 0 -0.05"/></body>'
+    )
+    both = finger.format("left", left, 1) + finger.format("right", right, -1)
+    palm = f'<body name="palm" pos="0 0 1"><joint/><geom size="0.01"/>{both}</body>'
+    text = {"model.xml": f"<mujoco><worldbody>{palm}</worldbody></mujoco>"}
+    found = examine(NativeEngine(), text, select=["overlap-of-relatives"]).hints
+    assert [each.value for each in found if each.attribute == "pos"] == ([value] if value else [])
+
+
+@pytest.mark.parametrize(
+    ("height", "keys", "told"),
+    [
+        pytest.param(-0.009, "", "0 0 0.007", id="nearly all of it"),
+        pytest.param(0.005, "", None, id="a little"),
+        pytest.param(-0.009, '<keyframe><key qpos="0.1"/></keyframe>', None, id="raised by a keyframe"),
+    ],
+)
+def test_a_tool_that_slides_on_the_world_and_begins_in_the_floor_is_raised(height, keys, told):
+    slide = '<joint type="slide" axis="0 0 1" range="0 0.2" damping="20"/>'
+    palm = f'{slide}<geom type="box" size="0.05 0.05 0.01" pos="0 0 0.5" contype="0" conaffinity="0"/>'
+    tool = f'<body name="hoist" pos="0 0 {height}">{palm}<geom name="tip" type="box" size="0.008 0.01 0.007"/></body>'
+    floor = '<geom type="plane" size="1 1 0.1"/>'
+    text = {"model.xml": f"<mujoco><worldbody>{floor}{tool}</worldbody>{keys}</mujoco>"}
+    found = examine(NativeEngine(), text, select=["overlap-at-start"]).hints
+    assert [each.value for each in found] == ([told] if told else [])

@@ -25,7 +25,8 @@ The number: the deepest overlap at the start as a share of how far the thing rea
 well. Robots are often pressed into the floor by a few millimetres.
 
 A base that is fixed to the world is pushed by nothing. A hint tells of one that carries joints, all of them above a
-plane, and has more than 0.6 of its height below; of 260 healthy models the deepest has 0.5.
+plane, and has more than 0.6 of its height below; of 260 healthy models the deepest has 0.5. So is a mechanism that
+slides on the world, of which a geom has more than 0.6 of its thickness in a plane, where no keyframe raises it.
 
 When it is wrong: code that puts everything into its place after the reset. Bodies that all begin at the origin look
 like that and are left alone; where a mechanism that is fixed to the world takes part, or a robot that begins outside
@@ -41,7 +42,7 @@ from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import BOX, CAPSULE, CYLINDER, FREE, HINGE, PLANE, SLIDE, SPHERE, Contact
 from clinic.diagnosis.probes.hulls import closed_holes
 from clinic.diagnosis.probes.overlap import at_start, beginning, buried, sunk_by_half
-from clinic.diagnosis.probes.shape import box, boxes, geoms_of_tree, root_of
+from clinic.diagnosis.probes.shape import box, boxes, falling, geoms_of_tree, root_of, thickness
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, Start
@@ -65,6 +66,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     deep = any(share > MOST for share, _ in buried(simulation).values())
     holes = closed_holes(simulation) if deep else {}
     found = {root: each for root, each in buried(simulation, holes).items() if each[0] > MOST}
+    yield from _hung_low(model, found)
     if not found or (model.start.key < 0 and simulation.count("key")):
         return  # where there are keyframes, what begins is begun from one
     raised = _lifts(simulation, found)
@@ -86,6 +88,42 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         else:
             level: Level = "hint" if any(_posed(simulation, root) for root in _trees(simulation, found)) else "cause"
             yield Suspect((*names, *geoms), "pos", "", lifted, edits, at_start(), MOST, says, excess=2.0, level=level)
+
+
+def _hung_low(model: ReaderModel, told: Collection[int]) -> Iterator[Suspect]:
+    """What slides on the world and has a link in a floor, raised until that is free; where no keyframe puts it up."""
+    of = model.simulation
+    if of.count("key"):
+        return
+    for root, (share, deep, geom) in _in_floor(of).items():
+        if root in told or share <= SUNK:
+            continue
+        x, y, z = of.row("body_pos", root, 3)
+        probe = Probe("share of a geom's thickness that is in the floor", "", _deepest, (root,), dynamic=False)
+        link, place = of.name("body", of.body_of("geom", geom)), (x, y, round(z + deep, 4))
+        says = f"{link} on it begins {1000 * deep:.3g} mm in the floor, {100 * share:.0f} % of its thickness."
+        names, edits = (of.name("body", root), of.name("geom", geom)), model.placed(root, place)
+        yield Suspect(
+            names, "pos", written((x, y, z)), written(place), edits, probe, SUNK, says, "above the floor", level="hint"
+        )
+
+
+def _in_floor(of: Simulation) -> dict[int, tuple[float, float, int]]:
+    """By root that falls along a slide: the greatest share of a geom's thickness in a plane, how deep in m, it."""
+    bodies, owner, kinds = of.model("geom_bodyid"), root_of(of), of.model("geom_type")
+    made: dict[int, tuple[float, float, int]] = {}
+    slides = [root for root in falling(of) if root not in of.free_bodies]
+    for contact in (each for each in beginning(of).contacts if min(each.geoms) >= 0):
+        plane, geom = sorted(contact.geoms, key=lambda each: int(kinds[each]) != PLANE)
+        root = owner[int(bodies[geom])]
+        if int(kinds[plane]) == PLANE and not owner[int(bodies[plane])] and root in slides and contact.force > 0:
+            share = -contact.distance / thickness(of, geom)
+            made[root] = max(made.get(root, (0.0, 0.0, geom)), (share, -contact.distance, geom))
+    return made
+
+
+def _deepest(of: Simulation, root: int) -> float:
+    return _in_floor(of).get(root, (0.0, 0.0, 0))[0]
 
 
 def _foundered(model: ReaderModel) -> Iterator[Suspect]:

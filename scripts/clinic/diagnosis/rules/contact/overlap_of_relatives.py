@@ -26,8 +26,9 @@ Good:
 
 The number: the deepest overlap at the start of bodies at most 3 links apart, as a share of the thinner geom's
 thickness; below 0.1 is well. They do so too in a fifth of 17 poses over the ranges of all joints: two fingers that are
-closed at 0, and the wrist of an arm that lies in its forearm at 0 alone, do it in 1 or 2. MuJoCo's manual,
-Computation, Collision detection: the filter of parents.
+closed at 0, and the wrist of an arm that lies in its forearm at 0 alone, do it in 1 or 2. Of a left and a right finger
+that are in each other when closed, one that is nearer to the middle is told as a hint. MuJoCo's manual, Computation,
+Collision detection: the filter of parents.
 
 When it is wrong: a geom that is too large, where the edit hides it; or a part without the free joint that it gets
 elsewhere. So a body with three limbs and more that is fixed in an empty world, and that no exclude names, is left
@@ -39,11 +40,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import SLIDE
 from clinic.diagnosis.probes.arms import longest_row
 from clinic.diagnosis.probes.overlap import legged, of_relatives, often, relatives
 from clinic.diagnosis.probes.shape import root_of, roots, thickness
+from clinic.diagnosis.probes.sides import by_name
+from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Parts that overlap at the start"
 FAMILIES = ("jumps-at-start", "stuck", "explodes")
@@ -51,12 +56,14 @@ SINCE = "0.1"
 LEVEL = "hint"
 CASE = "joint-snaps-at-start"
 
+SAME = 1e-5  # m
 MOST, ARM = 0.1, 5  # hinges in a row of an arm
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """All pairs of relatives that overlap, excluded together."""
     simulation = model.simulation
+    yield from _lopsided(model)
     if model.measured(of_relatives()) <= MOST or legged(model):
         return
     names = ["world", *simulation.names("body")[1:]]
@@ -79,3 +86,41 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     edits = model.add("contact", xml) if named else ()
     value = f"{len(deep)} excluded" if len(deep) > 1 else "excluded"
     yield Suspect(tuple(dict.fromkeys(bodies)), "exclude", "none", value, edits, of_relatives(), MOST, says, excess=2.0)
+
+
+def _lopsided(model: ReaderModel) -> Iterator[Suspect]:
+    """Two fingers that close into each other, the one nearer to the middle put as far off it as its twin."""
+    of = model.simulation
+    for near, far in _unlike(of):
+        place, twin = of.row("body_pos", near, 3), of.row("body_pos", far, 3)
+        mirrored = [a if abs(a - b) < SAME else -b for a, b in zip(place, twin, strict=True)]
+        probe = Probe("depth of two fingers in each other", "m", _depth, (near, far), dynamic=False)
+        edits = model.placed(near, mirrored)
+        if not edits or model.measured(probe, edits) > SAME:
+            continue
+        names = of.name("body", near), of.name("body", far)
+        says = f"They are {1000 * _depth(of, near, far):.2g} mm in each other, and it is nearer to the middle."
+        value = written(mirrored)
+        yield Suspect(names, "pos", written(place), value, edits, probe, SAME, says, "the mirror image", level="hint")
+
+
+def _unlike(of: Simulation) -> list[tuple[int, int]]:
+    """The left and right slides of one body that overlap at the start, on two sides, not as far; near first."""
+    pairs = [frozenset(of.body_of("joint", each) for each in pair) for pair in by_name(of, "joint")]
+    pairs += [frozenset(pair) for pair in by_name(of, "body")]
+    made = []
+    for one, other, _ in relatives(of):
+        joints = [of.joint_type(joint) for body in (one, other) for joint in of.joints_of(body)]
+        places = of.row("body_pos", one, 3), of.row("body_pos", other, 3)
+        apart = [(a, b) for a, b in zip(*places, strict=True) if abs(a - b) > SAME]
+        parents = {of.model("body_parentid")[body] for body in (one, other)}
+        if frozenset((one, other)) not in pairs or joints != [SLIDE, SLIDE] or len(parents) > 1 or len(apart) != 1:
+            continue
+        a, b = apart[0]
+        if a * b < 0 and abs(a + b) > SAME:
+            made.append((one, other) if abs(a) < abs(b) else (other, one))
+    return list(dict.fromkeys(made))
+
+
+def _depth(of: Simulation, *pair: int) -> float:
+    return max((-contact.distance for one, other, contact in relatives(of) if {one, other} == {*pair}), default=0.0)

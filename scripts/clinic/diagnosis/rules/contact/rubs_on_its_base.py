@@ -24,9 +24,9 @@ Good:
     +     <exclude body1="base" body2="shoulder"/>
     +   </contact>
 
-The number: the share of 21 poses over the range, or over a turn where there is none, in which the two are less than
-0.1 mm apart; the other joints are at their start. MuJoCo's manual, Computation, Collision detection: the
-filter of parents.
+The number: the share of 21 poses over the range, or over a turn where there is none, in which the two are less than 0.1
+mm apart; the other joints are at their start. What slides has to be 0.5 mm deep in something else than a plane.
+MuJoCo's manual, Computation, Collision detection: the filter of parents.
 
 When it is wrong: a brake or a bearing that is modelled by its friction. Deep overlaps are told by
 `overlap-of-relatives`.
@@ -37,7 +37,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.engine import HINGE, PLANE, SLIDE
 from clinic.diagnosis.probes.overlap import legged, of_relatives
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -50,7 +50,7 @@ LEVEL = "hint"
 UNPLANTED = "whether a base touches the link on it is the geoms', which no edit of one number changes"
 
 POSES, ALWAYS, DEEP = 21, 0.99, 0.1
-FLUSH = 1e-4  # m: with the least sag it touches
+FLUSH, PRESSED = 1e-4, 5e-4  # m: with the least sag it touches; deep in what is no floor
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -59,24 +59,27 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for joint in range(of.count("joint")):
         body = of.body_of("joint", joint)
         base = int(of.model("body_parentid")[body])
-        fixed = base and not of.model("body_weldid")[base]
-        if of.joint_type(joint) != HINGE or not fixed or _share(of, joint, body, base) < ALWAYS:
+        fixed = not of.model("body_weldid")[base] and (base or of.joint_type(joint) == SLIDE)
+        if of.joint_type(joint) not in (HINGE, SLIDE) or not fixed or _share(of, joint, body, base) < ALWAYS:
             continue
         told_elsewhere = model.measured(of_relatives()) > DEEP or legged(model)  # as an overlap, or by its free joint
         if told_elsewhere:
             return
-        names = of.names("body")[base], of.names("body")[body]
+        names = of.names("body")[base] if base else "world", of.names("body")[body]
         xml = '<exclude body1="{}" body2="{}"/>'.format(*names)
         edits = model.add("contact", xml) if all(names) and not set("".join(names)) & set('"&<') else ()
         told = of.name("body", base), of.name("body", body)
-        says = f"{told[1]} touches {told[0]}, which is fixed to the world, wherever {of.name('joint', joint)} stands."
+        fixed_base = f"{told[0]}, which is fixed to the world," if base else "what is fixed to the world"
+        says = f"{told[1]} touches {fixed_base} wherever {of.name('joint', joint)} stands."
         probe = Probe("share of the poses in which the two touch", "", _share, (joint, body, base), dynamic=False)
         yield Suspect((of.name("joint", joint), *told), "exclude", "none", "excluded", edits, probe, 0.5, says, "none")
 
 
 def _share(of: Simulation, joint: int, body: int, base: int) -> float:
     """The share of poses of a joint in which its body and the one below are no further apart than FLUSH."""
+    slides, kinds = of.joint_type(joint) == SLIDE, of.model("geom_type")
     low, high = of.row("jnt_range", joint, 2) if of.model("jnt_limited")[joint] else (-math.pi, math.pi)
+    least = -PRESSED if slides else FLUSH  # what slides is not carried by what it touches
     owners, place, margins = of.model("geom_bodyid"), of.place(joint), list(of.model("geom_margin"))
     touched, condims = 0, of.model("geom_condim")
     of.begin(forward=False)
@@ -85,8 +88,9 @@ def _share(of: Simulation, joint: int, body: int, base: int) -> float:
         for pose in range(POSES):
             of.engine.write("qpos", [low + (high - low) * pose / (POSES - 1)], place)
             of.engine.forward()
-            near = (each.geoms for each in of.engine.contacts() if min(each.geoms) >= 0 and each.distance < FLUSH)
+            near = (each.geoms for each in of.engine.contacts() if min(each.geoms) >= 0 and each.distance < least)
             rough = (geoms for geoms in near if max(condims[geom] for geom in geoms) > 1)
+            rough = (geoms for geoms in rough if not (slides and PLANE in (int(kinds[geom]) for geom in geoms)))
             touching = any({int(owners[geom]) for geom in geoms} == {body, base} for geoms in rough)
             if not touching and pose < 2:
                 return 0.0

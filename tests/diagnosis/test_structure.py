@@ -265,3 +265,63 @@ def test_a_spring_that_rests_on_the_side_of_its_load_gets_the_other_sign(rest: s
     text = f"<mujoco><worldbody>{load}</worldbody></mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["spring-at-its-stop"]).hints
     assert [(each.attribute, each.value) for each in found] == ([("springref", told)] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("name", "base", "axis", "told"),
+    [
+        pytest.param("pole", 'type="slide" axis="1 0 0"', "1 0 0", "0 1 0", id="about its slide"),
+        pytest.param("pole", 'type="slide" axis="1 0 0"', "0 0 1", "0 1 0", id="along the rod"),
+        pytest.param("pole", 'type="slide" axis="1 0 0"', "0 1 0", None, id="across"),
+        pytest.param("pendulum", 'axis="0 0 1"', "0 0 1", "1 0 0", id="on an arm"),
+        pytest.param("pendulum", 'axis="0 0 1"', "1 0 0", None, id="about the arm"),
+        pytest.param("mast", 'type="slide" axis="1 0 0"', "1 0 0", None, id="called otherwise"),
+    ],
+)
+def test_a_pendulum_that_nothing_can_swing_is_told(name: str, base: str, axis: str, told: str | None) -> None:
+    rod = f'<joint name="hinge" axis="{axis}"/><geom type="capsule" fromto="0 0 0 0 0 -.3" size=".01"/>'
+    cart = (
+        f'<joint {base}/><geom type="box" size=".1 .05 .02" pos=".1 0 0"/><body name="{name}" pos=".2 0 0">{rod}</body>'
+    )
+    text = {"model.xml": f'<mujoco><worldbody><body pos="0 0 1">{cart}</body></worldbody></mujoco>'}
+    found = examine(NativeEngine(), text, select=["axis-unlike-name"]).hints
+    assert [(each.elements[0], each.value) for each in found] == ([('joint "hinge"', told)] if told else [])
+    for each in found:
+        assert not examine(NativeEngine(), apply(text, each.edit), select=["axis-unlike-name"]).hints
+
+
+@pytest.mark.parametrize(
+    ("name", "mass", "load", "told"),
+    [
+        pytest.param("pallet", 'mass="9"', "<freejoint/>", True, id="a pallet"),
+        pytest.param("pallet", "", "<freejoint/>", False, id="without a mass"),
+        pytest.param("pallet", 'mass="9"', "", False, id="under what is fixed too"),
+        pytest.param("table", 'mass="9"', "<freejoint/>", False, id="a table"),
+    ],
+)
+def test_a_pallet_that_carries_something_free_and_has_no_joint_is_told(name, mass, load, told):
+    boards = "".join(f'<geom type="box" size=".4 .05 .05" pos="0 {y} 0" {mass}/>' for y in (-0.3, 0, 0.3))
+    crate = f'<body pos="0 0 .149">{load}<geom type="box" size=".2 .4 .1" mass="9"/></body>'
+    car = '<body pos="2 0 .5"><joint type="slide"/><geom size=".1"/></body>'
+    floor = '<geom type="plane" size="5 5 .1"/>'
+    text = (
+        f'<mujoco><worldbody>{floor}<body name="{name}" pos="0 0 .05">{boards}</body>{crate}{car}</worldbody></mujoco>'
+    )
+    found = examine(NativeEngine(), {"model.xml": text}, select=["object-without-joint"]).hints
+    assert [each.elements for each in found] == [('body "pallet"',)] * told
+
+
+@pytest.mark.parametrize(("outer", "told"), [("", "arm"), ('childclass="arm"', None)], ids=["lost", "there"])
+def test_the_class_that_all_used_ones_stand_in_is_the_one_that_was_lost(outer: str, told: str | None) -> None:
+    inner = '<default class="small"><joint damping="0.4"/></default><default class="big"><geom size=".02"/></default>'
+    classes = f'<default><default class="arm"><joint damping="1.5" armature="0.1"/>{inner}</default></default>'
+    links = ("", ""), ('childclass="small"', ""), ("", "")
+    chain = ""
+    for number, (child, _) in enumerate(links[::-1]):
+        name = f"j{len(links) - number}"
+        chain = f'<body pos="0 0 .2" {child}><joint name="{name}" axis="0 1 0"/><geom size=".02"/>{chain}</body>'
+    servos = "".join(f'<position joint="j{number}" kp="9"/>' for number in (1, 2, 3))
+    world = f"<worldbody><body {outer}><geom size='.02'/>{chain}</body></worldbody>"
+    text = f"<mujoco>{classes}{world}<actuator>{servos}</actuator></mujoco>"
+    found = examine(NativeEngine(), {"m.xml": text}, select=["class-not-reached"]).hints
+    assert [each.value for each in found if each.attribute == "class"] == ([told] if told else [])

@@ -261,3 +261,15 @@ def test_the_base_of_an_arm_may_weigh_what_it_does(links: tuple[int, int], told:
     chain = moving.format("l0", "l1") + moving.format(f"l{links[0]}", "l2") + moving.format(f"l{links[1]}", "l3")
     found = examine(NativeEngine(), {"r.urdf": f'<robot name="r">{base}{chain}</robot>'}, select=["inertial-forgotten"])
     assert [each.elements for each in found.hints] == [('body "l0"',)] * told
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "told"), [("fix", "floating", True), ("root", "floating", False), ("fix", "fixed", False)]
+)
+def test_a_joint_that_is_called_fixed_and_floats_is_told(name: str, kind: str, told: bool) -> None:
+    inertial = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    case = f'<link name="world"/><link name="case">{inertial}</link>'
+    joint = f'<joint name="{name}" type="{kind}"><parent link="world"/><child link="case"/></joint>'
+    text = {"case.urdf": f'<robot name="r">{case}{joint}</robot>'}
+    found = examine(NativeEngine(), text, select=["urdf-fixed-with-range"]).hints
+    assert [(each.elements[0], each.value) for each in found] == [('joint "fix"', "fixed")] * told

@@ -26,7 +26,9 @@ Good:
 The number: the angle in degrees between a slide and the axis that its name says: x, forward; y, side, lateral; z,
 vertical. More than 60, both in the world and as it is written, where two slides and more are called so; of 289 healthy
 models none has such a slide. Models whose y is up are left alone. A slide called a lift or an elevator, and the one
-hinge that yaws a rolling base, a waist, a chest or a head, are told as far from the vertical, each by itself.
+hinge that yaws a rolling base, a waist, a chest or a head, are told as far from the vertical, each by itself. So is a
+pendulum or a pole that nothing drives, whose axis goes along the rod through its centre of mass, or is that of the
+slides that carry it.
 
 When it is wrong: a frame whose x is not forward.
 """
@@ -38,10 +40,10 @@ import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE, SLIDE
-from clinic.diagnosis.probes.vector import times, transpose, written
+from clinic.diagnosis.probes.vector import Vector, cross, dot, norm, sub, times, transpose, unit, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A joint along another axis than its name says"
 FAMILIES = ("drifts", "stuck", "wrong-numbers")
@@ -54,6 +56,8 @@ ENDING = re.compile(r"(?:root|base|trans|slider?|[^a-z][tr])([xyz])$")
 FAR = 60.0  # degrees
 TRUNK = "torso|waist|chest|head|neck|pelvis"
 UPRIGHT = {HINGE: re.compile(rf"(?i)(?:{TRUNK})_?yaw"), SLIDE: re.compile("(?i)(?:lift|elevator)(?!_?door)")}
+PENDULUM = re.compile("(?i)pendul|(?<![a-z])pole(?![a-z])")
+FLAT, OFF = 1e-4, 0.05  # m; sine of an angle
 BASE = re.compile("(?i)(?:base|chassis)_?yaw")  # of what rolls: an arm's base may hang on a wall
 
 
@@ -62,6 +66,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     of.begin()
     yield from _lying(model)
+    yield from _idle(model)
     slides = [joint for joint in range(of.count("joint")) if of.joint_type(joint) == SLIDE]
     said = {joint: axis for joint in slides if (axis := _said(of.engine.name("joint", joint))) is not None}
     upright = abs(of.model("opt.gravity")[1]) <= abs(of.model("opt.gravity")[2])
@@ -102,6 +107,60 @@ def _lying(model: ReaderModel) -> Iterator[Suspect]:
             probe = Probe("angle of the axis to the vertical", "degrees", _tilt, (joint,), dynamic=False)
             now = written(of.row("jnt_axis", joint, 3))
             yield Suspect((of.name("joint", joint),), "axis", now, value, edits, probe, FAR, says, "upright")
+
+
+def _idle(model: ReaderModel) -> Iterator[Suspect]:
+    """Pendulums and poles that neither gravity nor what they hang on can swing."""
+    of = model.simulation
+    for joint, why in _still(of).items():
+        value = _across(of, joint)
+        names = (of.name("joint", joint), of.name("body", of.body_of("joint", joint)))
+        probe = how_many("pendulums that nothing can swing", _still)
+        now, edits = written(of.row("jnt_axis", joint, 3)), model.set("joint", [joint], "axis", value) if value else ()
+        yield Suspect(
+            names, "axis", now, value or "another one", edits, probe, 0, f"{names[0]} {why}.", "across the rod"
+        )
+
+
+def _still(of: Simulation) -> dict[int, str]:
+    """The free hinges of what is called a pendulum or a pole that nothing can swing, and why."""
+    of.as_written()
+    made = {}
+    for joint in range(of.count("joint")):
+        body = of.body_of("joint", joint)
+        called = any(map(PENDULUM.search, (of.names("joint")[joint], of.names("body")[body])))
+        held = joint in of.drivers or of.model("jnt_stiffness")[joint]
+        if not called or held or of.joint_type(joint) != HINGE or len(of.joints_of(body)) > 1:
+            continue
+        axis, rod = of.data_row("xaxis", joint, 3), _rod(of, joint)
+        above = _joints_up_from(of, int(of.model("body_parentid")[body]))
+        slides = [of.data_row("xaxis", each, 3) for each in above if of.joint_type(each) == SLIDE]
+        if norm(rod) > FLAT and norm(cross(axis, rod)) < OFF * norm(rod):
+            made[joint] = "turns it about its own length, through its centre of mass: it spins and does not swing"
+        elif slides and len(slides) == len(above) and all(norm(cross(axis, each)) < OFF for each in slides):
+            made[joint] = "has the axis of the slide that carries it, whose motion swings nothing about that"
+    return made
+
+
+def _rod(of: Simulation, joint: int) -> Vector:
+    """From a hinge to the centre of mass of what it turns, at the zero pose."""
+    return sub(of.data_row("subtree_com", of.body_of("joint", joint), 3), of.data_row("xanchor", joint, 3))
+
+
+def _across(of: Simulation, joint: int) -> str:
+    """The axis across a rod along which what carries it swings it; empty where nothing carries it."""
+    of.as_written()
+    body, rod = of.body_of("joint", joint), _rod(of, joint)
+    above = _joints_up_from(of, int(of.model("body_parentid")[body]))
+    if not above:
+        return ""
+    axis = cross(of.data_row("xaxis", above[0], 3), rod)
+    if of.joint_type(above[0]) == HINGE:  # an arm that carries it round: its radius
+        way = sub(of.data_row("xanchor", joint, 3), of.data_row("xanchor", above[0], 3))
+        axis = sub(way, [dot(way, rod) / dot(rod, rod) * x for x in rod])
+    local = times(transpose(of.data_row("xmat", body, 9)), unit(axis))
+    side = -1 if min(local, key=lambda x: -abs(x)) < 0 else 1
+    return written([round(side * x, 4) + 0.0 for x in local]) if norm(axis) > FLAT else ""
 
 
 def _joints_up_from(of: Simulation, body: int) -> list[int]:

@@ -28,9 +28,10 @@ Good:
     +     <body name="upper" pos="0 0 1" childclass="arm">
 
 The number: how many driven joints have no class and none of damping, armature and frictionloss, where a class gives
-joints some of it, which no joint uses, or more than there are such driven joints. And how many elements are called as a
-class that nothing uses and that has something for their kind: a geom `bolt` of class `panel`, beside a class `bolt`. Of
-1113 models one has such a geom, a cube without the friction of class `cube`.
+joints some of it, which no joint uses, or more than there are such driven joints. A class that all used ones stand in
+and nothing uses itself is the one that is told. And how many elements are called as a class that nothing uses and that
+has something for their kind: a geom `bolt` of class `panel`, beside a class `bolt`. Of 1113 models one has such a geom,
+a cube without the friction of class `cube`.
 
 When it is wrong: a class that is meant for other joints, which are the only ones with damping.
 """
@@ -38,7 +39,7 @@ When it is wrong: a class that is meant for other joints, which are the only one
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
@@ -67,11 +68,22 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     users = Counter(name for each in source.elements("joint") if (name := _class(each)) in classes)
     if not bare or (users and users.total() <= len(bare)):
         return
-    name = users.most_common(1)[0][0] if users else classes[0]
+    outer = _around(source, users)
+    name = outer or (users.most_common(1)[0][0] if users else classes[0])
     says = f"No class and no childclass gives it anything; class {name} has {_given(source, name)}."
+    says += " Classes within it are used, and it is by nothing." * bool(outer)
     probe = counted("driven joints that no class reaches", len(bare))
     names = tuple(of.name("joint", joint) for joint in bare)
     yield Suspect(names, "class", "left out", name, (), probe, 0, says, "damping and armature of a class")
+
+
+def _around(source: Source, users: Iterable[str]) -> str:
+    """The class that all used ones stand in, and that nothing uses itself; empty where there is none."""
+    uses = {each.get(name) for each in source.root.walk() for name in ("class", "childclass") if each.tag != "default"}
+    used = [each for each in source.elements("default") if each.get("class") in {*users}]
+    within = [{outer.get("class") for outer in each.around()} for each in used]
+    found = [name for name in _classes(source) if name not in uses and within and all(name in each for each in within)]
+    return found[0] if len(found) == 1 else ""
 
 
 def _namesakes(source: Source) -> Iterator[Suspect]:

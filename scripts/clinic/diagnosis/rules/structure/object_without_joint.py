@@ -27,7 +27,8 @@ down (the mass of what cannot move has no effect), or that are called a cube, a 
 hang in the air, and reach neither a plane nor another thing that stands still. What lies on something is told where it
 is called so, is smaller than 30 cm, and has a mass that is written, or the model a gripper; or, whatever it is called,
 where it has a mass, and the model a gripper and nothing free to hold. And so is what looks like another that can move;
-and a ball in the air whose one joint, a hinge through its middle, moves it nowhere.
+a pallet or a crate that has a mass and carries something free; and a ball in the air whose one joint, a hinge through
+its middle, moves it nowhere.
 
 When it is wrong: a lamp, or an obstacle that is meant to stay where it is.
 """
@@ -56,6 +57,7 @@ HANGS, NEAR, SMALL = 0.005, 0.001, 0.15  # m above the floor, and from other thi
 OBJECT = re.compile(
     r"(?<![a-z])(cube|block|ball|object|brick|can|bottle|mug|dice|die|parcel|apple|banana)s?(?![a-z])", re.IGNORECASE
 )
+LOAD = re.compile(r"(?i)(?<![a-z])(pallet|crate|tote|tray|basket)s?(?![a-z])")
 GRIPPER = re.compile(r"finger|grip|jaw|claw|suction|vacuum", re.IGNORECASE)
 
 
@@ -106,11 +108,23 @@ def _weighed(model: ReaderModel) -> Iterator[int]:
         weighed = any((model.value("geom", geom, "mass") or "0") != "0" for geom in geoms)
         weighed = weighed or inertial(model, body) is not None
         called = len(geoms) == 1 and bool(OBJECT.search(of.names("body")[body]))
+        loaded = weighed and bool(LOAD.search(of.names("body")[body])) and _carried(of, body)
+        if loaded:
+            yield body
+            continue
         wanted = called and (weighed or gripper)
         wanted = wanted or (weighed and gripper and len(geoms) == 1 and not of.free_bodies)
         held = wanted and of.model("geom_rbound")[geoms[0]] < SMALL
         if geoms and (held or ((weighed or called) and _height(of, body) > HANGS)):
             yield body
+
+
+def _carried(of: Simulation, body: int) -> bool:
+    """Whether a free body that is called a load lies on one, at the start."""
+    of.begin()
+    bodies, free = of.model("geom_bodyid"), set(of.free_bodies)
+    pairs = ({int(bodies[geom]) for geom in each.geoms} for each in of.engine.contacts() if min(each.geoms) >= 0)
+    return any(body in pair and pair & free for pair in pairs)
 
 
 def _spinning(of: Simulation) -> list[int]:

@@ -27,8 +27,8 @@ Good:
     +   <joint name="elbow" type="revolute">
 
 The number: fixed joints with a range that is not a point and an effort above 0. One is told; more of them were made by
-the program that wrote the file. And two or more wheels that have an axis and are fixed, where no joint is
-continuous.
+the program that wrote the file. And two or more wheels that have an axis and are fixed, where no joint is continuous.
+And what is called fixed, and floats.
 
 When it is wrong: a joint that is locked on purpose and may be freed again.
 """
@@ -40,7 +40,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.source import Element
+from clinic.diagnosis.source import Element, Source
 from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A fixed joint with a range"
@@ -50,6 +50,7 @@ LEVEL = "hint"
 UNPLANTED = "the healthy models that faults are planted in are MJCF"
 
 WHEEL = re.compile(r"(?i)wheel(?!.*(cover|mount|guard|encoder|hub))(?<!caster_wheel)(?<!steering_wheel)")
+FIXED = re.compile("(?i)(?<![a-z])fix(ed)?(?![a-z])")
 SLIDES = re.compile("(?i)slid|prism|lift|finger")
 
 
@@ -57,6 +58,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The joint of a URDF that is alone so, and wheels that are all so."""
     if model.source is None or not model.source.urdf:
         return
+    yield from _called_fixed(model.source)
     all_joints = [each for each in model.source.root.children if each.tag == "joint"]
     joints = [each for each in all_joints if each.get("type") == "fixed"]
     ranged = [each for each in joints if _range(each)]
@@ -67,6 +69,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     held = [each for each in joints if WHEEL.search(each.get("name")) and _turns(each)]
     if len(held) > 1 and not any(each.get("type") == "continuous" for each in all_joints):
         yield _fixed(held, "continuous", "All wheels are fixed, and have an axis to turn about.")
+
+
+def _called_fixed(source: Source) -> Iterator[Suspect]:
+    """A joint that is called fixed, and floats."""
+    for each in source.root.children:
+        if each.tag == "joint" and each.get("type") == "floating" and FIXED.search(each.get("name")):
+            says = "It is called fixed, and floats: what hangs on it falls."
+            probe, edits = counted("joints called fixed that float", 1), (set_attribute(each, "type", "fixed"),)
+            name = f'joint "{each.get("name")}"'
+            yield Suspect((name,), "type", "floating", "fixed", edits, probe, 0.5, says, "fixed", at=each)
 
 
 def _fixed(joints: list[Element], value: str, says: str) -> Suspect:

@@ -342,3 +342,51 @@ def test_a_mass_that_a_class_gives_a_geom_is_no_lost_inertial():
         found = examine(NativeEngine(), {"m.xml": text}, select=["inertial-forgotten"]).hints
         told.append([each.elements for each in found])
     assert told == [[], [('body "pad"',)]]
+
+
+@pytest.mark.parametrize(
+    ("density", "told"),
+    [("1.21", "1210"), ("0.9", "900"), ("5", None), ("1210", None)],
+    ids=["tpu", "pp", "ant", "kg/m3"],
+)
+def test_links_are_told_up_to_the_density_of_plastics_in_grams(density: str, told: str | None):
+    links = "".join(
+        f'<body pos="0 {y} 0"><joint/><geom class="soft" type="box" size="0.01 0.01 0.01"/></body>' for y in range(3)
+    )
+    default = f'<default><default class="soft"><geom density="{density}"/></default></default>'
+    palm = f'<body name="palm"><joint type="slide"/><geom size="0.05" mass="0.3"/>{links}</body>'
+    text = f"<mujoco>{default}<worldbody>{palm}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"m.xml": text}, select=["lighter-than-air"]).hints
+    assert [each.value for each in found] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("tip", "rod", "told"),
+    [
+        pytest.param('density="0.3"', 'mass="0.2"', "mass 0.3", id="beside a mass"),
+        pytest.param('density="0.3"', 'density="900"', None, id="beside a density"),
+        pytest.param('density="300"', 'mass="0.2"', None, id="a density"),
+        pytest.param('density="0"', 'mass="0.2"', None, id="nothing"),
+    ],
+)
+def test_a_density_that_is_meant_as_a_mass_is_told(tip: str, rod: str, told: str | None):
+    rod = f'<geom type="capsule" fromto="0 0 0 0 0 .8" size=".015" {rod}/>'
+    pole = f'{rod}<geom name="tip" pos="0 0 .8" size=".04" {tip}/>'
+    text = {"m.xml": f"<mujoco><worldbody><body><joint axis='0 1 0'/>{pole}</body></worldbody></mujoco>"}
+    found = examine(NativeEngine(), text, select=["lighter-than-air"]).hints
+    assert [each.value for each in found] == ([told] if told else [])
+    for each in found:
+        assert 'size=".04" mass="0.3"' in apply(text, each.edit)["m.xml"].replace("  ", " ")
+
+
+@pytest.mark.parametrize(
+    ("pos", "told"),
+    [("0 0 1.5", "pos 0 0 0.15"), ("0 0 150", "pos 0 0 0.15"), ("0 0 0.6", None), ("0 2 1.5", None)],
+    ids=["a digit", "mm", "a little outside", "elsewhere"],
+)
+def test_a_centre_with_a_slip_of_the_point_is_told_of_drawn_geoms_too(pos: str, told: str | None):
+    geom = '<geom type="capsule" fromto="0 0 0 0 0 0.3" size="0.04" mass="0"/>'
+    arm = f'<joint axis="0 1 0"/><inertial pos="{pos}" mass="2" diaginertia="0.02 0.02 0.003"/>{geom}'
+    text = f"<mujoco><worldbody><body>{arm}</body></worldbody></mujoco>"
+    found = examine(NativeEngine(), {"m.xml": text}, select=["centre-of-mass-outside"]).hints
+    assert [each.value for each in found] == ([told] if told else [])

@@ -23,7 +23,8 @@ Good:
 The number: how far outside of the box around the geoms, in half lengths of that box. 0 for 95 % of 1475 bodies in
 healthy models; 0.5 for one body of five and more, else 2.5, are told. Where the other sign of one coordinate brings it
 inside, 0.1 is: so it is with 5 of 2440 bodies, four of them of one robot. Bodies of less than 1 % of the moving mass
-are left alone.
+are left alone, and those whose geoms are written to have no mass; of these one is told that is 1.5 half lengths outside
+and with a tenth or a thousandth of its place inside.
 
 When it is wrong: a body that is drawn only in part.
 """
@@ -31,10 +32,11 @@ When it is wrong: a body that is drawn only in part.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
-from clinic.diagnosis.probes.inertia import set_inertial
-from clinic.diagnosis.probes.matter import Matter, centre_outside, explicit
-from clinic.diagnosis.probes.vector import Vector, written
+from clinic.diagnosis.probes.inertia import inertial, set_inertial
+from clinic.diagnosis.probes.matter import Matter, centre_outside, explicit, matter
+from clinic.diagnosis.probes.vector import Vector, norm, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -45,6 +47,7 @@ AFLOAT = True
 LEVEL = "hint"
 
 LIMIT, LIGHT, LITTLE = 0.5, 0.01, 0.1
+MILLI = 50  # half lengths that a place in mm is off at the least
 FAR = 1.5  # where a unit is wrong, whatever the other bodies are like
 
 
@@ -56,6 +59,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     alone = len(found) == 1 and len(heavy) >= 5
     if not alone:
         found = [(body, each) for body, each in found if each.outside > FAR * max(each.half)]
+    yield from _slipped(model)
     turned = [(body, each, sign) for body, each in heavy if (sign := _other_sign(each)) is not None]
     for body, each, centre in turned:
         now, value = f"pos {written(each.centre)}", f"pos {written(centre)}"
@@ -79,6 +83,25 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "inside, as in 95 % of 1475 bodies of healthy models",
             excess=each.outside / max(each.half),
         )
+
+
+def _slipped(model: ReaderModel) -> Iterator[Suspect]:
+    """The centres far outside of geoms without a mass that are inside with a tenth or a thousandth of it."""
+    of = model.simulation
+    told = {body for body, _ in explicit(model)}
+    for body in of.moving_bodies:
+        found = matter(of, body) if body not in told and inertial(model, body) is not None else None
+        if found is None or found.outside <= FAR * max(found.half):
+            continue
+        far = norm(found.centre) > MILLI * max(found.half)
+        centres = [tuple(x / by for x in found.centre) for by in (10, 1000)[: 1 + far]]
+        inside = [each for each in centres if replace(found, centre=each).outside == 0]
+        if inside:
+            now, value = f"pos {written(found.centre)}", f"pos {written(inside[0])}"
+            edits = set_inertial(model, body, found.mass, inside[0], found.about)
+            says = f"{found.mass:.3g} kg lie {found.outside:.3g} m outside of the box around its geoms."
+            name, probe = (of.name("body", body),), centre_outside((body,))
+            yield Suspect(name, "inertial", now, value, edits, probe, LIMIT, says, "inside", level="hint")
 
 
 def _other_sign(found: Matter) -> Vector | None:

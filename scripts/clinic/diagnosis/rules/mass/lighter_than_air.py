@@ -22,8 +22,10 @@ Good:
 The number: the mass of the air that its geoms displace (1.2 kg/m3) over its own, for everything that moves together,
 and for single links with a joint. More than 300 tells a cause: Gymnasium's second pusher pushes a puck of 120, its
 first one of 120,000. A model in centimetres has 10. More than 1, of less than 0.1 kg, under the gravity of metres and
-without a fluid, tells a hint: a density of 1.2 in g/cm3 is taken for kg/m3, and a cube has a mass of milligrams. A free
-body is told so from a written density of 15 down: of what is solid even foam has more, and 7.8 is steel in g/cm3.
+without a fluid, tells a hint: a density of 1.2 in g/cm3 is taken for kg/m3, and a cube has a mass of milligrams. Three
+links and more are told so from a written density of 1.6 down, a free body from 15 down: of what is solid even foam has
+more, and 7.8 is steel in g/cm3. A geom with a density of its own of less than air has, in a mechanism whose other geoms
+have a mass, is told to have that as its mass.
 
 When it is wrong: a balloon. Where all of the model is so, it may be written in mm: another rule tells that.
 """
@@ -39,14 +41,16 @@ from clinic.diagnosis.probes.shape import root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.world.lengths_in_another_unit import unit_of_lengths
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, counted
 
 TITLE = "Lighter than air"
 FAMILIES = ("falls-through", "explodes", "stuck")
 SINCE = "0.1"
 
+FEATHER = 0.005  # kg/m3
 AIR, LIMIT, LIGHT, FEW = 1.2, 300.0, 1.0, 3
 SHOVED = 0.1  # kg, below which a body is easily shoved away
+PLASTIC = AIR / 1.6  # of the densest: an ant of 5 kg/m3 is meant
 FOAM = AIR / 15  # of the lightest, over the air in its place
 METRES, CENTIMETRES = (5.0, 20.0), 500.0  # m/s2
 
@@ -60,6 +64,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     in_metres = METRES[0] < math.hypot(*of.model("opt.gravity")) < METRES[1]
     most = LIGHT if in_metres and not of.model("opt.density")[0] else LIMIT  # in a fluid it may float
     yield from _links(model, most)
+    yield from _for_mass(model, most)
     if most == LIGHT:
         yield from _free(model)
     for root, bodies in _groups(of):
@@ -108,7 +113,7 @@ def _links(model: ReaderModel, most: float) -> Iterator[Suspect]:
     found: dict[str, list[int]] = {}
     for body in of.moving_bodies if most == LIGHT else ():
         texts = {model.value("geom", geom, "density") or "" for geom in of.geoms_of(body)}
-        if len(texts) == 1 and of.joints_of(body) and inertial(model, body) is None and _air(of, body) > LIGHT:
+        if len(texts) == 1 and of.joints_of(body) and inertial(model, body) is None and _air(of, body) > PLASTIC:
             found.setdefault(texts.pop(), []).append(body)
     owner = root_of(of)
     for text, bodies in found.items():
@@ -125,11 +130,30 @@ def _links(model: ReaderModel, most: float) -> Iterator[Suspect]:
             value,
             model.set("geom", every, "density", value),
             Probe("mass of the air in its place over its own", "", _air, tuple(bodies), dynamic=False),
-            LIGHT,
-            f"{len(bodies)} links are lighter than air; {text} is their density in g/cm3, and MuJoCo takes kg/m3.",
+            PLASTIC,
+            f"{len(bodies)} links have {text} kg/m3, hardly more than air; it is a density in g/cm3.",
             "wood has 500 kg/m3, air 1.2",
             level="hint",
         )
+
+
+def _for_mass(model: ReaderModel, most: float) -> Iterator[Suspect]:
+    """A geom whose own density is less than that of air, beside others of its mechanism that have a mass."""
+    of, owner = model.simulation, root_of(model.simulation)
+    bodies = [int(body) for body in of.model("geom_bodyid")]
+    weighed = {owner[body] for geom, body in enumerate(bodies) if (model.value("geom", geom, "mass") or "0") != "0"}
+    for geom, body in enumerate(bodies if most == LIGHT else ()):
+        element = model.element("geom", geom)
+        if element is None or owner[body] not in weighed or model.value("geom", geom, "mass"):
+            continue
+        text, name = element.get("density"), of.name("geom", geom)
+        if not text or not FEATHER < float(text) < AIR or inertial(model, body) is not None:
+            continue
+        edits = (*model.remove("geom", [geom], "density"), *model.set("geom", [geom], "mass", text))
+        says = f"Its density of {text} kg/m3 is less than that of air, and other geoms of its mechanism have a mass."
+        probe = counted("geoms with a density less than that of air, beside others with a mass", 1)
+        now, value = f"density {text}", f"mass {text}"
+        yield Suspect((name,), "mass", now, value, edits, probe, 0, says, f"{text} kg", level="hint")
 
 
 def _free(model: ReaderModel) -> Iterator[Suspect]:

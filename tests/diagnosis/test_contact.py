@@ -565,3 +565,30 @@ def test_a_tool_that_slides_on_the_world_and_begins_in_the_floor_is_raised(heigh
     text = {"model.xml": f"<mujoco><worldbody>{floor}{tool}</worldbody>{keys}</mujoco>"}
     found = examine(NativeEngine(), text, select=["overlap-at-start"]).hints
     assert [each.value for each in found] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("size", "told"), [("0.6 0.6 0.5", "0.3 0.3 0.25"), ("0.3 0.3 0.25", None)], ids=["full", "half"]
+)
+def test_a_crate_between_things_is_halved_where_raising_it_does_not_free_it(size, told):
+    crate = f'<body pos="0 0 0.401"><freejoint/><geom name="crate" type="box" size="{size}" mass="9"/></body>'
+    pallet = '<body pos="0 0 0.075"><freejoint/><geom type="box" size="0.4 0.4 0.075" mass="9"/></body>'
+    roof = '<geom type="box" size="1 1 0.1" pos="0 0 1.5"/>'
+    mast = '<body pos="-0.5 0 0.4"><freejoint/><geom type="capsule" size="0.05 0.3" mass="9"/></body>'
+    text = {"model.xml": f"<mujoco><worldbody>{FLOOR}{roof}{pallet}{crate}{mast}</worldbody></mujoco>"}
+    found = examine(NativeEngine(), text, select=["overlap-at-start"])
+    assert [each.value for each in (*found.causes, *found.hints) if each.attribute == "size"] == (
+        [told] if told else []
+    )
+
+
+@pytest.mark.parametrize(("height", "told"), [(0.46, "0 0 0.4"), (0.4, None)], ids=["out of the row", "in it"])
+def test_the_last_drawer_of_a_row_that_overlaps_is_put_in_the_row(height, told):
+    slide = '<joint type="slide" axis="1 0 0" range="0 0.1"/><geom type="box" size="0.2 0.2 0.05"/>'
+    places = ((1, 0.16), (2, 0.28), (3, height))
+    drawers = "".join(f'<body name="drawer_{n}" pos="0 0 {z}">{slide}</body>' for n, z in places)
+    case = f'<body name="case"><geom type="box" size="0.2 0.2 0.01" pos="0 0 0.5"/>{drawers}</body>'
+    text = {"model.xml": f"<mujoco><worldbody>{FLOOR}{case}</worldbody></mujoco>"}
+    found = examine(NativeEngine(), text, select=["overlap-of-relatives"]).hints
+    assert [each.value for each in found if each.attribute == "pos"] == ([told] if told else [])
+    assert bool(found) is bool(told)

@@ -77,7 +77,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = f"It begins {1000 * depth:.3g} mm inside of what it touches."
     if names:
         geoms = tuple(simulation.name("geom", geom) for _, contact in found.values() for geom in contact.geoms)
-        halved = _halved(model, found, all_of_them=model.measured(at_start(), edits) > MOST)
+        stuck = model.measured(at_start(), edits) > MOST
+        halved = _halved(model, found, all_of_them=stuck)
+        if stuck and not halved and (alone := _alone(model, found)):
+            halved, crate = alone
+            geoms = (crate, *(each for each in dict.fromkeys(geoms) if each != crate))
         smaller, why = (tenth, TENTH) if (tenth := _tenth(model, found)) else (halved, HALF)
         if smaller and model.measured(at_start(), smaller) <= MOST:
             yield Suspect(geoms, "size", "", smaller[0].value, smaller, at_start(), MOST, says + why, excess=2.0)
@@ -216,6 +220,18 @@ def _halved(model: ReaderModel, roots: Iterable[int], all_of_them: bool) -> tupl
             return ()
         sizes[geom] = " ".join(f"{each / 2:g}" for each in simulation.row("geom_size", geom, 3))
     return model.set_each("geom", "size", sizes)
+
+
+def _alone(model: ReaderModel, roots: Iterable[int]) -> tuple[tuple[Edit, ...], str] | None:
+    """The one free body of one box of half the size with which nothing is buried, and its geom's name."""
+    of, kinds = model.simulation, model.simulation.model("geom_type")
+    free = [geoms[0] for root in roots if root in of.free_bodies and len(geoms := geoms_of_tree(of, root)) == 1]
+    made = []
+    for geom in (each for each in free if int(kinds[each]) == BOX):
+        half = " ".join(f"{each / 2:g}" for each in of.row("geom_size", geom, 3))
+        edits = model.set_each("geom", "size", {geom: half})
+        made += [(edits, of.name("geom", geom))] if edits and model.measured(at_start(), edits) <= MOST else []
+    return made[0] if len(made) == 1 else None
 
 
 def _tenth(model: ReaderModel, roots: Collection[int]) -> tuple[Edit, ...]:

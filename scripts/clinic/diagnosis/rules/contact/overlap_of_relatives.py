@@ -27,8 +27,9 @@ Good:
 The number: the deepest overlap at the start of bodies at most 3 links apart, as a share of the thinner geom's
 thickness; below 0.1 is well. They do so too in a fifth of 17 poses over the ranges of all joints: two fingers that are
 closed at 0, and the wrist of an arm that lies in its forearm at 0 alone, do it in 1 or 2. Of a left and a right finger
-that are in each other when closed, one that is nearer to the middle is told as a hint. MuJoCo's manual, Computation,
-Collision detection: the filter of parents.
+that are in each other when closed, one that is nearer to the middle is told as a hint. The first or last of three links
+in a row, called alike but for a number, is put as far from the next as these are apart, where that ends the overlap.
+MuJoCo's manual, Computation, Collision detection: the filter of parents.
 
 When it is wrong: a geom that is too large, where the edit hides it; or a part without the free joint that it gets
 elsewhere. So a body with three limbs and more that is fixed in an empty world, and that no exclude names, is left
@@ -38,14 +39,15 @@ A joint that starts outside of its range, which is another fault, is looked at i
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator
 
 from clinic.diagnosis.engine import SLIDE
 from clinic.diagnosis.probes.arms import longest_row
 from clinic.diagnosis.probes.overlap import legged, of_relatives, often, relatives
 from clinic.diagnosis.probes.shape import root_of, roots, thickness
 from clinic.diagnosis.probes.sides import by_name
-from clinic.diagnosis.probes.vector import written
+from clinic.diagnosis.probes.vector import add, norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -57,6 +59,7 @@ LEVEL = "hint"
 CASE = "joint-snaps-at-start"
 
 SAME = 1e-5  # m
+ROW, NUMBER = 3, re.compile(r"_?\d+$")  # links that are called alike but for their number
 MOST, ARM = 0.1, 5  # hinges in a row of an arm
 
 
@@ -83,6 +86,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = f"They overlap by {1000 * max(deep.values()):.3g} mm" + (
         "; the parent is fixed to the world, so that the filter of parents does not apply." if static else "."
     )
+    if (moved := _out_of_row(model, deep)) is not None:
+        yield moved
+        return
     edits = model.add("contact", xml) if named else ()
     value = f"{len(deep)} excluded" if len(deep) > 1 else "excluded"
     yield Suspect(tuple(dict.fromkeys(bodies)), "exclude", "none", value, edits, of_relatives(), MOST, says, excess=2.0)
@@ -124,3 +130,25 @@ def _unlike(of: Simulation) -> list[tuple[int, int]]:
 
 def _depth(of: Simulation, *pair: int) -> float:
     return max((-contact.distance for one, other, contact in relatives(of) if {one, other} == {*pair}), default=0.0)
+
+
+def _out_of_row(model: ReaderModel, deep: Iterable[tuple[int, int]]) -> Suspect | None:
+    """The link of a row of like ones that overlaps for its place, put as far from the last as these are apart."""
+    of, names = model.simulation, model.simulation.names("body")
+    parents = of.model("body_parentid")
+    for body in {each for pair in deep for each in pair if each}:
+        stem = NUMBER.sub("", names[body])
+        row = [each for each in of.children.get(int(parents[body]), []) if NUMBER.sub("", names[each]) == stem]
+        if not stem or len(row) < ROW or stem == names[body] or body not in (row[0], row[-1]):
+            continue
+        inner = row[1:] if body == row[0] else row[-2::-1]
+        places = [of.row("body_pos", each, 3) for each in inner]
+        place = add(places[0], sub(places[0], places[1]))
+        now, edits = of.row("body_pos", body, 3), model.placed(body, place)
+        if norm(sub(place, now)) < SAME or not edits or model.measured(of_relatives(), edits) > MOST:
+            continue
+        says = f"It overlaps another link, and is {norm(sub(now, places[0])):.3g} m from {of.name('body', inner[0])}; "
+        says += f"the others are {norm(sub(places[0], places[1])):.3g} m apart, and there it touches nothing."
+        name, probe = (of.name("body", body),), of_relatives()
+        return Suspect(name, "pos", written(now), written(place), edits, probe, MOST, says, "in a row", excess=2.0)
+    return None

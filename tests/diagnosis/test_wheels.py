@@ -78,3 +78,22 @@ def test_a_coupling_that_steers_two_wheels_of_an_axle_apart_is_told(
     )
     found = examine(NativeEngine(), {"model.xml": text}, select=["axle-against-itself"]).hints
     assert [each.value for each in found] == [f"0 {-factor} 0.1 0 0"] * told
+
+
+@pytest.mark.parametrize(
+    ("axis", "cylinder", "told"),
+    [
+        pytest.param("1 0 0", 'euler="90 0 0"', ("axis", "0 -1 0"), id="the hinge is wrong"),
+        pytest.param("0 1 0", "", ("zaxis", "0 1 0"), id="the cylinder stands"),
+        pytest.param("0 1 0", 'euler="90 0 0"', None, id="both along the axle"),
+    ],
+)
+def test_of_hinge_and_cylinder_the_one_that_is_not_along_the_axle_is_turned(axis, cylinder, told):
+    wheel = (
+        f'<body name="wheel_{{0}}" pos="0 {{1}} 0"><joint name="wheel_{{0}}" axis="{axis}"/>'
+        f'<geom type="cylinder" size="0.1 0.02" mass="0.3" {cylinder}/></body>'
+    )
+    car = f'<freejoint/><geom type="box" size="0.2 0.1 0.03"/>{wheel.format("l", 0.2)}{wheel.format("r", -0.2)}'
+    text = {"m.xml": f'<mujoco><worldbody><body pos="0 0 0.1">{car}</body></worldbody></mujoco>'}
+    found = examine(NativeEngine(), text, select=["wheel-not-round"]).hints
+    assert [(each.attribute, each.value) for each in found[:1]] == ([told] if told else [])

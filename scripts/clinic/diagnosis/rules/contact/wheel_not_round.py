@@ -30,8 +30,9 @@ Good:
 
 The number: how much the wheel's radius varies over a turn about its hinge, as a share of its mean; above 10 % is told.
 A wheel is the last body of a mechanism on a hinge without limits, whose one colliding cylinder, box or mesh is centred
-on the hinge; a box, a ball and an ellipsoid only where they are called so. A cylinder is turned; for another shape
-there is only a hint.
+on the hinge; a box, a ball and an ellipsoid only where they are called so. A cylinder is turned, or the hinge, where it
+stands upright, or the cylinder lies along the line to the wheel on the other side; for another shape there is only a
+hint.
 
 When it is wrong: a cam, a propeller, a stirrer.
 """
@@ -44,6 +45,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.engine import BOX, CYLINDER, ELLIPSOID, HINGE, MESH, SPHERE
 from clinic.diagnosis.probes.shape import points, solid
+from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.probes.vector import (
     Vector,
     add,
@@ -53,6 +55,7 @@ from clinic.diagnosis.probes.vector import (
     of_quaternion,
     sub,
     times,
+    unit,
     written,
 )
 from clinic.diagnosis.probes.wheels import is_wheel
@@ -68,6 +71,7 @@ LEVEL = "hint"
 UNPLANTED = "no healthy model stands on a wheel that is a single cylinder or box"
 
 VARIES, CENTRED = 0.1, 0.2
+ALONG = 0.95  # cosine of the angle between a cylinder and the way to the other side
 ANGLES = 24
 
 
@@ -80,7 +84,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         kind = int(of.model("geom_type")[geom])
         edits = _edits(model, joint, geom) if kind == CYLINDER else ()
-        if kind == CYLINDER and not _level(of, joint):  # the hinge is what stands across
+        if kind == CYLINDER and (
+            not _level(of, joint) or _along_axle(of, joint, geom)
+        ):  # the hinge is what stands across
             axle = written(tuple(of_quaternion(of.row("geom_quat", geom, 4))[2::3]))
             edits = model.set("joint", [joint], "axis", axle)
         what = {CYLINDER: "cylinder lies across the hinge", BOX: "shape is a box", MESH: "mesh is not round"}
@@ -129,6 +135,15 @@ def _level(simulation: Simulation, joint: int) -> bool:
 def _lies(simulation: Simulation, geom: int) -> bool:
     """Whether a cylinder lies on its round side at the start."""
     return abs(simulation.data_row("geom_xmat", geom, 9)[8]) < 0.3
+
+
+def _along_axle(of: Simulation, joint: int, geom: int) -> bool:
+    """Whether a cylinder lies along the line to the wheel on the other side, by its hinge's name."""
+    _, twin = sided(of, "joint").get(joint, ("", -1))
+    if twin < 0 or not _lies(of, geom):
+        return False
+    way = unit(sub(of.data_row("xanchor", twin, 3), of.data_row("xanchor", joint, 3)))
+    return abs(dot(way, of.data_row("geom_xmat", geom, 9)[2::3])) > ALONG
 
 
 def _varies(simulation: Simulation, joint: int, geom: int) -> float:

@@ -256,6 +256,17 @@ def test_a_wheel_below_its_speed_is_told_by_what_helps(wheel, told):
     assert 'Told 3 rad/s, joint "shoulder" misses' in found.hints[0].says
 
 
+@pytest.mark.parametrize(
+    ("force", "told"), [pytest.param(0.5, True, id="a weak servo"), pytest.param(1.2, False, id="a strong one")]
+)
+def test_wheels_that_are_blocked_are_not_told_a_greater_force(force, told):
+    text = rules()["speed-not-reached"].example("Good").replace('kv="0.2"', f'kv="200" forcerange="-{force} {force}"')
+    text = text.replace('mass="3"', 'mass="30"').replace('ctrlrange="-20 20"', 'ctrlrange="-6 6"')
+    text = text.replace('euler="90 0 0"', 'euler="90 0 0" friction="1 0.005 0.01" condim="6"')  # rolls hard
+    found = examine(NativeEngine(), {"model.xml": text}, select=["speed-not-reached"]).hints
+    assert [each.attribute for each in found] == ["forcerange"] * told
+
+
 @pytest.mark.parametrize(("beside", "told"), [("", True), ('<motor joint="shoulder"/>', False)])
 def test_a_servo_beside_a_motor_need_not_carry_the_weight(beside, told):
     found = arm(f'<position joint="shoulder" kp="1" kv="0.1"/>{beside}', joint='damping="0.2"')

@@ -37,19 +37,24 @@ Good:
 
 The number: all velocity servos of hinges without limits are told half of their greatest speed; the share of it that is
 missing after 2 s, of the fastest wheel. Above 0.8 is told, and above 0.4 where kv asks for less than a fifth of the
-force that the servo can give, from the greatest speed back to the same.
+force that the servo can give, from the greatest speed back to the same. Where a servo gives three times what speeds up
+its part of the model in that time, against friction, damping and weight, its force is not what is missing: something
+blocks the wheels.
 
 When it is wrong: a robot that stands against something, or wheels that are meant to be slow.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.probes.load import loads
 from clinic.diagnosis.probes.servo import AFFINE, speed_gain
+from clinic.diagnosis.probes.shape import size
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
@@ -62,6 +67,7 @@ UNPLANTED = "nearly no healthy model has velocity servos of wheels"
 
 MISSING, HALF, SECONDS, MORE = 0.8, 0.5, 2.0, 20.0
 LATE, ASKED = 0.4, 0.2  # of the speed, of the force: less is asked of a servo that needs seconds
+AMPLE = 3.0  # times what speeds it up
 
 
 @dataclass(frozen=True)
@@ -97,10 +103,21 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         ("kv", wheels[0].gain, text := rounded(MORE * wheels[0].gain), model.set("actuator", actuators, "kv", text)),
         ("forcerange", most, text := rounded(MORE * most), _forces(model, actuators, text) if limited else ()),
     ):
-        helps = edits and (attribute != "damping" or damping > wheels[0].gain)
+        helps = edits and (damping > wheels[0].gain if attribute == "damping" else not _ample(of, wheels))
         if helps and model.measured(probe, edits) <= allowed:  # else something else holds it
             yield Suspect(names, attribute, f"{now:.3g}", value, edits, probe, allowed, says, "next to nothing")
             return
+
+
+def _ample(of: Simulation, wheels: list[Wheel]) -> bool:
+    """Whether the first servo gives by far what its part of the model needs to reach its speed in time."""
+    wheel, speed = wheels[0], HALF * wheels[0].fastest
+    dof, limited = of.dof(wheel.joint), bool(of.model("actuator_forcelimited")[wheel.actuator])
+    most = of.row("actuator_forcerange", wheel.actuator, 2)[1] * abs(of.gear(wheel.actuator))
+    rolls = of.moving_mass / len(wheels) * size(of, of.body_of("joint", wheel.joint)) ** 2
+    needs = (rolls + of.mass_diagonal[dof]) * speed / SECONDS + of.model("dof_damping")[dof] * speed
+    needs += of.model("dof_frictionloss")[dof] + loads(of)[dof]
+    return min(wheel.gain * speed, most if limited else math.inf) > AMPLE * needs
 
 
 def _forces(model: ReaderModel, actuators: list[int], most: str) -> tuple[Edit, ...]:

@@ -68,6 +68,23 @@ def test_the_one_thing_that_brings_a_tendon_into_its_range_is_told(
 
 
 @pytest.mark.parametrize(
+    ("high", "motor", "told"),
+    [
+        pytest.param(0.1, True, True, id="an actuator pulls it"),
+        pytest.param(0.1, False, False, id="none does"),
+        pytest.param(0.12, True, False, id="nearly inside"),
+    ],
+)
+def test_a_pulled_tendon_a_little_outside_of_its_range_is_told(high: float, motor: bool, told: bool) -> None:
+    finger = '<joint axis="0 1 0"/><geom size="0.01" pos="0 0 -0.06"/><site name="tip" pos="0.01 0 -0.12"/>'
+    text = f"""<mujoco><worldbody><site name="palm" pos="0.01 0 1.02"/><body pos="0 0 1">{finger}</body></worldbody>
+      <tendon><spatial name="f" range="0 {high}" limited="true"><site site="palm"/><site site="tip"/></spatial></tendon>
+      <actuator>{'<motor tendon="f" ctrlrange="-9 0"/>' * motor}</actuator></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["tendon-outside-range"]).hints
+    assert [(each.attribute, each.value) for each in found] == [("range", "0 0.14")] * told
+
+
+@pytest.mark.parametrize(
     ("left", "right", "out", "told"),
     [
         (0.03, -0.03, -1, None),

@@ -30,7 +30,8 @@ Good:
 
 The number: how far its length at the start lies outside of the range, as a share of that length or of the range, the
 larger of the two; more than 80 %. Where the range begins at ten times the length, that beginning takes the place of
-its width. In a model with keyframes it is so in the first of them as well.
+its width. In a model with keyframes it is so in the first of them as well. Of a tendon that an actuator pulls 20 % are
+enough: of 424 healthy models none has one that is outside by 3 %.
 From 20 % on, a tendon through sites is told where one thing in the text, and nothing else, brings it into its range:
 another site, through which no tendon goes, or another sign of a number in the `pos` or `euler` of what it is fixed to.
 
@@ -43,7 +44,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.probes.key import start_at
-from clinic.diagnosis.probes.tendons import path
+from clinic.diagnosis.probes.tendons import path, pulled
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
@@ -67,7 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if outside > SOME and (mended := _mended(model, tendon)) is not None:
             yield mended
             continue
-        if outside <= OUTSIDE:
+        if outside <= (SOME if tendon in pulled(of).values() else OUTSIDE):
             continue
         of.begin()
         (low, high), length = of.row("tendon_range", tendon, 2), of.data("ten_length")[tendon]
@@ -75,10 +76,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         value = f"{rounded(least)} {rounded(1.01 * most)}"
         if low / 1000 <= length <= high / 1000:
             value = f"{low / 1000:g} {high / 1000:g}"  # in m
-        says = f"It is {length:.3g} long at the start, and its range is {low:g} to {high:g}."
+        says, limit = f"It is {length:.3g} long at the start, and its range is {low:g} to {high:g}.", OUTSIDE
+        if outside <= OUTSIDE:
+            says, limit = f"{says} An actuator pulls it, and its limit does so from the start.", SOME
         edits = model.set("tendon", [tendon], "range", value)
         names, now = (of.name("tendon", tendon),), f"{low:g} {high:g}"
-        yield Suspect(names, "range", now, value, edits, _begins(tendon), OUTSIDE, says, "inside of the range")
+        yield Suspect(names, "range", now, value, edits, _begins(tendon), limit, says, "inside of the range")
 
 
 def _mended(model: ReaderModel, tendon: int) -> Suspect | None:

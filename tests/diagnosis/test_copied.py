@@ -35,6 +35,24 @@ def hand(**lines: str) -> str:
     return f"<mujoco><worldbody>{palm}</worldbody><tendon>{PULLS}</tendon>{sections}</mujoco>"
 
 
+@pytest.mark.parametrize(
+    ("tendon", "idle", "meant"),
+    [("R_out", "R_in", ["R_in"]), ("R_in", "R_in", []), ("R_out", "in", [])],
+    ids=["on that of another", "on its own", "the twin is not there"],
+)
+def test_an_actuator_belongs_to_the_twin_of_the_tendon_of_its_twin(tendon, idle, meant):
+    joints = "".join(f'<body><joint name="{side}J"/><geom size="0.03"/></body>' for side in "LR")
+    fixed = '<fixed name="{}"><joint joint="{}J" coef="1"/></fixed>'
+    tendons = "".join(
+        fixed.format(name, side) for name, side in (("L_in", "L"), ("L_out", "L"), (idle, "R"), ("R_out", "R"))
+    )
+    pulls = {"flex_L": "L_in", "flex_R": tendon, "ext_L": "L_out", "ext_R": "R_out"}
+    motors = "".join(f'<motor name="{name}" tendon="{pulled}"/>' for name, pulled in pulls.items())
+    sections = f"<tendon>{tendons}</tendon><actuator>{motors}</actuator>"
+    found = told(f"<mujoco><worldbody>{joints}</worldbody>{sections}</mujoco>", "actuator-on-another-tendon").hints
+    assert [(each.elements[0], each.value) for each in found] == [('actuator "flex_R"', each) for each in meant]
+
+
 def told(text: str, *rules: str) -> Diagnosis:
     return examine(NativeEngine(), {"model.xml": text}, select=rules)
 

@@ -37,7 +37,8 @@ Good:
     +     <motor name="ring_curl" tendon="ring_pull" ctrlrange="0 1"/>
 
 The number: actuators on a tendon that another one pulls as well, where one tendon is pulled by none and has a word of
-the actuator's name that its own has not, or is called like its own but for what sets the two actuators apart. And the
+the actuator's name that its own has not, or is called like its own but for what sets the two actuators apart, or is
+the twin on the other side of the tendon that the actuator's twin pulls. And the
 one actuator on a tendon with a stiffness, beside others that have one and no actuator, where one fixed tendon alone has
 neither an actuator nor stiffness, damping, limit or equality.
 
@@ -52,6 +53,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes import equalities
 from clinic.diagnosis.probes.copied import Line, misled
+from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.probes.tendons import joints_of, pulled
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -94,7 +96,19 @@ def _misled(of: Simulation) -> dict[int, tuple[int, int]]:
         meant = [each for each in idle if any(_called(word, own) for word in words[each])]
         if times[tendon] > 1 and len(meant) == 1:
             made[actuator] = (tendon, meant[0])
-    return made | _on_a_spring(of, pulls)
+    return made | _unlike_its_twin(of, pulls) | _on_a_spring(of, pulls)
+
+
+def _unlike_its_twin(of: Simulation, pulls: dict[int, int]) -> dict[int, tuple[int, int]]:
+    """The actuators on a tendon that another pulls, where none pulls the twin of their own twin's tendon."""
+    made, times = {}, Counter(pulls.values())
+    actuators, tendons = sided(of, "actuator"), sided(of, "tendon")
+    for actuator, tendon in pulls.items():
+        _, twin = actuators.get(actuator, ("", -1))
+        _, meant = tendons.get(pulls.get(twin, -1), ("", -1))
+        if times[tendon] > 1 and meant >= 0 and meant not in times:
+            made[actuator] = (tendon, meant)
+    return made
 
 
 def _on_a_spring(of: Simulation, pulls: dict[int, int]) -> dict[int, tuple[int, int]]:

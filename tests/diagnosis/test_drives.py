@@ -303,3 +303,26 @@ def test_a_motor_of_one_side_is_right_where_gravity_points_up():
         '<actuator><motor joint="lift" ctrlrange="0 100"/></actuator></mujoco>'
     )
     assert not examine(NativeEngine(), {"model.xml": text}, select=["servo-one-sided"]).hints
+
+
+@pytest.mark.parametrize(
+    ("coefficients", "actuator", "more", "told"),
+    [
+        pytest.param((1, 1), '<motor tendon="{}"/>', "", True, id="motors"),
+        pytest.param((2, 2), '<position tendon="{}" kp="9" ctrlrange="0 1"/>', "", True, id="servos"),
+        pytest.param((1, -1), '<motor tendon="{}"/>', "", False, id="a difference"),
+        pytest.param((1, 1), '<motor tendon="{}" ctrlrange="-1 0"/>', "", False, id="two that only pull"),
+        pytest.param((1, 1), '<motor tendon="{}"/>', '<motor joint="y"/>', False, id="a third motor"),
+    ],
+)
+def test_two_motors_that_move_two_joints_in_one_proportion_are_told(coefficients, actuator, more, told):
+    joints = "".join(
+        f'<joint name="{axis}" type="slide" axis="{way}"/>' for axis, way in (("x", "1 0 0"), ("y", "0 1 0"))
+    )
+    fixed = '<fixed name="{}"><joint joint="x" coef="{}"/><joint joint="y" coef="{}"/></fixed>'
+    tendons = fixed.format("a", 1, 1) + fixed.format("b", *coefficients)
+    driven = actuator.format("a") + actuator.format("b") + more
+    text = f"<mujoco><worldbody><body>{joints}<geom size='0.1'/></body></worldbody>"
+    text += f"<tendon>{tendons}</tendon><actuator>{driven}</actuator></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["tendons-in-proportion"]).hints
+    assert [(each.elements[0], each.value) for each in found] == [('tendon "b"', f"{-coefficients[1]}")] * told

@@ -165,3 +165,29 @@ def test_a_loop_that_a_slip_of_the_pen_opens_is_closed_there(text, right, wrong,
     assert (found.elements[0], found.attribute, found.value) == told
     assert not examine(NativeEngine(), apply(broken, found.edit), select=["loop-not-assembled"]).hints
     assert not examine(NativeEngine(), {"model.xml": text}, select=["loop-not-assembled"]).hints
+
+
+@pytest.mark.parametrize(
+    ("coupling", "more", "told"),
+    [
+        pytest.param('joint1="bed" joint2="screw" polycoef="0 0.00125 0 0 0"', "", True, id="the bed follows"),
+        pytest.param('joint1="screw" joint2="bed" polycoef="0 800 0 0 0"', "", False, id="the screw follows"),
+        pytest.param('joint1="bed" joint2="screw" polycoef="0 0.00125 0 0 0"', 'gravcomp="1"', False, id="no load"),
+        pytest.param(
+            'joint1="bed" joint2="screw" polycoef="0 0.00125 0 0 0" solref="0.002 1" solimp="0.99999 0.999999 0.001"',
+            "",
+            False,
+            id="a hard one",
+        ),
+    ],
+)
+def test_a_bed_that_sinks_off_its_lead_screw_gets_its_joints_exchanged(coupling: str, more: str, told: bool) -> None:
+    text = f"""<mujoco><worldbody>
+      <body {more}><joint name="bed" type="slide" axis="0 0 1" range="-0.1 0.1"/><geom size="0.06"/></body>
+      <body pos="0.2 0 0"><joint name="screw" axis="0 0 1" damping="0.0001" armature="0.00002"/>
+        <geom type="cylinder" size="0.004 0.2" density="7800"/></body>
+      </worldbody><equality><joint name="nut" {coupling}/></equality>
+      <actuator><position joint="screw" kp="2" kv="0.01"/></actuator></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["soft-equality"]).hints
+    wanted = {"joint1": "screw", "joint2": "bed", "polycoef": "0 800 0 0 0"}
+    assert [{edit.attribute: edit.value for edit in each.edit} for each in found] == [wanted] * told

@@ -26,6 +26,9 @@ The number: the time constant times the damping ratio in s, whose square is the 
 0.1, which is 25 times as soft as MuJoCo's own 0.02, or 0.3 where a mocap body pulls: with that a weight hangs 0.9 m
 below it. Or how far apart something is that is welded or connected, 2 s after letting go: more than 10 mm and 0.3 of
 the smaller body's radius, where a time constant of two timesteps at least halves it.
+A coupling is also soft where joint1 follows by a small factor, as a bed follows its lead screw by 0.00127 m/rad: MuJoCo
+takes the mobility of both joints for that of the coupling, whatever the factor is. Where that is 50 times too much, and
+2 s after letting go joint1 is 5 % of its range off, exchanged joints and the inverse of the factor are told.
 
 When it is wrong: a mocap body that pulls gently, or another soft rope.
 """
@@ -35,8 +38,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.couplings import couplings
 from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, WELD, by_mocap, ends, held, kind_of, sited
-from clinic.diagnosis.probes.vector import norm, sub
+from clinic.diagnosis.probes.run import let_go
+from clinic.diagnosis.probes.vector import norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -50,12 +56,14 @@ UNPLANTED = "a soft equality may be meant"
 MOST, BY_MOCAP = 0.1, 0.3  # s
 SECONDS, GAP, SHARE = 2.0, 0.01, 0.3  # s, m, and of the smaller body's radius
 OWN = "0.02 1"
+SOFTENED, OFF = 50.0, 0.05  # times the mobility that a coupling has; of the follower's range
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The connections, welds and couplings of joints that are soft, all together."""
     of = model.simulation
     yield from _pulled_apart(model)
+    yield from _the_wrong_way_round(model)
     soft = [each for each in range(of.count("equality")) if _softness(of, each) > _most(of, each)]
     if not soft:
         return
@@ -89,6 +97,54 @@ def _pulled_apart(model: ReaderModel) -> Iterator[Suspect]:
     edits, most = model.set("equality", list(apart), "solref", value), apart[worst] / 2
     names = tuple(of.name("equality", each) for each in apart)
     yield Suspect(names, "solref", now, value, edits, probe, most, says, "a few millimetres")
+
+
+def _the_wrong_way_round(model: ReaderModel) -> Iterator[Suspect]:
+    """Couplings that give way because their factor is small, and hold with their joints exchanged, all together."""
+    of, edits, found = model.simulation, tuple[Edit, ...](), dict[tuple[int, int, float], int]()
+    for each, (follower, leader, factors) in couplings(of):
+        key, linear = (follower, leader, factors[1]), not factors[0] and not any(factors[2:])
+        if linear and _softened(of, *key) > SOFTENED and OFF < _off(of, key) < math.inf:
+            found[key] = each
+    names = of.names("joint")
+    for (follower, leader, factor), each in found.items():
+        for attribute, value in (
+            ("joint1", names[leader]),
+            ("joint2", names[follower]),
+            ("polycoef", written([0.0, 1 / factor, 0.0, 0.0, 0.0])),
+        ):
+            edits += model.set("equality", [each], attribute, value)
+    if not edits:
+        return
+    worst = max(found, key=lambda key: _off(of, key))
+    joints = tuple(of.name("joint", joint) for joint in worst[:2])
+    says = (
+        f"2 s after letting go, {joints[0]} is {100 * _off(of, worst):.0f} % of its range from where {joints[1]} leads "
+        f"it. MuJoCo softens a coupling by the mobility of both joints, and not by the factor {worst[2]:g}: here "
+        f"{_softened(of, *worst):.2g} times too much. With joint1 and joint2 exchanged and the factor "
+        f"{1 / worst[2]:g} it holds."
+    )
+    probe = Probe("how far what is coupled is from where it is led", "of its range", _off, tuple(found))
+    told = (of.name("equality", found[worst]), *joints)
+    yield Suspect(told, "joint1", names[worst[0]], names[worst[1]], edits, probe, OFF, says, "next to nothing")
+
+
+def _softened(of: Simulation, follower: int, leader: int, factor: float) -> float:
+    """How many times the mobility of a coupling MuJoCo takes for it; 0 where both orders are alike."""
+    own, leading = (of.model("dof_invweight0")[of.dof(joint)] for joint in (follower, leader))
+    return (own + leading) / (own + factor**2 * leading) if own and factor else 0.0
+
+
+def _off(of: Simulation, *found: tuple[int, int, float]) -> float:
+    """How far followers are from where they are led 2 s after letting go, as a share of their range; 0 without one."""
+    end, most = let_go(of).end, 0.0
+    for follower, leader, factor in found:
+        if end is None:
+            return math.inf
+        own, leading = (end.qpos[of.place(each)] - of.model("qpos0")[of.place(each)] for each in (follower, leader))
+        low, high = of.row("jnt_range", follower, 2)
+        most = max(most, abs(own - factor * leading) / (high - low) if of.model("jnt_limited")[follower] else 0.0)
+    return most
 
 
 def _holding(of: Simulation) -> list[int]:

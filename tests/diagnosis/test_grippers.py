@@ -129,6 +129,26 @@ def test_a_coupling_of_a_constant_alone_leads_nowhere(coupling, level, value):
 
 
 @pytest.mark.parametrize(
+    ("leader", "other", "told"),
+    [
+        pytest.param("0 40", "0 0.04", ("a", "0 0.04"), id="mm"),
+        pytest.param("0 0.2", "0 0.04", ("b", "0 0.2"), id="five times"),
+        pytest.param("0 0.04", "0 0.00004", ("b", "0 0.04"), id="as wide as the hand"),
+        pytest.param("0 0.04", "0 0.04", None, id="alike"),
+    ],
+)
+def test_the_range_of_a_leader_in_mm_is_told_and_not_that_of_its_follower(leader, other, told):
+    fingers = "".join(
+        f'<body pos="0 {y} 0"><joint name="{name}" type="slide" axis="0 {y} 0" range="{ends}"/><geom size="1"/></body>'
+        for name, y, ends in (("a", 0.1, leader), ("b", -0.1, other))
+    )
+    text = f"""<mujoco><compiler autolimits="true"/><worldbody>{fingers}</worldbody>
+      <equality><joint joint1="b" joint2="a"/></equality></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["follower-out-of-range"]).causes
+    assert [(each.elements[0], each.value) for each in found] == ([(f'joint "{told[0]}"', told[1])] if told else [])
+
+
+@pytest.mark.parametrize(
     ("adhesion", "chip", "told"),
     [
         pytest.param('body="cup" gain="5"', "<freejoint/>", [], id="lifts"),

@@ -3,7 +3,9 @@
 `<equality><joint joint1=".." joint2=".."/>` (in URDF `<mimic>`) makes joint1 follow joint2. Where the follower's range
 leaves out what the leader's range asks for, limit and equality fight, and the leader is held. The sign in `polycoef` is
 wrong where one follower alone is led astray, has the range of its leader, or of its twin on the other side, and with
-the other sign keeps to it; else the range is. What keyframes say of the coupling comes before that.
+the other sign keeps to it. The leader's range is, where it is 1000 times as wide (mm) and wider than the model, or a
+hinge's 57.3 times (degrees) and wider than a turn; else the follower's is. What keyframes say of the coupling comes
+before that.
 
 Bad:
 
@@ -37,10 +39,11 @@ When it is wrong: a leader that something else keeps to a part of its range.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
-from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.couplings import Coupling, couplings, led_over, lost
 from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.probes.vector import dot, written
@@ -57,6 +60,8 @@ UNPLANTED = "one healthy model has a joint that follows another"
 
 LOST, WITHIN = 0.5, 0.05
 SMALL = 0.1  # an offset rather than a factor
+OTHER_UNITS = {SLIDE: 1000.0, HINGE: 180 / math.pi}  # mm, degrees
+UNIT_DIGITS, TURN = 2, 2 * math.pi
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -74,6 +79,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 return
     found = list(astray.values())
     if not found:
+        return
+    if (leading := _of_leader(model, found)) is not None:
+        yield leading
         return
     edits: tuple[Edit, ...] = ()
     for each in found:
@@ -94,6 +102,33 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         _astray(simulation, found[0]),
         "a range that holds all that the leader asks for",
     )
+
+
+def _of_leader(model: ReaderModel, found: list[Coupling]) -> Suspect | None:
+    """The range of the one leader, where it is as many times its followers' as another unit makes it; else None."""
+    of = model.simulation
+    leaders = {leader for _, leader, _ in found}
+    times = {round(_times(of, each) / OTHER_UNITS[of.joint_type(each[1])], UNIT_DIGITS) for each in found}
+    leader = leaders.pop()
+    low, high = of.row("jnt_range", leader, 2)
+    wide = high - low > (TURN if of.joint_type(leader) == HINGE else of.model("stat.extent")[0])
+    if leaders or times != {1.0} or not wide:
+        return None
+    scale = 1 / model.angle_unit if of.joint_type(leader) == HINGE else 1.0
+    now, value = (written([low * scale / by, high * scale / by]) for by in (1.0, OTHER_UNITS[of.joint_type(leader)]))
+    names = tuple(of.name("joint", joint) for joint in (leader, *(each[0] for each in found)))
+    probe = Probe(
+        "share of a leader's range that leads a joint out of its own", "", lost, (tuple(found),), dynamic=False
+    )
+    says = f"{_astray(of, found[0])} That of {names[0]} is in another unit."
+    edits = model.set("joint", [leader], "range", value)
+    return Suspect(names, "range", now, value, edits, probe, LOST, says, "as wide as its follower's")
+
+
+def _times(of: Simulation, coupling: Coupling) -> float:
+    """How many times as wide as its own range what a follower is led over is."""
+    (low, high), led = of.row("jnt_range", coupling[0], 2), led_over(of, coupling)
+    return (max(led) - min(led)) / (high - low) if high > low else 0.0
 
 
 def _astray(of: Simulation, coupling: Coupling) -> str:

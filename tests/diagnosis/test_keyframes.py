@@ -266,6 +266,27 @@ def test_a_keyframe_tells_what_is_wrong_with_a_coupling_that_it_breaks(
     assert [(each.attribute, each.value) for one in found for each in one.edit] == edits
 
 
+@pytest.mark.parametrize(
+    ("ctrl", "edit"),
+    [
+        pytest.param("50 50", ("polycoef", "0 500 0 0 0"), id="the servo agrees with the keyframe"),
+        pytest.param("50 0", ("qpos", "0.1 50 -50"), id="the servo says nothing"),
+    ],
+)
+def test_one_of_two_screws_of_a_bed_gets_the_sign_of_the_other(ctrl: str, edit: tuple[str, str]) -> None:
+    screws = "".join(
+        f'<body pos="{x} 0 0"><joint name="{name}" axis="0 0 1" armature="0.001"/><geom size="0.01"/></body>'
+        for name, x in (("left", -1), ("right", 1))
+    )
+    text = f"""<mujoco><worldbody><body><joint name="bed" type="slide" axis="0 0 1"/><geom size="0.1"/></body>{screws}
+      </worldbody><equality><joint joint1="left" joint2="bed" polycoef="0 500 0 0 0"/>
+      <joint joint1="right" joint2="bed" polycoef="0 -500 0 0 0"/></equality>
+      <actuator><position joint="left" kp="2"/><position joint="right" kp="2"/></actuator>
+      <keyframe><key name="up" qpos="0.1 50 50" ctrl="{ctrl}"/></keyframe></mujoco>"""
+    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["key-breaks-equality"]).hints
+    assert (found.attribute, found.value) == edit
+
+
 def test_a_keyframe_that_tears_a_loop_open_is_told_and_one_that_turns_both_links_is_not() -> None:
     link = '<body name="{0}" pos="{1} 0 1"><joint axis="0 1 0"/><geom size="0.05" pos="0 0 0.3"/></body>'
     links = link.format("crank", 0) + link.format("rocker", 0.3)

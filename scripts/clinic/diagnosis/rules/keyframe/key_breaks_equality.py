@@ -33,14 +33,16 @@ Good:
 The number: how far a follower is from where its leader wants it at a keyframe, as a share of its range, or of its way
 where that is more; 0.1 and more. Of a connection or a weld it is the gap, as a share of the model's extent; 0.02 and
 more. The edit is the first of these that mends all keyframes: another leader, where the one that is written stands
-still or several keyframes agree; the two joints exchanged; the sign that a servo's control in the keyframe has; a
-factor that is another by three times and more; and the follower put where it is led.
+still or several keyframes agree; the two joints exchanged; the signs of another coupling to the same leader, where the
+follower's servo is told to be where the keyframe has it; the sign that a servo's control in the keyframe has; a factor
+that is another by three times and more; and the follower put where it is led.
 
 When it is wrong: a keyframe from which code switches the equality off.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import product
 
@@ -120,6 +122,7 @@ def mended(model: ReaderModel, each: int) -> tuple[Edit, ...]:
     ways: Sequence[Callable[[], tuple[Edit, ...]]] = (
         lambda: _other_leader(model, each, coupling, keys),
         lambda: _exchanged(model, each, coupling, keys),
+        lambda: _as_another(model, each, coupling, keys),
         lambda: _signs(model, coupling, keys),
         lambda: _other_factor(model, each, coupling, keys),
         lambda: _put(model, coupling[0], {key: _wanted(of, key, coupling) for key in keys}),
@@ -187,6 +190,20 @@ def _exchanged(model: ReaderModel, each: int, coupling: Coupling, keys: Sequence
         return ()
     one, other = (of.names("joint")[joint] for joint in (leader, follower))
     return (*model.set("equality", [each], "joint1", one), *model.set("equality", [each], "joint2", other))
+
+
+def _as_another(model: ReaderModel, each: int, coupling: Coupling, keys: Sequence[int]) -> tuple[Edit, ...]:
+    """The polynomial of a coupling of the same leader that differs in signs, where keyframes and servos agree on it."""
+    of, every = model.simulation, range(model.simulation.count("key"))
+    told = [
+        pair for key in keys for actuator, pair in servos(of, key).items() if of.driven_joint(actuator) == coupling[0]
+    ]
+    if not any(at and abs(target - at) <= EXACT * abs(at) for target, at in told):
+        return ()
+    others = {other[2] for number, other in couplings(of) if other[1] == coupling[1] and number not in broken(of)}
+    alike = [other for other in others if all(map(math.isclose, map(abs, other), map(abs, coupling[2])))]
+    fits = [other for other in alike if _keeps(of, (*coupling[:2], other), every)]
+    return model.set("equality", [each], "polycoef", written(fits[0])) if len(fits) == 1 else ()
 
 
 def _signs(model: ReaderModel, coupling: Coupling, keys: Sequence[int]) -> tuple[Edit, ...]:

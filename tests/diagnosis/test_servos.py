@@ -291,9 +291,16 @@ def test_a_gripper_that_begins_shut_is_nudged_within_its_range(armature, told):
     assert causes(diagnosed(text)) == told
 
 
-@pytest.mark.parametrize(("kv", "told"), [("20", True), ("4", False)])
-def test_a_servo_whose_kv_is_that_of_a_second_lags(kv, told):
-    found = arm(f'<position joint="shoulder" kp="20" kv="{kv}"/>', 'damping="0.1"')
+@pytest.mark.parametrize(
+    ("kp", "kv", "told"),
+    [
+        pytest.param(400, 400, True, id="a second"),
+        pytest.param(400, 80, False, id="a fifth"),
+        pytest.param(20, 20, False, id="a weak servo, whose kp is too small"),
+    ],
+)
+def test_a_servo_whose_kv_is_that_of_a_second_lags(kp, kv, told):
+    found = arm(f'<position joint="shoulder" kp="{kp}" kv="{kv}"/>', 'damping="0.1"')
     assert ("slow-filter" in [each.rule for each in found.hints]) is told, found.text()
 
 

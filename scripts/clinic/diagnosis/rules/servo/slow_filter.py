@@ -25,18 +25,20 @@ Good:
     +     <general joint="elbow" gainprm="20" biastype="affine" biasprm="0 -20 -1" dyntype="filter" dynprm="0.02"/>
 
 The number: the greatest time constant of the actuators with a filter, and of muscles; 0.5 s and more is told. Of servos
-kv over kp, from 0.6 s on.
+kv over kp, from 0.6 s on, unless the weight moves one of them by a tenth of its way: then kp is too small.
 
 When it is wrong: a heater, a pump, or another actuator that is as slow as that.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import DYN_MUSCLE
-from clinic.diagnosis.probes.servo import AFFINE, FIXED
+from clinic.diagnosis.probes.load import sags, travel
+from clinic.diagnosis.probes.servo import AFFINE, FIXED, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
@@ -49,6 +51,7 @@ UNPLANTED = "few healthy models have actuators with a filter"
 
 FILTERS, SLOW = (2, 3), 0.5  # mjDYN_FILTER and mjDYN_FILTEREXACT; s
 LATE, PROMPT = 0.6, 0.2  # s: the quotient that is told, and that an edit leaves
+SAGS = 0.1  # of a joint's way
 USUAL = {True: "0.01 0.04", False: "0.02"}  # of a muscle, of others
 
 
@@ -76,7 +79,7 @@ def _damped(model: ReaderModel) -> Iterator[Suspect]:
     """Servos that are slow by their own damping, all together."""
     of = model.simulation
     times = {each: time for each in range(of.count("actuator")) if (time := _lag(of, each)) >= LATE}
-    if not times:
+    if not times or _weak(of, times):
         return
     worst = max(times, key=lambda each: times[each])
     kv = -of.bias(worst)[2]
@@ -88,6 +91,12 @@ def _damped(model: ReaderModel) -> Iterator[Suspect]:
     value = rounded(kv * PROMPT / times[worst])
     healthy = "0.5 s is the most of 55 healthy models with servos"
     yield Suspect(names, "kv", f"{kv:.3g}", value, (), probe, LATE - 1e-6, says, healthy, level="hint")
+
+
+def _weak(of: Simulation, actuators: Collection[int]) -> bool:
+    """Whether the weight moves the joint of one of some servos far off: then kp is too small, and not kv too large."""
+    far = {each.actuator: SAGS * travel(each) for each in servos(of)}
+    return any(sags(of).get(each, 0.0) > far.get(each, math.inf) for each in actuators)
 
 
 def _lag(of: Simulation, actuator: int) -> float:

@@ -326,3 +326,20 @@ def test_two_motors_that_move_two_joints_in_one_proportion_are_told(coefficients
     text += f"<tendon>{tendons}</tendon><actuator>{driven}</actuator></mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["tendons-in-proportion"]).hints
     assert [(each.elements[0], each.value) for each in found] == [('tendon "b"', f"{-coefficients[1]}")] * told
+
+
+@pytest.mark.parametrize(
+    ("damping", "limits", "told"),
+    [
+        pytest.param(500, 'range="-1 1"', ["10"], id="50 s"),
+        pytest.param(100, 'range="-1 1"', [], id="10 s"),
+        pytest.param(500, 'range="-0.1 0.1"', [], id="a short way"),
+        pytest.param(500, 'limited="false"', [], id="no range"),
+    ],
+)
+def test_a_slide_whose_motor_needs_most_of_a_minute_for_its_range_is_told(damping, limits, told):
+    cart = f'<joint name="rail" type="slide" axis="1 0 0" damping="{damping}" {limits}/><geom size="0.1" mass="1"/>'
+    motor = '<motor joint="rail" gear="20" ctrlrange="-1 1"/>'
+    text = f"<mujoco><worldbody><body>{cart}</body></worldbody><actuator>{motor}</actuator></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["joint-frozen"]).hints
+    assert [each.value for each in found] == told

@@ -504,3 +504,35 @@ def test_a_motor_far_harder_pressed_than_the_one_that_carries_it_is_told(
     found = examine(NativeEngine(), {"model.xml": text}, select=["force-range-too-small"])
     assert not found.causes
     assert [(each.attribute, each.value) for each in found.hints] == told
+
+
+@pytest.mark.parametrize(
+    ("force", "ratio", "spring", "more", "told"),
+    [
+        pytest.param(0.004, 785, "", "", True, id="weak"),
+        pytest.param(0.02, 785, "", "", False, id="strong"),
+        pytest.param(0.004, 785, "", '<motor joint="bed"/>', False, id="beside a motor"),
+        pytest.param(0.004, 785, 'stiffness="100"', "", False, id="on a spring"),
+        pytest.param(1.57, 2, "", "", True, id="another ratio"),
+        pytest.param(3.14, 1, "", "", False, id="the ratio was left at 1"),
+        pytest.param(
+            1.57,
+            2,
+            "",
+            '</actuator><keyframe><key qpos="0.1 78.5 78.5"/></keyframe><actuator>',
+            False,
+            id="a keyframe has another ratio",
+        ),
+    ],
+)
+def test_servos_of_screws_that_together_do_not_hold_a_bed_are_told(force, ratio, spring, more, told):
+    screw = '<body pos="{1} 0 0"><joint name="{0}" axis="0 0 1" armature="0.00002"/><geom size="0.01"/></body>'
+    servo = '<position joint="{0}" kp="2" kv="0.01" forcerange="-{1} {1}"/>'
+    nut = '<joint joint1="{}" joint2="bed" polycoef="0 {} 0 0 0"/>'
+    sides = (("left", -1), ("right", 1))
+    text = f"""<mujoco><worldbody><body><joint name="bed" type="slide" axis="0 0 1" {spring}/>
+      <geom size="0.1" mass="1"/></body>{"".join(screw.format(*side) for side in sides)}</worldbody>
+      <equality>{"".join(nut.format(side, ratio) for side, _ in sides)}</equality>
+      <actuator>{"".join(servo.format(side, force) for side, _ in sides)}{more}</actuator></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["force-range-too-small"]).causes
+    assert [each.value for each in found] == [f"{14.8 / ratio:.2g}"] * told

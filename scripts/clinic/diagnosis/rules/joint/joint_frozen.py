@@ -24,7 +24,7 @@ Good:
 
 The number: driven for 2 s with all that its actuators give, without gravity and contacts, more than 80 % of the way to
 1 rad (0.1 m), or to the far limit, is left; motors at sites count, where nothing else drives the joint. Or the damping
-lets full force cross the joint's range in 25 s and more: of 424 healthy models none needs more than 6.7 s. A position
+lets full force cross the joint's range in 25 s and more: of 260 healthy models none needs more than 6.7 s. A position
 servo is told, too, of which friction takes more than 0.2 of the force and 0.05 rad (m) of the way: of 38 models with
 dry friction at their servos none has more than 0.05. In a URDF, whose efforts no actuator gives yet, friction above the
 effort, or damping above it at half a rad/s (m/s), is told. So is a door or a drawer that nothing drives, its weight
@@ -119,7 +119,7 @@ def _crawls(model: ReaderModel, told: Collection[int]) -> Iterator[Suspect]:
     probe = Probe(
         "time that a joint needs for its range against its damping", "s", _slowest, tuple(slow), dynamic=False
     )
-    healthy = "6.7 s at the most in 424 healthy models"
+    healthy = "6.7 s at the most in 260 healthy models"
     yield Suspect(names, "damping", f"{damping:.3g}", values[worst], edits, probe, CROSSES, says, healthy)
 
 

@@ -25,8 +25,9 @@ Good:
 The number: the model's own weight at the joint over the greatest force of its servos, in the worst of 17 poses. Or the
 height that a robot with a free base loses within 1 s, its servos told to stay where they are, where some give all they
 can. In a closed loop, whose load only a run shows, it is how far the weight moves the joint of a servo that is told to
-hold the start and gives all it can: more than a tenth of the range. Where several have their limit from one class, the
-class gets what the worst of them needs.
+hold the start and gives all it can: more than a tenth of the range. Of joints that equalities couple it is the
+weight of all over what all of their servos give, each by its factor. Where several have their limit from one class,
+the class gets what the worst of them needs.
 Hints tell of two servos and more that give all they can under a robot that stands, as in none of 16 healthy ones; and
 of a hinge whose weight takes more than 40 % of its servo's force, and three times the share of any servo that carries
 it: of 260 healthy models it is 1.04 times at the most, for motors are stronger the nearer they are to the base.
@@ -41,10 +42,13 @@ from dataclasses import replace
 
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.probes.couplings import Coupling, couplings
 from clinic.diagnosis.probes.load import carriers, loads, outdone, strain, strains, travel, yielded, yields
 from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.probes.stand import BENT, LOST, at_their_limit, goes_down, stance
+from clinic.diagnosis.probes.tendons import joints_of
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.keyframe.key_breaks_equality import elsewhere
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
@@ -65,6 +69,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield from _undriven(model)
     yield from _gives_way(model)
     yield from _in_loops(model)
+    yield from _through_couplings(model)
     weak = sorted(
         (each for each in servos(simulation) if found[each.actuator] > STRAIN), key=lambda each: -found[each.actuator]
     )
@@ -138,6 +143,55 @@ def _in_loops(model: ReaderModel) -> Iterator[Suspect]:
         f"all of its {worst.force:.3g} {worst.force_unit}."
     )
     yield _told(model, {each: MORE * each.force for each in weak}, probe, WAY, says, "next to nothing")
+
+
+def _through_couplings(model: ReaderModel) -> Iterator[Suspect]:
+    """Servos that together cannot hold the weight of what equalities couple to their joints: a bed on lead screws."""
+    of, alone = model.simulation, strains(model.simulation)
+    doubted = {coupling[1] for each, coupling in couplings(of) if elsewhere(model, each) or _left_at_one(of, coupling)}
+    for leader in sorted({coupling[1] for _, coupling in couplings(of)} - doubted):
+        holding, share = _holding(of, leader), _coupled(of, leader)
+        if not holding or share <= STRAIN or any(alone[each.actuator] > STRAIN for each in holding):
+            continue
+        who = ", ".join(of.name("actuator", each.actuator) for each in list(holding)[:3])
+        says = (
+            f"By its couplings the weight at {of.name('joint', leader)} is {share:.2g} times what {who} hold with all "
+            f"of their {next(iter(holding)).force:.3g} {next(iter(holding)).force_unit}."
+        )
+        probe = Probe("weight of what is coupled over what its servos hold", "", _coupled, (leader,), dynamic=False)
+        wanted, healthy = {each: 3 * share * each.force for each in holding}, "0.05 at the most, in 260 healthy models"
+        yield _told(model, wanted, probe, STRAIN, says, healthy)
+
+
+def _left_at_one(of: Simulation, coupling: Coupling) -> bool:
+    """Whether a turn and a way are coupled by 1 rad/m, which is the ratio of a screw that nobody wrote."""
+    follower, leader, factors = coupling
+    return of.joint_type(follower) != of.joint_type(leader) and abs(factors[1]) == 1
+
+
+def _followers(of: Simulation, leader: int) -> dict[int, float]:
+    """The joints that go with one, and how far each does for its way; of polynomials that are lines."""
+    led = {follower: abs(by[1]) for _, (follower, ahead, by) in couplings(of) if ahead == leader and not any(by[2:])}
+    return {leader: 1.0} | led
+
+
+def _holding(of: Simulation, leader: int) -> dict[Servo, float]:
+    """The servos of joints that go together, and what each gives at the leader; none where others drive or carry."""
+    joints = _followers(of, leader)
+    found = {each: joints[each.joint] * each.force for each in servos(of) if each.joint in joints}
+    drivers = {actuator for joint in joints for actuator in of.drivers.get(joint, ())}
+    springs = any(of.model("jnt_stiffness")[joint] for joint in joints)
+    over = [joints_of(of, tendon) for tendon in range(of.count("tendon"))]
+    tied = any(not part or joints.keys() & dict(part).keys() for part in over)
+    return {} if springs or tied or drivers != {each.actuator for each in found} else found
+
+
+def _coupled(of: Simulation, leader: int) -> float:
+    """The weight of what goes with a joint over what its servos, and dry friction, hold; 0 without a servo."""
+    joints, given = _followers(of, leader), sum(_holding(of, leader).values())
+    friction, load = of.model("dof_frictionloss"), loads(of)
+    weight = sum(by * max(0.0, load[of.dof(joint)] - friction[of.dof(joint)]) for joint, by in joints.items())
+    return weight / given if given > 0 else 0.0
 
 
 def _unlike_carriers(model: ReaderModel) -> Iterator[Suspect]:

@@ -325,3 +325,23 @@ def test_the_class_that_all_used_ones_stand_in_is_the_one_that_was_lost(outer: s
     text = f"<mujoco>{classes}{world}<actuator>{servos}</actuator></mujoco>"
     found = examine(NativeEngine(), {"m.xml": text}, select=["class-not-reached"]).hints
     assert [each.value for each in found if each.attribute == "class"] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("spring", "drive", "weight", "told"),
+    [
+        ('stiffness="0.9"', "motor", 3, ("stiffness", "900")),
+        ('stiffness="20"', "motor", 3, ("stiffness", "550")),
+        ('stiffness="900" springref="-0.18"', "motor", 3, ("springref", "0")),
+        ('stiffness="900" springref="-0.18"', "motor", 0, None),
+        ('stiffness="900"', "motor", 3, None),
+        ('stiffness="0.9"', 'position kp="2000"', 3, None),
+    ],
+    ids=["N/mm", "weak", "rests at its stop", "a plunger without a load", "right", "a servo holds it"],
+)
+def test_a_leg_with_a_spring_beside_its_motor_is_told_at_its_stop(spring, drive, weight, told):
+    slide = f'<joint name="leg" type="slide" axis="0 0 1" range="-0.18 0.02" damping="40" {spring}/>'
+    text = f"""<mujoco><option gravity="0 0 {-3.27 * weight}"/><worldbody><body>{slide}<geom size="1" mass="3"/></body>
+      </worldbody><actuator><{drive} joint="leg"/></actuator></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["spring-at-its-stop"]).hints
+    assert [(each.attribute, each.value) for each in found] == ([told] if told else [])

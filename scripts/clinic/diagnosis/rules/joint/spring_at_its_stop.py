@@ -24,9 +24,11 @@ Good:
     -         <joint name="spring" type="slide" axis="0 0 1" stiffness="500" damping="60" range="-0.03 0.03"/>
     +         <joint name="spring" type="slide" axis="0 0 1" stiffness="5000" damping="60" range="-0.03 0.03"/>
 
-The number: two seconds after the model was let go, how far a slide that has a spring and no actuator is from where the
-spring is at rest, as a share of the way to its limit; above 0.75, and where it stands still. Or `springref` has the
-wrong sign: the load moves the slide by 0.3 of half its range, and with the other sign by a third of that at most.
+The number: two seconds after the model was let go, how far a slide that has a spring, and no actuator but motors, is
+from where the spring is at rest, as a share of the way to its limit; above 0.75, and where it stands still. A stiffness
+in N/mm is told where 1000 times as much lets it go 0.05 to 0.6 of the way. Or `springref` has the wrong sign, or is the
+limit itself: the load moves the slide by 0.3 of half its range, and with the other sign, or with 0 where its range
+leaves that out, by a third of that at most.
 
 When it is wrong: a button, a pedal or a landing gear that is meant to be pressed down.
 """
@@ -48,7 +50,7 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "healthy models have few slides with springs"
 
-MOST, USUAL, STILL = 0.75, 0.3, 0.05  # of the way to the limit; m/s
+MOST, USUAL, LITTLE, STILL = 0.75, 0.3, 0.05, 0.05  # of the way to the limit; m/s
 LEAVES, BACK = 0.3, 0.35  # of half of the range; of that, with the other sign
 ROUNDS = 4  # for the load on a spring at its stop shows only once the stop does not bear it
 
@@ -66,7 +68,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     stiffness, percent, share = of.model("jnt_stiffness")[worst], 100 * pressed[worst], pressed[worst]
     probe = Probe("share of the way to its limit at which a spring rests", "", _most, tuple(pressed))
     value, edits = f"{stiffness:g}", tuple[Edit, ...]()
-    for _ in range(ROUNDS):
+    in_mm = model.set("joint", tuple(pressed), "stiffness", f"{1000 * stiffness:g}")
+    if LITTLE < model.measured(probe, in_mm) < 2 * USUAL:
+        value, edits = f"{1000 * stiffness:g}", in_mm
+    for _ in range(0 if edits else ROUNDS):
         value = rounded(float(value) * share / USUAL)
         edits = model.set("joint", tuple(pressed), "stiffness", value)
         share = model.measured(probe, edits)
@@ -93,11 +98,19 @@ def _other_sign(model: ReaderModel) -> Suspect | None:
         alike.setdefault(of.model("qpos_spring")[of.place(joint)], []).append(joint)
     for rest, joints in alike.items():
         probe = Probe("share of its travel by which a spring gives way to the load", "", _leaves, tuple(joints))
-        edits = model.set("joint", joints, "springref", f"{-rest:g}") if rest else ()
-        if edits and (before := model.measured(probe)) > LEAVES and model.measured(probe, edits) <= BACK * before:
+        turned = (
+            -rest if all(low <= -rest <= high for low, high in (of.row("jnt_range", x, 2) for x in joints)) else 0.0
+        )
+        edits = model.set("joint", joints, "springref", f"{turned:g}") if rest else ()
+        loose = model.set("joint", joints, "stiffness", "0")  # the load moves it, and not the spring
+        if not edits or model.measured(probe, loose) <= LEAVES:
+            continue
+        if (before := model.measured(probe)) > LEAVES and model.measured(probe, edits) <= BACK * before:
             names = tuple(of.name("joint", joint) for joint in joints)
             says = f"{names[0]} rests at {rest:g}, on the side to which the load pushes it."
-            return Suspect(names, "springref", f"{rest:g}", f"{-rest:g}", edits, probe, LEAVES, says, "next to nothing")
+            return Suspect(
+                names, "springref", f"{rest:g}", f"{turned:g}", edits, probe, LEAVES, says, "next to nothing"
+            )
     return None
 
 
@@ -113,13 +126,19 @@ def _leaves(of: Simulation, *joints: int) -> float:
 
 
 def _springs(of: Simulation) -> list[int]:
-    """The slides that have a spring and a range and no actuator."""
+    """The slides that have a spring and a range and no actuator that acts by itself."""
     stiffness, limited = of.model("jnt_stiffness"), of.model("jnt_limited")
     return [
         joint
         for joint in range(of.count("joint"))
-        if of.joint_type(joint) == SLIDE and stiffness[joint] > 0 and limited[joint] and joint not in of.drivers
+        if of.joint_type(joint) == SLIDE and stiffness[joint] > 0 and limited[joint] and not _held(of, joint)
     ]
+
+
+def _held(of: Simulation, joint: int) -> bool:
+    """Whether an actuator acts on a joint when nobody commands it: all but a motor do, and it gives nothing."""
+    of.begin()
+    return any(any(of.bias(each)[:3]) or of.data("ctrl")[each] for each in of.drivers.get(joint, ()))
 
 
 def _pressed(of: Simulation, joint: int) -> float:

@@ -23,6 +23,8 @@ def told(rule: str, inside: str, sensors: str) -> list[Finding]:
         pytest.param("<freejoint/>", 'pos="0 0.21 0" zaxis="0 -1 0"', ["0 1 0"], id="through-its-body"),
         pytest.param("<freejoint/>", 'pos="0 0.21 0" zaxis="0 1 0"', [], id="outward"),
         pytest.param("<freejoint/>", 'pos="0.21 0 0" euler="0 90 0"', [], id="into-the-open"),
+        pytest.param("<freejoint/>", 'pos="0.16 0 -0.01" zaxis="0 0 1"', ["0 0 -1"], id="that-is-written-to-look-up"),
+        pytest.param("<freejoint/>", 'pos="0.16 0 -0.01"', ["1 0 0"], id="that-is-not"),
         pytest.param("<freejoint/>", 'pos="0 0 0.06"', ["to what it is to see"], id="on-top"),
         pytest.param('<joint axis="0 1 0"/>', 'pos="0 0 0.06"', [], id="on-what-tilts"),
         pytest.param("", 'pos="0.1 0.1 0.1"', ["to what it is to see"], id="of-the-world"),

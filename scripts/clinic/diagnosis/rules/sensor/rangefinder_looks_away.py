@@ -26,8 +26,9 @@ Good:
     +       <site name="front" pos="0.21 0 0" zaxis="1 0 0"/>
 
 The number: rangefinders that see nothing at the start nor at any keyframe, and point up in every pose; and those on one
-side of their body whose ray goes through it to the other. The edit lets them look away from the middle of their
-body. A model with more than 8 has a scan, whose rays go everywhere.
+side of their body whose ray goes through it to the other. The edit lets them look the other way, where an orientation
+is written and something is to be seen there, or else away from the middle of their body. A model with more than 8 has a
+scan, whose rays go everywhere.
 
 When it is wrong: one that looks for a ceiling which another file has.
 """
@@ -56,6 +57,7 @@ LEVEL = "hint"
 UNPLANTED = "healthy models with a rangefinder are too few"
 
 SCAN = 8  # rangefinders
+DIGITS = 6  # of a direction
 UP = 0.7  # cosine with the vertical
 ASIDE, OUTSIDE = 0.4, 0.9  # of the way from the middle of its body to the side
 
@@ -67,7 +69,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         where = of.name("body", of.body_of("site", site))
         inward = _inward(of, site)
         says = f"It looks through {where}, at whose side it is." if inward else "It points up, and sees nothing."
-        way = _outward(of, site)
+        way = _back(model, sensor, site) or _outward(of, site)
         value = written(way) if way else "to what it is to see"
         edits = _turned(model, site, value) if way else ()
         names = (of.name("sensor", sensor), of.name("site", site))
@@ -75,6 +77,22 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         at = model.element("site", site)
         now = next((f"{name} {at.get(name)}" for name in ORIENTATIONS if at and at.get(name)), "left out")
         yield Suspect(names, "zaxis", now, value, edits, probe, 0, says, "away from its body", at=at)
+
+
+def _back(model: ReaderModel, sensor: int, site: int) -> Vector:
+    """The other way than a site is written to look, where its rangefinder sees something there; else nothing."""
+    of, at = model.simulation, model.element("site", site)
+    of.begin()
+    if at is None or not any(at.get(name) for name in ORIENTATIONS):
+        return ()
+    looks = of.data_row("site_xmat", site, 9)[2::3]
+    frame = transpose(of.data_row("xmat", of.body_of("site", site), 9))
+    way = tuple(round(-each, DIGITS) + 0.0 for each in times(frame, looks))
+    found = model.with_edits(_turned(model, site, written(way)))
+    if isinstance(found, CompileError):
+        return ()
+    found.begin()
+    return way if found.data("sensordata")[int(found.model("sensor_adr")[sensor])] >= 0 else ()
 
 
 def _found(of: Simulation, sensor: int) -> list[int]:

@@ -592,3 +592,21 @@ def test_the_last_drawer_of_a_row_that_overlaps_is_put_in_the_row(height, told):
     found = examine(NativeEngine(), text, select=["overlap-of-relatives"]).hints
     assert [each.value for each in found if each.attribute == "pos"] == ([told] if told else [])
     assert bool(found) is bool(told)
+
+
+@pytest.mark.parametrize(
+    ("place", "size", "told"),
+    [
+        pytest.param("0 0 -0.2", 0.04, [("pos", "0 0 -0.32")], id="the site of a foot higher up the shin"),
+        pytest.param("0 0 -0.32", 0.04, [], id="around the foot"),
+        pytest.param("0 0 -0.32", 0.01, [("size", "0.0385 0.0385 0.0385")], id="in the foot, and small"),
+        pytest.param("0 0 -0.2", 0.02, [("size", "0.17 0.17 0.17")], id="too small for the foot as well"),
+    ],
+)
+def test_a_touch_site_that_would_hold_the_foot_elsewhere_gets_its_place(place, size, told):
+    foot = '<geom size="0.035" pos="0 0 -0.32"/><geom size="0.15" contype="0" conaffinity="0"/>'
+    shin = f'<joint type="slide" axis="0 0 1"/>{foot}<site name="s" pos="{place}" size="{size}"/>'
+    body = f'<body pos="0 0 0.355">{shin}</body>'
+    text = f'<mujoco><worldbody>{FLOOR}{body}</worldbody><sensor><touch site="s"/></sensor></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text}, select=["touch-site-too-small"]).hints
+    assert [(each.attribute, each.value) for each in found] == told

@@ -65,10 +65,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     for sensor, kind in enumerate(of.model("sensor_type")):
         site = int(of.model("sensor_objid")[sensor])
-        if int(kind) != TOUCH or not (why := _why(of, site)):
+        if int(kind) != TOUCH or not (reason := why(of, site)):
             continue
         body = of.name("body", of.body_of("site", site))
-        inside = why == INSIDE
+        inside = reason == INSIDE
         if geoms := _bare_at(of, site):
             edits = model.set("geom", geoms, "contype", "1") + model.set("geom", geoms, "conaffinity", "1")
             names = of.name("geom", geoms[0]), of.name("sensor", sensor), of.name("site", site)
@@ -86,7 +86,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             (),
             Probe("1 where no contact can be inside of a touch sensor's site", "", _off, (site,), dynamic=False),
             0.5,
-            f"{of.name('site', site)} of {body} {why}: the sensor reads 0.",
+            f"{of.name('site', site)} of {body} {reason}: the sensor reads 0.",
             "a site that holds the surface",
         )
 
@@ -104,10 +104,10 @@ def _bare_at(of: Simulation, site: int) -> list[int]:
 
 
 def _off(of: Simulation, site: int) -> float:
-    return float(bool(_why(of, site)))
+    return float(bool(why(of, site)))
 
 
-def _why(of: Simulation, site: int) -> str:
+def why(of: Simulation, site: int) -> str:
     """Why no contact can be inside of a site; empty where one can."""
     body = of.body_of("site", site)
     pairs = in_pairs(of)

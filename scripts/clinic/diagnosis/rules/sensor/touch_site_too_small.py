@@ -25,7 +25,8 @@ Good:
     +       <site name="sole" pos="0 0 -0.05" type="box" size="0.06 0.06 0.01"/>
 
 The number: of what contacts of the body carry within 2 s after letting go, the share that the sensor never reads;
-below 0.95 is well.
+below 0.95 is well. A site that touches none of its body's geoms gets the place of the one that collides, where it is
+large enough there.
 
 When it is wrong: a sensor that is meant for a part of its body. Of several on one body only one far smaller
 than the others is told.
@@ -35,8 +36,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.probes.touched import TOUCH, touched, unread
+from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.sensor.touch_site_off_the_surface import OUTSIDE
+from clinic.diagnosis.rules.sensor.touch_site_off_the_surface import why as outside
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect
 
@@ -72,9 +77,27 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             if model.value("site", site, "type") not in (None, "sphere", "box", "ellipsoid"):
                 edits += model.set("site", [site], "type", "sphere")
             names = (simulation.name("sensor", sensor), simulation.name("site", site))
+            if (misplaced := _misplaced(model, sensor, site, names)) is not None:
+                yield misplaced
+                continue
             now = " ".join(f"{each:g}" for each in simulation.row("site_size", site, 3))
             says = f"Contacts carry up to {seen.carried:.3g} N on its body, up to {seen.reach:.3g} m from the site."
             yield Suspect(names, "size", now, value, edits, unread(sensor), MOST, says)
+
+
+def _misplaced(model: ReaderModel, sensor: int, site: int, names: tuple[str, ...]) -> Suspect | None:
+    """A site off its body's one geom that collides, and large enough where that geom is; else None."""
+    of = model.simulation
+    geoms = [geom for geom in of.geoms_of(of.body_of("site", site)) if solid(of, geom)]
+    if len(geoms) != 1 or outside(of, site) != OUTSIDE:
+        return None
+    value = written(of.row("geom_pos", geoms[0], 3))
+    edits = model.set("site", [site], "pos", value)
+    if not edits or model.measured(unread(sensor), edits) > MOST:
+        return None
+    now = written(of.row("site_pos", site, 3))
+    says = f"{names[1]} {OUTSIDE}; around {of.name('geom', geoms[0])} it holds the contacts."
+    return Suspect(names, "pos", now, value, edits, unread(sensor), MOST, says)
 
 
 def _none_of_many(model: ReaderModel) -> Iterator[Suspect]:

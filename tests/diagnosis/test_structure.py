@@ -345,3 +345,18 @@ def test_a_leg_with_a_spring_beside_its_motor_is_told_at_its_stop(spring, drive,
       </worldbody><actuator><{drive} joint="leg"/></actuator></mujoco>"""
     found = examine(NativeEngine(), {"model.xml": text}, select=["spring-at-its-stop"]).hints
     assert [(each.attribute, each.value) for each in found] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "values"),
+    [("120", {"0.02"}), ("20", {"0.02"}), ("0.12", set())],
+    ids=["far too stiff", "too stiff", "right"],
+)
+def test_the_springs_of_a_chain_that_have_one_stiffness_get_one_again(stiffness: str, values: set[str]) -> None:
+    link = ""
+    for _ in range(5):
+        shape = f'<joint axis="0 1 0" damping="0.004" stiffness="{stiffness}"/><geom size="0.01" pos="0 0 -0.01"/>'
+        link = f'<body pos="0 0 -0.024">{shape}{link}</body>'
+    text = f'<mujoco><option timestep="0.001"/><worldbody>{link}</worldbody></mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text}, select=["spring-too-stiff"])
+    assert {edit.value for each in [*found.causes, *found.hints] for edit in each.edit} == values

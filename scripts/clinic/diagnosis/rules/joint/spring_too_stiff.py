@@ -20,7 +20,8 @@ Good:
     +       <joint name="hinge" axis="0 1 0" stiffness="20" damping="0.05"/>
 
 The number: with the timestep h, stiffness k and inertia M of the joint, h sqrt(k / M) must stay below 2 for the fastest
-mode of the whole chain, which is faster than each joint alone. It is the timestep that is too long where 2 ms suffice.
+mode of the whole chain, which is faster than each joint alone. Joints of one stiffness get one again. It is the
+timestep that is too long where 2 ms suffice.
 
 When it is wrong: a timestep of a few hundred microseconds for a stiff mechanism is a choice as good as a softer spring.
 """
@@ -59,6 +60,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     stiffest = max(found, key=lambda joint: found[joint])
     probe = next((each for each in (fastest(), shake()) if model.measured(each) > FAST), shake())
     softer = {joint: f"{stiffness[joint] * (0.2 / (step * rate)) ** 2:.1g}" for joint, rate in found.items()}
+    if len(found) > 1 and len({stiffness[joint] for joint in found}) == 1:  # one number, that of a class or a chain
+        softer = dict.fromkeys(found, softer[stiffest])
     edits = model.set_each("joint", "stiffness", softer)
     yield Suspect(
         tuple(simulation.name("joint", each) for each in found),

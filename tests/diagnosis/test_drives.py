@@ -343,3 +343,22 @@ def test_a_slide_whose_motor_needs_most_of_a_minute_for_its_range_is_told(dampin
     text = f"<mujoco><worldbody><body>{cart}</body></worldbody><actuator>{motor}</actuator></mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["joint-frozen"]).hints
     assert [each.value for each in found] == told
+
+
+@pytest.mark.parametrize(
+    ("motor", "joint", "told"),
+    [
+        pytest.param('ctrlrange="0 1"', 'range="-1 1"', ["-1 1"], id="one side"),
+        pytest.param('ctrlrange="-1 1"', 'range="-1 1"', [], id="both sides"),
+        pytest.param('ctrlrange="0 1"', 'range="0 1"', [], id="begins at its stop"),
+        pytest.param('ctrlrange="0 1"', 'range="-1 1" stiffness="5"', [], id="a spring"),
+        pytest.param('ctrlrange="0 1"', 'range="-1 1" axis="1 0 1"', [], id="a weight"),
+        pytest.param('ctrlrange="0 1"', 'limited="false"', [], id="no range"),
+    ],
+)
+def test_a_motor_of_one_side_that_nothing_brings_back_is_told(motor: str, joint: str, told: list[str]) -> None:
+    axis = "" if "axis" in joint else 'axis="1 0 0"'
+    cart = f'<body><joint name="rail" type="slide" damping="1" {axis} {joint}/><geom size="0.1" mass="1"/></body>'
+    text = f"<mujoco><worldbody>{cart}</worldbody><actuator><motor joint='rail' gear='20' {motor}/></actuator></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["servo-one-sided"]).hints
+    assert [each.value for each in found] == told

@@ -26,7 +26,9 @@ The number: how many position servos have a force range of which one end is less
 range that ends at 0 where a fifth of the joint's range and more lies beyond, or a negative gear. Of 96 healthy models
 with servos none has such a force range or gear, and one such a control range.
 So is a motor whose control has one sign, on a joint without a spring that it could hold at the start against a weight
-of a tenth of its force and more, and that pushes the way that the weight goes.
+of a tenth of its force and more, and that pushes the way that the weight goes; and one on a joint that no weight,
+spring, tendon or equality moves, of whose range a fifth and more lies on the other side of the start. Of 260 healthy
+models one has a motor of one side on a joint without a spring: a winch against a weight.
 
 When it is wrong: a rope, a finger that a spring opens, or a joint that is counted the other way round on purpose.
 """
@@ -35,6 +37,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.probes.load import loads
 from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.servo.control_range_too_wide import inherited
@@ -49,6 +52,7 @@ UNPLANTED = "whether a joint needs both sides, only its maker knows"
 
 LITTLE, END, BEYOND = 0.05, 0.001, 0.2
 WEIGHT, AT_ITS_END = 0.1, 0.01  # of the motor's force; of the range
+NO_LOAD = 0.01  # of the motor's force
 KINDS = ("gain", "bias", "dyn")
 
 
@@ -62,6 +66,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         probe = how_many("motors that push with the weight alone", sinking)
         edits, now, value = model.set("actuator", [actuator], "gear", f"{-gear:g}"), f"{gear:g}", f"{-gear:g}"
         yield Suspect((name, moved), "gear", now, value, edits, probe, 0, says, "against the weight, or both sides")
+    for actuator in stranding(of):
+        (low, high), joint = of.row("actuator_ctrlrange", actuator, 2), of.driven_joint(actuator) or 0
+        most, now = max(-low, high), f"{low:g} {high:g}"
+        name, moved, value = of.name("actuator", actuator), of.name("joint", joint), f"-{most:g} {most:g}"
+        says = f"{name} pushes {moved} to one side, and no weight, spring or actuator brings it back."
+        probe = how_many("motors of one side that nothing acts against", stranding)
+        edits = model.set("actuator", [actuator], "ctrlrange", value)
+        yield Suspect((name, moved), "ctrlrange", now, value, edits, probe, 0, says, "both sides", level="hint")
     for attribute in ("forcerange", "ctrlrange", "gear"):
         found = [each for each in servos(of) if _one_sided(of, each, attribute)]
         if not found:
@@ -91,6 +103,25 @@ def sinking(of: Simulation) -> list[int]:
         least, most = of.row("jnt_range", joint, 2) if of.model("jnt_limited")[joint] else (-1e9, 1e9)
         left = most - of.position(joint) if force > 0 else of.position(joint) - least
         if force * weight > 0 and WEIGHT * abs(force) < abs(weight) < abs(force) and left > AT_ITS_END * (most - least):
+            made.append(actuator)
+    return made
+
+
+def stranding(of: Simulation) -> list[int]:
+    """The motors of one side on joints with a range to both sides that nothing takes to the other one."""
+    made = list[int]()
+    tied = of.count("tendon") or of.count("equality") or any(of.model("opt.wind"))
+    for joint, (actuator, *others) in of.drivers.items() if not tied else ():
+        low, high = of.row("actuator_ctrlrange", actuator, 2)
+        motor = not any(int(of.model(f"actuator_{kind}type")[actuator]) for kind in KINDS)
+        one_sided = of.model("actuator_ctrllimited")[actuator] and low * high == 0 and low < high
+        if others or not motor or not one_sided or of.model("jnt_stiffness")[joint]:
+            continue
+        force, (least, most) = of.gain(actuator)[0] * of.gear(actuator) * (low + high), of.row("jnt_range", joint, 2)
+        of.begin()
+        behind = of.position(joint) - least if force > 0 else most - of.position(joint)
+        left = of.model("jnt_limited")[joint] and behind > BEYOND * (most - least)
+        if left and loads(of)[of.dof(joint)] <= NO_LOAD * abs(force):
             made.append(actuator)
     return made
 

@@ -351,3 +351,24 @@ def test_a_motor_that_pushes_a_keyframe_off_is_told_by_the_sign_that_would_hold_
       <keyframe><key qpos="0.6" ctrl="{ctrl}"/></keyframe></mujoco>"""
     found = examine(NativeEngine(), {"model.xml": text}, select=["key-out-of-balance"]).hints
     assert [(each.attribute, each.value) for each in found] == told
+
+
+@pytest.mark.parametrize(
+    ("narrow", "other", "key", "told"),
+    [
+        pytest.param("-7.5 11.5", "-75 115", 'qpos="80 80" ctrl="80 80"', ["-75 115"], id="as the other's"),
+        pytest.param("-7.5 11.5", "-75 50", 'qpos="80 0" ctrl="80 0"', ["-7.5 80"], id="as far as the keyframe"),
+        pytest.param("-75 115", "-75 115", 'qpos="80 80" ctrl="80 80"', [], id="wide enough"),
+        pytest.param("-7.5 11.5", "-75 115", 'qpos="0 80" ctrl="80 80"', [], id="the keyframe is elsewhere"),
+        pytest.param("-75 79", "-75 115", 'qpos="80 80" ctrl="80 80"', [], id="by a little"),
+    ],
+)
+def test_a_control_range_that_a_keyframe_is_outside_of_is_told(narrow: str, other: str, key: str, told: list[str]):
+    screws = "".join(f'<body pos="{x} 0 0"><joint name="z{x}" axis="0 0 1"/><geom size="0.1"/></body>' for x in (0, 1))
+    servos = "".join(
+        f'<position joint="z{x}" kp="2" kv="0.01" ctrlrange="{ends}"/>' for x, ends in enumerate((narrow, other))
+    )
+    text = f"""<mujoco><compiler angle="radian"/><worldbody>{screws}</worldbody><actuator>{servos}</actuator>
+      <keyframe><key {key}/></keyframe></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["control-range-too-narrow"]).hints
+    assert [each.value for each in found] == told

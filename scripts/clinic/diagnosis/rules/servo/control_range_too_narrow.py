@@ -23,7 +23,8 @@ Good:
     +     <position joint="elbow" kp="20" ctrlrange="-3.14 0"/>
 
 The number: the share of the joint's range that no target reaches; more than 60 %, of at most a whole turn. Of a joint
-that leads another by a factor it is the other one's range, more than 90 %, and a hint.
+that leads another by a factor it is the other one's range, more than 90 %, and a hint. So is a range that a keyframe's
+control is outside of by a fifth of it, where that control holds the joint at the keyframe's own place.
 
 When it is wrong: a servo that is kept to a small part of the range on purpose.
 """
@@ -31,19 +32,19 @@ When it is wrong: a servo that is kept to a small part of the range on purpose.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.couplings import Coupling, couplings
-from clinic.diagnosis.probes.key import against_range
+from clinic.diagnosis.probes.key import against_range, start_at
 from clinic.diagnosis.probes.servo import Servo, greatest, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.servo.control_range_too_wide import inherit, inherited
 from clinic.diagnosis.rules.servo.control_range_unlike_range import ranged_like
 from clinic.diagnosis.rules.servo.driven_twice import twice
 from clinic.diagnosis.rules.servo.gain_unlike_bias import meets
-from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.simulation import Simulation, kept
+from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "The control range misses the joint's range"
 FAMILIES = ("stuck", "passes-limit", "sags")
@@ -52,6 +53,7 @@ CASE = "servo-moves-a-fraction"
 
 MISSED, UNLED = 0.6, 0.9
 GEARED = 1.5
+CLIPPED, AGREES = 0.2, 0.01  # of the targets' width; of the joint's place
 
 
 def missed(servo: Servo) -> float:
@@ -70,6 +72,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Servos that miss most of the range; those whose gear divides the target apart."""
     simulation = model.simulation
     yield from _leaders(model)
+    yield from _below_keyframes(model)
     shared = {actuator for each in twice(simulation).values() for actuator in each}  # meant for another joint
     found = [each for each in servos(simulation) if missed(each) > MISSED and not meets(simulation, each)]
     held = {joint for key in range(simulation.count("key")) for joint in against_range(simulation, key)}
@@ -125,6 +128,47 @@ def _leaders(model: ReaderModel) -> Iterator[Suspect]:
         probe = Probe("share of the follower's range that no target reaches", "", _idle, (servo.actuator,), False)
         edits = model.set("actuator", [servo.actuator], "ctrlrange", value)
         yield Suspect(names, "ctrlrange", now, value, edits, probe, UNLED, says, "what leads all over", level="hint")
+
+
+def _below_keyframes(model: ReaderModel) -> Iterator[Suspect]:
+    """Servos that a keyframe tells to stay where it puts the joint, which their control range does not let them."""
+    of = model.simulation
+    for actuator, (key, ctrl) in clipped(of).items():
+        own, joint = of.row("actuator_ctrlrange", actuator, 2), of.driven_joint(actuator) or 0
+        alike = [each for each in range(of.count("actuator")) if each != actuator and _same(of, each, actuator)]
+        others = {of.row("actuator_ctrlrange", each, 2) for each in alike}
+        others = {(low, high) for low, high in others if low <= ctrl <= high}
+        wide = others.pop() if len(others) == 1 else (min(own[0], ctrl), max(own[1], ctrl))
+        now, value = (" ".join(f"{each:g}" for each in ends) for ends in (own, wide))
+        names = of.name("actuator", actuator), of.name("key", key), of.name("joint", joint)
+        says = f"{names[1]} has {names[2]} where its control of {ctrl:g} holds it, and the control is clipped to {now}."
+        probe = how_many("servos that their control range keeps from a keyframe's place", clipped)
+        edits = model.set("actuator", [actuator], "ctrlrange", value)
+        yield Suspect(names, "ctrlrange", now, value, edits, probe, 0, says, "what keyframes ask for", level="hint")
+
+
+@kept
+def clipped(of: Simulation) -> dict[int, tuple[int, float]]:
+    """By servo whose target in a keyframe is its joint's place there, far outside of its control range: both."""
+    made = dict[int, tuple[int, float]]()
+    for key in range(of.count("key")):
+        start_at(of, key)
+        for each in servos(of):
+            if each.targets is None or each.actuator in made or missed(each) > MISSED:
+                continue
+            (low, high), at = each.targets, of.position(each.joint)
+            ctrl = of.data("ctrl")[each.actuator]
+            agrees = at and abs(each.target(ctrl) - at) <= AGREES * abs(at)
+            inside = each.range is None or each.range[0] <= at <= each.range[1]
+            if agrees and inside and max(low - at, at - high) > CLIPPED * (high - low):
+                made[each.actuator] = (key, ctrl)
+    return made
+
+
+def _same(of: Simulation, one: int, other: int) -> bool:
+    """Whether two actuators are of one gain, bias and gear."""
+    fields: tuple[Callable[[int], object], ...] = (of.gain, of.bias, of.gear)
+    return all(field(one) == field(other) for field in fields)
 
 
 def _idle(of: Simulation, actuator: int) -> float:

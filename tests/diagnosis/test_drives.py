@@ -335,6 +335,7 @@ def test_two_motors_that_move_two_joints_in_one_proportion_are_told(coefficients
         pytest.param(100, 'range="-1 1"', [], id="10 s"),
         pytest.param(500, 'range="-0.1 0.1"', [], id="a short way"),
         pytest.param(500, 'limited="false"', [], id="no range"),
+        pytest.param(1, 'range="-inf inf"', [], id="a range without end"),
     ],
 )
 def test_a_slide_whose_motor_needs_most_of_a_minute_for_its_range_is_told(damping, limits, told):

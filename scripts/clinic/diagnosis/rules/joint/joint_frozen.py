@@ -126,7 +126,7 @@ def _crawls(model: ReaderModel, told: Collection[int]) -> Iterator[Suspect]:
 def _crosses(of: Simulation, joint: int) -> float:
     """How long in s all that a joint's actuators give takes for its range; 0 of a joint without one."""
     low, high = of.row("jnt_range", joint, 2)
-    limited, force = of.model("jnt_limited")[joint], _forces(of).get(joint, 0.0)
+    limited, force = of.model("jnt_limited")[joint] and math.isfinite(high - low), _forces(of).get(joint, 0.0)
     return (high - low) * of.model("dof_damping")[of.dof(joint)] / force if limited and force > 0 else 0.0
 
 

@@ -57,15 +57,41 @@ def test_in_a_urdf_every_place_of_the_mesh_is_scaled(tmp_path):
         f'<robot name="r"><link name="base">{inertial}</link><link name="mug">{inertial}<visual>{shape}</visual>'
         f'<collision>{shape}</collision></link><joint name="j" type="revolute">{joint}</joint></robot>'
     )
+    write_mug(tmp_path)
+    found = diagnose(tmp_path / "model.urdf", select=["mesh-in-another-unit"])
+    assert [each.rule for each in found.causes] == ["mesh-in-another-unit"]
+    assert next(iter(found.fixed.values())).count('scale="0.001 0.001 0.001"') == 2
+
+
+def write_mug(folder):
     numbers = MM.split()
     corners = "".join(f"v {' '.join(numbers[i : i + 3])}\n" for i in range(0, 24, 3))
     faces = (
         "f 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n"
     )
-    (tmp_path / "mug.obj").write_text(corners + faces)
+    (folder / "mug.obj").write_text(corners + faces)
+
+
+@pytest.mark.parametrize("odd", [0, 1])
+def test_only_the_use_of_a_file_that_lacks_its_scale_is_mended(tmp_path, odd):
+    write_mug(tmp_path)
+    limit = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
+    inertial = (
+        '<inertial><mass value="1"/><inertia ixx="1e-3" iyy="1e-3" izz="1e-3" ixy="0" ixz="0" iyz="0"/></inertial>'
+    )
+    links, joints = "", ""
+    for number in range(3):
+        scale = "" if number == odd else ' scale="0.001 0.001 0.001"'
+        shape = f'<collision><geometry><mesh filename="mug.obj"{scale}/></geometry></collision>'
+        links += f'<link name="link{number}">{inertial}{shape}</link>'
+        joints += (
+            f'<joint name="j{number}" type="revolute"><parent link="base"/><child link="link{number}"/>'
+            f'<origin xyz="0.1 0 0"/><axis xyz="0 1 0"/>{limit}</joint>'
+        )
+    (tmp_path / "model.urdf").write_text(f'<robot name="r"><link name="base">{inertial}</link>{links}{joints}</robot>')
     found = diagnose(tmp_path / "model.urdf", select=["mesh-in-another-unit"])
-    assert [each.rule for each in found.causes] == ["mesh-in-another-unit"]
-    assert next(iter(found.fixed.values())).count('scale="0.001 0.001 0.001"') == 2
+    assert [edit.value for each in found.causes for edit in each.edit] == ["0.001 0.001 0.001"]
+    assert next(iter(found.fixed.values())).count('scale="0.001 0.001 0.001"') == 3
 
 
 @pytest.mark.parametrize(("scale", "told"), [("0.001 0.001 0.001", ['mesh "lid"']), ("0.03 0.03 0.03", [])])

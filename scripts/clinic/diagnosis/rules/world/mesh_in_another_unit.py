@@ -107,19 +107,29 @@ def _usual(of: Simulation) -> float:
 
 
 def _times(of: Simulation, *meshes: int) -> float:
-    sizes, usual = mesh_sizes(of), _usual(of)
+    every, usual = mesh_sizes(of), _usual(of)
+    sizes = [every[mesh] for mesh in meshes if mesh in every]  # two of one file and one scale become one
     if not usual:
-        return max(USUAL / METRES * sizes[mesh] for mesh in meshes)
-    return max(max(sizes[mesh] / usual, usual / sizes[mesh]) for mesh in meshes)
+        return max((USUAL / METRES * size for size in sizes), default=0.0)
+    return max((max(size / usual, usual / size) for size in sizes), default=0.0)
 
 
 def scaled(model: ReaderModel, mesh: int, factor: float) -> Iterator[Edit]:
-    """The edits that make a mesh `factor` times as large, wherever it is written: as an asset, or in a URDF by file."""
+    """The edits that make a mesh `factor` times as large, wherever it is written: as an asset, or in a URDF by file.
+
+    In a URDF one file may be there at several scales, of which MuJoCo makes as many meshes: `finger`, `finger1`.
+    """
     name, source = model.simulation.engine.name("mesh", mesh), model.source
+    compiled = model.simulation.row("mesh_scale", mesh, 3)
     for element in source.elements("mesh") if source else ():
-        if source and name == (element.get("name") or _stem(element.get("file") or element.get("filename"))):
-            scale = (source.value(element, "scale") or "1 1 1").split()
-            yield set_attribute(element, "scale", written([factor * float(each) for each in scale]))
+        assert source is not None
+        scale = tuple(float(each) for each in (source.value(element, "scale") or "1 1 1").split())
+        if file := element.get("filename"):
+            meant = scale == compiled and _stem(file) in (name, name.rstrip("0123456789"))
+        else:
+            meant = name == (element.get("name") or _stem(element.get("file")))
+        if meant:
+            yield set_attribute(element, "scale", written([factor * each for each in scale]))
 
 
 def _stem(path: str) -> str:

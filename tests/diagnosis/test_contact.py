@@ -89,6 +89,16 @@ def test_a_step_that_needs_more_memory_than_there_is_ends_in_a_warning():
     assert not compiled.warnings()
 
 
+@pytest.mark.parametrize(("height", "told"), [(0.002, False), (-0.2, True)])
+def test_a_picture_on_the_ground_is_no_surface(height: float, told: bool):
+    soft = '<geom name="ground" type="box" size="1 1 0.1" pos="0 0 -0.1" solref="1 1"/>'
+    picture = f'<geom name="logo" type="plane" size="1 1 1" pos="0 0 {height}" contype="0" conaffinity="0"/>'
+    ball = '<body name="ball" pos="0 0 0.05"><freejoint/><geom size="0.02"/></body>'
+    ground = soft if height > 0 else ""
+    text = f"<mujoco><worldbody>{ground}{picture}{ball}</worldbody></mujoco>"
+    assert bool(examine(NativeEngine(), {"model.xml": text}, select=["masks"]).causes) == told
+
+
 def test_a_pair_touches_whatever_the_masks_are(tmp_path, monkeypatch):
     ghost = BOX.format(z=0.5, more=' contype="0" conaffinity="0"')
     shin = '<body pos="0 0 -0.3"><geom name="foot" size="0.02" contype="0" conaffinity="0"/></body></body>'

@@ -46,8 +46,18 @@ def _fallen(simulation: Simulation) -> Iterator[tuple[int, int]]:
                 continue
             before = _above(simulation, run.start, root, geom)
             after = _above(simulation, run.end, root, geom)
-            if before is not None and after is not None and before > 0 and after < -limit(simulation, root):
+            if before is None or after is None or not before > 0 > after + limit(simulation, root):
+                continue
+            if solid(simulation, geom) or not _pictured(simulation, run.start, root, before):
                 yield root, geom
+
+
+def _pictured(simulation: Simulation, start: State, root: int, height: float) -> bool:
+    """Whether a surface without masks, `height` m below a body, is a picture: it lies on one that collides."""
+    owner, bodies = root_of(simulation), simulation.model("geom_bodyid")
+    others = (geom for geom, body in enumerate(bodies) if owner[int(body)] != owner[root] and solid(simulation, geom))
+    heights = (_above(simulation, start, root, geom) for geom in others)
+    return any(each is not None and abs(each - height) < limit(simulation, root) for each in heights)
 
 
 def bare(simulation: Simulation) -> list[int]:

@@ -103,6 +103,15 @@ def test_a_mass_in_grams_is_mended_without_the_inertia_that_is_right():
     assert 'mass="0.5" fullinertia="0.0072 0.0072 0.0001' in next(iter(found.edit)).value
 
 
+@pytest.mark.parametrize(("mass", "told"), [("120", "0.12"), ("1300", "1.3"), ("30", "0.3"), ("30000", "0.3")])
+def test_a_thousand_is_taken_off_where_it_leaves_a_material(mass: str, told: str):
+    text = (
+        f'<mujoco><worldbody><body pos="0 0 1"><freejoint/><geom type="box" size=".05 .05 .05" mass="{mass}"/></body>'
+    )
+    found = examine(NativeEngine(), {"model.xml": f"{text}</worldbody></mujoco>"}, select=["denser-than-metal"]).causes
+    assert [edit.value for each in found for edit in each.edit] == [told]
+
+
 def test_links_in_grams_for_each_cubic_centimetre_are_told_beside_a_heavy_trunk():
     shins = "".join(
         f'<body pos="0 {y} 0"><joint axis="0 1 0"/><geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03"/></body>'

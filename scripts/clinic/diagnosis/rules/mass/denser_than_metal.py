@@ -46,6 +46,7 @@ AFLOAT = True
 METAL, LIGHT, WATER = 24000.0, 0.05, 1000.0
 PARTLY = 1.5  # times as dense has a body to be of which the geoms are a part
 STEEL, USUAL, MANY, MOST_OF = 5000.0, 1200.0, 4, 0.6
+MATERIAL, LIKELY = (100.0, 8000.0), 450.0  # kg/m3: hollow plastic to steel; the body in the middle of 1475
 SHOWN = 0.7, 1.4  # the radius of gyration over that of geoms that show the body
 
 
@@ -130,8 +131,10 @@ def _alone(model: ReaderModel, body: int) -> dict[int, float]:
 
 
 def _tens(density: float) -> float:
-    """The power of ten that a density is above water's."""
-    return float(10.0 ** round(math.log10(density / WATER)))
+    """The power of ten that a density is above the usual one; a thousand, as of grams, where that leaves a material."""
+    if MATERIAL[0] < density / 1000 < MATERIAL[1]:
+        return 1000.0
+    return float(10.0 ** round(math.log10(density / LIKELY)))
 
 
 def _lighter(model: ReaderModel, dense: Sequence[tuple[int, Matter]]) -> tuple[Edit, ...]:

@@ -79,3 +79,30 @@ def test_a_tool_that_is_not_at_the_site_for_it_is_told(hand: str, told: bool) ->
     for each in found:
         edited = apply({"model.xml": text}, each.edit)
         assert NativeEngine().compile(edited["model.xml"], {}).count("body") == 3
+
+
+@pytest.mark.parametrize(
+    ("axes", "odd"),
+    [
+        ("z z x z z z", 2),
+        ("z z z z x z z", 4),
+        ("z z -z z z z", None),
+        ("z x z z z z z", None),
+        ("z z x z z", None),
+        ("z z x z z x z z", None),
+        ("z y x z y x", None),
+    ],
+    ids=["six", "seven", "the other way", "near the end", "too few", "two of them", "in turn"],
+)
+def test_the_one_axis_of_a_row_that_is_unlike_the_others_is_told(axes, odd):
+    ways = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1", "-z": "0 0 -1"}
+    bodies = "".join(
+        f'<body pos="0.1 0 0"><joint name="{each}" axis="{ways[way]}"/><geom size="0.02"/>'
+        for each, way in enumerate(axes.split())
+    )
+    ends = "</body>" * len(axes.split())
+    text = {"model.xml": f"<mujoco><worldbody>{bodies}{ends}</worldbody></mujoco>"}
+    found = examine(NativeEngine(), text, select=["axis-unlike-row"]).hints
+    assert [(each.elements[0], each.value) for each in found] == ([(f'joint "{odd}"', "0 0 1")] if odd else [])
+    for each in found:
+        assert not examine(NativeEngine(), apply(text, each.edit), select=["axis-unlike-row"]).hints

@@ -265,3 +265,30 @@ def test_an_actuator_on_one_of_several_springs_belongs_to_the_tendon_that_does_n
     text = f"<mujoco><worldbody>{palm}</worldbody>{sections}</mujoco>"
     found = told(text, "actuator-on-another-tendon").hints
     assert [each.value for one in found for each in one.edit] == meant
+
+
+@pytest.mark.parametrize(
+    ("meshes", "odd"),
+    [
+        ({"link3": "link2"}, ['body "link3"']),
+        ({"link3": "link2", "link3_seen": "link2_seen"}, []),
+        ({"link3": "link2", "link4": "link2"}, []),
+        ({"link3": "motor"}, []),
+        ({}, []),
+    ],
+    ids=["of one geom", "of both: one shape", "of two links", "called after no link", "all right"],
+)
+def test_a_link_with_the_mesh_of_another_is_told(meshes, odd):
+    names = [f"link{number}{what}" for number in range(1, 5) for what in ("", "_seen")]
+    corners = "-0.02 0 0  0.02 0 0  0 0.02 0  0 0 0.1"
+    assets = "".join(f'<mesh name="{name}" vertex="{corners}"/>' for name in (*names, "motor"))
+    bodies = ""
+    for number in range(1, 5):
+        own = [meshes.get(name, name) for name in (f"link{number}", f"link{number}_seen")]
+        geoms = "".join(f'<geom type="mesh" mesh="{name}"/>' for name in own)
+        bodies += f'<body name="link{number}" pos="0 0 0.2"><joint axis="0 1 0"/>{geoms}'
+    text = f"<mujoco><asset>{assets}</asset><worldbody>{bodies}{'</body>' * 4}</worldbody></mujoco>"
+    found = told(text, "mesh-of-another-link").hints
+    assert [each.elements[0] for each in found] == odd
+    for each in found:
+        assert not told(apply({"model.xml": text}, each.edit)["model.xml"], "mesh-of-another-link").hints

@@ -536,3 +536,21 @@ def test_servos_of_screws_that_together_do_not_hold_a_bed_are_told(force, ratio,
       <actuator>{"".join(servo.format(side, force) for side, _ in sides)}{more}</actuator></mujoco>"""
     found = examine(NativeEngine(), {"model.xml": text}, select=["force-range-too-small"]).causes
     assert [each.value for each in found] == [f"{14.8 / ratio:.2g}"] * told
+
+
+@pytest.mark.parametrize(
+    ("joint", "ctrl", "told"),
+    [
+        ("0 0.2356195", "0 2.356195", ("range", "0 2.3562")),
+        ("-0.1 0.23", "-1 2.3", ("ctrlrange", "-0.1 0.23")),
+        ("0 0.1745329", "0 1.745329", ("ctrlrange", "0 0.1745")),
+        ("0 0.2356195", "0 2.618", ("ctrlrange", "0 0.2356")),
+    ],
+    ids=["135 degrees", "of no whole degrees", "10 degrees too", "another factor"],
+)
+def test_a_range_that_is_a_tenth_of_whole_degrees_is_told_in_place_of_the_targets(joint, ctrl, told):
+    body = f'<body pos="0 0 1"><joint name="j" axis="0 1 0" range="{joint}" damping="1"/><geom size="0.05"/></body>'
+    servo = f'<actuator><position joint="j" kp="20" ctrlrange="{ctrl}"/></actuator>'
+    text = f'<mujoco><compiler angle="radian"/><worldbody>{body}</worldbody>{servo}</mujoco>'
+    found = examine(NativeEngine(), {"model.xml": text}, select=["control-range-too-wide"]).hints
+    assert [(each.attribute, each.value) for each in found] == [told]

@@ -610,3 +610,33 @@ def test_a_wheel_that_is_rolled_on_is_not_turned(ends, told):
         NativeEngine(), {"model.xml": f"{text}{wheels}</body></worldbody></mujoco>"}, select=["twin-turned"]
     )
     assert [each.attribute for each in found.hints] == told
+
+
+SERVO = '<position joint="{}" kp="20" kv="2" ctrlrange="{}"/>'
+
+
+@pytest.mark.parametrize(
+    ("more", "rule"),
+    [
+        (
+            f"<actuator>{SERVO.format('left_front', '0 1.0472')}{SERVO.format('right_front', '-1.0472 0')}</actuator>",
+            "control-range-too-narrow",
+        ),
+        ('<keyframe><key qpos="0 0 1 1 0 0 0  .5 -.5 .5 -.5 .5 -.5"/></keyframe>', "key-outside-range"),
+    ],
+    ids=["targets", "a keyframe"],
+)
+def test_what_agrees_with_the_image_of_the_twin_is_not_blamed_for_a_copied_range(more, rule):
+    for change, told in (({'right_front:range="-60 0"': 'range="0 60"'}, True), ({}, False)):
+        text = robot(change, left="0 60", right="-60 0").replace("</mujoco>", f"{more}</mujoco>")
+        found = diagnosed(text)
+        assert rule not in [each.rule for each in (*found.causes, *found.hints)]
+        names = [each.elements for each in found.hints if each.rule == "twin-joint-differs"]
+        assert bool(names) == told
+        assert all(each[0] == 'joint "right_front"' for each in names) or rule == "key-outside-range"
+
+
+def test_a_target_that_misses_the_range_of_both_twins_is_blamed():
+    servos = f"{SERVO.format('left_front', '0 1.0472')}{SERVO.format('right_front', '0.2 1.0472')}"
+    text = robot(left="0 60", right="-60 0").replace("</mujoco>", f"<actuator>{servos}</actuator></mujoco>")
+    assert "control-range-too-narrow" in [each.rule for each in diagnosed(text).causes]

@@ -84,3 +84,13 @@ class Twins(Comparisons):
 def twins(simulation: Simulation) -> Twins:
     """The pairs of a model."""
     return Twins(simulation)
+
+
+def range_of_image(simulation: Simulation, joint: int) -> tuple[float, float] | None:
+    """The range that a joint would have as the image of its twin; None where it has that, or no twin."""
+    found = twins(simulation)
+    for each in found.comparisons:
+        if each.odd and (each.kind, each.quantity) == ("joint", "range") and joint in (each.left, each.right):
+            low, high = simulation.row("jnt_range", each.left + each.right - joint, 2)
+            return (low, high) if found.interval_sign(each) > 0 else (-high, -low)
+    return None

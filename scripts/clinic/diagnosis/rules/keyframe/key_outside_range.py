@@ -47,6 +47,7 @@ from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.key import against_range, beyond, outside, reordered, start_at, weighed
 from clinic.diagnosis.probes.servo import servos
+from clinic.diagnosis.probes.twins import range_of_image
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
@@ -79,7 +80,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         held = {joint: reach for joint, reach in against_range(of, key).items() if joint in off}
         yield from _ranges(model, key, held)
-        off = {joint: each for joint, each in off.items() if joint not in held}
+        off = {joint: each for joint, each in off.items() if joint not in held and not _as_its_twin(of, key, joint)}
         if not off:
             continue
         start_at(of, key)
@@ -121,6 +122,13 @@ def _controls(of: Simulation, key: Element) -> tuple[Edit, ...]:
         return ()
     made = [math.radians(each) if actuator in alike else each for actuator, each in enumerate(ctrl)]
     return (set_attribute(key, "ctrl", written(made)),)
+
+
+def _as_its_twin(of: Simulation, key: int, joint: int) -> bool:
+    """Whether a keyframe keeps to the range that the joint would have as its twin's image: that tells of the range."""
+    wanted = range_of_image(of, joint)
+    start_at(of, key)
+    return wanted is not None and wanted[0] - LIMIT <= of.position(joint) <= wanted[1] + LIMIT
 
 
 def _either(of: Simulation, key: int, joint: int, beyond: float) -> bool:

@@ -40,7 +40,7 @@ from clinic.diagnosis.probes.key import against_range, start_at
 from clinic.diagnosis.probes.servo import Servo, greatest, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.servo.control_range_too_wide import inherit, inherited
-from clinic.diagnosis.rules.servo.control_range_unlike_range import ranged_like
+from clinic.diagnosis.rules.servo.control_range_unlike_range import of_image, ranged_like
 from clinic.diagnosis.rules.servo.driven_twice import twice
 from clinic.diagnosis.rules.servo.gain_unlike_bias import meets
 from clinic.diagnosis.simulation import Simulation, kept
@@ -77,7 +77,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = [each for each in servos(simulation) if missed(each) > MISSED and not meets(simulation, each)]
     held = {joint for key in range(simulation.count("key")) for joint in against_range(simulation, key)}
     found = [each for each in found if each.actuator not in shared and each.joint not in held]
-    found = [each for each in found if ranged_like(simulation, each) is None]
+    found = [each for each in found if ranged_like(simulation, each) is None and not of_image(simulation, each)]
     gears = {each.actuator: simulation.gear(each.actuator) for each in found}
     for geared in (True, False):
         some = [each for each in found if (abs(gears[each.actuator]) > GEARED) == geared]

@@ -27,6 +27,9 @@ a hinge's targets lie more than 120 % of its range beyond (0.56 is the most in 5
 tells of some servos among others with targets more than 25 % of the range beyond, and of slides with a limited force
 from 50 times the range on.
 
+Where the range is a tenth of the targets, and these end at whole multiples of 5 degrees as it does not, the range has a
+misplaced point, and it is told instead.
+
 When it is wrong: a target beyond the limit as a way to command a force, as grippers do.
 """
 
@@ -38,7 +41,9 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.press import past_limit
 from clinic.diagnosis.probes.servo import Servo, greatest, servos
+from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.servo.control_range_unlike_range import of_image
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Level, Probe, Suspect
 
@@ -53,6 +58,7 @@ PAST = 0.3
 FAR = 1.2  # of the joint's range
 MILLIMETRES = 50.0  # of the joint's range: a finger squeezes with a target that is less far
 TITLE_OF_FAR = "how far targets lie beyond a limit, as a share of the joint's range"
+CLOSE, EXACT = 1e-3, 0.02  # of a target, degrees
 NARROW = 0.12  # rad: a range of radians that was read as degrees
 
 
@@ -68,6 +74,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Hinges with targets far out, and servos that push their joints past a limit."""
     simulation = model.simulation
     wide = [each for each in servos(simulation) if beyond(each) > BEYOND and not _of_the_joint(each)]
+    wide = [each for each in wide if not of_image(simulation, each)]
+    shifted = [each for each in wide if _tenth(each)]
+    wide = [each for each in wide if each not in shifted]
+    yield from (_range(model, each) for each in shifted)
     far = [each for each in wide if each.hinge and beyond(each) > FAR and not _amplified(model, each)]
     rest = [each for each in wide if each not in far]
     rest = rest if rest and model.measured(past_limit([each.actuator for each in rest])) > PAST else []
@@ -119,6 +129,33 @@ def _suspect(
         'the joint\'s range (inheritrange="1")',
         level=level,
     )
+
+
+def _tenth(servo: Servo) -> bool:
+    """Whether the range is a tenth of the targets, and these alone end at whole degrees: its point is misplaced."""
+    if not servo.hinge or servo.range is None or servo.targets is None:
+        return False
+    ends = list(zip(servo.range, servo.targets, strict=True))
+    tenth = all(abs(10 * least - target) <= CLOSE * abs(target) for least, target in ends)
+    return tenth and all(map(_whole, servo.targets)) and not all(map(_whole, servo.range))
+
+
+def _whole(angle: float) -> bool:
+    """Whether an angle in rad is a multiple of 5 degrees."""
+    return abs(math.remainder(math.degrees(angle), 5.0)) < EXACT
+
+
+def _range(model: ReaderModel, servo: Servo) -> Suspect:
+    """A range whose decimal point is misplaced, as its servo's targets tell."""
+    of = model.simulation
+    assert servo.range is not None
+    assert servo.targets is not None
+    names = of.name("joint", servo.joint), of.name("actuator", servo.actuator)
+    now, value = (written([end / model.angle_unit for end in ends]) for ends in (servo.range, servo.targets))
+    says = f"{names[1]} has targets up to ten times as far, {math.degrees(servo.targets[0]):.4g} to "
+    says += f"{math.degrees(servo.targets[1]):.4g} degrees: a point is misplaced in the range."
+    edits, probe = model.set("joint", [servo.joint], "range", value), _farthest_of([servo])
+    return Suspect(names, "range", now, value, edits, probe, FAR, says, "its targets, a tenth", level="hint")
 
 
 def _of_the_joint(servo: Servo) -> bool:

@@ -54,7 +54,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.servo import Servo, greatest, servos
 from clinic.diagnosis.probes.siblings import LIKE, odd_ones
-from clinic.diagnosis.probes.twins import twins
+from clinic.diagnosis.probes.twins import range_of_image, twins
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -107,6 +107,12 @@ def ranged_like(of: Simulation, servo: Servo) -> int | None:
     ranges = {each: of.row("jnt_range", each, 2) for each in others if each is not None and servo.targets}
     same = (each for each, wide in ranges.items() if _same(wide, servo.targets or (0, 0)))
     return next((each for each in same if not _same((-ranges[each][1], -ranges[each][0]), (own[0], own[1]))), None)
+
+
+def of_image(of: Simulation, servo: Servo) -> bool:
+    """Whether the targets are the range that the joint would have as its twin's image, and has not."""
+    wanted = range_of_image(of, servo.joint)
+    return wanted is not None and servo.targets is not None and _same(wanted, servo.targets)
 
 
 def _same(one: tuple[float, ...], other: tuple[float, float]) -> bool:

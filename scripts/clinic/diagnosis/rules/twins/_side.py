@@ -10,6 +10,7 @@ from clinic.diagnosis.probes.comparison import Comparison
 from clinic.diagnosis.probes.inertia import inertial
 from clinic.diagnosis.probes.matter import matter
 from clinic.diagnosis.probes.overlap import at_start, of_relatives
+from clinic.diagnosis.probes.servo import servos
 from clinic.diagnosis.probes.siblings import FIELDS, LIKE, odd_ones
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.probes.vector import dot, norm, sub
@@ -54,6 +55,9 @@ def _strange(model: ReaderModel, each: Comparison, side: int) -> float:
         start = simulation.model("qpos0")[place]
         if not low - 0.01 <= start <= high + 0.01:
             return 1e6
+        reach = [_reach_apart(simulation, one) for one in (each.left, each.right)]
+        if min(reach) < TIE < max(reach) < math.inf:
+            return reach[side == each.right]
     if each.quantity in ("joint", "target"):
         to = attached(simulation, each.kind, side)
         names = simulation.names(each.kind)[side], simulation.names(to[0])[to[1]] if to else ""
@@ -136,6 +140,15 @@ def _in_reach(simulation: Simulation, actuator: int) -> float:
     low, high = simulation.row("actuator_ctrlrange", actuator, 2)
     bottom, top = simulation.row("jnt_range", joint, 2)
     return max(0.0, min(high, top) - max(low, bottom)) / max(high - low, 1e-9)
+
+
+def _reach_apart(simulation: Simulation, joint: int) -> float:
+    """How far the targets of a joint's one servo are from its range, in parts of it; infinity without one."""
+    low, high = simulation.row("jnt_range", joint, 2)
+    own = [each.targets for each in servos(simulation) if each.joint == joint and each.targets]
+    if len(own) != 1 or high <= low:
+        return math.inf
+    return max(abs(own[0][0] - low), abs(own[0][1] - high)) / (high - low)
 
 
 def _pieces(name: str) -> list[str]:

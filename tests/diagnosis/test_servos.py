@@ -554,3 +554,21 @@ def test_a_range_that_is_a_tenth_of_whole_degrees_is_told_in_place_of_the_target
     text = f'<mujoco><compiler angle="radian"/><worldbody>{body}</worldbody>{servo}</mujoco>'
     found = examine(NativeEngine(), {"model.xml": text}, select=["control-range-too-wide"]).hints
     assert [(each.attribute, each.value) for each in found] == [told]
+
+
+@pytest.mark.parametrize(
+    ("kv", "others", "told"),
+    [(400, 2.2, ("kv", "2.2")), (400, 400, ("kp", "8000")), (400, 40, ("kp", "8000"))],
+    ids=["one of many", "as all are", "ten times the others'"],
+)
+def test_a_servo_that_is_late_by_its_own_kv_is_told_to_have_less_of_that(kv, others, told):
+    arms = "".join(
+        f'<body pos="0 {each} 1"><joint name="j{each}" axis="0 0 1"/>'
+        '<geom type="capsule" fromto="0 0 0 0.6 0 0" size="0.06"/></body>'
+        for each in range(5)
+    )
+    servos = "".join(f'<position joint="j{each}" kp="190" kv="{others if each else kv}"/>' for each in range(5))
+    text = f"<mujoco><worldbody>{arms}</worldbody><actuator>{servos}</actuator></mujoco>"
+    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["weak-servo"]).causes
+    assert (found.attribute, found.value) == told
+    assert found.after < found.before / 2

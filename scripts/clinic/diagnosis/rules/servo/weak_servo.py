@@ -29,10 +29,10 @@ one of them bends by more than 0.45 rad. A hint tells of one that stands for a s
 after 5 s, and that with three times the stiffness stands; where it stands with twice as much, its balance was left to a
 controller, and only `--symptom sags` tells it.
 Or more than 45 % of a step of 0.1 rad is left after 1 s, without gravity; a hint for what follows within 2 s and
-carries less than a twentieth of the mass, as a neck does. Where the base is fixed, a hint tells of hinges that sag by
-more than 0.085 rad, and of slides that sag by more than 10 % of their range: fingers with 40 mm that swing by 5 mm as
-the arm turns, where grippers and lifters that work well do by 6 to 7 %. With `--symptom sags` it tells from a fifth of
-that on.
+carries less than a twentieth of the mass, as a neck does; by a kv 20 times that of all others over kp, the kv is told.
+Where the base is fixed, a hint tells of hinges that sag by more than 0.085 rad, and of slides that sag by more than 10
+% of their range: fingers with 40 mm that swing by 5 mm as the arm turns, where grippers and lifters that work well do
+by 6 to 7 %. With `--symptom sags` it tells from a fifth of that on.
 
 When it is wrong: a controller that adds the weight itself. `gravcomp="1"` on the bodies takes the load away as well.
 """
@@ -63,6 +63,7 @@ SLOW = 4.0  # rad/s: the natural frequency below which it is
 LEFT = 0.45  # of the step
 LONG, FALLEN, NEARLY, STIFFER = 5.0, 0.5, 2.0, 3.0  # s; of its height; times the stiffness, twice
 MEANT, LIGHT = 2.0, 0.05  # s and of the mass, below which it may be meant: a neck, an antenna
+BEYOND, OTHERS = 20.0, 4  # times the kv over kp of the most damped of so many others
 SAG, WALKS = 0.3, 0.55  # rad of a hinge, m of a slide; rad where the robot is free and stands on its feet
 LITTLE, SHARE = 0.085, 0.1  # rad of a hinge, share of the range of a slide, of which a hint tells
 KEEN = 0.2  # of these, where the reader sees something sag
@@ -197,6 +198,9 @@ def _late(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
         slow = slow and each.actuator not in sagging and holds_back(simulation, each) != "damping"
         if slow and model.measured(remaining([each.actuator])) > LEFT:
             late.append(each)
+    overdamped = [each for each in late if _overdamped(model, each)]
+    yield from _prompt(model, overdamped)
+    late = [each for each in late if each not in overdamped]
     if not late:
         return
     worst = max(late, key=_follows)
@@ -213,6 +217,45 @@ def _late(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
         f"joint follows in {_follows(worst):.2g} s.",
         "0.5 s is the most of 55 healthy models with servos; 1.6 s of a humanoid's neck",
         level="hint" if _follows(worst) < MEANT and _light(simulation, late) else "cause",
+    )
+
+
+def _overdamped(model: ReaderModel, servo: Servo) -> float:
+    """The kv that would be usual beside a servo's kp, where its own is many times that of all others; else 0."""
+    of, kv = model.simulation, -model.simulation.bias(servo.actuator)[2]
+    times = sorted(_of_kv(of, each) for each in _alone(of) if each.actuator != servo.actuator and _of_kv(of, each) > 0)
+    written = model.value("actuator", servo.actuator, "kv") is not None
+    if not written or len(times) < OTHERS or _of_kv(of, servo) < BEYOND * times[-1]:
+        return 0.0
+    usual = times[len(times) // 2]
+    return kv * usual / _of_kv(of, servo)
+
+
+def _of_kv(of: Simulation, servo: Servo) -> float:
+    """kv over kp in s."""
+    _, stiffness, damping = of.bias(servo.actuator)[:3]
+    return damping / stiffness if stiffness else 0.0
+
+
+def _prompt(model: ReaderModel, some: Sequence[Servo]) -> Iterator[Suspect]:
+    """The servos that are late by a kv of their own, with one that is usual beside their kp."""
+    if not some:
+        return
+    of, worst = model.simulation, max(some, key=_follows)
+    values = {each.actuator: rounded(_overdamped(model, each)) for each in some}
+    now = f"{-of.bias(worst.actuator)[2]:.3g}"
+    says = f"kv {now} over kp {worst.stiffness:.3g} lets it follow in {_of_kv(of, worst):.2g} s; of the other servos "
+    says += f"none has more than 1/{BEYOND:g} of that."
+    yield Suspect(
+        tuple(of.name("actuator", each.actuator) for each in some),
+        "kv",
+        now,
+        values[worst.actuator],
+        model.set_each("actuator", "kv", values),
+        remaining([each.actuator for each in some]),
+        LEFT,
+        says,
+        "as the other servos of the model",
     )
 
 

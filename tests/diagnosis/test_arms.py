@@ -106,3 +106,13 @@ def test_the_one_axis_of_a_row_that_is_unlike_the_others_is_told(axes, odd):
     assert [(each.elements[0], each.value) for each in found] == ([(f'joint "{odd}"', "0 0 1")] if odd else [])
     for each in found:
         assert not examine(NativeEngine(), apply(text, each.edit), select=["axis-unlike-row"]).hints
+
+
+@pytest.mark.parametrize(("mass", "told"), [("80.58", "8.058 kg"), ("60", None), ("8.058", None)])
+def test_the_link_with_a_misplaced_point_is_told_of_an_arm_that_is_too_heavy(mass, told):
+    text = {"model.xml": UR5E.replace('mass="8.058"', f'mass="{mass}"')}
+    found = examine(NativeEngine(), text, select=["arm-unlike-data-sheet"]).hints
+    assert bool(found) == (mass != "8.058")
+    for each in found:
+        assert (len(each.elements) == 1) == bool(told)
+        assert told in (None, each.value)

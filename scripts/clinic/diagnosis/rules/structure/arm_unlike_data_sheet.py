@@ -91,6 +91,7 @@ HAND = re.compile(r"^([\w/]*[_/])?(panda\d*|fr3|fer)?_?finger_joint\d$", re.IGNO
 BASE = re.compile(r"(?<![a-z])base(?![a-z])|link_?0(?![0-9])", re.IGNORECASE)
 FARTHER, ANOTHER, ROUND = math.radians(3), math.radians(45), 2 * math.pi - 0.1
 HEAVY, SISTER, SAME = 2.0, 1.02, 0.003  # times the mass of the data sheet; with a sister's mass; how near to it
+SUM = 0.03  # of the mass of the data sheet: how near to it one misplaced point brings the sum
 LEAST = 5  # hinges in a row: no arm of the table has fewer
 FEW = 2  # lengths, or axes, that may be wrong in an arm that is still the one of the data sheet
 
@@ -252,12 +253,30 @@ def _mass(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     sister = next((name for name, mass in _sisters(arm) if abs(weight / mass - 1) < SAME), "")
     if off <= (SISTER if sister else HEAVY):
         return
-    names = tuple(of.name("body", body) for body in _links(of, row.joints))
+    alone = _shifted(of, row.joints, arm.mass)
+    names = tuple(of.name("body", body) for body in ([alone[0]] if alone else _links(of, row.joints)))
     says = f"The links weigh {weight:.3g} kg together; those of {arm.names[0]} {arm.mass:.3g} kg."
     says += f" It is what those of {sister} weigh." if sister else ""
     probe = Probe("mass over the data sheet's", "", _heavy, (row.joints, arm.mass), dynamic=False)
     now, value, most = f"{weight:.3g} kg", f"{arm.mass:.3g} kg", SISTER if sister else HEAVY
-    yield Suspect(names, "mass", now, value, (), probe, most, says, value, excess=off, level="hint")
+    if alone:
+        own = of.model("body_mass")[alone[0]]
+        now, value = f"{own:.4g} kg", f"{own * alone[1]:.4g} kg"
+        total = weight + own * (alone[1] - 1)
+        says += f" With {value} in place of {now} for {names[0]} it is {total:.3g} kg: its point is misplaced."
+    yield Suspect(names, "mass", now, value, (), probe, most, says, f"{arm.mass:.3g} kg", excess=off, level="hint")
+
+
+def _shifted(of: Simulation, joints: tuple[int, ...], right: float) -> tuple[int, float] | None:
+    """The one link that with its mass times a power of ten brings the sum to the data sheet's, and that power."""
+    masses, weight = of.model("body_mass"), _weight(of, joints)
+    found = [
+        (body, 10.0**power)
+        for body in _links(of, joints)
+        for power in (-3, -2, -1, 1, 2, 3)
+        if abs((weight + masses[body] * (10.0**power - 1)) / right - 1) < SUM
+    ]
+    return found[0] if len(found) == 1 else None
 
 
 def _sisters(arm: Arm) -> list[tuple[str, float]]:

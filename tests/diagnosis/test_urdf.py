@@ -273,3 +273,20 @@ def test_a_joint_that_is_called_fixed_and_floats_is_told(name: str, kind: str, t
     text = {"case.urdf": f'<robot name="r">{case}{joint}</robot>'}
     found = examine(NativeEngine(), text, select=["urdf-fixed-with-range"]).hints
     assert [(each.elements[0], each.value) for each in found] == [('joint "fix"', "fixed")] * told
+
+
+def test_a_joint_is_mended_where_it_is_and_not_where_a_transmission_names_it():
+    inertia = '<inertia ixx="1e-3" iyy="1e-3" izz="1e-3" ixy="0" ixz="0" iyz="0"/>'
+    links = '<link name="palm"/>' + "".join(
+        f'<link name="{name}"><inertial><mass value="1"/>{inertia}</inertial></link>' for name in ("knuckle", "tip")
+    )
+    joint = '<joint name="{0}" type="revolute"><parent link="{1}"/><child link="{0}"/><origin xyz="0.1 0 0"/>'
+    limit = '<axis xyz="0 1 0"/><limit lower="0" upper="{}" effort="9" velocity="2"/>'
+    knuckle = f"{joint.format('knuckle', 'palm')}{limit.format(0.8)}</joint>"
+    mimic = '<mimic joint="knuckle" multiplier="-1"/>'
+    tip = f"{joint.format('tip', 'knuckle')}{limit.format(0.81)}{mimic}</joint>"
+    control = '<ros2_control name="c" type="system"><joint name="tip"/><joint name="knuckle"/></ros2_control>'
+    text = {"hand.urdf": f'<robot name="hand">{links}{knuckle}{tip}{control}</robot>'}
+    found = examine(NativeEngine(), text, select=["follower-out-of-range"]).causes
+    assert [(each.attribute, each.now, each.value) for each in found] == [("multiplier", "-1", "1")]
+    assert 'multiplier="1"' in apply(text, found[0].edit)["hand.urdf"]

@@ -12,6 +12,7 @@ from clinic.diagnosis.simulation import Simulation, Start
 from clinic.diagnosis.source import REPEATING, Element, Source
 from clinic.diagnosis.suspect import Probe
 
+OF_ROBOT = {"body": "link", "joint": "joint"}
 TAGS = {  # how the elements of a kind are written
     "joint": ("joint", "freejoint"),
     "geom": ("geom",),
@@ -146,16 +147,16 @@ class ReaderModel:
         names = self.simulation.names(kind)
         if self.source is None:  # the engine reads XML that is not quite well-formed
             return [None] * len(names)
-        if kind == "body":
-            written = list(self.source.elements("link")) if self.source.urdf else list(self.source.bodies())
+        if self.source.urdf and kind in OF_ROBOT:  # a transmission names its joints by <joint> too
+            written = [each for each in self.source.root.children if each.tag == OF_ROBOT[kind]]
+        elif kind == "body":
+            written = list(self.source.bodies())
         elif kind in TAGS:
             written = self.source.of_bodies(*TAGS[kind])
         else:
             written = list(self.source.section(SECTION.get(kind, kind)))
         if kind in ("pair", "exclude"):
             written = [each for each in self.source.section("contact") if each.tag == kind]
-        if self.source.urdf and kind == "joint":
-            written = list(self.source.elements("joint"))
         by_name = {element.get("name"): element for element in written if element.get("name")}
         whole = not self.source.urdf and not any(True for _ in self.source.elements(*REPEATING))
         if whole and len(written) == len(names):

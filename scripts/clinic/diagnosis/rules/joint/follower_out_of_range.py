@@ -40,7 +40,7 @@ When it is wrong: a leader that something else keeps to a part of its range.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import HINGE, SLIDE
@@ -59,6 +59,7 @@ SINCE = "0.1"
 UNPLANTED = "one healthy model has a joint that follows another"
 
 LOST, WITHIN = 0.5, 0.05
+MORE = 0.02  # of the range
 SMALL = 0.1  # an offset rather than a factor
 OTHER_UNITS = {SLIDE: 1000.0, HINGE: 180 / math.pi}  # mm, degrees
 UNIT_DIGITS, TURN = 2, 2 * math.pi
@@ -153,13 +154,19 @@ def _turned(of: Simulation, coupling: Coupling) -> tuple[float, ...]:
     if bodies[0] != bodies[1] and parents[0] == parents[1]:
         of.begin()
         axes = [of.data_row("xaxis", joint, 3) for joint in (follower, leader)]
-        alike = own == of.row("jnt_range", leader, 2) and turned[1] * dot(*axes) < 0
+        alike = _alike(own, of.row("jnt_range", leader, 2)) and turned[1] * dot(*axes) < 0
     else:
-        alike = any(own == of.row("jnt_range", other, 2) for other in (leader, twin))
+        alike = any(_alike(own, of.row("jnt_range", other, 2)) for other in (leader, twin))
     if not alike:
         return ()
     ways = (factors[0], *turned[1:]), turned
     return next((each for each in ways if lost(of, ((follower, leader, each),)) < WITHIN), ())
+
+
+def _alike(one: Sequence[float], other: Sequence[float]) -> bool:
+    """Whether two ranges are one, as they are written: that of a follower often has a little more."""
+    span = max(one[1] - one[0], other[1] - other[0])
+    return all(abs(a - b) <= MORE * span for a, b in zip(one, other, strict=True))
 
 
 def _of_sign(model: ReaderModel, number: int, coupling: Coupling, factors: tuple[float, ...]) -> Suspect:

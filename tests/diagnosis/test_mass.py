@@ -399,3 +399,15 @@ def test_a_centre_with_a_slip_of_the_point_is_told_of_drawn_geoms_too(pos: str, 
     text = f"<mujoco><worldbody><body>{arm}</body></worldbody></mujoco>"
     found = examine(NativeEngine(), {"m.xml": text}, select=["centre-of-mass-outside"]).hints
     assert [each.value for each in found] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("pos", "value"), [("-20 0 150", "-0.02 0 0.15"), ("-20 0 900", "0 0 0.15"), ("2 0 0", "0 0 0.15")]
+)
+def test_a_centre_of_mass_in_mm_is_mended_by_its_unit(pos: str, value: str):
+    inertial = f'<inertial pos="{pos}" mass="1" diaginertia="0.01 0.01 0.001"/>'
+    geom = '<geom type="box" size="0.05 0.05 0.15" pos="0 0 0.15"/>'
+    body = f'<body pos="0 0 1"><joint axis="0 1 0"/>{inertial}{geom}</body>'
+    text = f"<mujoco><worldbody>{body}</worldbody></mujoco>"
+    found = examine(NativeEngine(), {"model.xml": text}, select=["centre-of-mass-outside"]).hints
+    assert [each.value for each in found] == [f"pos {value}"]

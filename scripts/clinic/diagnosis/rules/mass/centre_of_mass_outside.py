@@ -71,12 +71,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for body, each in found:
         if any(body == other for other, *_ in turned):
             continue
+        centre = _scaled(each) or each.solid_centre
         yield Suspect(
             (of.name("body", body),),
             "inertial",
             f"pos {written(each.centre)}",
-            f"pos {written(each.solid_centre)}",
-            set_inertial(model, body, each.mass, each.solid_centre, each.about),
+            f"pos {written(centre)}",
+            set_inertial(model, body, each.mass, centre, each.about),
             centre_outside((body,)),
             LIMIT,
             f"{each.mass:.3g} kg lie {each.outside:.3g} m outside of the box around its geoms.",
@@ -86,22 +87,25 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _slipped(model: ReaderModel) -> Iterator[Suspect]:
-    """The centres far outside of geoms without a mass that are inside with a tenth or a thousandth of it."""
+    """The centres outside of geoms without a mass that a tenth or a thousandth brings inside."""
     of = model.simulation
     told = {body for body, _ in explicit(model)}
     for body in of.moving_bodies:
         found = matter(of, body) if body not in told and inertial(model, body) is not None else None
-        if found is None or found.outside <= FAR * max(found.half):
-            continue
-        far = norm(found.centre) > MILLI * max(found.half)
-        centres = [tuple(x / by for x in found.centre) for by in (10, 1000)[: 1 + far]]
-        inside = [each for each in centres if replace(found, centre=each).outside == 0]
-        if inside:
-            now, value = f"pos {written(found.centre)}", f"pos {written(inside[0])}"
-            edits = set_inertial(model, body, found.mass, inside[0], found.about)
+        if found is not None and (centre := _scaled(found)):
+            now, value = f"pos {written(found.centre)}", f"pos {written(centre)}"
+            edits = set_inertial(model, body, found.mass, centre, found.about)
             says = f"{found.mass:.3g} kg lie {found.outside:.3g} m outside of the box around its geoms."
             name, probe = (of.name("body", body),), centre_outside((body,))
             yield Suspect(name, "inertial", now, value, edits, probe, LIMIT, says, "inside", level="hint")
+
+
+def _scaled(found: Matter) -> Vector | None:
+    """A tenth or a thousandth of a centre of mass that is far outside of the geoms, where that is inside; else None."""
+    size = max(found.half)
+    divisors = (10, 1000) if norm(found.centre) > MILLI * size else (10,)
+    centres = [tuple(x / by for x in found.centre) for by in divisors if found.outside > FAR * size]
+    return next((each for each in centres if replace(found, centre=each).outside == 0), None)
 
 
 def _other_sign(found: Matter) -> Vector | None:

@@ -39,7 +39,7 @@ Good:
     +           <geom type="mesh" mesh="link3"/>
 
 The number: the links whose mesh is called after another link, that has it too, where three and more have one called
-after themselves in the same way; one is told, two are a habit; of 424 healthy models none has one.
+after themselves in the same way; one is told, two are a habit; of 260 healthy models none has one.
 
 When it is wrong: two links of one shape, of which one was drawn twice.
 """

@@ -44,6 +44,7 @@ SINCE = "0.1"
 AFLOAT = True
 
 METAL, LIGHT, WATER = 24000.0, 0.05, 1000.0
+ALONE = 4.0  # half lengths from what is drawn of a body to the middle of its mass
 PARTLY = 1.5  # times as dense has a body to be of which the geoms are a part
 STEEL, USUAL, MANY, MOST_OF = 5000.0, 1200.0, 4, 0.6
 MATERIAL, LIKELY = (100.0, 8000.0), 450.0  # kg/m3: hollow plastic to steel; the body in the middle of 1475
@@ -89,7 +90,7 @@ def _dense(found: Matter) -> bool:
 
     None whose centre of mass lies farther outside of them than they are long: they are a small part of it.
     """
-    if found.radius > SHOWN[1] and found.outside > max(found.half):
+    if found.radius > SHOWN[1] and found.outside > ALONE * max(found.half):
         return False
     return found.density > METAL * (1 if found.radius < SHOWN[1] else PARTLY)
 

@@ -63,6 +63,7 @@ AFLOAT = True
 LEVEL = "hint"
 
 SHARE, FEW = 0.75, 2
+NOTHING = 1e-6  # kg: a frame without mass
 LITTLE, PART = 0.03, 0.1  # kg, or of all that moves where that is less: what makes no difference
 MORE = 0.15  # of the link's mass
 
@@ -86,11 +87,11 @@ def _jointed(model: ReaderModel) -> Iterator[Suspect]:
         others = len(jointed) - len(bare)
         if not bare or len(bare) > FEW or others < (2 if len(bare) == 1 else max(3, SHARE * len(jointed))):
             continue
-        for body in (each for each in bare if of.model("body_mass")[each] > _little(of)):
+        for body in (each for each in bare if of.model("body_mass")[each] > NOTHING):
             placed = [each for geom in of.geoms_of(body) if (each := model.element("geom", geom)) is not None]
-            weighed = any((each.get("density") or "0") != "0" for each in placed) or any(
-                (model.value("geom", geom, "mass") or "0") != "0" for geom in of.geoms_of(body)
-            )
+            weighed = any((each.get(name) or "0") != "0" for each in placed for name in ("mass", "density"))
+            idle = {text for each in jointed if inertial(model, each) is not None for text in _by_class(model, each)}
+            weighed |= bool(_by_class(model, body) - idle)
             if weighed or not (placed or (model.source and model.source.urdf and of.geoms_of(body))):
                 continue
             mass = of.model("body_mass")[body]
@@ -99,6 +100,11 @@ def _jointed(model: ReaderModel) -> Iterator[Suspect]:
                 (of.name("body", body),), "inertial", "left out", "", (), mass_of((body,)), 0.0, says,
                 "its own <inertial>", level="hint",
             )  # fmt: skip
+
+
+def _by_class(model: ReaderModel, body: int) -> set[str]:
+    """What the geoms of a body are let weigh, by themselves or by their classes."""
+    return {model.value("geom", geom, "mass") or "0" for geom in model.simulation.geoms_of(body)} - {"0"}
 
 
 def _fixed(model: ReaderModel) -> Iterator[Suspect]:

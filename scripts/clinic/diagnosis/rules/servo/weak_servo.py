@@ -29,10 +29,10 @@ one of them bends by more than 0.45 rad. A hint tells of one that stands for a s
 after 5 s, and that with three times the stiffness stands; where it stands with twice as much, its balance was left to a
 controller, and only `--symptom sags` tells it.
 Or more than 45 % of a step of 0.1 rad is left after 1 s, without gravity; a hint for what follows within 2 s and
-carries less than a twentieth of the mass, as a neck does; by a kv 20 times that of all others over kp, the kv is told.
-Where the base is fixed, a hint tells of hinges that sag by more than 0.085 rad, and of slides that sag by more than 10
-% of their range: fingers with 40 mm that swing by 5 mm as the arm turns, where grippers and lifters that work well do
-by 6 to 7 %. With `--symptom sags` it tells from a fifth of that on.
+carries less than a twentieth of the mass, as a neck does; by a kv 20 times that of all others, over a usual kp, kv is
+told. Where the base is fixed, a hint tells of hinges that sag by more than 0.085 rad, and of slides that sag by more
+than 10 % of their range: fingers with 40 mm that swing by 5 mm as the arm turns, where grippers and lifters that work
+well do by 6 to 7 %. With `--symptom sags` it tells from a fifth of that on.
 
 When it is wrong: a controller that adds the weight itself. `gravcomp="1"` on the bodies takes the load away as well.
 """
@@ -223,10 +223,13 @@ def _late(model: ReaderModel, sagging: set[int]) -> Iterator[Suspect]:
 def _overdamped(model: ReaderModel, servo: Servo) -> float:
     """The kv that would be usual beside a servo's kp, where its own is many times that of all others; else 0."""
     of, kv = model.simulation, -model.simulation.bias(servo.actuator)[2]
-    times = sorted(_of_kv(of, each) for each in _alone(of) if each.actuator != servo.actuator and _of_kv(of, each) > 0)
+    others = [each for each in _alone(of) if each.actuator != servo.actuator and _of_kv(of, each) > 0]
+    times = sorted(_of_kv(of, each) for each in others)
     written = model.value("actuator", servo.actuator, "kv") is not None
     if not written or len(times) < OTHERS or _of_kv(of, servo) < BEYOND * times[-1]:
         return 0.0
+    if servo.stiffness < min(each.stiffness for each in others) / 2:
+        return 0.0  # its kp is what is unlike
     usual = times[len(times) // 2]
     return kv * usual / _of_kv(of, servo)
 

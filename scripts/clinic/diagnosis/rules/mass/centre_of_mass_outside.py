@@ -71,7 +71,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for body, each in found:
         if any(body == other for other, *_ in turned):
             continue
-        centre = _scaled(each) or each.solid_centre
+        centre = _scaled(each, 1000) or each.solid_centre
         yield Suspect(
             (of.name("body", body),),
             "inertial",
@@ -92,7 +92,7 @@ def _slipped(model: ReaderModel) -> Iterator[Suspect]:
     told = {body for body, _ in explicit(model)}
     for body in of.moving_bodies:
         found = matter(of, body) if body not in told and inertial(model, body) is not None else None
-        if found is not None and (centre := _scaled(found)):
+        if found is not None and (centre := _scaled(found, 10, 1000)):
             now, value = f"pos {written(found.centre)}", f"pos {written(centre)}"
             edits = set_inertial(model, body, found.mass, centre, found.about)
             says = f"{found.mass:.3g} kg lie {found.outside:.3g} m outside of the box around its geoms."
@@ -100,11 +100,16 @@ def _slipped(model: ReaderModel) -> Iterator[Suspect]:
             yield Suspect(name, "inertial", now, value, edits, probe, LIMIT, says, "inside", level="hint")
 
 
-def _scaled(found: Matter) -> Vector | None:
-    """A tenth or a thousandth of a centre of mass that is far outside of the geoms, where that is inside; else None."""
+def _scaled(found: Matter, *divisors: int) -> Vector | None:
+    """A centre of mass far outside of the geoms over the first of some numbers that brings it inside; else None.
+
+    A thousandth is tried where the centre is farther out than any that is in m.
+    """
     size = max(found.half)
-    divisors = (10, 1000) if norm(found.centre) > MILLI * size else (10,)
-    centres = [tuple(x / by for x in found.centre) for by in divisors if found.outside > FAR * size]
+    if found.outside <= FAR * size:
+        return None
+    tried = [by for by in divisors if by < 1000 or norm(found.centre) > MILLI * size]
+    centres = [tuple(x / by for x in found.centre) for by in tried]
     return next((each for each in centres if replace(found, centre=each).outside == 0), None)
 
 

@@ -155,18 +155,18 @@ class NativeEngine:
         texts = {os.path.abspath(name): text.encode() for name, text in changed.items()}
         return self._loaded(mujoco.MjModel.from_xml_path, os.path.abspath(MAIN), texts)
 
-    def spec(self, texts: Mapping[str, str]) -> mujoco.MjSpec:
-        """The same as a specification that compiles, the model's text first and as it is on disk."""
+    def specified(self, texts: Mapping[str, str]) -> tuple[mujoco.MjSpec, NativeModel]:
+        """A model and its specification, the model's text first and as it is on disk."""
         main, *others = texts
         include = {name: texts[name].encode() for name in others}
         spec = mujoco.MjSpec.from_string(texts[main], include=include, assets=self.assets)
         try:
-            spec.compile()
+            return spec, NativeModel(spec.compile)
         except ValueError as error:
             if UNOPENED not in str(error):
                 raise
-            return mujoco.MjSpec.from_file(os.path.abspath(main), assets=self.assets)
-        return spec
+            spec = mujoco.MjSpec.from_file(os.path.abspath(main), assets=self.assets)
+            return spec, NativeModel(spec.compile)
 
     def _loaded(self, load: Callable[..., mujoco.MjModel], main: str, texts: dict[str, bytes]) -> NativeModel:
         try:

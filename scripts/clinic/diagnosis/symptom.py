@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 
 from clinic.diagnosis.finding import Measured
-from clinic.diagnosis.native import NativeEngine, NativeModel
+from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.simulation import Simulation, Start
 from clinic.proof.procedure import measured, measurement, members, read
 from clinic.record.case import read_cases
@@ -36,8 +36,7 @@ def measure(family: str, code: str, engine: NativeEngine, texts: Mapping[str, st
     try:
         with _bounded(), warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()) as out:
             warnings.simplefilter("ignore")
-            spec = engine.spec(texts)
-            native = NativeModel(spec.compile)
+            spec, native = engine.specified(texts)
             simulation = Simulation(native, start or Start())
             simulation.begin_from(start or Start(key=0 if simulation.count("key") else -1))
             simulation.begin()

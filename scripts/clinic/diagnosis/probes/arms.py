@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.probes.shape import limbs
 from clinic.diagnosis.probes.vector import Vector, add, cross, dot, norm, sub
 from clinic.diagnosis.simulation import Simulation, kept
 
@@ -124,14 +125,8 @@ def longest_row(of: Simulation) -> int:
 @kept
 def _chains(of: Simulation) -> tuple[tuple[int, ...], ...]:
     """The hinges from each last body back to the world, in order from the world on; each chain once."""
-    parents = [int(parent) for parent in of.model("body_parentid")]
-    found: dict[tuple[int, ...], None] = {}
-    for last in range(1, of.count("body")):
-        if last in parents:
-            continue
-        bodies = reversed(of.ancestors(last))
-        found[tuple(joint for body in bodies for joint in of.joints_of(body) if of.joint_type(joint) == HINGE)] = None
-    return tuple(found)
+    joints = ([joint for body in limb for joint in of.joints_of(body)] for limb in limbs(of))
+    return tuple(dict.fromkeys(tuple(each for each in some if of.joint_type(each) == HINGE) for some in joints))
 
 
 @kept

@@ -99,7 +99,7 @@ def fastest() -> Probe:
 
 
 @kept
-def size(simulation: Simulation) -> float:
+def extent(simulation: Simulation) -> float:
     """How large the model is in m: its extent, or its largest tree of bodies where somebody wrote a smaller extent."""
     owner, trees = root_of(simulation), dict[int, list[Sequence[float]]]()
     places = let_go(simulation).start.xipos
@@ -110,7 +110,7 @@ def size(simulation: Simulation) -> float:
 
 
 def _sunk(simulation: Simulation) -> float:
-    return let_go(simulation).deepest / size(simulation)
+    return let_go(simulation).deepest / extent(simulation)
 
 
 def sunk() -> Probe:

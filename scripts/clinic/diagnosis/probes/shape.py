@@ -21,6 +21,12 @@ def roots(simulation: Simulation) -> list[int]:
     return [body for body in simulation.moving_bodies if int(parents[body]) not in moving]
 
 
+def limbs(simulation: Simulation) -> list[list[int]]:
+    """The bodies from the world on to each on which no other hangs, in order."""
+    ends = [body for body in range(1, simulation.count("body")) if body not in simulation.children]
+    return [simulation.ancestors(body)[::-1] for body in ends]
+
+
 @kept
 def root_of(simulation: Simulation) -> list[int]:
     """For each body the root of its tree; 0 for what does not move."""

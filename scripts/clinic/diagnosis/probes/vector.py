@@ -14,6 +14,11 @@ def add(a: Sequence[float], b: Sequence[float], scale: float = 1.0) -> Vector:
     return tuple(x + scale * y for x, y in zip(a, b, strict=True))
 
 
+def flipped(one: Sequence[float], axis: int) -> Vector:
+    """A vector with another sign of one coordinate."""
+    return tuple(-x if at == axis else x for at, x in enumerate(one))
+
+
 def sub(a: Sequence[float], b: Sequence[float]) -> Vector:
     """`a - b`."""
     return tuple(x - y for x, y in zip(a, b, strict=True))

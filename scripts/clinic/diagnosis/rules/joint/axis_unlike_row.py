@@ -56,6 +56,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.probes.shape import limbs
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -108,12 +109,10 @@ def _odd(of: Simulation) -> dict[int, list[int]]:
 
 def _chains(of: Simulation) -> list[list[int]]:
     """The joints from the world on to each last body, in order; -1 for a body that has another joint, or several."""
-    made, parents = [], [int(parent) for parent in of.model("body_parentid")]
-    for last in range(1, of.count("body")):
-        if last not in parents:
-            joints = [of.joints_of(body) for body in reversed(of.ancestors(last))]
-            alone = (some[0] if len(some) == 1 and of.joint_type(some[0]) == HINGE else -1 for some in joints if some)
-            made.append(list(alone))
+    made = []
+    for limb in limbs(of):
+        joints = [of.joints_of(body) for body in limb]
+        made.append([some[0] if len(some) == 1 and of.joint_type(some[0]) == HINGE else -1 for some in joints if some])
     return made
 
 

@@ -36,7 +36,7 @@ from dataclasses import replace
 
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
 from clinic.diagnosis.probes.matter import Matter, centre_outside, explicit, matter
-from clinic.diagnosis.probes.vector import Vector, norm, written
+from clinic.diagnosis.probes.vector import Vector, flipped, norm, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -118,7 +118,7 @@ def _other_sign(found: Matter) -> Vector | None:
     if found.outside <= LITTLE * max(found.half):
         return None
     for axis in range(3):
-        centre = tuple(-x if each == axis else x for each, x in enumerate(found.centre))
+        centre = flipped(found.centre, axis)
         ways = zip(centre, found.middle, found.half, strict=True)
         if all(abs(x - middle) <= half for x, middle, half in ways):
             return centre

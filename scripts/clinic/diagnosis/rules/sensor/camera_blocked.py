@@ -45,7 +45,7 @@ from itertools import product
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import MESH, PLANE
 from clinic.diagnosis.probes.sides import by_name
-from clinic.diagnosis.probes.vector import add, dot, sub, times, transpose, unit, written
+from clinic.diagnosis.probes.vector import add, dot, flipped, sub, times, transpose, unit, written
 from clinic.diagnosis.probes.view import FIXED, HEAD, axes, opening, things, through, turned
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -92,8 +92,8 @@ def _buried(model: ReaderModel) -> Iterator[Suspect]:
             continue
         place = of.row("cam_pos", camera, 3)
         probe = Probe("how deep the camera is below a floor", "m", _depth, (camera,), dynamic=False)
-        flipped = [written([-x if i == at else x for i, x in enumerate(place)]) for at in (2, 1, 0) if place[at]]
-        every = [model.set("camera", [camera], "pos", value) for value in flipped]
+        turned = [written(flipped(place, at)) for at in (2, 1, 0) if place[at]]
+        every = [model.set("camera", [camera], "pos", value) for value in turned]
         edits = next((each for each in every if each and model.measured(probe, each) <= 0), ())
         says = f"It is {deep:.2g} m below a floor."
         name, value = of.name("camera", camera), edits[0].value if edits else "above the floor"

@@ -47,7 +47,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.equalities import CONNECT, WELD, by_mocap, ends, gap, held, kind_of, sited
-from clinic.diagnosis.probes.vector import Vector, add, cross, dot, sub, times, transpose, unit, written
+from clinic.diagnosis.probes.vector import Vector, add, cross, dot, flipped, sub, times, transpose, unit, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.structure.equality_copied import copied_ends
 from clinic.diagnosis.simulation import Simulation
@@ -120,10 +120,10 @@ def _slip(model: ReaderModel, each: int) -> tuple[str, str, str, tuple[Edit, ...
 
 def _slips(place: Vector) -> list[str]:
     """A place with two of its numbers exchanged, or with another sign of one."""
-    flipped = [tuple(-x if i == at else x for i, x in enumerate(place)) for at in range(3) if place[at]]
+    turned = [flipped(place, at) for at in range(3) if place[at]]
     x, y, z = place
     swapped = [each for each in ((y, x, z), (z, y, x), (x, z, y)) if each != place]
-    return [written(each) for each in (*swapped, *flipped)]
+    return [written(each) for each in (*swapped, *turned)]
 
 
 def _turn(of: Simulation, each: int, body: int) -> Vector:

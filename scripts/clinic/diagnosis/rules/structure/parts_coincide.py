@@ -50,7 +50,7 @@ from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import OBJ_SITE
 from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.probes.sides import by_name
-from clinic.diagnosis.probes.vector import at, norm, sub, written
+from clinic.diagnosis.probes.vector import at, flipped, norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, how_many
@@ -88,7 +88,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for first, second in _sites(of):
         place, names = of.row("site_pos", second, 3), (of.name("site", second), of.name("site", first))
         far = max(range(3), key=lambda i: abs(place[i]))
-        value = written([-x if i == far else x for i, x in enumerate(place)])
+        value = written(flipped(place, far))
         edits = model.set("site", [second], "pos", value)
         says = f"{names[1]} and {names[0]} are in one place of {of.name('body', of.body_of('site', second))}."
         probe = how_many("sites in the place of another one of their row", _sites)
@@ -117,7 +117,7 @@ def _mirrored(of: Simulation, one: int, other: int) -> int:
     if not places[0] or sizes[0] != sizes[1]:
         return -1
     for side in range(3):
-        images = [tuple(-x if i == side else x for i, x in enumerate(place)) for place in places[0]]
+        images = [flipped(place, side) for place in places[0]]
         if abs(images[0][side]) > NEAR and all(norm(sub(*both)) < NEAR for both in zip(images, places[1], strict=True)):
             return side
     return -1

@@ -96,6 +96,17 @@ def test_a_step_beside_which_all_is_well_is_not_too_long(well_up_to: float, monk
     assert bool(list(rules()["timestep-too-long"].suspects(model))) is (well_up_to < 0.0019)
 
 
+@pytest.mark.parametrize(("step", "level"), [(0.002, "hint"), (0.004, "cause")])
+def test_what_explodes_only_under_command_at_the_usual_step_is_a_hint(step, level, monkeypatch):
+    def measured(_: ReaderModel, probe: Probe, edits: Sequence[Edit] = ()) -> float:
+        return math.inf if probe == commanded() and (not edits or float(edits[0].value) > 0.9 * step) else 0.0
+
+    text = FOREARM.format(integrator="Euler", kv=0.05, force="").replace("<option", f'<option timestep="{step}"')
+    monkeypatch.setattr(ReaderModel, "measured", measured)
+    model = ReaderModel(NativeEngine(), {"model.xml": text}, read_source({"model.xml": text}), Start())
+    assert [each.level for each in rules()["timestep-too-long"].suspects(model)] == [level]
+
+
 def test_the_damping_of_a_joint_is_explicit_beyond_what_the_joints_around_it_leave():
     link = '<body pos="0 0 {}"><joint damping="2" axis="0 1 0"/><geom type="capsule" fromto="0 0 0 0 0 .5" size=".02"'
     text = '<mujoco><option timestep="0.01" integrator="RK4"/><worldbody>' + link.format(0) + ' mass=".2"/>'

@@ -28,10 +28,11 @@ much a joint's speed jumps to and fro from step to step after a nudge, how fast 
 contacts are. Of the steps that are tried (a half, a quarter, and so on) the longest that brings it to a tenth is told,
 of a depth under command to a third. One that is shorter by a twentieth must not do: a cable that whips about goes to
 infinity at one step and not at the next. Under command a run that is cut short is no proof: what it has no time for
-looks calm. A hint tells of a spring that swings within 6 steps, where a tenth of the step takes its joint elsewhere, by
-more than 15 % of its range; in 260 healthy models a period has 10 steps and more. Beyond 0.04 s the timestep is told as
-a hint, however calm: of 290 healthy models none has more than 0.03 s. Nothing is told where a tendon starts far outside
-of its range, which another rule tells.
+looks calm; and at 2 ms or less, where a gain is as likely the fault, there is only a hint. Another hint tells of a
+spring that swings within 6 steps, where a tenth of the step takes its joint elsewhere, by more than 15 % of its range;
+in 260 healthy models a period has 10 steps and more. Beyond 0.04 s the timestep is told as a hint, however calm: of 290
+healthy models none has more than 0.03 s. Nothing is told where a tendon starts far outside of its range, which another
+rule tells.
 
 When it is wrong: something that is meant to spin fast. A gain or a spring that shakes at 2 ms too is the fault itself.
 """
@@ -59,7 +60,7 @@ SINCE = "0.1"
 FAST = 100.0  # rad/s
 SECONDS, WHOLE = 2.0, 0.9  # what is run, and the share of it that a run with a shorter step has to last
 SUNK, PRESSED = 0.05, 0.035  # of the model's extent
-UNUSUAL = 0.04  # s
+USUAL, UNUSUAL = 0.002, 0.04  # s: MuJoCo's default, and what no healthy model has
 STRAYS, FINE = 0.15, 10  # of a spring's range, from where a tenth of the step takes it
 CHANCE = 0.95  # of the step: what is well at that is no matter of its length
 TENTH, THIRD, HALF = 0.1, 1 / 3, 0.5  # what is left of a symptom that is gone; contacts are never without depth
@@ -93,7 +94,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             if model.measured(probe, edits) <= min(limit, share * before):
                 says = f"At {step / divisor:g} s the same motion stays calm."
                 now, value = f"{step:g}", f"{step / divisor:g}"
-                yield Suspect(("the timestep",), "timestep", now, value, edits, probe, limit, says, share=share)
+                level = "hint" if probe in (commanded(), pressed_in()) and step <= USUAL else "cause"
+                yield Suspect(
+                    ("the timestep",), "timestep", now, value, edits, probe, limit, says, share=share, level=level
+                )
                 return
     if coarse(of) and (before := model.measured(strays())) > STRAYS:
         joint, steps = min(coarse(of).items(), key=lambda each: each[1])

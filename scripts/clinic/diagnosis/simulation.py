@@ -238,6 +238,10 @@ class Simulation:
         """FREE, BALL, SLIDE or HINGE."""
         return int(self.model("jnt_type")[joint])
 
+    def continuous(self, joint: int) -> bool:
+        """Whether a joint is a hinge without limits, as a wheel's."""
+        return self.joint_type(joint) == HINGE and not self.model("jnt_limited")[joint]
+
     def body_of(self, kind: str, index: int) -> int:
         """The body that a joint, geom or site is of."""
         return int(self.model(REFERENCES[kind])[index])

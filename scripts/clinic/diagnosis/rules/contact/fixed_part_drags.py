@@ -46,7 +46,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.shape import root_of, round_about
 from clinic.diagnosis.probes.touch import Deciding, resting
 from clinic.diagnosis.reader_model import ReaderModel
@@ -113,8 +112,7 @@ def _wheels(of: Simulation) -> set[int]:
     owner, made = root_of(of), set()
     for joint in of.drivers:
         body = of.body_of("joint", joint)
-        endless = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
         level = abs(of.data_row("xaxis", joint, 3)[2]) < LEVEL_ENOUGH
-        if endless and level and owner[body] in free and round_about(of, joint):
+        if of.continuous(joint) and level and owner[body] in free and round_about(of, joint):
             made.add(body)
     return made

@@ -38,7 +38,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import CAPSULE, HINGE, SPHERE
+from clinic.diagnosis.engine import CAPSULE, SPHERE
 from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.probes.vector import Vector, around, at, dot, sub
 from clinic.diagnosis.reader_model import ReaderModel
@@ -76,7 +76,7 @@ def _worst(of: Simulation) -> float:
 def _rollers(of: Simulation, joint: int) -> list[int]:
     """The only solid geoms of the bodies with joints that a hinge's body carries; none where one is of another type."""
     hub = of.body_of("joint", joint)
-    if of.joint_type(joint) != HINGE or of.model("jnt_limited")[joint]:
+    if not of.continuous(joint):
         return []
     carried = [body for body in of.children.get(hub, []) if of.joints_of(body)]
     geoms = [[geom for geom in of.geoms_of(body) if solid(of, geom)] for body in carried]

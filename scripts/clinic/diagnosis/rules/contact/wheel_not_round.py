@@ -43,7 +43,7 @@ import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
-from clinic.diagnosis.engine import BOX, CYLINDER, ELLIPSOID, HINGE, MESH, SPHERE
+from clinic.diagnosis.engine import BOX, CYLINDER, ELLIPSOID, MESH, SPHERE
 from clinic.diagnosis.probes.shape import points, solid
 from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.probes.vector import (
@@ -110,7 +110,7 @@ def _wheels(simulation: Simulation) -> Iterator[tuple[int, int]]:
     parents = {int(body) for body in simulation.model("body_parentid")[1:]}
     for joint in range(simulation.count("joint")):
         body = simulation.body_of("joint", joint)
-        if simulation.joint_type(joint) != HINGE or simulation.model("jnt_limited")[joint] or body in parents:
+        if not simulation.continuous(joint) or body in parents:
             continue
         geoms = [geom for geom in simulation.geoms_of(body) if solid(simulation, geom)]
         kinds = [int(simulation.model("geom_type")[geom]) for geom in geoms]

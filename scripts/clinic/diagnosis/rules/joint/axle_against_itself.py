@@ -96,7 +96,7 @@ def _driven_apart(of: Simulation) -> list[int]:
         pairs = joints_of(of, tendon)
         joints = {joint for joint, _ in pairs}
         others = {joint for each in driven if each != tendon for joint, _ in joints_of(of, each)} | set(of.drivers)
-        if len(joints) == 2 == len(pairs) and not joints & others and all(_spins(of, joint) for joint in joints):
+        if len(joints) == 2 == len(pairs) and not joints & others and all(map(of.continuous, joints)):
             (one, first), (other, second) = pairs
             of.begin()
             same = dot(_axis(of, one), _axis(of, other))
@@ -127,11 +127,7 @@ def _wheel(of: Simulation, joint: int) -> int | None:
     if of.joint_type(joint) != HINGE:
         return None
     below = [each for body in of.below(of.body_of("joint", joint)) for each in of.joints_of(body) if each != joint]
-    return below[0] if len(below) == 1 and _spins(of, below[0]) else None
-
-
-def _spins(of: Simulation, joint: int) -> bool:
-    return of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
+    return below[0] if len(below) == 1 and of.continuous(below[0]) else None
 
 
 def _axis(of: Simulation, joint: int) -> Vector:

@@ -132,7 +132,7 @@ def _wheels(of: Simulation) -> list[int]:
 def _carried(of: Simulation, body: int) -> bool:
     """Whether a body without a joint is fixed to one that a hinge without limits turns, as a tyre to its rim."""
     joints = of.joints_of(int(of.model("body_weldid")[body])) if not of.joints_of(body) else []
-    return any(of.joint_type(each) == HINGE and not of.model("jnt_limited")[each] for each in joints)
+    return any(map(of.continuous, joints))
 
 
 def _hinges(of: Simulation, body: int) -> list[int]:

@@ -51,7 +51,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.load import loads
 from clinic.diagnosis.probes.servo import AFFINE, speed_gain
 from clinic.diagnosis.probes.shape import size
@@ -133,9 +132,8 @@ def _wheels(of: Simulation) -> list[Wheel]:
             continue
         gain = speed_gain(of, actuator)
         gear = of.gear(actuator)
-        turns = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
         fastest = of.row("actuator_ctrlrange", actuator, 2)[1]
-        if turns and gain and gear and fastest > 0:
+        if of.continuous(joint) and gain and gear and fastest > 0:
             made.append(Wheel(actuator, joint, gain * gear**2, fastest / abs(gear)))
     return made
 

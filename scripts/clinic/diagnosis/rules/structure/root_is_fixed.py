@@ -40,7 +40,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, HINGE, SPHERE
+from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, SPHERE
 from clinic.diagnosis.probes.key import freed
 from clinic.diagnosis.probes.shape import plane_heights, root_of
 from clinic.diagnosis.probes.vector import dot, norm, sub
@@ -132,9 +132,7 @@ def _wheels(of: Simulation) -> list[int]:
     made = []
     for joint in range(of.count("joint")) if floors else ():
         body = of.body_of("joint", joint)
-        if of.joint_type(joint) != HINGE or of.model("jnt_limited")[joint]:
-            continue
-        if int(of.model("body_parentid")[body]) in moving or len(of.joints_of(body)) > 1:
+        if not of.continuous(joint) or int(of.model("body_parentid")[body]) in moving or len(of.joints_of(body)) > 1:
             continue
         axis, anchor = of.data_row("xaxis", joint, 3), of.data_row("xanchor", joint, 3)
         for geom in of.geoms_of(body):

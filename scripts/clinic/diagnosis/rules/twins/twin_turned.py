@@ -54,7 +54,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
-from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.twins import Twins, twins
 from clinic.diagnosis.probes.vector import Vector, dot, of_quaternion, sub, times, written
 from clinic.diagnosis.reader_model import ReaderModel
@@ -146,8 +145,7 @@ def _rolled_on(of: Simulation, body: int, turn: Vector) -> bool:
     for joint in of.joints_of(body):
         turns = (of.row("body_quat", body, 4), turn)
         axles = [times(of_quaternion(each), of.row("jnt_axis", joint, 3)) for each in turns]
-        wheel = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
-        if wheel and abs(dot(*axles)) > ALONG:
+        if of.continuous(joint) and abs(dot(*axles)) > ALONG:
             return True
     return False
 

@@ -45,7 +45,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, HINGE, SPHERE
+from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, SPHERE
 from clinic.diagnosis.probes.shape import root_of, solid
 from clinic.diagnosis.probes.vector import Vector, dot, norm, sub
 from clinic.diagnosis.probes.wheels import is_wheel
@@ -110,11 +110,10 @@ def _axles(of: Simulation) -> Iterator[tuple[int, int]]:
 
 def _is_wheel(of: Simulation, joint: int) -> bool:
     body = of.body_of("joint", joint)
-    free = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
-    drives = len(of.drivers.get(joint, []))
     called = is_wheel(of.names("joint")[joint], of.names("body")[body])
-    driven = drives == 1 or (called and not of.count("actuator"))
-    return free and driven and abs(_axis(of, joint)[2]) < LEVEL_ENOUGH and _tyre(of, joint) >= 0 and body > 0
+    driven = len(of.drivers.get(joint, [])) == 1 or (called and not of.count("actuator"))
+    level = abs(_axis(of, joint)[2]) < LEVEL_ENOUGH
+    return of.continuous(joint) and driven and level and _tyre(of, joint) >= 0 and body > 0
 
 
 def _axis(of: Simulation, joint: int) -> Vector:

@@ -242,6 +242,10 @@ class Simulation:
         """Whether a joint is a hinge without limits, as a wheel's."""
         return self.joint_type(joint) == HINGE and not self.model("jnt_limited")[joint]
 
+    def axis(self, joint: int) -> tuple[float, ...]:
+        """The direction of a hinge or slide in the world, as it is now."""
+        return self.data_row("xaxis", joint, 3)
+
     def body_of(self, kind: str, index: int) -> int:
         """The body that a joint, geom or site is of."""
         return int(self.model(REFERENCES[kind])[index])

@@ -194,7 +194,7 @@ def turns(simulation: Simulation, joint: int) -> list[tuple[int, Vector]]:
     """The degrees of freedom in which a joint turns, and their axes in the world, as the state is now."""
     kind, dof = simulation.joint_type(joint), simulation.dof(joint)
     if kind == HINGE:
-        return [(dof, simulation.data_row("xaxis", joint, 3))]
+        return [(dof, simulation.axis(joint))]
     frame, first = simulation.data_row("xmat", simulation.body_of("joint", joint), 9), dof + (3 if kind == FREE else 0)
     return [(first + i, frame[i::3]) for i in range(3)] if kind in (FREE, BALL) else []
 

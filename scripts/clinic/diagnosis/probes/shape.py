@@ -120,7 +120,7 @@ def thickness(simulation: Simulation, geom: int) -> float:
 def round_about(simulation: Simulation, joint: int) -> bool:
     """Whether a geom of a hinge's body has its middle on the hinge, to a tenth of the geom's radius."""
     of = simulation
-    anchor, axis = of.data_row("xanchor", joint, 3), of.data_row("xaxis", joint, 3)
+    anchor, axis = of.data_row("xanchor", joint, 3), of.axis(joint)
     for geom in of.geoms_of(of.body_of("joint", joint)):
         middle = times(of.data_row("geom_xmat", geom, 9), of.row("geom_aabb", geom, 6)[:3])
         off = sub(add(of.data_row("geom_xpos", geom, 3), middle), anchor)

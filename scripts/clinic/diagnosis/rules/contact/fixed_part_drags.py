@@ -112,7 +112,7 @@ def _wheels(of: Simulation) -> set[int]:
     owner, made = root_of(of), set()
     for joint in of.drivers:
         body = of.body_of("joint", joint)
-        level = abs(of.data_row("xaxis", joint, 3)[2]) < LEVEL_ENOUGH
+        level = abs(of.axis(joint)[2]) < LEVEL_ENOUGH
         if of.continuous(joint) and level and owner[body] in free and round_about(of, joint):
             made.add(body)
     return made

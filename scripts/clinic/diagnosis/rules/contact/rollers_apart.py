@@ -91,7 +91,7 @@ def _varies(of: Simulation, joint: int) -> float:
     if not rollers:
         return 0.0
     of.begin()
-    axis, anchor = of.data_row("xaxis", joint, 3), of.data_row("xanchor", joint, 3)
+    axis, anchor = of.axis(joint), of.data_row("xanchor", joint, 3)
     radii = [max(_support(of, geom, anchor, way) for geom in rollers) for way in around(axis, ANGLES)]
     return (max(radii) - min(radii)) * len(radii) / sum(radii) if min(radii) > 0 else 0.0
 

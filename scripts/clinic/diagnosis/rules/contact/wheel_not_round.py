@@ -129,7 +129,7 @@ def _wheels(simulation: Simulation) -> Iterator[tuple[int, int]]:
 def _level(simulation: Simulation, joint: int) -> bool:
     """Whether the hinge lies level at the start."""
     simulation.begin()
-    return abs(simulation.data_row("xaxis", joint, 3)[2]) < 0.3
+    return abs(simulation.axis(joint)[2]) < 0.3
 
 
 def _lies(simulation: Simulation, geom: int) -> bool:

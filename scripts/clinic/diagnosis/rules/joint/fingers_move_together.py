@@ -161,7 +161,7 @@ def _driven(of: Simulation, joints: Sequence[int]) -> bool:
 def _aside(of: Simulation, one: int, other: int) -> float:
     """The share of their way that two slides go together, where they stand beside each other along it; else 0."""
     of.begin()
-    axes = [of.data_row("xaxis", joint, 3) for joint in (one, other)]
+    axes = [of.axis(joint) for joint in (one, other)]
     bodies = [of.body_of("joint", joint) for joint in (one, other)]
     apart = sub(of.data_row("subtree_com", bodies[0], 3), of.data_row("subtree_com", bodies[1], 3))
     if abs(dot(axes[0], apart)) <= BESIDE * norm(apart):
@@ -178,7 +178,7 @@ def _crossing(of: Simulation, one: int, other: int) -> int:
     for joint, (own, there) in ((one, places), (other, places[::-1])):
         way = max((end - of.model("qpos0")[of.place(joint)] for end in of.row("jnt_range", joint, 2)), key=abs)
         between = sub(there, own)
-        if way * dot(of.data_row("xaxis", joint, 3), between) > dot(between, between) / 2:
+        if way * dot(of.axis(joint), between) > dot(between, between) / 2:
             found.append(joint)
     return found[0] if len(found) == 1 else one
 
@@ -186,6 +186,6 @@ def _crossing(of: Simulation, one: int, other: int) -> int:
 def _together(simulation: Simulation, equality: int) -> float:
     follower, leader, factors = next(found for each, found in couplings(simulation) if each == equality)
     simulation.begin()
-    ways = [simulation.data_row("xaxis", joint, 3) for joint in (follower, leader)]
+    ways = [simulation.axis(joint) for joint in (follower, leader)]
     own = tuple(factors[1] * x for x in ways[0])
     return norm(add(own, ways[1])) / max(norm(add(own, ways[1])) + norm(sub(own, ways[1])), 1e-9)

@@ -153,7 +153,7 @@ def _turned(of: Simulation, coupling: Coupling) -> tuple[float, ...]:
     parents = [of.model("body_parentid")[body] for body in bodies]
     if bodies[0] != bodies[1] and parents[0] == parents[1]:
         of.begin()
-        axes = [of.data_row("xaxis", joint, 3) for joint in (follower, leader)]
+        axes = [of.axis(joint) for joint in (follower, leader)]
         alike = _alike(own, of.row("jnt_range", leader, 2)) and turned[1] * dot(*axes) < 0
     else:
         alike = any(_alike(own, of.row("jnt_range", other, 2)) for other in (leader, twin))

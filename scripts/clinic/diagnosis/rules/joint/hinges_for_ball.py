@@ -113,4 +113,4 @@ def _lost(of: Simulation, body: int) -> float:
     of.begin(forward=False)
     of.put(second, math.pi / 2)
     of.engine.forward()
-    return 1.0 - norm(cross(of.data_row("xaxis", first, 3), of.data_row("xaxis", third, 3)))
+    return 1.0 - norm(cross(of.axis(first), of.axis(third)))

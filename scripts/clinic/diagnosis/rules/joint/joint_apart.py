@@ -96,7 +96,7 @@ def _gaps(of: Simulation) -> dict[int, tuple[float, float]]:
         in_world = not parents[body] and not _as_in_world(of, joint)
         moved = any(of.row("jnt_pos", joint, 3))
         if of.joint_type(joint) == HINGE and size > 0 and moved and not planar and not in_world:
-            axis = of.data_row("xanchor", joint, 3), of.data_row("xaxis", joint, 3)
+            axis = of.data_row("xanchor", joint, 3), of.axis(joint)
             boxes = [[(of.row("geom_aabb", geom, 6), at(places, geom), turns[9 * geom : 9 * geom + 9]) for geom in some]
                      for some in (own, above if parents[body] else [])]  # fmt: skip
             bob = all(int(kinds[geom]) == SPHERE for geom in own)  # on a rod that is not drawn

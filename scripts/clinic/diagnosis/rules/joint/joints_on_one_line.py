@@ -137,8 +137,8 @@ def _in_line(of: Simulation) -> list[int]:
 
 def _same_line(of: Simulation, joint: int, other: int, near: float) -> bool:
     """Whether a joint has the axis of another one, and is nearer to it than `near`, in m; a slide wherever it is."""
-    axis = of.data_row("xaxis", joint, 3)
-    parallel = norm(cross(axis, of.data_row("xaxis", other, 3))) < PARALLEL
+    axis = of.axis(joint)
+    parallel = norm(cross(axis, of.axis(other))) < PARALLEL
     return parallel and (of.joint_type(joint) == SLIDE or norm(cross(axis, _apart(of, joint, other))) < near)
 
 

@@ -97,7 +97,7 @@ def _gap(of: Simulation, joint: int, *, at_start: bool = False) -> float:
     of.begin()
     body = of.body_of("joint", joint)
     parent = int(of.model("body_parentid")[body])
-    axis, now = of.data_row("xaxis", joint, 3), of.position(joint)
+    axis, now = of.axis(joint), of.position(joint)
     mine, guide = _extent(of, of.below(body), axis), _extent(of, [parent], axis)
     if mine is None or guide is None:
         return -1.0

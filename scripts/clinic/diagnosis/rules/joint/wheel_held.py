@@ -139,5 +139,5 @@ def _hinges(of: Simulation, body: int) -> list[int]:
     """The hinges of a body that lie across the vertical at the zero pose, or its other joints that turn it."""
     of.as_written()
     hinges = [joint for joint in of.joints_of(body) if of.joint_type(joint) == HINGE]
-    across = [joint for joint in hinges if abs(of.data_row("xaxis", joint, 3)[2]) < ACROSS]
+    across = [joint for joint in hinges if abs(of.axis(joint)[2]) < ACROSS]
     return across or of.joints_of(body)

@@ -98,5 +98,5 @@ def _wheel(of: Simulation, joint: int) -> bool:
     if of.joint_type(joint) != HINGE or not of.model("jnt_limited")[joint] or not is_wheel(name):
         return False
     low, high = of.row("jnt_range", joint, 2)
-    level = abs(of.data_row("xaxis", joint, 3)[2]) < LEVEL_ENOUGH
+    level = abs(of.axis(joint)[2]) < LEVEL_ENOUGH
     return high - low < TURNS * 2 * math.pi and level and round_about(of, joint)

@@ -128,7 +128,7 @@ def _levers(of: Simulation, site: int, joints: Sequence[int]) -> dict[int, list[
         of.engine.forward()
         place, turn = at(of.data("site_xpos"), site), transpose(of.data_row("site_xmat", site, 9))
         for joint in joints:
-            way = at(of.data("xaxis"), joint)
+            way = of.axis(joint)
             if of.joint_type(joint) == HINGE:
                 way = cross(way, sub(place, at(of.data("xanchor"), joint)))
             made[joint] = [max(pair) for pair in zip(made[joint], map(abs, times(turn, way)), strict=True)]

@@ -237,7 +237,7 @@ def _hand(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
 def _aside(of: Simulation, joints: tuple[int, ...], finger: int, grip: float) -> float:
     """By which angle a finger slides aside from the data sheet's way, in rad; to and fro are one way."""
     of.as_written()
-    across, along, way = (of.data_row("xaxis", joint, 3) for joint in (*joints[-2:], finger))
+    across, along, way = (of.axis(joint) for joint in (*joints[-2:], finger))
     side, front = dot(way, across), dot(way, cross(across, along))
     if math.hypot(side, front) < ACROSS:
         return 0.0

@@ -127,7 +127,7 @@ def _across(model: ReaderModel) -> int | None:
     of = model.simulation
     of.begin()
     hinges = [joint for joint in range(of.count("joint")) if of.joint_type(joint) == HINGE]
-    axes = {joint: of.data_row("xaxis", joint, 3) for joint in hinges}
+    axes = {joint: of.axis(joint) for joint in hinges}
     for odd in hinges:
         others = [axes[joint] for joint in hinges if joint != odd]
         if len(others) > 1 and all(abs(dot(others[0], each)) > PARALLEL for each in others):
@@ -140,7 +140,7 @@ def _others_axis(of: Simulation, odd: int) -> Column:
     of.begin()
     other = next(each for each in range(of.count("joint")) if each != odd and of.joint_type(each) == HINGE)
     body = of.body_of("joint", odd)
-    axis = times(transpose(of.data_row("xmat", body, 9)), of.data_row("xaxis", other, 3))
+    axis = times(transpose(of.data_row("xmat", body, 9)), of.axis(other))
     return tuple(round(x, 6) + 0.0 for x in axis)
 
 

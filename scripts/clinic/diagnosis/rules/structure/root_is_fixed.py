@@ -134,7 +134,7 @@ def _wheels(of: Simulation) -> list[int]:
         body = of.body_of("joint", joint)
         if not of.continuous(joint) or int(of.model("body_parentid")[body]) in moving or len(of.joints_of(body)) > 1:
             continue
-        axis, anchor = of.data_row("xaxis", joint, 3), of.data_row("xanchor", joint, 3)
+        axis, anchor = of.axis(joint), of.data_row("xanchor", joint, 3)
         for geom in of.geoms_of(body):
             off = sub(of.data_row("geom_xpos", geom, 3), anchor)
             radius = of.row("geom_size", geom, 3)[0]

@@ -115,7 +115,7 @@ def _wheels(of: Simulation) -> dict[int, list[int]]:
         body = of.body_of("joint", joint)
         if not of.continuous(joint) or body in of.model("body_parentid"):
             continue
-        if abs(of.data_row("xaxis", joint, 3)[2]) < LEVEL_ENOUGH:
+        if abs(of.axis(joint)[2]) < LEVEL_ENOUGH:
             made.setdefault(root_of(of)[body], []).extend(geom for geom in of.geoms_of(body) if _round(of, geom))
     bodies = of.model("geom_bodyid")
     return {root: geoms for root, geoms in made.items() if len({bodies[geom] for geom in geoms}) > 1}

@@ -117,6 +117,16 @@ class Simulation:
         """In s."""
         return self.model("opt.timestep")[0]
 
+    @property
+    def gravity(self) -> float:
+        """Its strength in m/s2, whatever the flags say."""
+        return math.hypot(*self.model("opt.gravity"))
+
+    @property
+    def extent(self) -> float:
+        """What MuJoCo takes for the size of the model, or somebody wrote, in m."""
+        return self.model("stat.extent")[0]
+
     def begin(self, *, forward: bool = True) -> None:
         """Back to the start that the reader chose; controls are the keyframe's and the reader's."""
         self.engine.reset(self.begin_with.key)

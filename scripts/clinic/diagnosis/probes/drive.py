@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from clinic.diagnosis.engine import HINGE, SLIDE, TRN_IN_PARENT, TRN_SITE
-from clinic.diagnosis.probes.run import extent
+from clinic.diagnosis.probes.run import model_size
 from clinic.diagnosis.probes.servo import alone, command, hold, servos
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
@@ -121,7 +121,7 @@ def _to_and_fro(simulation: Simulation) -> float:
         if simulation.unstable():
             return math.inf
         deepest = max([deepest, *(-contact.distance for contact in simulation.engine.contacts())])
-    return deepest / extent(simulation)
+    return deepest / model_size(simulation)
 
 
 def pressed_in() -> Probe:

@@ -60,7 +60,7 @@ class _Moment(NamedTuple):
 def grasps(simulation: Simulation) -> list[Grasp]:
     """What jaws hold of the free things that fit between them: for each pair of jaws the first."""
     of = simulation
-    if not any(of.model("opt.gravity")):
+    if not of.gravity:
         return []
     things = [body for body in of.free_bodies if len(of.below(body)) == 1 and _solids(of, body)]
     tries = ((_carried(of, jaws, body) for body in things) for jaws in (_jaws(of) if things else ()))

@@ -138,8 +138,8 @@ def yielded(simulation: Simulation) -> dict[Servo, float]:
     of, owner = simulation, root_of(simulation)
     of.begin()
     loops = [each for each, on in enumerate(of.model("eq_active0")) if on and kind_of(of, each) == CONNECT]
-    least = CLOSED * of.model("stat.extent")[0]
-    if not loops or any((gap(of, each) or 0.0) > least for each in loops) or not any(of.model("opt.gravity")):
+    least = CLOSED * of.extent
+    if not loops or any((gap(of, each) or 0.0) > least for each in loops) or not of.gravity:
         return {}
     begun = {
         each: of.position(each.joint)

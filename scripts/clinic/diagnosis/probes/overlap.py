@@ -116,7 +116,7 @@ def of_relatives() -> Probe:
     return Probe("deepest overlap of relatives at the start", "of the geom's thickness", _share, dynamic=False)
 
 
-def extent(simulation: Simulation, root: int) -> float:
+def tree_extent(simulation: Simulation, root: int) -> float:
     """How far a tree reaches from its root's place at the start in m."""
     now = beginning(simulation)
     place, radii = at(now.xpos, root), simulation.model("geom_rbound")
@@ -138,7 +138,7 @@ def buried(simulation: Simulation, holes: Collection[tuple[int, int]] = ()) -> d
             continue
         trees = {owner[int(bodies[geom])] for geom in contact.geoms}
         for root in trees & set(falls) if len(trees) > 1 else ():
-            share = -contact.distance / max(extent(simulation, root), 1e-9)
+            share = -contact.distance / max(tree_extent(simulation, root), 1e-9)
             if contact.force > 0 and share > made.get(root, (0.0, contact))[0]:
                 made[root] = (share, contact)
     return made

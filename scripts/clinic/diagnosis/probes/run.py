@@ -99,18 +99,18 @@ def fastest() -> Probe:
 
 
 @kept
-def extent(simulation: Simulation) -> float:
+def model_size(simulation: Simulation) -> float:
     """How large the model is in m: its extent, or its largest tree of bodies where somebody wrote a smaller extent."""
     owner, trees = root_of(simulation), dict[int, list[Sequence[float]]]()
     places = let_go(simulation).start.xipos
     for body in simulation.moving_bodies:
         trees.setdefault(owner[body], []).append(places[3 * body : 3 * body + 3])
     spreads: list[float] = [max(axis) - min(axis) for tree in trees.values() for axis in zip(*tree, strict=True)]
-    return max([simulation.model("stat.extent")[0], *spreads, 1e-9])
+    return max([simulation.extent, *spreads, 1e-9])
 
 
 def _sunk(simulation: Simulation) -> float:
-    return let_go(simulation).deepest / extent(simulation)
+    return let_go(simulation).deepest / model_size(simulation)
 
 
 def sunk() -> Probe:

@@ -43,7 +43,6 @@ When it is wrong: a foot that a robot is meant to drag.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.shape import root_of, round_about
@@ -79,8 +78,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _share(of: Simulation) -> float:
     """What friction of the dragged geoms takes of the weight of all that rolls."""
-    gravity = math.hypot(*of.model("opt.gravity"))
-    weight = gravity * sum(of.model("body_subtreemass")[root] for root in _rollers(of))
+    weight = of.gravity * sum(of.model("body_subtreemass")[root] for root in _rollers(of))
     return sum(force * each.friction for force, each in _dragged(of).values()) / weight if weight > 0 else 0.0
 
 

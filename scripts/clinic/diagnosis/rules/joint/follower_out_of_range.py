@@ -112,7 +112,7 @@ def _of_leader(model: ReaderModel, found: list[Coupling]) -> Suspect | None:
     times = {round(_times(of, each) / OTHER_UNITS[of.joint_type(each[1])], UNIT_DIGITS) for each in found}
     leader = leaders.pop()
     low, high = of.row("jnt_range", leader, 2)
-    wide = high - low > (TURN if of.joint_type(leader) == HINGE else of.model("stat.extent")[0])
+    wide = high - low > (TURN if of.joint_type(leader) == HINGE else of.extent)
     if leaders or times != {1.0} or not wide:
         return None
     scale = 1 / model.angle_unit if of.joint_type(leader) == HINGE else 1.0

@@ -229,7 +229,7 @@ def _cranked(of: Simulation) -> bool:
 
 def _push(of: Simulation, joint: int) -> float:
     body = of.body_of("joint", joint)
-    return PUSH + WEIGHTS * of.model("body_subtreemass")[body] * math.hypot(*of.model("opt.gravity"))
+    return PUSH + WEIGHTS * of.model("body_subtreemass")[body] * of.gravity
 
 
 def _reach(of: Simulation, joint: int) -> float:
@@ -272,15 +272,14 @@ def _held(simulation: Simulation) -> dict[int, float]:
         return {}
     if _cranked(simulation):
         return {}
-    gravity, springs = math.hypot(*simulation.model("opt.gravity")), simulation.model("jnt_stiffness")
-    made = {}
+    springs, made = simulation.model("jnt_stiffness"), {}
     for joint in range(simulation.count("joint")):
         if joint in simulation.drivers or springs[joint] or simulation.joint_type(joint) not in (HINGE, SLIDE):
             continue
         dof, body = simulation.dof(joint), simulation.body_of("joint", joint)
         lever = size(simulation, body) if simulation.joint_type(joint) == HINGE else 1.0
         load = loads(simulation)[dof]
-        if load > HEAVY * gravity * simulation.model("body_subtreemass")[body] * lever > 0:
+        if load > HEAVY * simulation.gravity * simulation.model("body_subtreemass")[body] * lever > 0:
             damping, friction = (simulation.model(f"dof_{name}")[dof] for name in FIELDS)
             made[joint] = max(STILL * damping, friction) / load
     return made

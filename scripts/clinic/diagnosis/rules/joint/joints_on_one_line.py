@@ -111,7 +111,7 @@ def _said(of: Simulation, *joints: int) -> dict[int, int]:
 def _gimbals(of: Simulation) -> list[tuple[int, int]]:
     """The hinges that are called after another turn than the one that they hang on, and lie on its line; with it."""
     of.begin()
-    near, made = NEAR * of.model("stat.extent")[0], []
+    near, made = NEAR * of.extent, []
     for joint in range(of.count("joint")):
         body = of.body_of("joint", joint)
         above = of.joints_of(int(of.model("body_parentid")[body]))
@@ -149,7 +149,7 @@ def _apart(of: Simulation, joint: int, other: int) -> Vector:
 def _again(of: Simulation) -> dict[int, int]:
     """The joints that move their bodies as one before them, with that."""
     of.begin()
-    near, made = NEAR * of.model("stat.extent")[0], dict[int, int]()
+    near, made = NEAR * of.extent, dict[int, int]()
     for body in of.moving_bodies:
         joints = [joint for joint in of.joints_of(body) if of.joint_type(joint) in (HINGE, SLIDE)]
         for place, joint in enumerate(joints):

@@ -46,12 +46,12 @@ ROOM = 10.0  # times the model's extent
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Hinges and slides with a range and without a limit, all together."""
     simulation = model.simulation
-    found, bodies, extent = [], simulation.model("jnt_bodyid"), simulation.model("stat.extent")[0]
+    found, bodies = [], simulation.model("jnt_bodyid")
     roaming = set()  # the whole robot goes about by a slide that is far longer than it
     for joint, limited in enumerate(simulation.model("jnt_limited")):
         low, high = simulation.row("jnt_range", joint, 2)
         kind = simulation.joint_type(joint)
-        if kind == SLIDE and not limited and high - low > ROOM * extent:
+        if kind == SLIDE and not limited and high - low > ROOM * simulation.extent:
             roaming.add(bodies[joint])
         span = (high - low) * (
             model.angle_unit if kind == HINGE else 0.0

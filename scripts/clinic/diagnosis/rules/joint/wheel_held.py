@@ -45,7 +45,6 @@ When it is wrong: wheels that are blocked on purpose, or turned to an angle that
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, HINGE, MESH, SPHERE
@@ -114,7 +113,7 @@ def _friction(of: Simulation, body: int) -> float:
 def _traction(of: Simulation, body: int) -> float:
     """The torque in N m with which the ground turns a wheel that bears its whole robot, at a friction of 1."""
     radius = max(of.model("geom_rbound")[geom] for geom in of.geoms_of(body))
-    return radius * of.model("body_subtreemass")[root_of(of)[body]] * math.hypot(*of.model("opt.gravity"))
+    return radius * of.model("body_subtreemass")[root_of(of)[body]] * of.gravity
 
 
 def _wheels(of: Simulation) -> list[int]:

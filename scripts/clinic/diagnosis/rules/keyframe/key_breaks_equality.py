@@ -139,7 +139,7 @@ def _off(of: Simulation, each: int, key: int) -> float:
     """How far a keyframe, or the model's own start, is from what an equality holds."""
     if kind_of(of, each) in (CONNECT, WELD):
         start_at(of, key)
-        return (gap(of, each) or 0.0) / of.model("stat.extent")[0]
+        return (gap(of, each) or 0.0) / of.extent
     if (coupling := dict(couplings(of)).get(each)) is None:
         return 0.0
     follower, leader, factors = coupling

@@ -190,5 +190,5 @@ def _blocked(of: Simulation, camera: int) -> float:
     met = [[through(of, geom, here, ray) for geom in geoms] for ray in rays]
     around = {which for which, (near, far) in enumerate(met[0]) if near <= 0 <= far}
     met = [[each for which, each in enumerate(ray) if which not in around] for ray in met]
-    nearest = of.model("vis.map.znear")[0] * of.model("stat.extent")[0]
+    nearest = of.model("vis.map.znear")[0] * of.extent
     return float(sum(any(nearest < near <= far for near, far in each) for each in met))

@@ -132,7 +132,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _drones(of: Simulation) -> Iterator[Drone]:
-    g, owner = norm(of.model("opt.gravity")), root_of(of)
+    g, owner = of.gravity, root_of(of)
     if not g or of.model("opt.density")[0] > WATER:
         return
     for body in of.free_bodies:
@@ -158,8 +158,7 @@ def _drone(of: Simulation, body: int, weight: float) -> Drone | None:
 
 def _against(of: Simulation, body: int) -> tuple[float, ...]:
     """The direction against gravity in a body's axes, as it is now."""
-    g = of.model("opt.gravity")
-    return times(transpose(of.data_row("xmat", body, 9)), [-x / norm(g) for x in g])
+    return times(transpose(of.data_row("xmat", body, 9)), [-x / of.gravity for x in of.model("opt.gravity")])
 
 
 def _found(of: Simulation, body: int) -> Drone | None:

@@ -233,6 +233,6 @@ def _apart(of: Simulation, each: int) -> Sequence[float]:
 def _turned(of: Simulation, each: int) -> list[float]:
     """The cosines between the axes of both; a turn weighs as much as the way that it moves the far end."""
     one, other = (transpose(axes) for _, axes in frames(of, each))
-    size = max(of.model("stat.extent")[0], 1e-6)
+    size = max(of.extent, 1e-6)
     columns = [(one[3 * i : 3 * i + 3], other[3 * j : 3 * j + 3]) for i in range(3) for j in range(3)]
     return [size * 0.5 * dot(a, b) for a, b in columns]

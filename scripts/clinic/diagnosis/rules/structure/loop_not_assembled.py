@@ -80,7 +80,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         edits = _edits(model, each) if of.begin_with.key < 0 else ()
         kind, attribute, now = ("site", "pos", "") if sited(of, each) else ("body", "relpose", "")
         names = tuple(of.name(kind, it) for it in held(of, each))
-        far = 1000 * apart * of.model("stat.extent")[0]
+        far = 1000 * apart * of.extent
         says = f"They are {far:.3g} mm apart at the start, and are to be in one place."
         if edits and sited(of, each) and (slip := _slip(model, each)) is not None:
             odd, attribute, now, edits = slip
@@ -149,7 +149,7 @@ def _extent() -> Probe:
 
 
 def _size(of: Simulation) -> float:
-    return of.model("stat.extent")[0]
+    return of.extent
 
 
 def _gaps(of: Simulation) -> float:
@@ -164,7 +164,7 @@ def _gap(simulation: Simulation, each: int) -> float:
     simulation.begin()
     if kind_of(simulation, each) not in (CONNECT, WELD) or not simulation.model("eq_active0")[each]:
         return 0.0
-    return (gap(simulation, each) or 0.0) / simulation.model("stat.extent")[0]
+    return (gap(simulation, each) or 0.0) / simulation.extent
 
 
 def _edits(model: ReaderModel, each: int) -> tuple[Edit, ...]:

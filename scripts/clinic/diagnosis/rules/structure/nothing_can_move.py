@@ -55,7 +55,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         or not planes
         or model.source is None
         or model.source.urdf
-        or not any(of.model("opt.gravity"))
+        or not of.gravity
     ):
         return
     parents, counts = of.model("body_parentid"), of.model("body_geomnum")

@@ -12,6 +12,7 @@ from clinic.diagnosis.engine import BALL, FREE, HINGE, SLIDE, Compiled
 
 WIDTH = {FREE: (7, 6), BALL: (4, 3), SLIDE: (1, 1), HINGE: (1, 1)}  # of a joint in qpos and qvel
 REFERENCES = {"body": "body_parentid", "joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid"}
+ENDLESS = (-math.inf, math.inf)  # in place of the range of a joint without one
 UNSTABLE = ("BADQPOS", "BADQVEL", "BADQACC")
 Made = TypeVar("Made")
 Of = TypeVarTuple("Of")
@@ -196,6 +197,17 @@ class Simulation:
         return [int(joint) for joint in self.model("dof_jntid")]
 
     @cached_property
+    def scalar_joints(self) -> list[int]:
+        """The hinges and slides."""
+        return [joint for joint, kind in enumerate(self.model("jnt_type")) if int(kind) in (HINGE, SLIDE)]
+
+    @cached_property
+    def ranges(self) -> dict[int, tuple[float, float]]:
+        """The ranges of those hinges and slides that have one, in rad or m."""
+        ends = {joint: self.row("jnt_range", joint, 2) for joint in self.scalar_joints}
+        return {joint: (low, high) for joint, (low, high) in ends.items() if self.model("jnt_limited")[joint]}
+
+    @cached_property
     def moving_bodies(self) -> list[int]:
         """Bodies that some joint moves."""
         parents, joints = self.model("body_parentid"), self.model("body_jntnum")
@@ -285,7 +297,7 @@ class Simulation:
         if int(self.model("actuator_trntype")[actuator]) > 1:
             return None
         joint = int(self.model("actuator_trnid")[2 * actuator])
-        return joint if self.joint_type(joint) in (HINGE, SLIDE) else None
+        return joint if joint in self.scalar_joints else None
 
     @cached_property
     def drivers(self) -> dict[int, list[int]]:

@@ -151,15 +151,14 @@ class Comparisons(Pairs):
             yield pair(quantity, apart(field[of.dof(left)], field[of.dof(right)]), 30)
         other = of.body_of("joint", right)
         yield pair("pos", self._offset(body, "xanchor", left, right, other), FITS * self.size[body], "m")
-        limited = [bool(of.model("jnt_limited")[each]) for each in (left, right)]
         if of.joint_type(left) == BALL:
             return
         sign, angle = self.joint_sign(left, right)
         yield pair("axis", angle, 5, "degrees")
         if angle < 30:
-            yield pair("limited", 100 * (limited[0] != limited[1]), 1)
-            if all(limited):
-                ranges = of.row("jnt_range", left, 2), of.row("jnt_range", right, 2)
+            yield pair("limited", 100 * ((left in of.ranges) != (right in of.ranges)), 1)
+            if left in of.ranges and right in of.ranges:
+                ranges = of.ranges[left], of.ranges[right]
                 little = of.joint_type(left) == HINGE and _apart(*ranges, sign) < LITTLE
                 yield pair("range", 0.0 if little else _intervals(*ranges, sign), 10)
 
@@ -255,9 +254,8 @@ class Comparisons(Pairs):
             if all(limited):
                 same = pair(f"{quantity}range", 0.0, 10)
                 ranges = [of.row(f"actuator_{quantity}range", each, 2) for each in (left, right)]
-                bounded = all(of.model("jnt_limited")[joint] for joint in (joints[0], joints[1]))
-                own = (of.row("jnt_range", joint, 2) for joint in (joints[0], joints[1]))
-                inherited = bounded and all(_apart(*each, 1) < 1e-9 for each in zip(ranges, own, strict=True))
+                own = [of.ranges[joint] for joint in (joints[0], joints[1]) if joint in of.ranges]
+                inherited = len(own) == 2 and all(_apart(*each, 1) < 1e-9 for each in zip(ranges, own, strict=True))
                 unlike = _intervals(ranges[0], ranges[1], self.interval_sign(same))
                 yield replace(same, unlike=0.0 if inherited else unlike)  # of the joints it is told
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from clinic.diagnosis.engine import HINGE, SLIDE, TRN_IN_PARENT, TRN_SITE
+from clinic.diagnosis.engine import HINGE, TRN_IN_PARENT, TRN_SITE
 from clinic.diagnosis.probes.run import model_size
 from clinic.diagnosis.probes.servo import alone, command, hold, servos
 from clinic.diagnosis.simulation import Simulation, kept
@@ -29,8 +29,8 @@ def _driven(simulation: Simulation, joint: int) -> float:
     begin = simulation.position(joint)
     way = 1.0 if simulation.joint_type(joint) == HINGE else 0.1
     side = 1.0
-    if simulation.model("jnt_limited")[joint]:
-        low, high = simulation.row("jnt_range", joint, 2)
+    if joint in simulation.ranges:
+        low, high = simulation.ranges[joint]
         side = 1.0 if high - begin >= begin - low else -1.0
         way = min(way, max(high - begin, begin - low))
     own = {each.actuator: each for each in servos(simulation) if each.joint == joint}
@@ -67,8 +67,8 @@ def pulls(simulation: Simulation) -> dict[int, dict[int, float]]:
         of.engine.write("ctrl", [float(each == actuator) for each in range(len(kinds))])
         of.engine.forward()
         forces = of.data("qfrc_actuator")
-        for joint in range(of.count("joint")):
-            if joint not in of.drivers and of.joint_type(joint) in (HINGE, SLIDE) and forces[of.dof(joint)]:
+        for joint in of.scalar_joints:
+            if joint not in of.drivers and forces[of.dof(joint)]:
                 made.setdefault(joint, {})[actuator] = forces[of.dof(joint)]
     return made
 

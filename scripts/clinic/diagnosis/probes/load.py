@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.equalities import CONNECT, gap, kind_of
 from clinic.diagnosis.probes.servo import Servo, alone, hold, servos
 from clinic.diagnosis.probes.shape import root_of
@@ -29,12 +28,10 @@ def poses(simulation: Simulation) -> list[list[float]]:
         pose = list(begin)
         for joint in range(simulation.count("joint")):
             seed = (1103515245 * seed + 12345) % 2**31
-            if simulation.joint_type(joint) not in (HINGE, SLIDE):
+            if joint not in simulation.scalar_joints:
                 continue
             place = simulation.place(joint)
-            low, high = begin[place] - SPREAD, begin[place] + SPREAD
-            if simulation.model("jnt_limited")[joint]:
-                low, high = simulation.row("jnt_range", joint, 2)
+            low, high = simulation.ranges.get(joint, (begin[place] - SPREAD, begin[place] + SPREAD))
             pose[place] = low + (high - low) * seed / 2**31
         drawn.append(pose)
     return drawn

@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Collection, Iterator
 
-from clinic.diagnosis.engine import BOX, CYLINDER, HINGE, PLANE, SLIDE, Contact
+from clinic.diagnosis.engine import BOX, CYLINDER, HINGE, PLANE, Contact
 from clinic.diagnosis.probes.equalities import tied
 from clinic.diagnosis.probes.load import poses
 from clinic.diagnosis.probes.run import State, state
@@ -34,11 +34,8 @@ def beginning(simulation: Simulation) -> State:
 def _within(simulation: Simulation) -> State:
     """The start with each hinge and slide inside of its range."""
     simulation.begin()
-    for joint in range(simulation.count("joint")):
-        if simulation.joint_type(joint) in (HINGE, SLIDE) and simulation.model("jnt_limited")[joint]:
-            low, high = simulation.row("jnt_range", joint, 2)
-            place = simulation.place(joint)
-            simulation.engine.write("qpos", [min(max(simulation.data("qpos")[place], low), high)], place)
+    for joint, (low, high) in simulation.ranges.items():
+        simulation.put(joint, min(max(simulation.position(joint), low), high))
     simulation.engine.forward()
     return state(simulation)
 

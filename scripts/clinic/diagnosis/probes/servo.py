@@ -145,7 +145,6 @@ def _servo(simulation: Simulation, actuator: int) -> Servo | None:
     if simulation.model("jnt_actfrclimited")[joint]:
         limits.append(max(map(abs, simulation.row("jnt_actfrcrange", joint, 2))))
     limited = simulation.model("actuator_ctrllimited")[actuator]
-    ranged = simulation.model("jnt_limited")[joint]
     return Servo(
         actuator,
         joint,
@@ -158,7 +157,7 @@ def _servo(simulation: Simulation, actuator: int) -> Servo | None:
         min(limits),
         max(simulation.mass_diagonal[dof], 1e-12),
         simulation.row("actuator_ctrlrange", actuator, 2) if limited else None,  # type: ignore[arg-type]
-        simulation.row("jnt_range", joint, 2) if ranged else None,  # type: ignore[arg-type]
+        simulation.ranges.get(joint),
     )
 
 

@@ -42,7 +42,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.load import poses
 from clinic.diagnosis.probes.shape import thickness
 from clinic.diagnosis.probes.vector import written
@@ -64,14 +63,9 @@ MOST = 60  # joints
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The pair of links that jams most, and the joint that brings them together."""
     of = model.simulation
-    limited = [
-        joint
-        for joint in range(of.count("joint"))
-        if of.joint_type(joint) in (HINGE, SLIDE) and of.model("jnt_limited")[joint]
-    ]
-    if not limited or len(limited) > MOST:
+    if not of.ranges or len(of.ranges) > MOST:
         return
-    shares = {joint: found for joint in limited if (found := _jams(of, joint))}
+    shares = {joint: found for joint in of.ranges if (found := _jams(of, joint))}
     jammed: list[tuple[float, int, int, int]] = []
     for joint, pairs in shares.items():
         (one, other), share = max(pairs.items(), key=lambda each: each[1])

@@ -133,8 +133,8 @@ def _of_its_joint(model: ReaderModel, said: str) -> Iterator[Suspect]:
     compiled = model.with_edits([set_attribute(each, "ctrlrange", "-1 1") for each in lacking])
     for element in [each for each in meant(model) if each in lacking]:
         joint = compiled.driven_joint(written.index(element)) if isinstance(compiled, Simulation) else None
-        if joint is not None and isinstance(compiled, Simulation) and compiled.model("jnt_limited")[joint]:
-            value = " ".join(f"{each:.4g}" for each in compiled.row("jnt_range", joint, 2))
+        if joint is not None and isinstance(compiled, Simulation) and joint in compiled.ranges:
+            value = " ".join(f"{each:.4g}" for each in compiled.ranges[joint])
             says = f"{said.rstrip('.')}. The range of {compiled.name('joint', joint)}, in rad or m, is put in."
             yield mends(
                 element,

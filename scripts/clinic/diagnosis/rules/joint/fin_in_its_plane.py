@@ -75,8 +75,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _fins(of: Simulation) -> list[int]:
     """The hinges with a range that alone move bodies whose wet geoms all are flat along their axes."""
-    kinds, limited = of.model("jnt_type"), of.model("jnt_limited")
-    hinges = [joint for joint, kind in enumerate(kinds) if int(kind) == HINGE and limited[joint]]
+    hinges = [joint for joint in of.ranges if of.joint_type(joint) == HINGE]
     alone = [joint for joint in hinges if of.joints_of(of.body_of("joint", joint)) == [joint]]
     medium = any(of.model(f"opt.{what}")[0] for what in ("density", "viscosity"))
     return [joint for joint in alone if medium and _flat(of, joint)]

@@ -151,7 +151,7 @@ def _again(of: Simulation) -> dict[int, int]:
     of.begin()
     near, made = NEAR * of.extent, dict[int, int]()
     for body in of.moving_bodies:
-        joints = [joint for joint in of.joints_of(body) if of.joint_type(joint) in (HINGE, SLIDE)]
+        joints = [joint for joint in of.joints_of(body) if joint in of.scalar_joints]
         for place, joint in enumerate(joints):
             for other in joints[:place]:
                 if of.joint_type(joint) == of.joint_type(other) and _same_line(of, joint, other, near):

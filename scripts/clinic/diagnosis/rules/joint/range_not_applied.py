@@ -57,7 +57,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             model.angle_unit if kind == HINGE else 0.0
         )  # of an unused range the numbers stay as written
         turns = TURN <= high - low <= 2.1 * TURN  # one or two, in rad whatever the unit
-        if not limited and low < high and span < TURN and not turns and kind in (HINGE, SLIDE):
+        if not limited and low < high and span < TURN and not turns and joint in simulation.scalar_joints:
             found.append(joint)
     found = [joint for joint in found if bodies[joint] not in roaming]
     if not found:

@@ -70,14 +70,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         named = bool(GUIDED.search(called))
         if urdf and not named and _gap(of, joint) < MILLIMETRES:
             continue
-        if not of.model("jnt_limited")[joint]:
+        if joint not in of.ranges:
             if named:
                 says = "It has no range: nothing stops it at either end."
                 probe = Probe("1 where no range stops it", "", _unlimited, (joint,), dynamic=False)
                 told = (of.name("joint", joint), of.name("body", body))
                 yield Suspect(told, "range", "left out", "", (), probe, 0.5, says, "a range within its guide")
         elif (gap := _gap(of, joint)) > 0:
-            low, high = of.row("jnt_range", joint, 2)
+            low, high = of.ranges[joint]
             guide = of.name("body", int(parents[body]))
             says = f"Where its range ends it is {gap:.3g} times its own length out of {guide}."
             probe = Probe("gap to what carries it at the end of its range", "lengths", _gap, (joint,), dynamic=False)
@@ -89,7 +89,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _unlimited(of: Simulation, joint: int) -> float:
-    return float(not of.model("jnt_limited")[joint])
+    return float(joint not in of.ranges)
 
 
 def _gap(of: Simulation, joint: int, *, at_start: bool = False) -> float:

@@ -78,7 +78,7 @@ def _held(of: Simulation, key: int) -> dict[int, int]:
         return {}
     made = {}
     for joint, driving in of.drivers.items():
-        low, high = of.row("jnt_range", joint, 2) if of.model("jnt_limited")[joint] else (-1e9, 1e9)
+        low, high = of.ranges.get(joint, (-1e9, 1e9))
         free = low + INSIDE * (high - low) < of.position(joint) < high - INSIDE * (high - low)
         motor = not any(int(of.model(f"actuator_{kind}type")[driving[0]]) for kind in KINDS)
         force, dof = abs(of.data("qfrc_actuator")[of.dof(joint)]), of.dof(joint)

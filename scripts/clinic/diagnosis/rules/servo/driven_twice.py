@@ -40,7 +40,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import DYN_MUSCLE, HINGE, SLIDE, TRN_SITE
+from clinic.diagnosis.engine import DYN_MUSCLE, HINGE, TRN_SITE
 from clinic.diagnosis.probes.copied import Line, misled
 from clinic.diagnosis.probes.load import poses
 from clinic.diagnosis.probes.shape import root_of
@@ -107,7 +107,7 @@ def astray(of: Simulation) -> dict[int, tuple[int, int, int]]:
         if int(kind) != TRN_SITE or beside >= 0 or not one:
             continue
         above = [joint for body in of.ancestors(of.body_of("site", site)) for joint in of.joints_of(body)]
-        if any(of.joint_type(joint) not in (HINGE, SLIDE) for joint in above):
+        if any(joint not in of.scalar_joints for joint in above):
             continue
         levers = _levers(of, site, above)
         own = next(axis for axis in range(3) if gear[axis])
@@ -164,7 +164,7 @@ def _idle(of: Simulation, joint: int) -> list[int]:
         for each in range(of.count("joint"))
         if owner[int(bodies[each])] == owner[int(bodies[joint])] or row[each] == row[joint]
     )
-    return [each for each in beside if each not in of.drivers and of.joint_type(each) in (HINGE, SLIDE)]
+    return [each for each in beside if each not in of.drivers and each in of.scalar_joints]
 
 
 def _more(of: Simulation, joint: int) -> float:

@@ -100,7 +100,7 @@ def sinking(of: Simulation) -> list[int]:
         if others or not motor or not one_sided or of.model("jnt_stiffness")[joint]:
             continue
         force, weight = of.gain(actuator)[0] * of.gear(actuator) * (low + high), -bias[of.dof(joint)]
-        least, most = of.row("jnt_range", joint, 2) if of.model("jnt_limited")[joint] else (-1e9, 1e9)
+        least, most = of.ranges.get(joint, (-1e9, 1e9))
         left = most - of.position(joint) if force > 0 else of.position(joint) - least
         if force * weight > 0 and WEIGHT * abs(force) < abs(weight) < abs(force) and left > AT_ITS_END * (most - least):
             made.append(actuator)
@@ -117,11 +117,12 @@ def stranding(of: Simulation) -> list[int]:
         one_sided = of.model("actuator_ctrllimited")[actuator] and low * high == 0 and low < high
         if others or not motor or not one_sided or of.model("jnt_stiffness")[joint]:
             continue
-        force, (least, most) = of.gain(actuator)[0] * of.gear(actuator) * (low + high), of.row("jnt_range", joint, 2)
+        if joint not in of.ranges:
+            continue
+        force, (least, most) = of.gain(actuator)[0] * of.gear(actuator) * (low + high), of.ranges[joint]
         of.begin()
         behind = of.position(joint) - least if force > 0 else most - of.position(joint)
-        left = of.model("jnt_limited")[joint] and behind > BEYOND * (most - least)
-        if left and loads(of)[of.dof(joint)] <= NO_LOAD * abs(force):
+        if behind > BEYOND * (most - least) and loads(of)[of.dof(joint)] <= NO_LOAD * abs(force):
             made.append(actuator)
     return made
 

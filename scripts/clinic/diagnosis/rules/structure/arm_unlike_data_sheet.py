@@ -76,7 +76,7 @@ from clinic.diagnosis.probes.arms import (
 )
 from clinic.diagnosis.probes.vector import Vector, add, cross, dot, norm, sub, times, transpose, written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import ENDLESS, Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An arm unlike the data sheet of its name"
@@ -314,8 +314,8 @@ def _farther(model: ReaderModel, arm: Arm, row: Measured) -> dict[int, tuple[flo
 
 def _beyond(of: Simulation, joint: int, right: tuple[float, float]) -> float:
     """How much farther a joint turns, in rad; 0 for one that turns round, or has another zero."""
-    low, high = of.row("jnt_range", joint, 2)
-    if not of.model("jnt_limited")[joint] or high - low > ROUND:
+    low, high = of.ranges.get(joint, ENDLESS)
+    if high - low > ROUND:
         return 0.0
     over = right[0] - low, high - right[1]
     return max(over) if max(map(abs, over)) < ANOTHER else 0.0

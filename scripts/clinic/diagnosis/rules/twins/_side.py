@@ -135,10 +135,10 @@ def _same_side(simulation: Simulation, each: Comparison, side: int) -> list[int]
 def _in_reach(simulation: Simulation, actuator: int) -> float:
     """The share of an actuator's control range that is in its joint's range."""
     joint = simulation.driven_joint(actuator)
-    if joint is None or not simulation.model("jnt_limited")[joint]:
+    if joint is None or joint not in simulation.ranges:
         return 1.0
     low, high = simulation.row("actuator_ctrlrange", actuator, 2)
-    bottom, top = simulation.row("jnt_range", joint, 2)
+    bottom, top = simulation.ranges[joint]
     return max(0.0, min(high, top) - max(low, bottom)) / max(high - low, 1e-9)
 
 

@@ -276,6 +276,14 @@ class Simulation:
         """The first number of an actuator's gear: for a joint or tendon all of it."""
         return self.model("actuator_gear")[6 * actuator]
 
+    def actuator_types(self, actuator: int) -> tuple[int, ...]:
+        """Of an actuator's gain, bias and dynamics: mjtGain, mjtBias and mjtDyn."""
+        return tuple(int(self.model(f"actuator_{of}type")[actuator]) for of in ("gain", "bias", "dyn"))
+
+    def is_motor(self, actuator: int) -> bool:
+        """Whether an actuator's control is its force, but for a factor."""
+        return not any(self.actuator_types(actuator))
+
     def place(self, joint: int) -> int:
         """Where a joint begins in qpos."""
         return int(self.model("jnt_qposadr")[joint])

@@ -61,7 +61,7 @@ def pulls(simulation: Simulation) -> dict[int, dict[int, float]]:
     if any(kind > TRN_IN_PARENT and each not in sites for each, kind in enumerate(kinds)):
         return {}
     for actuator in sites:
-        if any(int(of.model(f"actuator_{kind}type")[actuator]) for kind in ("gain", "bias", "dyn")):
+        if not of.is_motor(actuator):
             return {}
         of.begin(forward=False)
         of.engine.write("ctrl", [float(each == actuator) for each in range(len(kinds))])

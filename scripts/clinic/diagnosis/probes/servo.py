@@ -130,8 +130,8 @@ def explicit_damping(simulation: Simulation) -> list[float]:
 
 def _servo(simulation: Simulation, actuator: int) -> Servo | None:
     joint = simulation.driven_joint(actuator)
-    kinds = [int(simulation.model(f"actuator_{kind}")[actuator]) for kind in ("gaintype", "biastype", "dyntype")]
-    if joint is None or kinds[0] != FIXED or kinds[1] != AFFINE or kinds[2] in (INTEGRATOR, DYN_MUSCLE):
+    kinds = simulation.actuator_types(actuator)
+    if joint is None or kinds[:2] != (FIXED, AFFINE) or kinds[2] in (INTEGRATOR, DYN_MUSCLE):
         return None
     gain, bias = simulation.gain(actuator)[0], simulation.bias(actuator)
     gear = simulation.gear(actuator)

@@ -72,9 +72,9 @@ def sampled(of: Simulation) -> list[tuple[float, ...]]:
 
 def servo(of: Simulation, actuator: int) -> tuple[float, float] | None:
     """Of a position servo on a tendon: the length it asks for at control 0, and what a unit adds; else None."""
-    kinds = [int(of.model(f"actuator_{kind}type")[actuator]) for kind in ("trn", "gain", "bias", "dyn")]
+    kinds = (int(of.model("actuator_trntype")[actuator]), *of.actuator_types(actuator))
     gain, bias, gear = of.gain(actuator)[0], of.bias(actuator), of.gear(actuator)
-    if kinds[:3] != [TENDON, FIXED, AFFINE] or kinds[3] in (INTEGRATOR, DYN_MUSCLE) or bias[1] >= 0 or not gain * gear:
+    if kinds[:3] != (TENDON, FIXED, AFFINE) or kinds[3] in (INTEGRATOR, DYN_MUSCLE) or bias[1] >= 0 or not gain * gear:
         return None
     return bias[0] / (-bias[1] * gear), gain / (-bias[1] * gear)
 

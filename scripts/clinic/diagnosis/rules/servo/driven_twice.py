@@ -56,7 +56,6 @@ SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "an actuator on another joint is planted for actuator-on-another-joint"
 
-KINDS = ("gaintype", "biastype", "dyntype")
 SHARE, SOME = 0.1, 0.01  # of the lever of the best axis; m
 
 
@@ -148,8 +147,7 @@ def twice(of: Simulation) -> dict[int, list[int]]:
     driving: dict[tuple[int, ...], list[int]] = {}
     for actuator in range(of.count("actuator")):
         joint = of.driven_joint(actuator)
-        kinds = [int(of.model(f"actuator_{kind}")[actuator]) for kind in KINDS]
-        spring = of.bias(actuator)[1] != 0
+        spring, kinds = of.bias(actuator)[1] != 0, of.actuator_types(actuator)
         if joint is not None and kinds[2] != DYN_MUSCLE:
             driving.setdefault((joint, spring, *kinds), []).append(actuator)
     return {key[0]: each for key, each in driving.items() if len(each) > 1 and _idle(of, key[0])}

@@ -75,7 +75,7 @@ def _speeds(of: Simulation) -> dict[int, float]:
     made = {}
     for each in range(of.count("actuator")):
         joint = of.driven_joint(each)
-        plain = not int(of.model("actuator_biastype")[each]) and not int(of.model("actuator_dyntype")[each])
+        plain = not any(of.actuator_types(each)[1:])
         if joint is None or not of.continuous(joint) or not plain or not of.model("actuator_ctrllimited")[each]:
             continue
         if SPINS.search(f"{of.name('joint', joint)} {of.name('actuator', each)}"):

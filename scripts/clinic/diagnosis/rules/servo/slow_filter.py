@@ -101,9 +101,8 @@ def _weak(of: Simulation, actuators: Collection[int]) -> bool:
 
 def _lag(of: Simulation, actuator: int) -> float:
     """kv over kp of a position servo in s; 0 of another actuator."""
-    kinds = [int(of.model(f"actuator_{kind}type")[actuator]) for kind in ("gain", "bias", "dyn")]
-    bias = of.bias(actuator)
-    return bias[2] / bias[1] if kinds == [FIXED, AFFINE, 0] and bias[1] < 0 and of.gain(actuator)[0] else 0.0
+    bias, kinds = of.bias(actuator), of.actuator_types(actuator)
+    return bias[2] / bias[1] if kinds == (FIXED, AFFINE, 0) and bias[1] < 0 and of.gain(actuator)[0] else 0.0
 
 
 def _attribute(model: ReaderModel, actuator: int) -> str:

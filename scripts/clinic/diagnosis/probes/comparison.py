@@ -11,7 +11,7 @@ from clinic.diagnosis.engine import BALL, FREE, HINGE, MESH, SLIDE
 from clinic.diagnosis.probes.attached import attached
 from clinic.diagnosis.probes.couplings import couplings
 from clinic.diagnosis.probes.pairs import FITS, Pairs
-from clinic.diagnosis.probes.vector import Vector, add, apart, diagonal, dot, norm, sub, times, turned
+from clinic.diagnosis.probes.vector import Vector, across, add, apart, diagonal, dot, norm, sub, times, turned
 
 LITTLE = math.radians(3)
 
@@ -127,7 +127,7 @@ class Comparisons(Pairs):
         if (left, right) not in self.pairs["body"] or left not in self.images:
             return False
         shift, near, joints = self._shift(left, right), FITS * self.size[left], self.of.joints_of(right)
-        lines = [add(shift, axis, -dot(shift, axis)) for axis in (self.at("xaxis", j) for j in joints)]
+        lines = [across(shift, self.at("xaxis", joint)) for joint in joints]
         held = [pair for pair in self.pairs["body"] if pair[0] in self.of.children.get(left, [])]
         back = [add(shift, self._shift(*pair)) for pair in held if pair[0] in self.images]
         return bool(joints and back) and all(norm(each) <= near for each in (*lines, *back))

@@ -12,7 +12,7 @@ from clinic.diagnosis.probes.servo import hold
 from clinic.diagnosis.probes.shape import size, solid
 from clinic.diagnosis.probes.tendons import joints_of, pulled
 from clinic.diagnosis.probes.touch import Deciding, deciding
-from clinic.diagnosis.probes.vector import Vector, at, cross, dot, norm, sub, times, transpose, unit
+from clinic.diagnosis.probes.vector import Vector, across, at, cross, dot, norm, sub, times, transpose, unit
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
@@ -124,7 +124,7 @@ def _carried(of: Simulation, jaws: Jaws, body: int) -> Grasp | None:
 
 def _across(gravity: list[float], normal: Vector) -> Vector:
     """Gravity turned until it is at right angles to the direction in which the jaws press."""
-    down = sub(gravity, tuple(dot(gravity, normal) * x for x in normal))
+    down = across(gravity, normal)
     if norm(down) < norm(gravity) / 2:
         down = cross(normal, (1.0, 0.0, 0.0) if abs(normal[0]) < 0.9 else (0.0, 1.0, 0.0))
     return tuple(norm(gravity) * x for x in unit(down))

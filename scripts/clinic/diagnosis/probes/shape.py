@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from itertools import product
 
 from clinic.diagnosis.engine import FREE, HFIELD, MESH, PLANE, SLIDE
-from clinic.diagnosis.probes.vector import Vector, add, at, dot, norm, sub, times, transpose
+from clinic.diagnosis.probes.vector import Vector, across, add, at, norm, sub, times, transpose
 from clinic.diagnosis.simulation import Simulation, kept
 
 CLEAR = 0.05  # of the opacity
@@ -124,7 +124,7 @@ def round_about(simulation: Simulation, joint: int) -> bool:
     for geom in of.geoms_of(of.body_of("joint", joint)):
         middle = times(of.data_row("geom_xmat", geom, 9), of.row("geom_aabb", geom, 6)[:3])
         off = sub(add(of.data_row("geom_xpos", geom, 3), middle), anchor)
-        if norm(add(off, axis, -dot(off, axis))) < 0.1 * of.model("geom_rbound")[geom]:
+        if norm(across(off, axis)) < 0.1 * of.model("geom_rbound")[geom]:
             return True
     return False
 
@@ -171,9 +171,5 @@ def box(
     simulation: Simulation, positions: tuple[float, ...], axes: tuple[float, ...], geom: int
 ) -> tuple[Vector, Vector]:
     """The box around a geom along the world's axes: its centre and half sizes in m."""
-    cx, cy, cz, hx, hy, hz = simulation.row("geom_aabb", geom, 6)
-    matrix, place = axes[9 * geom : 9 * geom + 9], at(positions, geom)
-    rows = [matrix[3 * i : 3 * i + 3] for i in range(3)]
-    centre = [place[i] + sum(a * b for a, b in zip(rows[i], (cx, cy, cz), strict=True)) for i in range(3)]
-    half = [sum(abs(a) * b for a, b in zip(rows[i], (hx, hy, hz), strict=True)) for i in range(3)]
-    return (centre[0], centre[1], centre[2]), (half[0], half[1], half[2])
+    own, matrix = simulation.row("geom_aabb", geom, 6), axes[9 * geom : 9 * geom + 9]
+    return add(at(positions, geom), times(matrix, own[:3])), times([abs(x) for x in matrix], own[3:])

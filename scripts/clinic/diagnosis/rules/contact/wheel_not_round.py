@@ -48,6 +48,7 @@ from clinic.diagnosis.probes.shape import points, solid
 from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.probes.vector import (
     Vector,
+    across,
     add,
     around,
     dot,
@@ -120,7 +121,7 @@ def _wheels(simulation: Simulation) -> Iterator[tuple[int, int]]:
         if single and len(geoms) == 1 and kinds[0] in shapes:
             off = sub(simulation.row("geom_pos", geoms[0], 3), simulation.row("jnt_pos", joint, 3))
             axis = simulation.row("jnt_axis", joint, 3)
-            aside = norm(sub(off, tuple(dot(off, axis) * x for x in axis)))
+            aside = norm(across(off, axis))
             level = _level(simulation, joint) or (kinds[0] == CYLINDER and _lies(simulation, geoms[0]))
             if aside < CENTRED * simulation.model("geom_rbound")[geoms[0]] and level:
                 yield joint, geoms[0]

@@ -35,7 +35,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HFIELD, PLANE, SLIDE
 from clinic.diagnosis.probes.shape import boxes
-from clinic.diagnosis.probes.vector import written
+from clinic.diagnosis.probes.vector import dot, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -113,7 +113,6 @@ def _extent(of: Simulation, bodies: list[int], axis: tuple[float, ...]) -> tuple
     kinds, ends = of.model("geom_type"), list[float]()
     geoms = (geom for body in bodies for geom in of.geoms_of(body) if int(kinds[geom]) not in (PLANE, HFIELD))
     for place, half in boxes(of, geoms).values():
-        middle = sum(a * b for a, b in zip(place, axis, strict=True))
-        reach = sum(abs(a) * b for a, b in zip(axis, half, strict=True))
+        middle, reach = dot(place, axis), dot([abs(x) for x in axis], half)
         ends += [middle - reach, middle + reach]
     return (min(ends), max(ends)) if ends else None

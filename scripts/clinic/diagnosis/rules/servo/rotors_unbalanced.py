@@ -66,7 +66,7 @@ from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import FREE
 from clinic.diagnosis.probes.rotors import Rotor, forces, rotors
 from clinic.diagnosis.probes.shape import root_of
-from clinic.diagnosis.probes.vector import add, dot, norm, sub, times, transpose
+from clinic.diagnosis.probes.vector import across, add, dot, norm, sub, times, transpose
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
@@ -99,7 +99,7 @@ class Drone:
     @property
     def arm(self) -> float:
         """The mean distance of the rotors from the axis through the centre of mass, in m."""
-        beside = [norm(add(each.place, self.up, -dot(each.place, self.up))) for each in self.rotors]
+        beside = [norm(across(each.place, self.up)) for each in self.rotors]
         return max(sum(beside) / len(beside), 1e-9)
 
 

@@ -62,7 +62,7 @@ from clinic.diagnosis.probes.equalities import (
     off_course,
     sited,
 )
-from clinic.diagnosis.probes.vector import dot, sub, times, transpose, written
+from clinic.diagnosis.probes.vector import across, dot, sub, times, transpose, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import WIDTH, Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -177,8 +177,7 @@ def _held(of: Simulation, joint: int) -> float:
 def _without(column: Column, directions: Sequence[Column]) -> Column:
     """A column without its parts along directions of length 1; twice, for what rounding leaves."""
     for direction in (*directions, *directions):
-        along = sum(x * y for x, y in zip(column, direction, strict=True))
-        column = tuple(x - along * y for x, y in zip(column, direction, strict=True))
+        column = across(column, direction)
     return column
 
 

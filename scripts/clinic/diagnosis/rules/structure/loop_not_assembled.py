@@ -47,7 +47,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.equalities import CONNECT, WELD, by_mocap, ends, gap, held, kind_of, sited
-from clinic.diagnosis.probes.vector import Vector, add, cross, dot, flipped, sub, times, transpose, unit, written
+from clinic.diagnosis.probes.vector import Vector, across, cross, dot, flipped, sub, times, transpose, unit, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.structure.equality_copied import copied_ends
 from clinic.diagnosis.simulation import Simulation
@@ -132,10 +132,10 @@ def _turn(of: Simulation, each: int, body: int) -> Vector:
     if len(joints) != 1 or of.joint_type(joints[0]) != HINGE:
         return ()
     of.begin()
-    axis, anchor = (of.data_row(name, joints[0], 3) for name in ("xaxis", "xanchor"))
+    axis, anchor = of.axis(joints[0]), of.data_row("xanchor", joints[0], 3)
     mine = next(i for i, it in enumerate(held(of, each)) if body in of.ancestors(of.body_of("site", it)))
     ways = [sub(end, anchor) for end in ends(of, each)]
-    own, other = (unit(add(way, axis, -dot(way, axis))) for way in (ways[mine], ways[1 - mine]))
+    own, other = (unit(across(way, axis)) for way in (ways[mine], ways[1 - mine]))
     angle = math.atan2(dot(axis, cross(own, other)), dot(own, other))
     return (math.cos(angle / 2), *(math.sin(angle / 2) * x for x in of.row("jnt_axis", joints[0], 3)))
 

@@ -43,7 +43,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, SPHERE
 from clinic.diagnosis.probes.key import freed
 from clinic.diagnosis.probes.shape import plane_heights, root_of
-from clinic.diagnosis.probes.vector import dot, norm, sub
+from clinic.diagnosis.probes.vector import across, norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -138,7 +138,7 @@ def _wheels(of: Simulation) -> list[int]:
         for geom in of.geoms_of(body):
             off = sub(of.data_row("geom_xpos", geom, 3), anchor)
             radius = of.row("geom_size", geom, 3)[0]
-            beside = norm(tuple(x - dot(off, axis) * a for x, a in zip(off, axis, strict=True)))
+            beside = norm(across(off, axis))
             low = of.data_row("geom_xpos", geom, 3)[2] - radius - max(floors)
             round_ = int(kinds[geom]) in (SPHERE, CYLINDER, ELLIPSOID)
             if round_ and abs(axis[2]) < 0.3 and beside < 0.05 * radius and -0.3 * radius < low < 0.1 * radius:

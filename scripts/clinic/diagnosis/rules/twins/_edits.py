@@ -10,7 +10,7 @@ from clinic.diagnosis.probes.attached import attached
 from clinic.diagnosis.probes.comparison import Comparison
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
 from clinic.diagnosis.probes.twins import Twins, twins
-from clinic.diagnosis.probes.vector import sub, times, transpose, turned, written
+from clinic.diagnosis.probes.vector import dot, sub, times, transpose, turned, written
 from clinic.diagnosis.reader_model import ReaderModel
 
 COPIED = {  # attributes that are the same on both sides
@@ -140,5 +140,5 @@ def _axis(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: i
     image = found.image(model.simulation.body_of("joint", each.left), body)
     axis = times(transpose(found.at("xmat", body, 9)), times(image.matrix, found.at("xaxis", twin)))
     own = model.simulation.row("jnt_axis", side, 3)
-    sign = 1.0 if sum(a * b for a, b in zip(axis, own, strict=True)) >= 0 else -1.0
+    sign = 1.0 if dot(axis, own) >= 0 else -1.0
     return (set_attribute(element, "axis", written(tuple(sign * x for x in axis))),)

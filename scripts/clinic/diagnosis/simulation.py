@@ -11,7 +11,7 @@ from typing import TypeVar, TypeVarTuple
 from clinic.diagnosis.engine import BALL, FREE, HINGE, SLIDE, Compiled
 
 WIDTH = {FREE: (7, 6), BALL: (4, 3), SLIDE: (1, 1), HINGE: (1, 1)}  # of a joint in qpos and qvel
-REFERENCES = {"body": "body_parentid", "joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid"}
+BODIES = {"joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid", "camera": "cam_bodyid"}
 ENDLESS = (-math.inf, math.inf)  # in place of the range of a joint without one
 UNSTABLE = ("BADQPOS", "BADQVEL", "BADQACC")
 Made = TypeVar("Made")
@@ -73,8 +73,8 @@ class Simulation:
             return "the world"
         if name := self.engine.name(kind, index):
             return f'{kind} "{name}"'
-        if kind in REFERENCES and kind != "body":
-            owners = self.model(REFERENCES[kind])
+        if kind in BODIES and kind != "camera":
+            owners = self.model(BODIES[kind])
             alike = [each for each, owner in enumerate(owners) if owner == owners[index]]
             which = f" {alike.index(index) + 1} of {len(alike)}" if len(alike) > 1 else ""
             return f"{kind}{which} of {self.name('body', int(owners[index]))}"
@@ -232,8 +232,12 @@ class Simulation:
         """The bodies that hang on each body, the world too, that has some."""
         made: dict[int, list[int]] = {}
         for body in range(1, self.count("body")):
-            made.setdefault(int(self.model("body_parentid")[body]), []).append(body)
+            made.setdefault(self.parent(body), []).append(body)
         return made
+
+    def parent(self, body: int) -> int:
+        """The body that a body hangs on."""
+        return int(self.model("body_parentid")[body])
 
     def below(self, body: int) -> list[int]:
         """A body and all that hangs on it."""
@@ -243,7 +247,7 @@ class Simulation:
         """A body, the one that it hangs on, and so on up to the world."""
         made = [body]
         while made[-1]:
-            made.append(int(self.model("body_parentid")[made[-1]]))
+            made.append(self.parent(made[-1]))
         return made
 
     def joints_of(self, body: int) -> list[int]:
@@ -269,8 +273,8 @@ class Simulation:
         return self.data_row("xaxis", joint, 3)
 
     def body_of(self, kind: str, index: int) -> int:
-        """The body that a joint, geom or site is of."""
-        return int(self.model(REFERENCES[kind])[index])
+        """The body that a joint, geom, site or camera is of; of a body its parent."""
+        return self.parent(index) if kind == "body" else int(self.model(BODIES[kind])[index])
 
     def gear(self, actuator: int) -> float:
         """The first number of an actuator's gear: for a joint or tendon all of it."""

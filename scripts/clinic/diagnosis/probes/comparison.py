@@ -78,7 +78,7 @@ class Comparisons(Pairs):
                 unlike = self._offset(body, "site_xpos", left, right, self.of.body_of("site", right))
                 yield Comparison("site", left, right, "pos", unlike, FITS * self.size[body], "m")
         for left, right in self.pairs["camera"]:
-            if (body := int(self.of.model("cam_bodyid")[left])) in self.images:
+            if (body := self.of.body_of("camera", left)) in self.images:
                 yield from self._cameras(body, left, right)
         yield from self._signs()
         for left, right in self.pairs["actuator"]:
@@ -101,7 +101,7 @@ class Comparisons(Pairs):
     def _bodies(self, left: int, right: int) -> Iterator[Comparison]:
         of, pair = self.of, partial(Comparison, "body", left, right)
         image, size = self.images[left], self.size[left]
-        slid = self._slid(left, right) or self._slid(*(int(of.model("body_parentid")[each]) for each in (left, right)))
+        slid = self._slid(left, right) or self._slid(of.parent(left), of.parent(right))
         yield pair("pos", 0.0 if slid else norm(self._shift(left, right)), FITS * size, "m")
         masses = of.model("body_mass")[left], of.model("body_mass")[right]
         yield pair("mass", apart(*masses), 10)
@@ -116,7 +116,7 @@ class Comparisons(Pairs):
 
     def _shift(self, left: int, right: int) -> Vector:
         """From the right body to the image of its twin, seen from the bodies that they hang on."""
-        above, image = [int(self.of.model("body_parentid")[each]) for each in (left, right)], self.images[left]
+        above, image = [self.of.parent(each) for each in (left, right)], self.images[left]
         if above[0] == above[1]:
             return sub(image.of(self.at("xpos", left)), self.at("xpos", right))
         here, there = (sub(self.at("xpos", b), self.at("xpos", p)) for b, p in zip((left, right), above, strict=True))
@@ -223,7 +223,7 @@ class Comparisons(Pairs):
 
     def _cameras(self, body: int, left: int, right: int) -> Iterator[Comparison]:
         of, pair = self.of, partial(Comparison, "camera", left, right)
-        other = int(of.model("cam_bodyid")[right])
+        other = of.body_of("camera", right)
         yield pair("pos", self._offset(body, "cam_xpos", left, right, other), FITS * self.size[body], "m")
         views = [tuple(self.at("cam_xmat", each, 9)[2::3]) for each in (left, right)]
         cosine = dot(times(self.images[body].matrix, views[0]), views[1])

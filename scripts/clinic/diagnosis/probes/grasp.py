@@ -76,7 +76,7 @@ def _jaws(of: Simulation) -> Iterator[Jaws]:
     for body in jointed:
         kinds = [of.joint_type(joint) for joint in of.joints_of(body)]
         if body not in carriers and len(kinds) == 1 and FREE not in kinds:
-            palms.setdefault(int(of.model("body_parentid")[body]), []).append(body)
+            palms.setdefault(of.parent(body), []).append(body)
     single = sum(len(found) == 1 for found in palms.values())
     for palm, found in palms.items():
         sides = (found[0], found[1]) if len(found) == 2 else (palm, found[0])
@@ -210,7 +210,7 @@ def pressing(of: Simulation, contacts: Iterable[Contact], body: int) -> list[tup
 
 def _sides(of: Simulation, contact: Contact) -> list[int]:
     """The bodies of a contact's two geoms; the world for a flex, which has no geom."""
-    return [int(of.model("geom_bodyid")[geom]) if geom >= 0 else 0 for geom in contact.geoms]
+    return [of.body_of("geom", geom) if geom >= 0 else 0 for geom in contact.geoms]
 
 
 def _slides(of: Simulation, jaws: Jaws, body: int, weight: Vector) -> float:

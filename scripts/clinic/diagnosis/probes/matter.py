@@ -207,7 +207,7 @@ def _heavier(simulation: Simulation, body: int) -> float:
     joint_body = body
     kinds = simulation.model("jnt_type")
     while joint_body and not any(int(kinds[joint]) != SLIDE for joint in simulation.joints_of(joint_body)):
-        joint_body = int(simulation.model("body_parentid")[joint_body])
+        joint_body = simulation.parent(joint_body)
     diagonal_of = simulation.mass_diagonal
     turn = simulation.data_row("xmat", body, 9)
     excess = turned(turn, sub(found.about, found.solid))

@@ -17,8 +17,8 @@ LIQUID = 100.0  # kg/m3
 
 def roots(simulation: Simulation) -> list[int]:
     """The moving bodies that hang on nothing that moves."""
-    moving, parents = set(simulation.moving_bodies), simulation.model("body_parentid")
-    return [body for body in simulation.moving_bodies if int(parents[body]) not in moving]
+    moving = set(simulation.moving_bodies)
+    return [body for body in simulation.moving_bodies if simulation.parent(body) not in moving]
 
 
 def limbs(simulation: Simulation) -> list[list[int]]:
@@ -30,10 +30,10 @@ def limbs(simulation: Simulation) -> list[list[int]]:
 @kept
 def root_of(simulation: Simulation) -> list[int]:
     """For each body the root of its tree; 0 for what does not move."""
-    parents, tops = simulation.model("body_parentid"), set(roots(simulation))
+    tops = set(roots(simulation))
     made = [0] * simulation.count("body")
     for body in range(1, len(made)):
-        made[body] = body if body in tops else made[int(parents[body])]
+        made[body] = body if body in tops else made[simulation.parent(body)]
     return made
 
 

@@ -124,7 +124,7 @@ def turned(model: ReaderModel, camera: int, right: Sequence[float], up: Sequence
         return ()
     simulation = model.simulation
     simulation.begin()
-    body = int(simulation.model("cam_bodyid")[camera])
+    body = simulation.body_of("camera", camera)
     m = simulation.data_row("xmat", body, 9)
     if int(simulation.model("cam_mode")[camera]) in (TRACK, TRACKCOM):
         m = m if any(m) else IDENTITY

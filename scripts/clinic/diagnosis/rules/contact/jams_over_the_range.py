@@ -120,9 +120,7 @@ def _jams(simulation: Simulation, joint: int, others: Sequence[list[float]] = ()
             if min(contact.geoms) < 0:
                 continue
             one, other = sorted((int(bodies[geom]) for geom in contact.geoms), reverse=True)
-            base = other == int(
-                simulation.model("body_parentid")[one]
-            )  # a contact of these two: the parent stands still
+            base = other == simulation.parent(one)  # a contact of these two: the parent stands still
             thin = min(thickness(simulation, geom) for geom in contact.geoms)
             if -contact.distance > (TOUCHES if base else DEEP * thin) and _between(simulation, body, one, other):
                 deep.add((one, other))
@@ -133,7 +131,7 @@ def _jams(simulation: Simulation, joint: int, others: Sequence[list[float]] = ()
 
 def _between(simulation: Simulation, body: int, one: int, other: int) -> bool:
     """Whether a joint's body carries one of two bodies that are at most LINKS apart in one line, and not the other."""
-    parents, line = simulation.model("body_parentid"), [one]
+    line = [one]
     while line[-1] and line[-1] != other:
-        line.append(int(parents[line[-1]]))
+        line.append(simulation.parent(line[-1]))
     return line[-1] == other != 0 and len(line) <= LINKS + 1 and body in line[:-1]

@@ -58,7 +58,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     for joint in of.scalar_joints:
         body = of.body_of("joint", joint)
-        base = int(of.model("body_parentid")[body])
+        base = of.parent(body)
         fixed = not of.model("body_weldid")[base] and (base or of.joint_type(joint) == SLIDE)
         if not fixed or _share(of, joint, body, base) < ALWAYS:
             continue

@@ -108,10 +108,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _wheels(simulation: Simulation) -> Iterator[tuple[int, int]]:
-    parents = {int(body) for body in simulation.model("body_parentid")[1:]}
     for joint in range(simulation.count("joint")):
         body = simulation.body_of("joint", joint)
-        if not simulation.continuous(joint) or body in parents:
+        if not simulation.continuous(joint) or body in simulation.children:
             continue
         geoms = [geom for geom in simulation.geoms_of(body) if solid(simulation, geom)]
         kinds = [int(simulation.model("geom_type")[geom]) for geom in geoms]

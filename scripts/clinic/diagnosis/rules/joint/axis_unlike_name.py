@@ -133,7 +133,7 @@ def _still(of: Simulation) -> dict[int, str]:
         if not called or held or of.joint_type(joint) != HINGE or len(of.joints_of(body)) > 1:
             continue
         axis, rod = of.axis(joint), _rod(of, joint)
-        above = _joints_up_from(of, int(of.model("body_parentid")[body]))
+        above = _joints_up_from(of, of.parent(body))
         slides = [of.axis(each) for each in above if of.joint_type(each) == SLIDE]
         if norm(rod) > FLAT and norm(cross(axis, rod)) < OFF * norm(rod):
             made[joint] = "turns it about its own length, through its centre of mass: it spins and does not swing"
@@ -151,7 +151,7 @@ def _across(of: Simulation, joint: int) -> str:
     """The axis across a rod along which what carries it swings it; empty where nothing carries it."""
     of.as_written()
     body, rod = of.body_of("joint", joint), _rod(of, joint)
-    above = _joints_up_from(of, int(of.model("body_parentid")[body]))
+    above = _joints_up_from(of, of.parent(body))
     if not above:
         return ""
     axis = cross(of.axis(above[0]), rod)

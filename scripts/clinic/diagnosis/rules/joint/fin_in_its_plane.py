@@ -113,6 +113,6 @@ def _across(of: Simulation, joint: int, geom: int) -> Vector:
 def _as_before(of: Simulation, joint: int) -> bool:
     """Whether the body that a fin hangs on turns about the same axis."""
     of.as_written()
-    axis, above = of.axis(joint), int(of.model("body_parentid")[of.body_of("joint", joint)])
+    axis, above = of.axis(joint), of.parent(of.body_of("joint", joint))
     others = [each for each in of.joints_of(above) if of.joint_type(each) == HINGE]
     return any(abs(dot(axis, of.axis(each))) > ALONG for each in others)

@@ -65,10 +65,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Slides of one body that do not change their distance: coupled ones, and fingers that nothing couples."""
     of = model.simulation
     yield from _uncoupled(model)
-    parents, bodies = of.model("body_parentid"), of.model("jnt_bodyid")
     for each, coupling in couplings(of):
         follower, leader, factors = coupling
-        hang = {parents[int(bodies[joint])] for joint in (follower, leader)}
+        hang = {of.parent(of.body_of("joint", joint)) for joint in (follower, leader)}
         kinds = {of.joint_type(joint) for joint in (follower, leader)}
         if len(hang) > 1 or kinds != {SLIDE} or _together(of, each) <= MOST:
             continue
@@ -114,14 +113,13 @@ def _uncoupled(model: ReaderModel) -> Iterator[Suspect]:
     """Pairs of fingers without a coupling that equal ways carry to the same side."""
     of = model.simulation
     hands: dict[int, list[int]] = {}
-    parents, bodies = of.model("body_parentid"), of.model("jnt_bodyid")
     bound = {joint for _, (follower, leader, _) in couplings(of) for joint in (follower, leader)}
     for each, kind in enumerate(of.model("wrap_type")):
         if int(kind) == WRAP_JOINT:
             bound.add(int(of.model("wrap_objid")[each]))
     for joint, kind in enumerate(of.model("jnt_type")):
         if int(kind) == SLIDE and joint not in bound:
-            hands.setdefault(int(parents[int(bodies[joint])]), []).append(joint)
+            hands.setdefault(of.parent(of.body_of("joint", joint)), []).append(joint)
     for hand, joints in hands.items():
         if len(joints) != 2 or not _fingers(of, hand, joints) or _aside(of, *joints) <= MOST:
             continue

@@ -150,7 +150,7 @@ def _turned(of: Simulation, coupling: Coupling) -> tuple[float, ...]:
     own, (_, twin) = of.row("jnt_range", follower, 2), sided(of, "joint").get(follower, ("", leader))
     turned = tuple(-each for each in factors)
     bodies = [of.body_of("joint", joint) for joint in (follower, leader)]
-    parents = [of.model("body_parentid")[body] for body in bodies]
+    parents = [of.parent(body) for body in bodies]
     if bodies[0] != bodies[1] and parents[0] == parents[1]:
         of.begin()
         axes = [of.axis(joint) for joint in (follower, leader)]

@@ -114,7 +114,7 @@ def _gimbals(of: Simulation) -> list[tuple[int, int]]:
     near, made = NEAR * of.extent, []
     for joint in range(of.count("joint")):
         body = of.body_of("joint", joint)
-        above = of.joints_of(int(of.model("body_parentid")[body]))
+        above = of.joints_of(of.parent(body))
         if len(above) == len(of.joints_of(body)) == 1:
             pair = joint, above[0]
             hinges = all(of.joint_type(each) == HINGE for each in pair)
@@ -128,7 +128,7 @@ def _in_line(of: Simulation) -> list[int]:
     of.begin()
     chains: dict[int, list[int]] = {}
     for body in of.moving_bodies:
-        joints, above = of.joints_of(body), chains.get(int(of.model("body_parentid")[body]), [])
+        joints, above = of.joints_of(body), chains.get(of.parent(body), [])
         if len(joints) == 1 and of.joint_type(joints[0]) == HINGE:
             on_line = above and _same_line(of, joints[0], above[-1], NEAR * norm(_apart(of, joints[0], above[-1])))
             chains[body] = [*(above if on_line else []), joints[0]]

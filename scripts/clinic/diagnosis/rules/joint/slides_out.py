@@ -54,11 +54,11 @@ GUIDED = re.compile(r"drawer|tray|(?<![a-z])door|shelf|lid(?![a-z])", re.IGNOREC
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The slides that leave the body which carries them, each."""
     of = model.simulation
-    parents, bodies, names = of.model("body_parentid"), of.model("jnt_bodyid"), of.names("body")
+    names = of.names("body")
     urdf = model.urdf  # which does not say what drives a joint
     for joint in range(of.count("joint")):
-        body = int(bodies[joint])
-        if of.joint_type(joint) != SLIDE or not parents[body] or joint in of.drivers or len(of.joints_of(body)) > 1:
+        body = of.body_of("joint", joint)
+        if of.joint_type(joint) != SLIDE or not of.parent(body) or joint in of.drivers or len(of.joints_of(body)) > 1:
             continue
         if of.model("jnt_stiffness")[joint] > 0:
             continue
@@ -78,7 +78,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 yield Suspect(told, "range", "left out", "", (), probe, 0.5, says, "a range within its guide")
         elif (gap := _gap(of, joint)) > 0:
             low, high = of.ranges[joint]
-            guide = of.name("body", int(parents[body]))
+            guide = of.name("body", of.parent(body))
             says = f"Where its range ends it is {gap:.3g} times its own length out of {guide}."
             probe = Probe("gap to what carries it at the end of its range", "lengths", _gap, (joint,), dynamic=False)
             told = (of.name("joint", joint), of.name("body", body))
@@ -96,7 +96,7 @@ def _gap(of: Simulation, joint: int, *, at_start: bool = False) -> float:
     """How far what slides is from the body that carries it at the worse end of its range, in its own lengths."""
     of.begin()
     body = of.body_of("joint", joint)
-    parent = int(of.model("body_parentid")[body])
+    parent = of.parent(body)
     axis, now = of.axis(joint), of.position(joint)
     mine, guide = _extent(of, of.below(body), axis), _extent(of, [parent], axis)
     if mine is None or guide is None:

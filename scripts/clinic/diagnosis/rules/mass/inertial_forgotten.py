@@ -112,12 +112,12 @@ def _fixed(model: ReaderModel) -> Iterator[Suspect]:
     if model.source is None:
         return
     of = model.simulation
-    parents, masses = of.model("body_parentid"), of.model("body_mass")
+    masses = of.model("body_mass")
     found: dict[int, int] = {}
     for body in of.moving_bodies:
-        link, geoms = int(parents[body]), of.geoms_of(body)
+        link, geoms = of.parent(body), of.geoms_of(body)
         while link and not (of.joints_of(link) or of.geoms_of(link) or inertial(model, link)):
-            link = int(parents[link])  # a frame between the two
+            link = of.parent(link)  # a frame between the two
         if of.joints_of(body) or not geoms or inertial(model, body) is not None or inertial(model, link) is None:
             continue
         if not model.source.urdf and any(model.element("geom", geom) is None for geom in geoms):

@@ -75,7 +75,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _ahead(of: Simulation, camera: int) -> float:
     """How far ahead the near plane is, over the size of what the camera is on board of; 0 for one that is not."""
-    owner = root_of(of)[int(of.model("cam_bodyid")[camera])]
+    owner = root_of(of)[of.body_of("camera", camera)]
     plane = of.extent * of.model("vis.map.znear")[0]
     places, size = _mechanisms(of).get(owner, ((), 0.0))
     of.begin()
@@ -109,7 +109,7 @@ def _mechanisms(of: Simulation) -> dict[int, tuple[list[Vector], float]]:
 def _meets(of: Simulation, camera: int, plane: float) -> bool:
     """Whether something that the camera is not built on is at the start as near as the near plane, or nearly."""
     owners, bodies, radii = root_of(of), of.model("geom_bodyid"), of.model("geom_rbound")
-    own, lens = owners[int(of.model("cam_bodyid")[camera])], of.data_row("cam_xpos", camera, 3)
+    own, lens = owners[of.body_of("camera", camera)], of.data_row("cam_xpos", camera, 3)
     for geom, kind in enumerate(of.model("geom_type")):
         if owners[int(bodies[geom])] == own:
             continue

@@ -113,7 +113,7 @@ def _pairs(of: Simulation) -> list[list[int]]:
     for joint, name in enumerate(of.names("joint")):
         body = of.body_of("joint", joint)
         mass = round(of.model("body_subtreemass")[body], 6)
-        key = (NUMBER.sub("#", name), of.model("body_parentid")[body], mass, of.row("jnt_range", joint, 2))
+        key = (NUMBER.sub("#", name), of.parent(body), mass, of.row("jnt_range", joint, 2))
         if NUMBER.search(name) and len(of.joints_of(body)) == 1:
             made.setdefault(key, []).append(joint)
     return [each for each in made.values() if len(each) == 2]

@@ -74,7 +74,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _feet(of: Simulation) -> list[int]:
     """Bodies that are the first to move on their way from the world, of limbs that reach down to the floor."""
     of.begin()
-    parents, owner, heights, floors = of.model("body_parentid"), root_of(of), of.data("xpos")[2::3], plane_heights(of)
+    owner, heights, floors = root_of(of), of.data("xpos")[2::3], plane_heights(of)
     lowest: dict[int, float] = {}
     for body in of.moving_bodies if len(floors) == 1 else ():
         first = owner[body]
@@ -82,11 +82,11 @@ def _feet(of: Simulation) -> list[int]:
         lowest[first] = min(low, lowest.get(first, float("inf")))
     made = []
     for first, low in lowest.items():
-        root = int(parents[first])
+        root = of.parent(first)
         height = heights[root] - max(floors)
         own = [of.data("geom_xpos")[3 * geom + 2] for geom in of.geoms_of(root) if of.model("geom_contype")[geom]]
         in_air = bool(own) and root > 0 and min(own) - max(floors) > 0.4 * height
-        if in_air and parents[root] == 0 and 0 <= low - max(floors) < 0.15 * height:
+        if in_air and of.parent(root) == 0 and 0 <= low - max(floors) < 0.15 * height:
             made.append(first)
     return made
 
@@ -132,7 +132,7 @@ def _wheels(of: Simulation) -> list[int]:
     made = []
     for joint in range(of.count("joint")) if floors else ():
         body = of.body_of("joint", joint)
-        if not of.continuous(joint) or int(of.model("body_parentid")[body]) in moving or len(of.joints_of(body)) > 1:
+        if not of.continuous(joint) or of.parent(body) in moving or len(of.joints_of(body)) > 1:
             continue
         axis, anchor = of.axis(joint), of.data_row("xanchor", joint, 3)
         for geom in of.geoms_of(body):

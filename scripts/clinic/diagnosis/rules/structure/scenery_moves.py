@@ -73,7 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = {}
     for body in range(1, of.count("body")):
         joints = list(of.joints_of(body))
-        if not joints or of.model("body_parentid")[body] or of.drivers.keys() & set(joints):
+        if not joints or of.parent(body) or of.drivers.keys() & set(joints):
             continue
         if (_called(of, body) and _anywhere(of, joints)) or _creeps(of, joints):
             found[body] = joints

@@ -113,7 +113,7 @@ def _wheels(of: Simulation) -> dict[int, list[int]]:
     made: dict[int, list[int]] = {}
     for joint in range(of.count("joint")):
         body = of.body_of("joint", joint)
-        if not of.continuous(joint) or body in of.model("body_parentid"):
+        if not of.continuous(joint) or body in of.children:
             continue
         if abs(of.axis(joint)[2]) < LEVEL_ENOUGH:
             made.setdefault(root_of(of)[body], []).extend(geom for geom in of.geoms_of(body) if _round(of, geom))

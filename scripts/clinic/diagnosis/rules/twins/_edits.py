@@ -23,13 +23,6 @@ COPIED = {  # attributes that are the same on both sides
     "gain": ("kp", "kv", "dampratio", "gainprm", "biasprm"),
     "bias": ("kp", "kv", "dampratio", "gainprm", "biasprm"),
 }
-FRAMES = {
-    "body": "body_parentid",
-    "geom": "geom_bodyid",
-    "site": "site_bodyid",
-    "camera": "cam_bodyid",
-    "joint": "jnt_bodyid",
-}
 PLACES = {"body": "xpos", "geom": "geom_xpos", "site": "site_xpos", "camera": "cam_xpos", "joint": "xanchor"}
 
 
@@ -123,9 +116,8 @@ def _place(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: 
     element, simulation = model.element(each.kind, side), model.simulation
     if element is None or "fromto" in element.attributes:
         return ()
-    owners = simulation.model(FRAMES[each.kind])
-    here, there = int(owners[side]), int(owners[twin])
-    left_body = each.left if each.kind == "body" else int(owners[each.left])
+    here, there = simulation.body_of(each.kind, side), simulation.body_of(each.kind, twin)
+    left_body = each.left if each.kind == "body" else simulation.body_of(each.kind, each.left)
     image = found.image(left_body, here if each.kind != "body" else side)
     seen = times(image.matrix, sub(found.at(PLACES[each.kind], twin), found.at("xpos", there)))
     if here == there:

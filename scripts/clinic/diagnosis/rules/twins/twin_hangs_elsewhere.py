@@ -59,7 +59,6 @@ When it is wrong: names that do not mean sides.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
@@ -89,14 +88,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _astray(of: Simulation) -> dict[int, tuple[int, int]]:
     """The parts beside their twins on one side, with what they hang on and its twin, which carries less by two."""
-    pairs, parents = twins(of).pairs["body"], of.model("body_parentid")
-    carried = Counter(int(parent) for parent in parents[1:])
+    pairs = twins(of).pairs["body"]
+    carried = {body: len(of.children.get(body, [])) for body in range(of.count("body"))}
     beside = {body: pair for pair in pairs for body in pair}
     made = {}
     for left, right in pairs:
-        parent = int(parents[left])
+        parent = of.parent(left)
         pair = beside.get(parent)
-        if pair is None or int(parents[right]) != parent:
+        if pair is None or of.parent(right) != parent:
             continue
         meant = pair[1] if parent == pair[0] else pair[0]
         if carried[parent] - carried[meant] == 2:

@@ -114,12 +114,12 @@ def _suspect(model: ReaderModel, body: int, twin: int, turn: Vector, left: int, 
 
 def _inward(of: Simulation, left: int, right: int) -> int | None:
     """The one of a pair that goes on to the other side of its parent than the limbs of all other pairs; else None."""
-    found, parents = twins(of), of.model("body_parentid")
+    found = twins(of)
     outward = {}
     for body in {each for pair in found.pairs["body"] for each in pair}:
-        if (parents[body] == parents[left]) and (below := of.children.get(body)):
+        if (of.parent(body) == of.parent(left)) and (below := of.children.get(body)):
             place = found.at("xpos", body)
-            ways = sub(found.at("xpos", below[0]), place), sub(place, found.at("xpos", int(parents[body])))
+            ways = sub(found.at("xpos", below[0]), place), sub(place, found.at("xpos", of.parent(body)))
             outward[body] = dot(*ways) > 0
     others = {way for body, way in outward.items() if body not in (left, right)}
     odd = [body for body in (left, right) if body in outward and len(others) == 1 and outward[body] not in others]

@@ -130,9 +130,8 @@ def _flags(of: Simulation) -> dict[str, tuple[str, int, str]]:
 
 def _parents(of: Simulation) -> int:
     """How many bodies have geoms that may collide with those of their parent."""
-    parents = of.model("body_parentid")
     return sum(
-        any(collides(of, one, other) for one in of.geoms_of(body) for other in of.geoms_of(int(parents[body])))
+        any(collides(of, one, other) for one in of.geoms_of(body) for other in of.geoms_of(of.parent(body)))
         for body in of.moving_bodies
-        if int(parents[body]) in of.moving_bodies
+        if of.parent(body) in of.moving_bodies
     )

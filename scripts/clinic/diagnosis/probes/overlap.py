@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterator
 from clinic.diagnosis.engine import BOX, CYLINDER, HINGE, PLANE, Contact
 from clinic.diagnosis.probes.equalities import tied
 from clinic.diagnosis.probes.load import poses
-from clinic.diagnosis.probes.run import State, state
+from clinic.diagnosis.probes.run import State, beginning, state
 from clinic.diagnosis.probes.shape import falling, geoms_of_tree, root_of, roots, solid, thickness
 from clinic.diagnosis.probes.vector import at
 from clinic.diagnosis.reader_model import ReaderModel
@@ -21,13 +21,6 @@ OFTEN = 0.2  # of the poses
 LINKS = 3  # bodies further apart in the tree are no relatives
 NEAR, LOOSE, UPRIGHT = 0.01, 0.06, 0.999  # of the half height, for what stands still and for what may fall
 FALLS = 0.003  # m that what may fall is put above what it stands on
-
-
-@kept
-def beginning(simulation: Simulation) -> State:
-    """The start that the reader chose."""
-    simulation.begin()
-    return state(simulation)
 
 
 @kept

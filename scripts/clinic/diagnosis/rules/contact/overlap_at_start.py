@@ -41,7 +41,8 @@ from collections.abc import Collection, Iterable, Iterator
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import BOX, CAPSULE, CYLINDER, FREE, PLANE, SPHERE, Contact
 from clinic.diagnosis.probes.hulls import closed_holes
-from clinic.diagnosis.probes.overlap import at_start, beginning, buried, sunk_by_half
+from clinic.diagnosis.probes.overlap import at_start, buried, sunk_by_half
+from clinic.diagnosis.probes.run import beginning
 from clinic.diagnosis.probes.shape import box, boxes, falling, geoms_of_tree, root_of, thickness
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
@@ -117,7 +118,7 @@ def _in_floor(of: Simulation) -> dict[int, tuple[float, float, int]]:
     bodies, owner, kinds = of.model("geom_bodyid"), root_of(of), of.model("geom_type")
     made: dict[int, tuple[float, float, int]] = {}
     slides = [root for root in falling(of) if root not in of.free_bodies]
-    for contact in (each for each in beginning(of).contacts if min(each.geoms) >= 0):
+    for contact in beginning(of).contacts:
         plane, geom = sorted(contact.geoms, key=lambda each: int(kinds[each]) != PLANE)
         root = owner[int(bodies[geom])]
         if int(kinds[plane]) == PLANE and not owner[int(bodies[plane])] and root in slides and contact.force > 0:

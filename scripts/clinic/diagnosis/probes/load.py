@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from clinic.diagnosis.probes.equalities import CONNECT, gap, kind_of
 from clinic.diagnosis.probes.servo import Servo, alone, hold, servos
@@ -58,8 +58,8 @@ def _loads(simulation: Simulation) -> list[float]:
     return most
 
 
-def _sag(simulation: Simulation, actuators: Sequence[int]) -> float:
-    found = sags(simulation)
+def _worst(simulation: Simulation, find: Callable[[Simulation], dict[int, float]], actuators: Sequence[int]) -> float:
+    found = find(simulation)
     return max((found[each] for each in actuators if each in found), default=0.0)
 
 
@@ -77,12 +77,7 @@ def sags(simulation: Simulation) -> dict[int, float]:
 def sag(actuators: Sequence[int]) -> Probe:
     """How far servos sag under the model's own weight."""
     title = f"farthest that the model's own weight moves the joint off its target, over {POSES + 1} poses"
-    return Probe(title, "rad", _sag, (tuple(actuators),), dynamic=False)
-
-
-def _strain(simulation: Simulation, actuators: Sequence[int]) -> float:
-    found = strains(simulation)
-    return max((found[each] for each in actuators if each in found), default=0.0)
+    return Probe(title, "rad", _worst, (sags, tuple(actuators)), dynamic=False)
 
 
 def strains(simulation: Simulation) -> dict[int, float]:
@@ -97,7 +92,7 @@ def strains(simulation: Simulation) -> dict[int, float]:
 def strain(actuators: Sequence[int]) -> Probe:
     """The share of its greatest force that a servo needs to hold the model's own weight."""
     title = f"the model's own weight at the joint over the greatest force of its servo, over {POSES + 1} poses"
-    return Probe(title, "", _strain, (tuple(actuators),), dynamic=False)
+    return Probe(title, "", _worst, (strains, tuple(actuators)), dynamic=False)
 
 
 @kept

@@ -46,7 +46,7 @@ from clinic.diagnosis.probes.shape import plane_heights, root_of
 from clinic.diagnosis.probes.vector import across, norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "The robot is fixed to the world"
 FAMILIES = ("stuck",)
@@ -60,14 +60,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The body without a joint that carries wheels on the floor, or legs."""
     urdf = model.urdf  # each has a fixed root: MuJoCo makes it the world
     of = model.simulation
-    wheels = _limbs(of, by_name=not urdf)
+    wheels = _limbs(of, not urdf)
     roots = {of.ancestors(body)[-2] for body in wheels}
     if len(roots) != 1:
         return
     root = roots.pop()
     edits = () if urdf else freed(model, [root])
     says = f"{len(wheels)} wheels or legs hang on it, and no joint lets it move."
-    probe = Probe("wheels and legs of a fixed body", "", _count, (not urdf,), dynamic=False)
+    probe = how_many("wheels and legs of a fixed body", _limbs, not urdf)
     yield Suspect((of.name("body", root),), "freejoint", "left out", "<freejoint/>", edits, probe, 1.5, says, "none")
 
 
@@ -91,7 +91,7 @@ def _feet(of: Simulation) -> list[int]:
     return made
 
 
-def _limbs(of: Simulation, *, by_name: bool) -> list[int]:
+def _limbs(of: Simulation, by_name: bool) -> list[int]:
     found = (find(of) for find in (_wheels, _feet, *([_called_legs] if by_name else [])))
     return next((limbs for limbs in found if len(limbs) > 1), [])
 
@@ -119,10 +119,6 @@ def _called_legs(of: Simulation) -> list[int]:
         words[root] = words.get(root, 0) + (len(some) > 1)
     found = [limbs[root] for root, count in words.items() if count > 1 and len(limbs[root]) > 1]
     return sorted(found[0]) if found else []
-
-
-def _count(simulation: Simulation, by_name: bool) -> float:
-    return float(len(_limbs(simulation, by_name=by_name)))
 
 
 def _wheels(of: Simulation) -> list[int]:

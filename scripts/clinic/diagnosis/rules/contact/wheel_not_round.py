@@ -171,7 +171,7 @@ def _points(simulation: Simulation, geom: int) -> list[Vector]:
 
 def _edits(model: ReaderModel, joint: int, geom: int) -> tuple[Edit, ...]:
     element = model.element("geom", geom)
-    if element is None or model.value("geom", geom, "fromto") or model.source is None or model.source.urdf:
+    if element is None or model.value("geom", geom, "fromto") or model.source is None or model.urdf:
         return ()
     if any(name not in element.attributes and model.value("geom", geom, name) for name in ORIENTATIONS):
         return ()

@@ -102,12 +102,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             now = element.get("integrator")
             yield mends(element, edits, f"{said}.", attribute="integrator", now=now, value="discrete")
             return
-    if model.source.urdf and "must be positive" in said and (small := _not_positive(model)):
+    if model.urdf and "must be positive" in said and (small := _not_positive(model)):
         element, attribute, now = small[0]
         edits = tuple(set_attribute(each, name, _positive(value)) for each, name, value in small)
         says = f"{said}: <{element.tag}> has {attribute} {now}. Lengths of a URDF are in m; 1 mm stands for zero."
         yield mends(element, edits, says, attribute=attribute, now=now, value=_positive(now))
-    if model.source.urdf and "axis too small" in said:
+    if model.urdf and "axis too small" in said:
         for axis in [
             each for each in model.source.elements("axis") if not any(map(float, each.get("xyz", "1").split()))
         ]:

@@ -75,7 +75,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _urdf(model: ReaderModel) -> Iterator[Suspect]:
     """Revolute and prismatic joints of a URDF without an upper limit above the lower one, by what is wrong."""
     found: dict[str, list[Element]] = {}
-    root = model.source.root if model.source is not None and model.source.urdf else None
+    root = model.source.root if model.source is not None and model.urdf else None
     for joint in root.children if root is not None else ():
         if joint.tag != "joint" or joint.get("type") not in ("revolute", "prismatic"):
             continue

@@ -49,14 +49,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Everything that stands in the world, where the model has no degree of freedom."""
     of = model.simulation
     planes = [geom for geom in of.geoms_of(0) if int(of.model("geom_type")[geom]) == PLANE]
-    if (
-        of.count("dof")
-        or of.count("camera")
-        or not planes
-        or model.source is None
-        or model.source.urdf
-        or not of.gravity
-    ):
+    if of.count("dof") or of.count("camera") or not planes or model.source is None or model.urdf or not of.gravity:
         return
     counts = of.model("body_geomnum")
     in_air = _in_air(of)

@@ -64,7 +64,7 @@ GRIPPER = re.compile(r"finger|grip|jaw|claw|suction|vacuum", re.IGNORECASE)
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Bodies of the world that are meant to move and have no joint, all together."""
     of = model.simulation
-    if not of.count("dof") or model.source is None or model.source.urdf or not of.gravity:
+    if not of.count("dof") or model.source is None or model.urdf or not of.gravity:
         return
     alike = _like_free(of)
     found = [body for body in (*_weighed(model), *alike) if model.element("body", body) is not None]

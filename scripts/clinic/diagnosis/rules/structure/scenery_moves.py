@@ -68,7 +68,7 @@ DAMPED = (1e3, 1e5)  # N s/m
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Bodies of the world that are scenery and have joints, all together."""
     of = model.simulation
-    if model.source is None or model.source.urdf:
+    if model.source is None or model.urdf:
         return
     found = {}
     for body in range(1, of.count("body")):

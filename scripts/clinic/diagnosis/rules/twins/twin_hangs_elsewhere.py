@@ -105,7 +105,7 @@ def _astray(of: Simulation) -> dict[int, tuple[int, int]]:
 
 def _edits(model: ReaderModel, child: str, parent: str) -> tuple[Edit, ...]:
     """The edit of the joint's `<parent>` in a URDF; what is nested in MJCF is moved by hand."""
-    if model.source is None or not model.source.urdf:
+    if model.source is None or not model.urdf:
         return ()
     for joint in model.source.elements("joint"):
         ends = joint.first("parent"), joint.first("child")

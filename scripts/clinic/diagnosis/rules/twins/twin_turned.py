@@ -99,7 +99,7 @@ def _suspect(model: ReaderModel, body: int, twin: int, turn: Vector, left: int, 
     of, element = model.simulation, model.element("body", body)
     before = _astray(of, left)
     edits: tuple[Edit, ...] = ()
-    if element is not None and not either and model.source is not None and not model.source.urdf:
+    if element is not None and not either and model.source is not None and not model.urdf:
         others = [name for name in ORIENTATIONS[1:] if element.get(name)]
         edits = (set_attribute(element, "quat", written(turn)), *(remove_attribute(element, name) for name in others))
     names = of.name("body", body), of.name("body", twin)

@@ -59,7 +59,7 @@ FITS = 1e-3  # m, rad
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Flags in force for which the model has something to switch off."""
-    if model.source is None or model.source.urdf:
+    if model.source is None or model.urdf:
         return
     of = model.simulation
     for flag, (usual, number, what) in _flags(of).items():

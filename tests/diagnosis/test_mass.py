@@ -7,7 +7,8 @@ from clinic.diagnosis.diagnose import examine
 from clinic.diagnosis.edit import apply
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.probes.matter import matter
-from clinic.diagnosis.simulation import Simulation, Start
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.start import Start
 
 
 def causes(text: str) -> list[str]:

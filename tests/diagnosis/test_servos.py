@@ -9,8 +9,8 @@ from clinic.diagnosis.probes.servo import servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import rules
 from clinic.diagnosis.rules.servo.control_range_too_narrow import ungeared
-from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import read_source
+from clinic.diagnosis.start import Start
 
 ARM = """
 <mujoco>

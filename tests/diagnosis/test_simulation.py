@@ -8,8 +8,9 @@ from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.probes.run import model_size
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import rules
-from clinic.diagnosis.simulation import Simulation, Start
+from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import read_source
+from clinic.diagnosis.start import Start
 
 ARM = """<mujoco>
   <worldbody>

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from clinic.diagnosis.diagnose import Diagnosis, examine
 from clinic.diagnosis.native import NativeEngine
-from clinic.diagnosis.simulation import Start, StartError
+from clinic.diagnosis.start import Start, StartError
 
 ARM = """<mujoco model="arm">
   <compiler angle="radian" meshdir="meshes"/>

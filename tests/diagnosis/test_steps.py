@@ -12,8 +12,8 @@ from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import rules
-from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import read_source
+from clinic.diagnosis.start import Start
 from clinic.diagnosis.suspect import Probe
 
 

@@ -13,7 +13,8 @@ from clinic.diagnosis.probes.siblings import odd_ones
 from clinic.diagnosis.probes.sides import by_name, right_of
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.rules import rules
-from clinic.diagnosis.simulation import Simulation, Start
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.start import Start
 
 PARTS = ("front", "middle", "rear")
 

@@ -8,8 +8,9 @@ from collections.abc import Mapping, Sequence
 from clinic.diagnosis.edit import Edit, apply, insert, remove_attribute, set_attribute
 from clinic.diagnosis.engine import CompileError, Engine
 from clinic.diagnosis.probes.vector import written
-from clinic.diagnosis.simulation import Simulation, Start
+from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import REPEATING, Element, Source
+from clinic.diagnosis.start import Start
 from clinic.diagnosis.suspect import Probe
 
 OF_ROBOT = {"body": "link", "joint": "joint"}

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from functools import cached_property, wraps
 from typing import TypeVar, TypeVarTuple
 
 from clinic.diagnosis.engine import BALL, FREE, HINGE, SLIDE, Compiled
+from clinic.diagnosis.start import Start
 
 WIDTH = {FREE: (7, 6), BALL: (4, 3), SLIDE: (1, 1), HINGE: (1, 1)}  # of a joint in qpos and qvel
 BODIES = {"joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid", "camera": "cam_bodyid"}
@@ -16,31 +16,6 @@ ENDLESS = (-math.inf, math.inf)  # in place of the range of a joint without one
 UNSTABLE = ("BADQPOS", "BADQVEL", "BADQACC")
 Made = TypeVar("Made")
 Of = TypeVarTuple("Of")
-
-
-@dataclass(frozen=True)
-class Start:
-    """How a run begins and is driven.
-
-    Attributes:
-        key: A keyframe; -1 for the model's own start.
-        ctrl: Controls by actuator, in place of the keyframe's.
-        series: Controls by time in s, increasing, each from its time on.
-        duration: How long the model is let go, in s.
-        seed: Of the poses in which loads are measured.
-        keyframe: A keyframe by its name, or its number, in place of `key`.
-    """
-
-    key: int = -1
-    ctrl: Mapping[str, float] = field(default_factory=dict)
-    series: Sequence[tuple[float, Mapping[str, float]]] = ()
-    duration: float = 2.0
-    seed: int = 0
-    keyframe: str = ""
-
-
-class StartError(ValueError):
-    """A start that a model does not have, in a sentence."""
 
 
 class Simulation:
@@ -157,26 +132,12 @@ class Simulation:
             yield done * self.timestep
 
     def begin_from(self, start: Start) -> Start:
-        """Takes a start whose names and numbers the model has, and gives it with its keyframe's number.
+        """Takes a start that the model has, and gives it with its keyframe's number.
 
         Raises:
-            StartError: If the model lacks one of them.
+            StartError: If the model lacks what the start names.
         """
-        names, named, key = self.names("key"), start.keyframe, start.key
-        if named:
-            key = names.index(named) if named in names else int(named) if named.isdecimal() else len(names)
-        if key >= len(names):
-            having = ", ".join(name or str(number) for number, name in enumerate(names)) or "no keyframe"
-            raise StartError(f"keyframe {named or key}: the model has {having}")
-        driven = dict.fromkeys(
-            name for controls in (start.ctrl, *(row for _, row in start.series)) for name in controls
-        )
-        actuators = self.names("actuator")
-        for name in driven:
-            if not name or name not in actuators:
-                having = ", ".join(filter(None, actuators)) or "no actuator with a name"
-                raise StartError(f"control {name}: the model has {having}")
-        self.begin_with = replace(start, key=key, keyframe="")
+        self.begin_with = start.resolved(self.names("key"), self.names("actuator"))
         return self.begin_with
 
     def _drive(self, controls: Mapping[str, float]) -> None:

@@ -46,7 +46,8 @@ from clinic.diagnosis.probes.run import beginning
 from clinic.diagnosis.probes.shape import box, boxes, falling, geoms_of_tree, root_of, thickness
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation, Start
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.start import Start
 from clinic.diagnosis.suspect import Level, Probe, Suspect
 
 TITLE = "Something begins inside of something else"

@@ -4,7 +4,7 @@ A rule's name is its module's, with hyphens. The module has
 
 TITLE      the fault, in a few words
 FAMILIES   the symptoms that it explains, by their names in `families.toml`; the first is the likeliest
-SINCE      the release of the clinic that brought it
+SINCE      the release of the clinic that brought it, where that is not the first
 LEVEL      "hint", where it finds less than four in five of the faults that the bench plants for it
 UNPLANTED  why the bench plants none for it, where it plants none
 MINOR      whether what it tells moves nothing by itself, so that it is told after all else
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from clinic.diagnosis.suspect import Level, Suspect
 
 COMPILES_NOT = "will-not-compile"
+FIRST = "0.1"
 USUAL = 0.3  # the share of right ones among a rule's, where nothing is known
 
 
@@ -113,7 +114,7 @@ def rules() -> dict[str, Rule]:
             area=area,
             title=module.TITLE,
             families=module.FAMILIES,
-            since=module.SINCE,
+            since=getattr(module, "SINCE", FIRST),
             case=getattr(module, "CASE", None),
             level=getattr(module, "LEVEL", "cause"),
             unplanted=getattr(module, "UNPLANTED", ""),

@@ -55,7 +55,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A fixed caster with the friction of a tyre"
 FAMILIES = ("stuck", "slow", "drifts")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "no healthy model stands on wheels and a fixed caster"
 

@@ -36,7 +36,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Friction beyond the pyramidal cone"
 FAMILIES = ("sinks", "falls-through")
-SINCE = "0.1"
 CASE = "box-sinks-into-floor"
 
 HIGH, MOST = 3.0, 0.04

@@ -59,7 +59,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A grasp that creeps"
 FAMILIES = ("slips", "drifts")
-SINCE = "0.1"
 CASE = "box-creeps-out-of-grasp"
 UNPLANTED = "nothing is held in a grasp at the start of a healthy model"
 

@@ -52,7 +52,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Jaws that press too weakly"
 FAMILIES = ("slips",)
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "most healthy models have nothing to grasp"
 

@@ -61,7 +61,6 @@ from clinic.diagnosis.suspect import Level, Suspect
 
 TITLE = "A hull that closes a mesh's hole"
 FAMILIES = ("falls-through", "stuck", "jumps-at-start")
-SINCE = "0.1"
 AFLOAT = True
 CASE = "ball-stops-above-cup"
 UNPLANTED = "the healthy models have no hollow mesh that something falls into"

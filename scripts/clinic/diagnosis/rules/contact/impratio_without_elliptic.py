@@ -40,7 +40,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A high impratio under pyramidal cones"
 FAMILIES = ("slips",)
-SINCE = "0.1"
 LEVEL = "hint"
 MINOR = True
 UNPLANTED = "what it does hangs on what is held, and most healthy models hold nothing"

@@ -52,7 +52,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Links that jam within the range"
 FAMILIES = ("stuck",)
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "a wider range is harm by itself, whether links jam in it or not"
 

@@ -55,7 +55,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A link that touches nothing"
 FAMILIES = ("falls-through", "slips")
-SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "some links are left out on purpose"

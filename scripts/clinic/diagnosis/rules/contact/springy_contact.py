@@ -40,7 +40,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Contacts that throw things off"
 FAMILIES = ("jumps-at-start", "explodes", "oscillates")
-SINCE = "0.1"
 
 MOST = 0.5  # sizes
 REFSAFE = 4096  # mjtDisableBit

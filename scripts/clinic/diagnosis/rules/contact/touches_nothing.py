@@ -61,7 +61,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A foot, wheel or finger that touches nothing"
 FAMILIES = ("falls-through", "slips", "drifts")
-SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "only names say what a part is for"

@@ -40,7 +40,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Too fast for a thin contact"
 FAMILIES = ("falls-through", "sinks")
-SINCE = "0.1"
 UNPLANTED = "nothing in the healthy models is thrown at something thin"
 CASE = "ball-passes-through-shelf"
 

@@ -47,7 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A joint along another axis than its name says"
 FAMILIES = ("drifts", "stuck", "wrong-numbers")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "which way a name points, only names tell, and most healthy slides say none"
 

@@ -44,7 +44,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A fin that turns in its own plane"
 FAMILIES = ("stuck", "drifts")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "few healthy models swim"
 

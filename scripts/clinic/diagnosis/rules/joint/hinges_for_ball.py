@@ -52,7 +52,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Three hinges in place of a ball joint"
 FAMILIES = ("explodes", "wrong-numbers", "drifts")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "three hinges without a range are rare, and harm in one pose alone"
 

@@ -40,7 +40,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A limit that gives way"
 FAMILIES = ("passes-limit", "sags")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "a soft limit may be meant"
 

@@ -46,7 +46,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A spring that hangs at its stop"
 FAMILIES = ("sags", "sinks", "stuck")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "healthy models have few slides with springs"
 

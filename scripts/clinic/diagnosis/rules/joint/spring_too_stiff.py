@@ -38,7 +38,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A spring too stiff for the timestep"
 FAMILIES = ("explodes", "oscillates")
-SINCE = "0.1"
 CASE = "arm-explodes"
 
 FAST = 100.0

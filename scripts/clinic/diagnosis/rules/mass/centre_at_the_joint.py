@@ -54,7 +54,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A centre of mass in the joint"
 FAMILIES = ("wrong-mass", "sags", "drifts")
-SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "which link a counterweight balances, only its maker knows"

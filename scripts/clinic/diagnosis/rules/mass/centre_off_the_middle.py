@@ -58,7 +58,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A centre of mass beside the middle"
 FAMILIES = ("drifts", "wrong-mass")
-SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "trunks of healthy robots carry batteries and computers aside"

@@ -40,7 +40,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Denser than metal"
 FAMILIES = ("sags", "wrong-mass", "explodes", "stuck")
-SINCE = "0.1"
 AFLOAT = True
 
 METAL, LIGHT, WATER = 24000.0, 0.05, 1000.0

@@ -49,7 +49,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "An inertial copied from another link"
 FAMILIES = ("wrong-mass", "drifts", "sags")
-SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "which of two links an inertial is of stands nowhere"

@@ -58,7 +58,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A body without its inertial"
 FAMILIES = ("wrong-mass", "sags", "drifts")
-SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 

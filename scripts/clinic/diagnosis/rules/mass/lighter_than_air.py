@@ -45,7 +45,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, counted
 
 TITLE = "Lighter than air"
 FAMILIES = ("falls-through", "explodes", "stuck")
-SINCE = "0.1"
 
 FEATHER = 0.005  # kg/m3
 AIR, LIMIT, LIGHT, FEW = 1.2, 300.0, 1.0, 3

@@ -58,7 +58,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A link unlike the others in density"
 FAMILIES = ("wrong-mass", "sags", "drifts")
-SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "what a link should weigh, only its maker knows"

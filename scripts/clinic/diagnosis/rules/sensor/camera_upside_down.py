@@ -40,7 +40,6 @@ from clinic.diagnosis.suspect import Level, Probe, Suspect
 
 TITLE = "A camera that is upside down"
 FAMILIES = ("camera",)
-SINCE = "0.1"
 CASE = "camera-upside-down"
 
 MOST, ASIDE, UPSIDE = 100.0, 45.0, 0.9  # degrees, degrees; of the view's direction along the vertical

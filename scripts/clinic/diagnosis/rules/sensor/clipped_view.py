@@ -40,7 +40,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Clipping planes that cut everything away"
 FAMILIES = ("camera",)
-SINCE = "0.1"
 UNPLANTED = "no harm is measured in images"
 
 MOST = 0.9

@@ -38,7 +38,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A field of view next to nothing, or all around"
 FAMILIES = ("camera",)
-SINCE = "0.1"
 
 NARROW, HIGH = 15.0, 145.0  # degrees
 PART = 0.25  # of the scene that an image should hold

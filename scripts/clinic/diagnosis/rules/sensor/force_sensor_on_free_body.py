@@ -46,7 +46,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A force sensor on a free body"
 FAMILIES = ("sensor-reads-zero",)
-SINCE = "0.1"
 CASE = "force-sensor-reads-zero"
 UNPLANTED = "to set free what carries a healthy model's force sensor breaks more than the sensor"
 

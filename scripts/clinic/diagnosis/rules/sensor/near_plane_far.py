@@ -45,7 +45,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A near plane far before a robot's camera"
 FAMILIES = ("camera",)
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "no harm is measured in images"
 

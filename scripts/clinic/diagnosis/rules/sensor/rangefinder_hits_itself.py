@@ -46,7 +46,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A rangefinder that sees its own robot"
 FAMILIES = ("sensor-reads-zero",)
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "healthy models with a rangefinder are too few"
 

@@ -47,7 +47,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A sensor apart from its unit"
 FAMILIES = ("wrong-numbers",)
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "readings that differ are not counted as harm"
 

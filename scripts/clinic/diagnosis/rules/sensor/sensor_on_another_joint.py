@@ -47,7 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A sensor reads another part than its name says"
 FAMILIES = ("wrong-numbers", "sensor-reads-zero")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "only a name says what a sensor is for"
 

@@ -47,7 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A touch sensor whose site is off the surface"
 FAMILIES = ("sensor-reads-zero",)
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "what the sensor is to feel, only intent knows"
 

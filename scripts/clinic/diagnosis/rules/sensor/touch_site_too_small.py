@@ -47,7 +47,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A touch sensor whose site misses the contacts"
 FAMILIES = ("sensor-reads-zero",)
-SINCE = "0.1"
 LEVEL = "hint"
 CASE = "touch-sensor-reads-zero"
 

@@ -54,7 +54,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A force range too small for the weight"
 FAMILIES = ("sags", "stuck")
-SINCE = "0.1"
 CASE = "arm-stops-short"
 
 STRAIN = 1.2

@@ -43,7 +43,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A motor too weak for what it moves"
 FAMILIES = ("stuck", "sags", "slow")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "how fast a joint should be, its maker knows"
 

@@ -53,7 +53,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Motors on joints that nothing damps"
 FAMILIES = ("oscillates", "explodes", "drifts")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "the harm shows under a controller in code alone"
 

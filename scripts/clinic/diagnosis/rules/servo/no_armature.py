@@ -49,7 +49,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A gain too high for a joint without armature"
 FAMILIES = ("explodes", "oscillates")
-SINCE = "0.1"
 CASE = "hand-shakes-at-once"
 
 USUAL = 0.002  # s

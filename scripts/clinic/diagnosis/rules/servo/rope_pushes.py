@@ -51,7 +51,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A motor that pushes a rope"
 FAMILIES = ("drifts", "stuck")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "a tendon may stand for a piston"
 

@@ -51,7 +51,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Rotors that cannot yaw alone"
 FAMILIES = ("drifts", "stuck")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "only one of the healthy models flies"
 

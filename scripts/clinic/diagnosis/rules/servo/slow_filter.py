@@ -45,7 +45,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "An actuator that lags by a second"
 FAMILIES = ("slow", "oscillates")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "few healthy models have actuators with a filter"
 

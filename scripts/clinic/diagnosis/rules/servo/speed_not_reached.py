@@ -61,7 +61,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A joint far below the speed it is told"
 FAMILIES = ("stuck", "slow")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "nearly no healthy model has velocity servos of wheels"
 

@@ -42,7 +42,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A servo that does not hold its target"
 FAMILIES = ("stuck", "explodes", "sags", "passes-limit")
-SINCE = "0.1"
 
 
 def _away(simulation: Simulation, actuators: tuple[int, ...]) -> float:

@@ -55,7 +55,6 @@ from clinic.diagnosis.suspect import Suspect, rounded
 
 TITLE = "A servo too weak for the weight it carries"
 FAMILIES = ("sags", "drifts")
-SINCE = "0.1"
 CASE = "servo-sags"
 
 LATE, CRAWLS = 0.6, 10.0  # s: the time constant above which a step is tried, of a hinge and a slide

@@ -81,7 +81,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An arm unlike the data sheet of its name"
 FAMILIES = ("wrong-numbers", "drifts", "wrong-mass", "passes-limit")
-SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "one of the 81 models of the bench is an arm that is sold"

@@ -43,7 +43,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A link far from what it hangs on"
 FAMILIES = ("sags", "jumps-at-start", "wrong-numbers")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "where a link belongs, only a drawing tells"
 

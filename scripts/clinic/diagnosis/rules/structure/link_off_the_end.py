@@ -47,7 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A link off the end of the one before"
 FAMILIES = ("drifts", "stuck", "jumps-at-start", "wrong-numbers")
-SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "where a link belongs, only a drawing tells"

@@ -69,7 +69,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A mechanism that its loops lock"
 FAMILIES = ("stuck", "drifts")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "the healthy models have few loops"
 

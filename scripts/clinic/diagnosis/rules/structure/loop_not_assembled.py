@@ -56,7 +56,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A loop that is not closed at the start"
 FAMILIES = ("jumps-at-start", "explodes", "stuck")
-SINCE = "0.1"
 CASE = "linkage-jumps-at-start"
 LEVEL = "hint"
 UNPLANTED = "the healthy models connect and weld nothing but what is moved by mocap"

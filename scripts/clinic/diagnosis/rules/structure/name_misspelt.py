@@ -53,7 +53,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A name that is misspelt"
 FAMILIES = ("wrong-numbers", "stuck")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "what a name is to be, only its siblings tell"
 

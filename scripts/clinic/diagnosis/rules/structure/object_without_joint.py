@@ -49,7 +49,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "An object without a joint"
 FAMILIES = ("stuck",)
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "only intent knows what is to stay where it is"
 

@@ -39,7 +39,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A place that is written twice"
 FAMILIES = ("wrong-numbers", "jumps-at-start", "stuck")
-SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "no healthy model has a geom at the place of its body"

@@ -45,7 +45,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A fixed joint with a range"
 FAMILIES = ("stuck",)
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "the healthy models that faults are planted in are MJCF"
 

@@ -46,7 +46,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Damping that the integrator cannot follow"
 FAMILIES = ("explodes", "oscillates")
-SINCE = "0.1"
 CASE = "finger-explodes-at-once"
 
 FAST, TENTH = 100.0, 0.1  # rad/s; of the symptom is left

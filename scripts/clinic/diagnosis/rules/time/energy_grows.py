@@ -43,7 +43,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "Energy from nowhere"
 FAMILIES = ("explodes", "oscillates")
-SINCE = "0.1"
 LEVEL = "hint"
 UNPLANTED = "a timestep that is too long is planted for timestep-too-long"
 

@@ -55,7 +55,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "The timestep is too long"
 FAMILIES = ("explodes", "oscillates", "falls-through")
-SINCE = "0.1"
 
 FAST = 100.0  # rad/s
 SECONDS, WHOLE = 2.0, 0.9  # what is run, and the share of it that a run with a shorter step has to last

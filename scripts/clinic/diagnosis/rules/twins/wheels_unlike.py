@@ -55,7 +55,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Two wheels of one axle that are not alike"
 FAMILIES = ("drifts", "stuck")
-SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 UNPLANTED = "nearly no healthy model stands on wheels"

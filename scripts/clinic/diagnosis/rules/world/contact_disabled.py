@@ -40,7 +40,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Contacts are switched off"
 FAMILIES = ("falls-through",)
-SINCE = "0.1"
 
 FLAGS = {CONTACTS_OFF: "contact", 1: "constraint"}  # mjtDisableBit
 

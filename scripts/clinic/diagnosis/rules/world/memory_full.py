@@ -45,7 +45,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "The memory is full"
 FAMILIES = ("falls-through", "explodes")
-SINCE = "0.1"
 UNPLANTED = "no single edit of a healthy model makes so many contacts"
 
 

@@ -38,7 +38,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A friction that the other geom overrules"
 FAMILIES = ("stuck", "slips", "wrong-numbers")
-LEVEL = "hint"
 UNPLANTED = "how slippery it is to be, only intent knows"
 
 SLIPPERY, TIMES, LEAST = 0.2, 4.0, 1e-3

@@ -49,6 +49,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A grasp that friction cannot hold"
 FAMILIES = ("slips",)
+LEVEL = "cause"
 UNPLANTED = "the fingers of the healthy models hold nothing when they close"
 CASE = "grasp-slips"
 

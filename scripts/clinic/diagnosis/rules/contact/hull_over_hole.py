@@ -63,6 +63,7 @@ TITLE = "A hull that closes a mesh's hole"
 FAMILIES = ("falls-through", "stuck", "jumps-at-start")
 AFLOAT = True
 CASE = "ball-stops-above-cup"
+LEVEL = "cause"
 UNPLANTED = "the healthy models have no hollow mesh that something falls into"
 
 AWAY = 0.15  # of the size of the mesh, or of what touches it

@@ -40,7 +40,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A high impratio under pyramidal cones"
 FAMILIES = ("slips",)
-LEVEL = "hint"
 MINOR = True
 UNPLANTED = "what it does hangs on what is held, and most healthy models hold nothing"
 MOST = 5.0

@@ -52,7 +52,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Links that jam within the range"
 FAMILIES = ("stuck",)
-LEVEL = "hint"
 UNPLANTED = "a wider range is harm by itself, whether links jam in it or not"
 
 POSES, LINKS, DEEP, JAMMED, FREE = 21, 2, 0.1, 0.5, 0.06

@@ -56,7 +56,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 TITLE = "A link that touches nothing"
 FAMILIES = ("falls-through", "slips")
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "some links are left out on purpose"
 
 MANY, FEW, SMALL = 5, 2, 0.5

@@ -36,7 +36,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A mesh that became a sphere"
 FAMILIES = ("falls-through", "stuck", "wrong-mass", "jumps-at-start")
-LEVEL = "hint"
 UNPLANTED = "a sphere may be what is meant"
 
 

@@ -36,7 +36,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A solref that no timestep can follow"
 FAMILIES = ("oscillates", "explodes", "jumps-at-start")
-LEVEL = "hint"
 UNPLANTED = "the guard keeps it from doing harm in most models"
 
 MOST = 10.0

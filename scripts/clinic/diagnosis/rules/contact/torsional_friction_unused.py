@@ -43,7 +43,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "Torsional friction that condim leaves out"
 FAMILIES = ("slips", "drifts")
-LEVEL = "hint"
 MINOR = True
 UNPLANTED = "in none of the healthy models do fingers hold anything at the start"
 

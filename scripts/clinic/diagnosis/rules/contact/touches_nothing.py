@@ -62,7 +62,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 TITLE = "A foot, wheel or finger that touches nothing"
 FAMILIES = ("falls-through", "slips", "drifts")
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "only names say what a part is for"
 
 FINGER = "finger|fingertip|pad|jaw|claw"

@@ -46,7 +46,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A visual geom that collides"
 FAMILIES = ("wrong-mass", "explodes", "jumps-at-start", "stuck", "slow")
-LEVEL = "hint"
 CASE = "small-stack-is-slow"
 UNPLANTED = "only a name says what a geom is for"
 

@@ -44,6 +44,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A default class beside the main one"
 FAMILIES = ("will-not-compile",)
+LEVEL = "cause"
 UNPLANTED = "healthy models have one default at the top, and what is inside of it is used by name"
 
 

@@ -35,6 +35,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The file is no model"
 FAMILIES = ("will-not-compile",)
+LEVEL = "cause"
 UNPLANTED = "a healthy model is a model"
 
 ROOTS = {

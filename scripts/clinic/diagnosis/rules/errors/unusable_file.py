@@ -45,6 +45,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A mesh or picture that MuJoCo cannot use"
 FAMILIES = ("will-not-compile",)
+LEVEL = "cause"
 UNPLANTED = "the fault is in a file beside the model"
 
 FORMATS = {

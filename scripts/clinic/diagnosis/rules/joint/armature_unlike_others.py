@@ -47,7 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An armature unlike that of all others"
 FAMILIES = ("stuck", "slow")
-LEVEL = "hint"
 UNPLANTED = "an armature of its own is planted for servo-held-back"
 
 MOST, OTHERS = 20.0, 2

@@ -48,7 +48,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A default class that does not reach what it is for"
 FAMILIES = ("oscillates", "explodes", "drifts")
-LEVEL = "hint"
 UNPLANTED = "which class a joint was meant to have, only its maker knows"
 
 KINDS = ("joint", "geom", "site", "camera", "light")

@@ -62,7 +62,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A coupling unlike the others"
 FAMILIES = ("stuck", "drifts", "jumps-at-start")
-LEVEL = "hint"
 UNPLANTED = "few healthy models have three couplings"
 
 ENOUGH = 3

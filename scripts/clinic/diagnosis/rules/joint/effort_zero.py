@@ -38,7 +38,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An effort of zero"
 FAMILIES = ("stuck", "explodes")
-LEVEL = "hint"
 UNPLANTED = "only URDF has efforts, and the healthy models are MJCF"
 MINOR = True
 

@@ -52,7 +52,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Fingers that move the same way"
 FAMILIES = ("stuck", "slips")
-LEVEL = "hint"
 UNPLANTED = "no healthy model has two slides that are coupled"
 
 MOST = 0.9

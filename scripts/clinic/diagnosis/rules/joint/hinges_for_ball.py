@@ -52,7 +52,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Three hinges in place of a ball joint"
 FAMILIES = ("explodes", "wrong-numbers", "drifts")
-LEVEL = "hint"
 UNPLANTED = "three hinges without a range are rare, and harm in one pose alone"
 
 ACROSS, LOST = 0.2, 0.5

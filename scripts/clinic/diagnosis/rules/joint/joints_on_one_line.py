@@ -43,6 +43,7 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "Joints that turn about one line"
 FAMILIES = ("explodes", "drifts")
+LEVEL = "cause"
 UNPLANTED = "a second joint on the line of the first is a fault at every strength"
 
 LINKS = 3

@@ -58,7 +58,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A tendon whose length never changes"
 FAMILIES = ("stuck", "sensor-reads-zero")
-LEVEL = "hint"
 UNPLANTED = "what it is meant to cross, only intent knows"
 
 LEAST = 1e-3  # of the largest coefficient

@@ -83,7 +83,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A finger's tendon unlike the others'"
 FAMILIES = ("stuck", "drifts", "wrong-numbers")
-LEVEL = "hint"
 UNPLANTED = "few healthy models have three tendons that are alike"
 
 BAR = re.compile(r"(?i)anti.?roll|sway|stabili")

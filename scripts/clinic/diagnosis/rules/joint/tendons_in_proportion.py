@@ -60,7 +60,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "Two tendons that do the same"
 FAMILIES = ("drifts", "sags", "stuck")
-LEVEL = "hint"
 UNPLANTED = "few healthy models drive two joints by two tendons"
 
 SAME = 1e-3  # of the product of two coefficients

@@ -47,7 +47,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A wheel with a range"
 FAMILIES = ("stuck", "drifts")
-LEVEL = "hint"
 UNPLANTED = "nearly no healthy model stands on wheels"
 
 TURNS, LEVEL_ENOUGH = 4.0, 0.3

@@ -39,7 +39,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Keyframes that nobody wrote"
 FAMILIES = ("jumps-at-start", "passes-limit")
-LEVEL = "hint"
 UNPLANTED = "keyframes that nobody asks for harm nobody"
 MINOR = True
 

@@ -55,7 +55,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "A centre of mass in the joint"
 FAMILIES = ("wrong-mass", "sags", "drifts")
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "which link a counterweight balances, only its maker knows"
 
 FAR, OUTSIDE = 0.7, 0.5

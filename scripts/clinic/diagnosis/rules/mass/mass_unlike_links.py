@@ -59,7 +59,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 TITLE = "A link unlike the others in density"
 FAMILIES = ("wrong-mass", "sags", "drifts")
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "what a link should weigh, only its maker knows"
 
 DENSE, SHARE, MANY, GRAM = 4.0, 0.06, 4, 0.001

@@ -53,7 +53,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A camera that looks into its own mount"
 FAMILIES = ("camera",)
-LEVEL = "hint"
 UNPLANTED = "few healthy models have a camera on a body"
 
 MOST = 8.5  # of nine rays

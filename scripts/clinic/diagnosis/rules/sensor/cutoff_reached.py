@@ -43,6 +43,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A sensor that reads its cutoff"
 FAMILIES = ("sensor-reads-zero",)
+LEVEL = "cause"
 UNPLANTED = "one healthy model has a sensor with a cutoff"
 
 MOST, MUCH = 0.8, 5.0

@@ -47,6 +47,7 @@ from clinic.diagnosis.suspect import Suspect, counted
 TITLE = "A force sensor on a free body"
 FAMILIES = ("sensor-reads-zero",)
 CASE = "force-sensor-reads-zero"
+LEVEL = "cause"
 UNPLANTED = "to set free what carries a healthy model's force sensor breaks more than the sensor"
 
 MOST = 0.99

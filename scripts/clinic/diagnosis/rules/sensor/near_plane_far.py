@@ -45,7 +45,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A near plane far before a robot's camera"
 FAMILIES = ("camera",)
-LEVEL = "hint"
 UNPLANTED = "no harm is measured in images"
 
 FAR, NEAR = 0.5, 0.02  # of the size of what the camera is built on

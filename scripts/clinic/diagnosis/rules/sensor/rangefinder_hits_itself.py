@@ -46,7 +46,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A rangefinder that sees its own robot"
 FAMILIES = ("sensor-reads-zero",)
-LEVEL = "hint"
 UNPLANTED = "healthy models with a rangefinder are too few"
 
 MOST = 0.5  # of the rangefinders of a model: fewer are rays of a scan

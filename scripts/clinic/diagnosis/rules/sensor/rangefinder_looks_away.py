@@ -52,7 +52,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A rangefinder that looks the wrong way"
 FAMILIES = ("sensor-reads-zero", "wrong-numbers")
-LEVEL = "hint"
 UNPLANTED = "healthy models with a rangefinder are too few"
 
 SCAN = 8  # rangefinders

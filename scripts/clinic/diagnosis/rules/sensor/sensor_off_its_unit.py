@@ -47,7 +47,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A sensor apart from its unit"
 FAMILIES = ("wrong-numbers",)
-LEVEL = "hint"
 UNPLANTED = "readings that differ are not counted as harm"
 
 UNITS = ({1, 2, 3, 6}, {FORCE, TORQUE})  # mjtSensor: accelerometer, velocimeter, gyro, magnetometer

@@ -47,7 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A sensor reads another part than its name says"
 FAMILIES = ("wrong-numbers", "sensor-reads-zero")
-LEVEL = "hint"
 UNPLANTED = "only a name says what a sensor is for"
 
 OF = {1: "body", 2: "body", 3: "joint", 6: "site"}  # mjtObj

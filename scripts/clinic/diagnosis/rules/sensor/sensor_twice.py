@@ -46,7 +46,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Two sensors that read the same"
 FAMILIES = ("wrong-numbers", "sensor-reads-zero")
-LEVEL = "hint"
 UNPLANTED = "one reading under two names may be meant"
 
 KINDS = {"joint": "joint", "site": "site", "actuator": "actuator", "tendon": "tendon"}

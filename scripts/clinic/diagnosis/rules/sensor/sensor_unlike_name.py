@@ -41,7 +41,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A sensor of another kind than its name says"
 FAMILIES = ("wrong-numbers", "sensor-reads-zero")
-LEVEL = "hint"
 UNPLANTED = "what a sensor is meant to read stands in its name alone"
 
 SAID = {  # the words for what a sensor reads, and the kinds that read it; the first is what is meant

@@ -47,7 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A touch sensor whose site is off the surface"
 FAMILIES = ("sensor-reads-zero",)
-LEVEL = "hint"
 UNPLANTED = "what the sensor is to feel, only intent knows"
 
 NEAR, SHARE = 1e-3, 0.1  # m; of the geom's smallest half size

@@ -61,7 +61,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "An actuator pulls another tendon than its name says"
 FAMILIES = ("stuck", "drifts", "sags")
-LEVEL = "hint"
 UNPLANTED = "few healthy models have actuators on tendons"
 
 TIED = 3  # mjtEq: two tendons

@@ -42,7 +42,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A ball joint with too few motors"
 FAMILIES = ("stuck", "drifts")
-LEVEL = "hint"
 UNPLANTED = "the healthy models drive few ball joints"
 
 AXES, LEAST = 3, 1e-6

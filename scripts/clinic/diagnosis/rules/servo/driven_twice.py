@@ -52,7 +52,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "Two actuators on one joint"
 FAMILIES = ("stuck", "sags", "drifts")
-LEVEL = "hint"
 UNPLANTED = "an actuator on another joint is planted for actuator-on-another-joint"
 
 KINDS = ("gaintype", "biastype", "dyntype")

@@ -53,7 +53,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A joint without an actuator among others that have one"
 FAMILIES = ("stuck", "sags", "drifts")
-LEVEL = "hint"
 UNPLANTED = "no kind of fault in the bench takes an actuator away"
 
 MOST, MANY, NUMBER = 2, 8, re.compile(r"\d+")

@@ -48,7 +48,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A servo's two parts are clipped apart"
 FAMILIES = ("sags", "stuck")
-LEVEL = "hint"
 UNPLANTED = "no healthy model of the bench has a servo of two actuators"
 
 

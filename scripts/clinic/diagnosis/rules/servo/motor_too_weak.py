@@ -43,7 +43,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A motor too weak for what it moves"
 FAMILIES = ("stuck", "sags", "slow")
-LEVEL = "hint"
 UNPLANTED = "how fast a joint should be, its maker knows"
 
 SLOW = 1.0  # s2/m, s2/rad

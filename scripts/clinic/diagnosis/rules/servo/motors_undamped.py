@@ -53,7 +53,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Motors on joints that nothing damps"
 FAMILIES = ("oscillates", "explodes", "drifts")
-LEVEL = "hint"
 UNPLANTED = "the harm shows under a controller in code alone"
 
 ENOUGH, LEAST = 3, 1.0  # motors; N m s/rad

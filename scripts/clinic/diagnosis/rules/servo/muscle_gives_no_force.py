@@ -48,7 +48,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A muscle that gives no force"
 FAMILIES = ("stuck", "sags")
-LEVEL = "hint"
 UNPLANTED = "a muscle may be paralysed on purpose"
 
 LEAST = 0.9

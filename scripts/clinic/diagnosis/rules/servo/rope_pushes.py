@@ -51,7 +51,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A motor that pushes a rope"
 FAMILIES = ("drifts", "stuck")
-LEVEL = "hint"
 UNPLANTED = "a tendon may stand for a piston"
 
 MOST = 10.0  # times what it pulls

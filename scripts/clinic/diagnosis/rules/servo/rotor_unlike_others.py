@@ -49,7 +49,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A rotor unlike the others"
 FAMILIES = ("drifts", "stuck")
-LEVEL = "hint"
 UNPLANTED = "only one of the healthy models flies"
 
 ENOUGH, SAME, ASIDE = 3, 1e-3, 0.7  # rotors, m, cosine

@@ -51,7 +51,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Rotors that cannot yaw alone"
 FAMILIES = ("drifts", "stuck")
-LEVEL = "hint"
 UNPLANTED = "only one of the healthy models flies"
 
 ROTORS, LEAST = 4, 0.01

@@ -73,7 +73,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "Rotors that do not hover"
 FAMILIES = ("drifts", "sags")
-LEVEL = "hint"
 UNPLANTED = "only one of the healthy models flies"
 
 HOVER = re.compile(r"(?i)hover")

@@ -46,7 +46,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A servo that works to one side only, or to the wrong one"
 FAMILIES = ("stuck", "drifts", "sags")
-LEVEL = "hint"
 UNPLANTED = "whether a joint needs both sides, only its maker knows"
 
 LITTLE, END, BEYOND = 0.05, 0.001, 0.2

@@ -45,7 +45,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "An actuator that lags by a second"
 FAMILIES = ("slow", "oscillates")
-LEVEL = "hint"
 UNPLANTED = "few healthy models have actuators with a filter"
 
 FILTERS, SLOW = (2, 3), 0.5  # mjDYN_FILTER and mjDYN_FILTEREXACT; s

@@ -61,7 +61,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A joint far below the speed it is told"
 FAMILIES = ("stuck", "slow")
-LEVEL = "hint"
 UNPLANTED = "nearly no healthy model has velocity servos of wheels"
 
 MISSING, HALF, SECONDS, MORE = 0.8, 0.5, 2.0, 20.0

@@ -82,7 +82,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "An arm unlike the data sheet of its name"
 FAMILIES = ("wrong-numbers", "drifts", "wrong-mass", "passes-limit")
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "one of the 81 models of the bench is an arm that is sold"
 
 TURNED, ACROSS = math.radians(5), 0.5  # of a hand; the sine of the angle between its fingers' way and the flange's axis

@@ -57,7 +57,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "An equality copied and not adapted"
 FAMILIES = ("stuck", "drifts", "jumps-at-start")
-LEVEL = "hint"
 UNPLANTED = "few healthy models have equalities on both sides"
 
 

@@ -37,7 +37,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, counted
 
 TITLE = "A flex that falls apart or goes flat"
 FAMILIES = ("explodes", "falls-through", "sags")
-LEVEL = "hint"
 UNPLANTED = "no healthy model with a flex is planted with faults"
 
 FLAT = 0.7  # of its height

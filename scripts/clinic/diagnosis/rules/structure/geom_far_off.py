@@ -44,7 +44,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "A geom far away from the rest"
 FAMILIES = ("jumps-at-start", "drifts", "stuck")
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "what is far away harms by what happens to be there"
 
 FAR, ENOUGH = 3.0, 3

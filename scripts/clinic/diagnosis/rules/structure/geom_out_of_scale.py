@@ -52,7 +52,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 TITLE = "A geom larger than all the rest"
 FAMILIES = ("jumps-at-start", "stuck", "wrong-mass", "explodes")
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "how large a geom should be, only its maker knows"
 
 LARGE, ENOUGH = 2.0, 3

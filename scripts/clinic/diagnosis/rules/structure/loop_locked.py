@@ -69,7 +69,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A mechanism that its loops lock"
 FAMILIES = ("stuck", "drifts")
-LEVEL = "hint"
 UNPLANTED = "the healthy models have few loops"
 
 MOST, SMALL = 0.1, 1e-3  # shares of how fast a joint tears at the connections

@@ -53,7 +53,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A name that is misspelt"
 FAMILIES = ("wrong-numbers", "stuck")
-LEVEL = "hint"
 UNPLANTED = "what a name is to be, only its siblings tell"
 
 KINDS = ("body", "joint", "actuator", "sensor", "site")

@@ -39,6 +39,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Nothing can move"
 FAMILIES = ("stuck", "falls-through")
+LEVEL = "cause"
 UNPLANTED = "a healthy model in which nothing moves is left out of the bench"
 
 FREE_JOINT = "<freejoint/>"

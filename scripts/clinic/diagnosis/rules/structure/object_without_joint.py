@@ -49,7 +49,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "An object without a joint"
 FAMILIES = ("stuck",)
-LEVEL = "hint"
 UNPLANTED = "only intent knows what is to stay where it is"
 
 HANGS, NEAR, SMALL = 0.005, 0.001, 0.15  # m above the floor, and from other things; half of what a gripper holds

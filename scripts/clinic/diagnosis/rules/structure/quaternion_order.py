@@ -48,7 +48,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "Quaternions in the other order"
 FAMILIES = ("wrong-numbers", "drifts", "jumps-at-start", "camera")
-LEVEL = "hint"
 UNPLANTED = "healthy models of the bench have too few quaternions"
 
 LEAST, HALF = 2, 0.5  # quaternions; of the length

@@ -43,7 +43,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "Energy from nowhere"
 FAMILIES = ("explodes", "oscillates")
-LEVEL = "hint"
 UNPLANTED = "a timestep that is too long is planted for timestep-too-long"
 
 GAIN, SHARE = 0.08, 0.5

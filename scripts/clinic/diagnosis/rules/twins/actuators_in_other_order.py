@@ -86,7 +86,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "The actuators are in another order than the joints"
 FAMILIES = ("drifts",)
-LEVEL = "hint"
 UNPLANTED = "a model has one order, and only names tell that another was meant"
 
 

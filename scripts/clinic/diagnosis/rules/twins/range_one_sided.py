@@ -60,7 +60,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A joint in the middle that turns to one side"
 FAMILIES = ("stuck", "drifts")
-LEVEL = "hint"
 UNPLANTED = "few healthy models have a waist or a neck"
 
 MOST, ALIKE, PAIRS = 0.3, 0.98, 2

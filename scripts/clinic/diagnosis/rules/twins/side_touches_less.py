@@ -59,7 +59,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A side that touches less than the other"
 FAMILIES = ("falls-through",)
-LEVEL = "hint"
 UNPLANTED = "in the healthy models of the bench both sides have the same masks"
 
 ENOUGH, MOST = 3, 0.6

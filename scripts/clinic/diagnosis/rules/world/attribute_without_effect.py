@@ -54,7 +54,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "An attribute that has no effect"
 FAMILIES = ("stuck", "drifts", "wrong-numbers", "sags")
-LEVEL = "hint"
 UNPLANTED = "what was meant by it, only intent knows"
 
 USER, NONE = 3, 0  # mjtGain, mjtBias

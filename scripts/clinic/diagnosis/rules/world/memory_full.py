@@ -45,6 +45,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "The memory is full"
 FAMILIES = ("falls-through", "explodes")
+LEVEL = "cause"
 UNPLANTED = "no single edit of a healthy model makes so many contacts"
 
 

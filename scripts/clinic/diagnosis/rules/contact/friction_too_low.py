@@ -105,7 +105,6 @@ def _none(model: ReaderModel) -> Iterator[Suspect]:
             1.5,
             "Where they touch each other there is no friction, although condim asks for it.",
             "0.15 to 2 for dry solids",
-            level="hint",
         )
 
 

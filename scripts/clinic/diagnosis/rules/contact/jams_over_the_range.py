@@ -91,7 +91,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         says += f" So it is with {len(others)} more joint{'s' * (len(others) > 1)}." if others else ""
         joints = tuple(joint for _, joint, _, _ in jammed)
         probe = Probe("share of the range in which two links jam", "", _share, joints, dynamic=False)
-        yield Suspect(names, "range", "", "", (), probe, JAMMED, says, "an <exclude>, or a smaller range", level="hint")
+        yield Suspect(names, "range", "", "", (), probe, JAMMED, says, "an <exclude>, or a smaller range")
 
 
 def _told(of: Simulation, share: float, joint: int, one: int, other: int) -> tuple[tuple[str, ...], str]:

@@ -92,9 +92,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     names = (*(of.name("body", body) for body in found), *(of.name("geom", geom) for geom in geoms))
     says = f"{of.name('body', found[0])} has no geom that can touch anything, and other parts of the robot have."
     masks = masks_told(of, geoms[0])
-    yield Suspect(
-        names, "contype, conaffinity", masks, "1, 1", (), probe, 0, says, "a geom that collides", level="hint"
-    )  # fmt: skip
+    yield Suspect(names, "contype, conaffinity", masks, "1, 1", (), probe, 0, says, "a geom that collides")
 
 
 def _fingers(model: ReaderModel) -> Iterator[Suspect]:

@@ -114,7 +114,6 @@ def _steel(model: ReaderModel) -> Iterator[Suspect]:
         STEEL,
         f"Half of its {len(found)} links have more than {middle:.3g} kg/m3, as if they were of solid metal.",
         "300 to 3,000 kg/m3: 207 of 208 robots have less than 5,000 in the middle",
-        level="hint",
     )
 
 

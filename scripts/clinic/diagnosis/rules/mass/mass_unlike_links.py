@@ -91,7 +91,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"{of.name('body', worst)} is {rounded(ratio)} times as dense as the link in the middle of the "
             f"{len(robot)} of its robot.",
             "below 4 times in 130 of 135 robots",
-            level="hint",
         )
 
 

@@ -90,7 +90,7 @@ def _aside(simulation: Simulation) -> Iterator[Suspect]:
             probe = Probe("image's horizon against the world's", "degrees", _roll, (camera,), dynamic=False)
             says = f"The image's right points {roll:.0f} degrees up or down in the world: the image lies on its side."
             name, turned_by = (simulation.name("camera", camera),), f"turned by {roll:.0f} degrees"
-            yield Suspect(name, "xyaxes", "", turned_by, (), probe, ASIDE, says, "0 to 45 degrees", level="hint")
+            yield Suspect(name, "xyaxes", "", turned_by, (), probe, ASIDE, says, "0 to 45 degrees")
 
 
 def _roll(simulation: Simulation, camera: int) -> float:

@@ -78,4 +78,4 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         ):
             probe = Probe("field of view", "degrees", _default, (camera,), dynamic=False)
             says = "It has a resolution and no field of view: MuJoCo's default of 45 degrees, not the real lens."
-            yield Suspect(name, "fovy", "45", "the lens's", (), probe, 0.0, says, level="hint")
+            yield Suspect(name, "fovy", "45", "the lens's", (), probe, 0.0, says)

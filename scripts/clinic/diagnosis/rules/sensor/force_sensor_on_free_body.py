@@ -89,4 +89,4 @@ def _idle(simulation: Simulation, sensor: int, site: int) -> Suspect:
     )
     says = "A free joint does not pass on what contacts press. A site in a body that hangs on this one reads it."
     probe = counted("sensors of a free body", 1)
-    return Suspect(names, "site", "", "one in a body below", (), probe, 0.5, says, "0", level="hint")
+    return Suspect(names, "site", "", "one in a body below", (), probe, 0.5, says, "0")

@@ -66,7 +66,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     probe = how_many("rangefinders that see their own robot", _blind)
     site = int(of.model("sensor_objid")[sensor])
     now = " ".join(f"{x:.3g}" for x in of.row("site_pos", site, 3))
-    yield Suspect(names, "pos of the site", now, "outside", (), probe, 0, says, "a free view", level="hint")
+    yield Suspect(names, "pos of the site", now, "outside", (), probe, 0, says, "a free view")
 
 
 def _blind(of: Simulation) -> dict[int, tuple[int, float]]:

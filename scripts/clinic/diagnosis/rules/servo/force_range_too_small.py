@@ -236,7 +236,6 @@ def _undriven(model: ReaderModel) -> Iterator[Suspect]:
             STRAIN,
             f"The weight at {name} is up to {need:.3g}, and no actuator may give more than {limit:.3g} there.",
             "1 and less; motors are chosen for twice the weight and more",
-            level="hint",
         )
 
 

@@ -88,7 +88,7 @@ def _damped(model: ReaderModel) -> Iterator[Suspect]:
     probe = Probe("kv over kp", "s", _lag, (worst,), dynamic=False)
     value = rounded(kv * PROMPT / times[worst])
     healthy = "0.5 s is the most of 55 healthy models with servos"
-    yield Suspect(names, "kv", f"{kv:.3g}", value, (), probe, LATE - 1e-6, says, healthy, level="hint")
+    yield Suspect(names, "kv", f"{kv:.3g}", value, (), probe, LATE - 1e-6, says, healthy)
 
 
 def _weak(of: Simulation, actuators: Collection[int]) -> bool:

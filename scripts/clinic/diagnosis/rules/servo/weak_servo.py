@@ -177,7 +177,6 @@ def _little(model: ReaderModel, found: dict[int, float]) -> Iterator[Suspect]:
             f"The weight at {of.name('joint', worst.joint)}, up to {load:.3g} {worst.force_unit}, moves it "
             f"{sagging:.2g} {worst.unit} off its target{share}, unless gravcomp takes the weight away.",
             f"below {part * LITTLE:g} rad, or {100 * part * SHARE:g} % of the range of a slide",
-            level="hint",
         )
 
 

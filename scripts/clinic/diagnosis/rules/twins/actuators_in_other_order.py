@@ -105,7 +105,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = f"They drive {order} ...; the joints stand in the order " + " ".join(
         of.engine.name("joint", joint) for joint in sorted(driven)[:8]
     )
-    yield Suspect(names, "order", order, "that of the joints", (), probe, 0.5, says, "one order", level="hint")
+    yield Suspect(names, "order", order, "that of the joints", (), probe, 0.5, says, "one order")
 
 
 def _driven(of: Simulation) -> list[int]:

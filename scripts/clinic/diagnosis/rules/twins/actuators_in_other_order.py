@@ -38,36 +38,14 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <freejoint/>
-          <geom size="0.1"/>
-          <body pos="0.2 0.1 0">
-            <joint name="FL" axis="0 1 0" damping="1"/>
-            <geom size="0.03"/>
-          </body>
-          <body pos="0.2 -0.1 0">
-            <joint name="FR" axis="0 1 0" damping="1"/>
-            <geom size="0.03"/>
-          </body>
-          <body pos="-0.2 0.1 0">
-            <joint name="RL" axis="0 1 0" damping="1"/>
-            <geom size="0.03"/>
-          </body>
-          <body pos="-0.2 -0.1 0">
-            <joint name="RR" axis="0 1 0" damping="1"/>
-            <geom size="0.03"/>
-          </body>
-        </body>
-      </worldbody>
-      <actuator>
-        <motor joint="FL"/>
-        <motor joint="FR"/>
-        <motor joint="RL"/>
-        <motor joint="RR"/>
-      </actuator>
-    </mujoco>
+    -     <motor joint="FR"/>
+    -     <motor joint="FL"/>
+    -     <motor joint="RR"/>
+    -     <motor joint="RL"/>
+    +     <motor joint="FL"/>
+    +     <motor joint="FR"/>
+    +     <motor joint="RL"/>
+    +     <motor joint="RR"/>
 
 The number: how many actuators do not drive the joint of the same place. Told of free robots where exchanging left and
 right puts all of them in order.

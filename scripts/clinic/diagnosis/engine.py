@@ -16,6 +16,7 @@ GAIN_MUSCLE, DYN_MUSCLE = 2, 4  # mjtGain; mjtDyn
 OBJ_SITE, OBJ_TENDON = 6, 18  # mjtObj
 WRAP_JOINT = 1  # mjtWrap
 CONTACTS_OFF, SPRINGS_OFF, GRAVITY_OFF, ACTUATORS_OFF = 1 << 4, 1 << 5, 1 << 7, 1 << 11  # mjtDisableBit
+DEFAULT_TIMESTEP = 0.002  # s
 
 
 class CompileError(ValueError):

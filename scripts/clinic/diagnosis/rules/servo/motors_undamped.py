@@ -48,6 +48,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.servo.no_armature import ROTOR
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
@@ -56,7 +57,6 @@ FAMILIES = ("oscillates", "explodes", "drifts")
 UNPLANTED = "the harm shows under a controller in code alone"
 
 ENOUGH, LEAST = 3, 1.0  # motors; N m s/rad
-ROTOR = 0.01  # kg m2
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

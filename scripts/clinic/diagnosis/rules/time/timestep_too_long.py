@@ -52,7 +52,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.joint.tendon_outside_range import far_outside
 from clinic.diagnosis.rules.time.damping_explicit import overdamped
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Level, Probe, Suspect
 
 TITLE = "The timestep is too long"
 FAMILIES = ("explodes", "oscillates", "falls-through")
@@ -93,7 +93,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             if model.measured(probe, edits) <= min(limit, share * before):
                 says = f"At {step / divisor:g} s the same motion stays calm."
                 now, value = f"{step:g}", f"{step / divisor:g}"
-                level = "hint" if probe in (commanded(), pressed_in()) and step <= DEFAULT_TIMESTEP else "cause"
+                level: Level = "hint" if probe in (commanded(), pressed_in()) and step <= DEFAULT_TIMESTEP else "cause"
                 yield Suspect(
                     ("the timestep",), "timestep", now, value, edits, probe, limit, says, share=share, level=level
                 )

@@ -39,7 +39,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, replace
-from clinic.diagnosis.probes.touched import FORCE, TORQUE, touched, unread
+from clinic.diagnosis.engine import SENS_FORCE, SENS_TORQUE
+from clinic.diagnosis.probes.touched import touched, unread
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, counted
@@ -60,7 +61,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     kinds, of, owners = (simulation.model(name) for name in ("sensor_type", "sensor_objid", "site_bodyid"))
     for sensor, seen in touched(simulation).items():
         site = int(of[sensor])
-        if int(kinds[sensor]) not in (FORCE, TORQUE) or int(owners[site]) not in simulation.free_bodies:
+        if int(kinds[sensor]) not in (SENS_FORCE, SENS_TORQUE) or int(owners[site]) not in simulation.free_bodies:
             continue
         if not seen.carried:
             if seen.reading < NOTHING:

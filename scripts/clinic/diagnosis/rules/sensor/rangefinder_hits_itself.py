@@ -36,9 +36,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import OBJ_SITE
+from clinic.diagnosis.engine import OBJ_SITE, SENS_RANGEFINDER
 from clinic.diagnosis.probes.shape import boxes, root_of
-from clinic.diagnosis.probes.touched import RANGE
 from clinic.diagnosis.probes.vector import add
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -55,7 +54,7 @@ NEAR = 1e-3  # m
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Rangefinders that see a geom of their own robot, where it is not a few of a scan."""
     of = model.simulation
-    rays = [each for each, kind in enumerate(of.model("sensor_type")) if int(kind) == RANGE]
+    rays = [each for each, kind in enumerate(of.model("sensor_type")) if int(kind) == SENS_RANGEFINDER]
     found = _blind(of)
     if not found or len(found) < MOST * len(rays):
         return
@@ -77,7 +76,7 @@ def _blind(of: Simulation) -> dict[int, tuple[int, float]]:
     readings, kinds = of.data("sensordata"), of.model("sensor_objtype")
     for sensor, kind in enumerate(of.model("sensor_type")):
         reading = readings[int(of.model("sensor_adr")[sensor])]
-        if int(kind) != RANGE or int(kinds[sensor]) != OBJ_SITE or reading < 0:
+        if int(kind) != SENS_RANGEFINDER or int(kinds[sensor]) != OBJ_SITE or reading < 0:
             continue
         site = int(of.model("sensor_objid")[sensor])
         body = of.body_of("site", site)

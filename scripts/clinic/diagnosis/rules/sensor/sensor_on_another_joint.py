@@ -41,6 +41,7 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from clinic.diagnosis.probes.attached import OBJECTS
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -49,7 +50,7 @@ TITLE = "A sensor reads another part than its name says"
 FAMILIES = ("wrong-numbers", "sensor-reads-zero")
 UNPLANTED = "only a name says what a sensor is for"
 
-OF = {1: "body", 2: "body", 3: "joint", 6: "site"}  # mjtObj
+KINDS = ("body", "joint", "site")
 SISTERS = 3
 
 
@@ -104,7 +105,8 @@ def _misnamed(of: Simulation) -> dict[int, Meant]:
 
 def _end(of: Simulation, sensor: int, end: str) -> tuple[str, int]:
     """The kind and number of what a sensor reads, or reads in; an empty kind for none, and for others than these."""
-    return OF.get(int(of.model(f"sensor_{end}type")[sensor]), ""), int(of.model(f"sensor_{end}id")[sensor])
+    kind = OBJECTS.get(int(of.model(f"sensor_{end}type")[sensor]), "")
+    return kind if kind in KINDS else "", int(of.model(f"sensor_{end}id")[sensor])
 
 
 def _named(of: Simulation, sensor: str, kind: str, index: int) -> str:

@@ -53,6 +53,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes import equalities
 from clinic.diagnosis.probes.copied import Line, misled
+from clinic.diagnosis.probes.equalities import TIED
 from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.probes.tendons import joints_of, pulled
 from clinic.diagnosis.reader_model import ReaderModel
@@ -63,7 +64,6 @@ TITLE = "An actuator pulls another tendon than its name says"
 FAMILIES = ("stuck", "drifts", "sags")
 UNPLANTED = "few healthy models have actuators on tendons"
 
-TIED = 3  # mjtEq: two tendons
 ACTS = ("stiffness", "damping", "frictionloss", "limited")
 
 

@@ -38,7 +38,7 @@ import math
 from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import DEFAULT_TIMESTEP
+from clinic.diagnosis.engine import DEFAULT_TIMESTEP, IMPLICIT, IMPLICITFAST
 from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.probes.matter import explicit
 from clinic.diagnosis.probes.run import FAST, fastest
@@ -52,7 +52,6 @@ TITLE = "A gain too high for a joint without armature"
 FAMILIES = ("explodes", "oscillates")
 CASE = "hand-shakes-at-once"
 
-IMPLICIT = (2, 3)  # mjtIntegrator that treats an actuator's damping implicitly
 NEAR = 0.5  # of what one joint alone bears: in a chain it is less
 ROTOR = 0.01  # kg m2 at the joint, of a motor behind its gear
 ABSURD = 30.0  # h d / M: ten times what RK4 bears, and no damping of that inertia
@@ -138,7 +137,7 @@ def _symptom(model: ReaderModel) -> Probe | None:
 def _gains(simulation: Simulation) -> dict[int, tuple[float, float, float, float]]:
     """Position gain, velocity gain where it is explicit, inertia, and velocity gain where it is implicit, by joint."""
     made: dict[int, tuple[float, float, float, float]] = {}
-    implicit = int(simulation.model("opt.integrator")[0]) in IMPLICIT
+    implicit = int(simulation.model("opt.integrator")[0]) in (IMPLICIT, IMPLICITFAST)
     for joint, (kp, kv) in feedback(simulation).items():
         inertia = max(simulation.mass_diagonal[simulation.dof(joint)], 1e-12)
         made[joint] = (kp, kv * (not implicit), inertia, kv * implicit)

@@ -46,7 +46,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import GAIN_MUSCLE
+from clinic.diagnosis.engine import BIAS_NONE, GAIN_MUSCLE
 from clinic.diagnosis.probes.shape import FLUID, in_pairs, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -56,7 +56,7 @@ TITLE = "An attribute that has no effect"
 FAMILIES = ("stuck", "drifts", "wrong-numbers", "sags")
 UNPLANTED = "what was meant by it, only intent knows"
 
-USER, NONE = 3, 0  # mjtGain, mjtBias
+USER = 3  # mjtGain, mjtBias
 
 
 class Idle(NamedTuple):
@@ -124,7 +124,7 @@ def _read(of: Simulation, attribute: str, each: int) -> bool:
     """Whether something reads an attribute."""
     match attribute:
         case "biasprm":
-            return int(of.model("actuator_biastype")[each]) != NONE
+            return int(of.model("actuator_biastype")[each]) != BIAS_NONE
         case "lengthrange":
             kinds = {int(of.model(f"actuator_{what}type")[each]) for what in ("gain", "bias")}
             return bool(kinds & {GAIN_MUSCLE, USER})

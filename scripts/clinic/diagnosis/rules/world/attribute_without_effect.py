@@ -56,8 +56,6 @@ TITLE = "An attribute that has no effect"
 FAMILIES = ("stuck", "drifts", "wrong-numbers", "sags")
 UNPLANTED = "what was meant by it, only intent knows"
 
-USER = 3  # mjtGain, mjtBias
-
 
 class Idle(NamedTuple):
     """An attribute without effect.
@@ -126,8 +124,7 @@ def _read(of: Simulation, attribute: str, each: int) -> bool:
         case "biasprm":
             return int(of.model("actuator_biastype")[each]) != BIAS_NONE
         case "lengthrange":
-            kinds = {int(of.model(f"actuator_{what}type")[each]) for what in ("gain", "bias")}
-            return bool(kinds & {GAIN_MUSCLE, USER})
+            return any(of.model(f"actuator_{what}type")[each] >= GAIN_MUSCLE for what in ("gain", "bias"))
         case "forcerange" | "ctrlrange":
             low, high = of.row(f"actuator_{attribute}", each, 2)
             return bool(of.model(f"actuator_{attribute.removesuffix('range')}limited")[each]) or low >= high

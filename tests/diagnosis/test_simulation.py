@@ -119,4 +119,5 @@ def test_the_numbers_of_enumerations_are_mujocos(prefix: str, kind: str) -> None
     members = getattr(mujoco, kind).__members__
     known = {name: value for name, value in vars(engine).items() if name.startswith(prefix)}
     theirs = {name: int(members[f"mj{name.replace('TRN_IN_PARENT', 'TRN_JOINTINPARENT')}"]) for name in known}
-    assert known and known == theirs
+    assert known
+    assert known == theirs

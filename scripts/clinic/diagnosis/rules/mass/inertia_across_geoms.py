@@ -48,7 +48,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The inertia lies across the body"
 FAMILIES = ("drifts", "oscillates")
-SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 

@@ -6,8 +6,7 @@ import math
 from collections.abc import Callable
 
 import pytest
-from clinic.diagnosis.diagnose import examine
-from clinic.diagnosis.native import NativeEngine
+from diagnosed import diagnosed
 
 
 def drone(
@@ -34,7 +33,7 @@ def drone(
 
 
 def told(text: str) -> list[str]:
-    found = examine(NativeEngine(), {"model.xml": text})
+    found = diagnosed(text)
     assert not found.error
     return [each.attribute for each in (*found.causes, *found.hints) if each.rule == "rotors-unbalanced"]
 

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import pytest
-from clinic.diagnosis.diagnose import examine
 from clinic.diagnosis.finding import Finding
-from clinic.diagnosis.native import NativeEngine
+from diagnosed import diagnosed, findings
 
 
 def told(rule: str, inside: str, sensors: str) -> list[Finding]:
     floor = '<geom type="plane" size="5 5 0.1"/>'
     text = f"<mujoco><worldbody>{floor}{inside}</worldbody><sensor>{sensors}</sensor></mujoco>"
-    found = examine(NativeEngine(), {"model.xml": text}, select=[rule])
-    return [*found.causes, *found.hints]
+    return findings(text, rule)
 
 
 @pytest.mark.parametrize(
@@ -114,6 +112,6 @@ def test_a_cutoff_far_below_what_is_read_is_told(sensor: str, values: list[str])
     arm = '<body pos="0 0 9"><joint name="elbow" axis="0 0 1" range="-114.591559 20"/><geom size="0.1"/></body>'
     motors = '<motor name="elbow" joint="elbow" forcerange="-60 60"/><motor name="free" joint="elbow"/>'
     text = f"<mujoco><worldbody>{arm}</worldbody><actuator>{motors}</actuator><sensor>{sensor}</sensor></mujoco>"
-    found = examine(NativeEngine(), {"model.xml": text}, select=["cutoff-reached"])
+    found = diagnosed(text, "cutoff-reached")
     assert not found.causes
     assert [each.value for each in found.hints] == values

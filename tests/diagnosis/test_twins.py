@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 
 import pytest
-from clinic.diagnosis.diagnose import Diagnosis, examine
-from clinic.diagnosis.edit import apply
 from clinic.diagnosis.finding import Finding
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.probes.siblings import odd_ones
@@ -14,6 +12,7 @@ from clinic.diagnosis.probes.sides import by_name, right_of
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.rules import rules
 from clinic.diagnosis.simulation import Simulation, Start
+from diagnosed import causes, diagnosed, findings, hints, with_edits
 
 PARTS = ("front", "middle", "rear")
 
@@ -38,14 +37,9 @@ def robot(change: dict[str, str] | None = None, **of_side: str) -> str:
     return f'<mujoco><worldbody><body pos="0 0 1"><freejoint/><geom size="0.1"/>{legs}</body></worldbody></mujoco>'
 
 
-def diagnosed(text: str) -> Diagnosis:
-    return examine(NativeEngine(), {"model.xml": text})
-
-
 def unlike(text: str) -> list[Finding]:
     """What the rules about twins find, as causes and as hints."""
-    found = diagnosed(text)
-    return [each for each in (*found.causes, *found.hints) if each.rule.startswith("twin-")]
+    return [each for each in findings(text) if each.rule.startswith("twin-")]
 
 
 def simulated(text: str) -> Simulation:
@@ -119,7 +113,7 @@ def test_mirrored_ranges_are_alike():
 
 
 def test_a_robot_in_which_all_pairs_differ_has_no_cause():
-    assert not diagnosed(robot(left="-30 60", right="-30 60")).causes
+    assert not causes(robot(left="-30 60", right="-30 60"))
 
 
 @pytest.mark.parametrize(
@@ -137,7 +131,7 @@ def test_the_odd_one_is_named_and_its_twins_value_mends_it(found, other, attribu
     (odd_one,) = unlike(text)
     assert odd_one.attribute == attribute
     assert found.partition(":")[0].partition("_")[2] in odd_one.elements[0]
-    assert unlike(apply({"model.xml": text}, odd_one.edit)["model.xml"]) == []
+    assert unlike(with_edits(text, odd_one)) == []
 
 
 def test_a_third_copy_tells_which_one_is_odd():
@@ -245,20 +239,19 @@ def legs(calf: str = "0.02 0.02 0.06", mass: str = "0.2", knee: str = "0 0 -0.21
     ],
 )
 def test_the_leg_that_three_others_outvote_is_the_odd_one(change, attribute, level):
-    found = diagnosed(legs(**change))
-    (odd_one,) = (*found.causes, *found.hints)
+    (odd_one,) = findings(legs(**change))
     assert (odd_one.attribute, odd_one.level) == (attribute, level)
     assert "RL_calf" in " ".join(odd_one.elements)
     assert len(odd_one.elements) == 1
 
 
 def test_digits_in_another_order_are_told_and_a_length_that_hardly_differs_without_its_edit():
-    (clear,) = diagnosed(legs(knee="0 0 -0.12")).hints
+    (clear,) = hints(legs(knee="0 0 -0.12"))
     assert "same digits" in clear.says
     assert clear.after == 0
-    (slight,) = diagnosed(legs(calf="0.02 0.02 0.066")).hints
+    (slight,) = hints(legs(calf="0.02 0.02 0.066"))
     assert (slight.attribute, slight.after) == ("size", None)
-    assert not diagnosed(legs(knee="0 0 -0.201")).hints
+    assert not hints(legs(knee="0 0 -0.201"))
 
 
 def test_where_nothing_tells_which_side_is_wrong_both_are_named():
@@ -276,7 +269,7 @@ def test_where_nothing_tells_which_side_is_wrong_both_are_named():
 
 def test_a_hip_out_of_place_does_not_move_the_mirror():
     legs_of_two = robot({'left_rear:pos="-0.2 0.1 0"': 'pos="-0.2 0.15 0"'}, right="-60 30")
-    hint = next(each for each in diagnosed(legs_of_two).hints if each.rule == "twin-place-differs")
+    hint = next(each for each in hints(legs_of_two) if each.rule == "twin-place-differs")
     assert (hint.attribute, hint.elements) == ("pos", ('body "left_rear"',)), "the others are as far from the middle"
 
 
@@ -286,7 +279,7 @@ def test_a_motor_that_turns_the_other_way_is_the_one_with_the_rare_sign():
         f'<motor name="{name}" joint="{name}" gear="{-5 if name == "left_rear" else 5}"/>' for name in names
     )
     text = robot(right="-60 30").replace("</mujoco>", f"<actuator>{motors}</actuator></mujoco>")
-    hint = next(each for each in diagnosed(text).hints if each.rule == "twin-actuator-differs")
+    hint = next(each for each in hints(text) if each.rule == "twin-actuator-differs")
     assert (hint.attribute, hint.elements, hint.value) == ("gear sign", ('actuator "left_rear"',), "5")
 
 
@@ -294,7 +287,7 @@ def test_what_moves_nothing_is_told_last():
     driven = robot({'left_front:mass="0.2"': 'mass="0.3"'}).replace(
         "</mujoco>", '<actuator><muscle joint="left_front" ctrlrange="-1 1"/></actuator></mujoco>'
     )
-    told = [each.rule for each in diagnosed(driven).hints]
+    told = [each.rule for each in hints(driven)]
     assert "twin-inertia-differs" in told[:-1]
     assert told[-1] == "muscle-excited-below-zero"
 
@@ -397,7 +390,7 @@ PATHS = rules()["twin-path-differs"].example("Good")
 )
 def test_the_tendon_that_goes_through_the_other_side_is_told(change, told, value):
     one, other = (f'<site site="{name}"/>' for name in change)
-    (hint,) = [each for each in diagnosed(PATHS.replace(one, other)).hints if each.rule == "twin-path-differs"]
+    (hint,) = [each for each in hints(PATHS.replace(one, other)) if each.rule == "twin-path-differs"]
     assert hint.elements[0] == told
     assert [each.value for each in hint.edit] == [value] * bool(value)
 
@@ -406,8 +399,8 @@ def test_what_both_tendons_go_through_has_no_twin():
     middle = PATHS.replace('<site name="left_front"', '<site name="middle"/><site name="left_front"')
     both = middle.replace('_hamstring">', '_hamstring"><site site="middle"/>')
     wrong = both.replace('<site site="right_back"/>', '<site site="right_front"/>')
-    assert [each.rule for each in diagnosed(both).hints].count("twin-path-differs") == 0
-    assert [each.rule for each in diagnosed(wrong).hints].count("twin-path-differs") == 1
+    assert [each.rule for each in hints(both)].count("twin-path-differs") == 0
+    assert [each.rule for each in hints(wrong)].count("twin-path-differs") == 1
 
 
 def test_one_finger_of_four_with_other_moments_gets_those_of_the_others() -> None:
@@ -418,7 +411,7 @@ def test_one_finger_of_four_with_other_moments_gets_those_of_the_others() -> Non
     moments = ["3e-6 3e-6 1e-6", "1e-6 3e-6 3e-6", "3e-6 3e-6 1e-6", "4e-7 4e-7 1e-7"]
     fingers = "".join(finger.format(i, each) for i, each in enumerate(moments))
     text = f'<mujoco><worldbody><body name="hand"><geom size="0.1"/>{fingers}</body></worldbody></mujoco>'
-    (cause,) = examine(NativeEngine(), {"hand.xml": text}, select=["twin-inertia-differs"]).causes
+    (cause,) = causes(text, "twin-inertia-differs")
     assert (cause.elements, cause.value) == (('body "finger3"',), "3e-6 3e-6 1e-6")
 
 
@@ -451,8 +444,7 @@ def test_a_link_that_turns_out_of_the_plane_of_the_pairs_has_its_centre_anywhere
     text = rules()["centre-off-the-middle"].example("Good").replace("<freejoint/>", f'<joint axis="{axis}"/>')
     arm = '<body name="arm"><inertial pos="0 0.06 0" mass="1" diaginertia="0.01 0.01 0.01"/><joint axis="0 0 1"/>'
     text = text.replace("<worldbody>", f"<worldbody>{arm}").replace("</worldbody>", "</body></worldbody>")
-    found = examine(NativeEngine(), {"arm.xml": text}, select=["centre-off-the-middle"]).hints
-    assert [each.elements for each in found] == [('body "arm"',)] * told
+    assert [each.elements for each in hints(text, "centre-off-the-middle")] == [('body "arm"',)] * told
 
 
 def test_fingers_on_the_same_side_of_both_hands_make_no_copy_of_mirrored_arms():
@@ -495,7 +487,7 @@ def test_the_leg_that_goes_inward_beside_pairs_that_go_outward_is_the_one_that_i
         for side, y in (("l", 0.08), ("r", -0.08))
     )
     text = f'<mujoco><worldbody><body pos="0 0 1"><freejoint/><geom size="0.05"/>{legs}</body></worldbody></mujoco>'
-    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["twin-turned"]).hints
+    (found,) = hints(text, "twin-turned")
     assert found.elements == ('body "lm_coxa"', 'body "rm_coxa"')
     assert found.edit[0].line == 1
     assert "Nothing here tells" not in found.says
@@ -606,10 +598,7 @@ def test_a_wheel_that_is_rolled_on_is_not_turned(ends, told):
 
     wheels = wheel("left", 0.2, "0.8 0 0.6 0") + wheel("right", -0.2, "0.6 0 0.8 0")
     text = robot(right="-60 30").removesuffix("</body></worldbody></mujoco>")
-    found = examine(
-        NativeEngine(), {"model.xml": f"{text}{wheels}</body></worldbody></mujoco>"}, select=["twin-turned"]
-    )
-    assert [each.attribute for each in found.hints] == told
+    assert [each.attribute for each in hints(f"{text}{wheels}</body></worldbody></mujoco>", "twin-turned")] == told
 
 
 SERVO = '<position joint="{}" kp="20" kv="2" ctrlrange="{}"/>'
@@ -639,4 +628,4 @@ def test_what_agrees_with_the_image_of_the_twin_is_not_blamed_for_a_copied_range
 def test_a_target_that_misses_the_range_of_both_twins_is_blamed():
     servos = f"{SERVO.format('left_front', '0 1.0472')}{SERVO.format('right_front', '0.2 1.0472')}"
     text = robot(left="0 60", right="-60 0").replace("</mujoco>", f"<actuator>{servos}</actuator></mujoco>")
-    assert "control-range-too-narrow" in [each.rule for each in diagnosed(text).causes]
+    assert "control-range-too-narrow" in [each.rule for each in causes(text)]

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from clinic.diagnosis.diagnose import examine
-from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import rules
+from diagnosed import hints
 
 
 @pytest.mark.parametrize(
@@ -25,7 +24,7 @@ def test_a_wheel_whose_middle_is_beside_its_hinge_is_told(shape: str, told: bool
     )
     car = f'<body pos="0 0 0.05"><freejoint/><geom type="box" size="0.1 0.05 0.02"/>{wheels}</body>'
     text = f'<mujoco><worldbody><geom type="plane" size="5 5 0.1"/>{car}</worldbody></mujoco>'
-    assert bool(examine(NativeEngine(), {"model.xml": text}, select=["wheel-not-round"]).hints) is told
+    assert bool(hints(text, "wheel-not-round")) is told
 
 
 AXLE = rules()["axle-against-itself"].example("Bad")
@@ -50,8 +49,7 @@ def test_a_tendon_that_drives_two_wheels_of_an_axle_apart_is_told(
     for old, new in changes:
         assert old in text
         text = text.replace(old, new)
-    found = examine(NativeEngine(), {"model.xml": text}, select=["axle-against-itself"]).hints
-    assert [each.value for each in found] == values
+    assert [each.value for each in hints(text, "axle-against-itself")] == values
 
 
 @pytest.mark.parametrize(
@@ -76,8 +74,7 @@ def test_a_coupling_that_steers_two_wheels_of_an_axle_apart_is_told(
     text = (
         f'<mujoco><worldbody><body pos="0 0 1"><freejoint/><geom size="0.1"/>{forks}</body></worldbody>{tie}</mujoco>'
     )
-    found = examine(NativeEngine(), {"model.xml": text}, select=["axle-against-itself"]).hints
-    assert [each.value for each in found] == [f"0 {-factor} 0.1 0 0"] * told
+    assert [each.value for each in hints(text, "axle-against-itself")] == [f"0 {-factor} 0.1 0 0"] * told
 
 
 @pytest.mark.parametrize(
@@ -94,6 +91,5 @@ def test_of_hinge_and_cylinder_the_one_that_is_not_along_the_axle_is_turned(axis
         f'<geom type="cylinder" size="0.1 0.02" mass="0.3" {cylinder}/></body>'
     )
     car = f'<freejoint/><geom type="box" size="0.2 0.1 0.03"/>{wheel.format("l", 0.2)}{wheel.format("r", -0.2)}'
-    text = {"m.xml": f'<mujoco><worldbody><body pos="0 0 0.1">{car}</body></worldbody></mujoco>'}
-    found = examine(NativeEngine(), text, select=["wheel-not-round"]).hints
-    assert [(each.attribute, each.value) for each in found[:1]] == ([told] if told else [])
+    text = f'<mujoco><worldbody><body pos="0 0 0.1">{car}</body></worldbody></mujoco>'
+    assert [(each.attribute, each.value) for each in hints(text, "wheel-not-round")[:1]] == ([told] if told else [])

@@ -43,3 +43,10 @@ def hints(text: str, *rules: str, **options: Any) -> list[Finding]:
 def with_edits(text: str, *found: Finding) -> str:
     """The text after the edits of findings."""
     return apply({FILE: text}, [edit for each in found for edit in each.edit])[FILE]
+
+
+def mended(text: str) -> Diagnosis:
+    """The diagnosis of a text that compiles after its edits."""
+    found = diagnosed(text)
+    assert not diagnosed(found.fixed[FILE]).error
+    return found

@@ -97,17 +97,6 @@ def test_a_wrist_may_be_stronger_than_the_fingers_that_it_carries(driven, told):
     assert [name for each in found for name in each.elements] == told
 
 
-@pytest.mark.parametrize(("rest", "told"), [("-75", False), ("160", True)])
-def test_a_spring_that_holds_a_door_shut_is_well(rest, told):
-    doors = "".join(
-        f'<body pos="{x} 0 1"><joint name="d{x}" axis="0 1 0" range="0 85" stiffness="5" damping="1" springref="{{}}"/>'
-        '<geom type="box" size="0.2 0.3 0.01" pos="0.2 0 0" mass="1"/></body>'
-        for x in range(3)
-    )
-    text = f"<mujoco><worldbody>{doors.format('0', '0', rest)}</worldbody></mujoco>"
-    assert bool(findings(text, "spring-far-off")) == told
-
-
 @pytest.mark.parametrize(
     ("hip", "knee", "mended"),
     [
@@ -146,21 +135,6 @@ def test_what_a_motor_at_a_site_cannot_move_is_told(joint, told):
 
 
 @pytest.mark.parametrize(
-    ("kv", "force", "told"),
-    [
-        pytest.param(0.02, 'forcerange="-8 8"', True, id="a-weak-gain-of-a-strong-servo"),
-        pytest.param(0.02, 'forcerange="-1 1"', False, id="of-a-weak-one"),
-        pytest.param(0.02, "", False, id="of-one-without-limits"),
-        pytest.param(0.2, 'forcerange="-8 8"', False, id="a-gain-that-is-strong-enough"),
-    ],
-)
-def test_a_wheel_that_needs_seconds_to_its_speed_is_told(kv, force, told):
-    text = rules()["speed-not-reached"].example("Good").replace('kv="0.2"', f'kv="{kv}" {force}')
-    text = text.replace('damping="0.01"', 'damping="0.001"').replace('mass="3"', 'mass="12"')
-    assert [(each.attribute, each.value) for each in hints(text, "speed-not-reached")] == [("kv", "0.4")] * told
-
-
-@pytest.mark.parametrize(
     ("waist", "count", "told"),
     [
         pytest.param('range="-40 60"', 8, True, id="alone-among-eight"),
@@ -191,45 +165,6 @@ def test_a_spring_that_the_driven_twin_has_too_moves_nothing(left: str, right: s
     for side, spring in (("left", left), ("right", right)):
         text = text.replace(f'<joint name="{side}_arm"', f'<joint name="{side}_arm" {spring}')
     assert [each.elements for each in hints(text, "joint-not-driven")] == [('joint "right_arm"',)] * told
-
-
-@pytest.mark.parametrize(
-    ("nut", "ctrlrange", "values"),
-    [
-        pytest.param("", "-0.2 0.02", ["-20 2"], id="the-followers-own"),
-        pytest.param("", "-20 2", [], id="what-leads-all-over"),
-        pytest.param("", "-5 2", [], id="a-third"),
-        pytest.param('range="-1146 115"', "-20 2", [], id="with-a-range"),
-    ],
-)
-def test_a_servo_that_leads_another_joint_next_to_nowhere_is_told(nut: str, ctrlrange: str, values: list[str]) -> None:
-    joints = f'<joint name="nut" {nut}/>', '<joint name="quill" type="slide" range="-0.2 0.02"/>'
-    links = "".join(f'<body>{joint}<geom size="0.03"/></body>' for joint in joints)
-    screw = '<equality><joint joint1="quill" joint2="nut" polycoef="0 0.01 0 0 0"/></equality>'
-    servo = f'<actuator><position joint="nut" kp="2" kv="1" ctrlrange="{ctrlrange}"/></actuator>'
-    text = f"<mujoco><worldbody>{links}</worldbody>{screw}{servo}</mujoco>"
-    assert [each.value for each in hints(text, "control-range-too-narrow")] == values
-
-
-@pytest.mark.parametrize(
-    ("throttle", "told"),
-    [
-        pytest.param('position kp="0.05"', ["wheel-held"], id="angle"),
-        pytest.param('velocity kv="0.05"', [], id="speed"),
-        pytest.param("motor", [], id="torque"),
-    ],
-)
-def test_a_servo_that_holds_two_wheels_by_a_tendon_is_told(throttle: str, told: list[str]) -> None:
-    wheels = "".join(
-        f'<body name="{side}_wheel" pos="0 {y} 0"><joint name="{side}_spin" axis="0 1 0"/><geom size="0.05"/></body>'
-        for side, y in (("left", 0.1), ("right", -0.1))
-    )
-    car = f'<body pos="0 0 0.05"><freejoint/><geom type="box" size="0.1 0.05 0.02"/>{wheels}</body>'
-    ends = "".join(f'<joint joint="{side}_spin" coef="0.5"/>' for side in ("left", "right"))
-    text = f"""<mujoco><worldbody><geom type="plane" size="1 1 0.1"/>{car}</worldbody>
-      <tendon><fixed name="axle">{ends}</fixed></tendon>
-      <actuator><{throttle} tendon="axle" ctrlrange="-60 60"/></actuator></mujoco>"""
-    assert [each.rule for each in hints(text, "wheel-held")] == told
 
 
 @pytest.mark.parametrize(

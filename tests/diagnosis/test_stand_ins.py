@@ -50,11 +50,9 @@ URDF = """<robot name="arm">
 
 
 @pytest.fixture(autouse=True)
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The current one; the one around it is searched too."""
-    made = tmp_path / "around" / "model"
-    (made / "meshes").mkdir(parents=True)
-    monkeypatch.chdir(made)
+def meshes(folder: Path) -> None:
+    """An empty folder for them."""
+    (folder / "meshes").mkdir()
 
 
 def test_of_a_well_model_only_the_files_are_told():

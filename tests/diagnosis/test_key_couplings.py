@@ -17,7 +17,6 @@ TO_DOOR = ('joint2="nut"', 'joint2="door"')
 @pytest.mark.parametrize(
     ("changes", "edits"),
     [
-        pytest.param([], [], id="kept"),
         pytest.param([(LED, 'polycoef="0 2.54648 0 0 0"')], [("polycoef", LED[10:-1])], id="in-mm"),
         pytest.param(
             [('joint1="quill" joint2="nut"', 'joint1="nut" joint2="quill"')],

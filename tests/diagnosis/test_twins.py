@@ -85,8 +85,7 @@ def test_where_nothing_tells_which_side_is_wrong_both_are_named():
     assert odd_one.says.endswith(
         f"which of the two is wrong. {odd_one.elements[0]} has -32 62, {odd_one.elements[1]} -30 32."
     )
-    assert (odd_one.value, odd_one.edit) == ("", ())
-    assert odd_one.edit == (), "it might spoil the healthy side"
+    assert (odd_one.value, odd_one.edit) == ("", ()), "it might spoil the healthy side"
 
 
 def test_a_motor_that_turns_the_other_way_is_the_one_with_the_rare_sign():

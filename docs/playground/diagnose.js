@@ -70,7 +70,7 @@ async function examine(place, all, path) {
 let leave = () => {};
 
 /**
- * Opens the model with the edit of a cause in the playground.
+ * Opens the model with the edit of a finding in the playground.
  * @param {HTMLElement} place
  * @param {URL} base
  * @param {CaseRecord} record

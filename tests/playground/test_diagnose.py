@@ -115,6 +115,25 @@ def test_an_edit_runs_beside_the_model_as_it_was(page: Page, served: str, tmp_pa
     assert len(engines(page)) == 2
 
 
+@pytest.mark.parametrize(
+    ("rule", "told"),
+    [
+        ("armature-unlike-others", "armature: 100 → 0.1 Armature over that of the next: 1000. With the edit: 1."),
+        ("rolls-for-ever", "condim: 3 → 6, friction 1 0.005 0.005 Try this edit"),
+    ],
+)
+def test_a_hint_tells_its_edit_with_what_was_measured(
+    page: Page, served: str, tmp_path: Path, rule: str, told: str
+) -> None:
+    opened(page, served)
+
+    said = give(page, written(tmp_path / "hinted.xml", rules()[rule].example("Bad")))
+
+    assert told in " ".join(said.split())
+    page.locator("li", has_text=rule).get_by_role("button", name="Try this edit").click()
+    expect(page.locator(".cm-deletedChunk").first).to_be_visible()
+
+
 def test_an_edit_of_two_files_is_tried_and_what_is_silenced_is_told(page: Page, served: str, tmp_path: Path) -> None:
     skinned = """<mujoco><worldbody><body name="{0}" pos="{1} 0 2"><freejoint/>
     <geom size="0.05" contype="0" conaffinity="0"/><geom size="0.05" mass="0.2"/></body></worldbody></mujoco>"""

@@ -31,6 +31,7 @@ const FILES = {
  * @typedef {object} Finding as `clinic diagnose --format json` prints it
  * @property {string} rule
  * @property {string} title
+ * @property {"cause" | "hint"} level
  * @property {string[]} elements
  * @property {string} file
  * @property {number | null} line
@@ -56,7 +57,7 @@ const FILES = {
  * @property {string} diff
  * @property {Texts} texts the model's and those that it includes
  * @property {Texts} mended the files that all edits together change
- * @property {Texts[]} edited the files that the edit of each cause changes
+ * @property {Texts[]} edited the files that the edit of each finding changes, of causes before hints
  * @property {Record<string, string>} titles of the rules
  *
  * @typedef {object} Request

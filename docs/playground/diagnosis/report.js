@@ -14,7 +14,7 @@ const BUTTON = { class: "md-button" };
  * @param {Diagnosis} diagnosis
  * @param {Request} request what was asked
  * @param {string} rules the address of the rules' pages
- * @param {(place: HTMLElement, index: number) => void} tryEdit opens the model with the edit of a cause in a place
+ * @param {(place: HTMLElement, index: number) => void} tryEdit opens the model with the edit of a finding, causes before hints, in a place
  * @returns {HTMLElement}
  */
 export function report(diagnosis, request, rules, tryEdit) {
@@ -24,18 +24,21 @@ export function report(diagnosis, request, rules, tryEdit) {
   if (hints.some(({ rule }) => rule === "missing-file")) made.append(el("p", {}, "Drop the model's folder, or a zip of it, to have its files looked at too."));
   const tried = el("div", { class: "dg-tried" });
   const item = (/** @type {Finding} */ found, /** @type {number} */ index) => {
-    const offer = Object.keys(diagnosis.edited[index]).length > 0;
-    const act = offer ? [button("Try this edit", () => tryEdit(tried, index), BUTTON)] : [];
-    return el("li", {}, ...finding(found, rules), ...act);
+    const told = el("li", {}, ...finding(found, rules));
+    const act = button("Try this edit", () => {
+      told.closest(".dg-report > *")?.after(tried);
+      tryEdit(tried, index);
+    }, BUTTON);
+    if (Object.keys(diagnosis.edited[index]).length > 0) told.append(act);
+    return told;
   };
   const items = causes.map(item);
-  if (items.length > 0) made.append(el("ol", { class: "dg-causes" }, ...items.slice(0, SHOWN)));
+  if (items.length > 0) made.append(el("ol", { class: "dg-found" }, ...items.slice(0, SHOWN)));
   const more = items.slice(SHOWN);
-  if (more.length > 0) made.append(fold(count(more.length, "more cause"), el("ol", { start: String(SHOWN + 1) }, ...more)));
-  made.append(tried);
+  if (more.length > 0) made.append(fold(count(more.length, "more cause"), el("ol", { class: "dg-found", start: String(SHOWN + 1) }, ...more)));
   if (hints.length > 0) {
-    const lines = hints.map((each) => el("li", {}, each.title, " (", link(each.rule, rules), "): ", where(each), ". ", each.says));
-    const told = fold(`${count(hints.length, "hint")}, where only you know what was meant`, el("ul", {}, ...lines));
+    const hinted = hints.map((each, index) => item(each, causes.length + index));
+    const told = fold(`${count(hints.length, "hint")}, where only you know what was meant`, el("ul", { class: "dg-found" }, ...hinted));
     told.open = causes.length === 0;
     made.append(told);
   }
@@ -68,11 +71,12 @@ function summary({ data: { causes, hints, ruled_out: ruledOut, engine, error } }
  * @param {string} rules
  */
 function finding(found, rules) {
-  const change = found.attribute ? `${found.attribute}: ${found.now || "(none)"} → ${found.value}` : found.value;
+  const written = [found.now, found.value].filter(Boolean).join(" → ");
+  const change = found.value && (found.attribute ? `${found.attribute}: ${written}` : found.value);
   const made = [el("p", { class: "dg-title" }, el("strong", {}, found.title), " ", link(found.rule, rules))];
   made.push(el("p", { class: "dg-place" }, where(found)), el("p", {}, found.says));
   if (change) made.push(el("p", {}, el("code", {}, change)));
-  if (found.probe && found.unit !== "errors") {
+  if (found.probe && found.unit !== "errors" && (found.level === "cause" || found.after !== null)) {
     const after = found.after !== null ? ` With the edit: ${shown(found.after, found.unit)}.` : "";
     const begun = found.keyframe === null ? "" : `, from keyframe ${found.keyframe}`;
     made.push(el("p", {}, `${capital(found.probe)}${begun}: ${shown(found.before, found.unit)}.${after}`));

@@ -1,4 +1,4 @@
-// A cause's edit, tried in the playground on the reader's own model.
+// A finding's edit, tried in the playground on the reader's own model.
 
 /** @import {CaseRecord} from "../record/types.js" */
 /** @import {Diagnosis, Request, Texts} from "./client.js" */
@@ -12,7 +12,7 @@ const DEEPEST = 20; // files that include each other
  * began. Of an edit in several files the text is the whole model, with what it includes in the place of each `<include>`.
  * @param {Request} request
  * @param {Diagnosis} made
- * @param {number} index of the cause
+ * @param {number} index of the finding, causes before hints
  * @returns {CaseRecord}
  */
 export function readersRecord({ text: main, name, files }, made, index) {
@@ -21,7 +21,7 @@ export function readersRecord({ text: main, name, files }, made, index) {
   const file = several ? name : Object.keys(edited)[0];
   const text = several ? whole(made.texts, name) : made.texts[file];
   const after = several ? whole({ ...made.texts, ...edited }, name) : edited[file];
-  const { title, keyframe } = made.data.causes[index];
+  const { title, keyframe } = [...made.data.causes, ...made.data.hints][index];
   return {
     ...{ case: name.replace(/\.\w+$/, ""), number: 0, title, engine: "", name: file, text, files },
     ...(file === name ? {} : { main }),

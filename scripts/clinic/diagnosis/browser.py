@@ -134,7 +134,7 @@ def diagnose(
         "diff": made.diff(),
         "texts": texts,
         "mended": changed(made.fixed),
-        "edited": [changed(apply(texts, each.edit)) for each in made.causes],
+        "edited": [changed(apply(texts, each.edit)) for each in (*made.causes, *made.hints)],
         "titles": {rule.id: rule.title for rule in rules().values()},
     }
     return json.dumps(shown)

@@ -99,15 +99,19 @@ def test_the_findings_are_copied_and_the_mended_model_is_saved(page: Page, serve
 
 def test_an_edit_runs_beside_the_model_as_it_was(page: Page, served: str, tmp_path: Path) -> None:
     opened(page, served)
-    give(page, written(tmp_path / "shaking.xml", BAD))
+    give(page, written(tmp_path / "shaking.xml", BAD.replace("<mujoco>", "<mujoco>" + 300 * "\n")))
 
     page.get_by_role("button", name="Try this edit").click()
 
-    expect(page.locator(".cm-deletedChunk")).to_be_visible()
+    expect(page.locator(".cm-deletedChunk")).to_be_in_viewport()
+    measured = page.locator(".dg-found p", has_text="With the edit:").first.inner_text()
+    expect(page.locator(".pg-beside")).to_contain_text(measured)
     expect(page.locator(".pg-status")).to_contain_text("This runs in MuJoCo")
     page.get_by_role("button", name="Run", exact=True).click()
     page.wait_for_function("document.querySelector('.pg-clock')?.dataset.steps > 0", timeout=LIMIT)
     expect(page.get_by_text("As it was: MuJoCo warns: Nan, Inf or huge value in QACC")).to_be_visible()
+    page.locator(".pg-chart").hover(position={"x": 60, "y": 40})
+    expect(page.locator(".pg-newest")).to_contain_text("with the edit 0, as it was 0")
     expect(page.locator(".pg-complaint")).to_be_empty()
     expect(page.locator(".pg-warnings")).to_be_empty()
     expect(page.get_by_role("button", name="Check my fix")).to_have_count(0)

@@ -76,12 +76,20 @@ function finding(found, rules) {
   const made = [el("p", { class: "dg-title" }, el("strong", {}, found.title), " ", link(found.rule, rules))];
   made.push(el("p", { class: "dg-place" }, where(found)), el("p", {}, found.says));
   if (change) made.push(el("p", {}, el("code", {}, change)));
-  if (found.probe && found.unit !== "errors" && (found.level === "cause" || found.after !== null)) {
-    const after = found.after !== null ? ` With the edit: ${shown(found.after, found.unit)}.` : "";
-    const begun = found.keyframe === null ? "" : `, from keyframe ${found.keyframe}`;
-    made.push(el("p", {}, `${capital(found.probe)}${begun}: ${shown(found.before, found.unit)}.${after}`));
-  }
+  const numbers = measured(found);
+  if (numbers) made.push(el("p", {}, numbers));
   return made;
+}
+
+/**
+ * What a finding's probe measured without its edit and with it; empty where that says nothing.
+ * @param {Finding} found
+ */
+export function measured({ level, probe, keyframe, before, after, unit }) {
+  if (!probe || unit === "errors" || (level === "hint" && after === null)) return "";
+  const edited = after === null ? "" : ` With the edit: ${shown(after, unit)}.`;
+  const begun = keyframe === null ? "" : `, from keyframe ${keyframe}`;
+  return `${capital(probe)}${begun}: ${shown(before, unit)}.${edited}`;
 }
 
 /** @param {Finding} found */

@@ -1,5 +1,7 @@
 // A finding's edit, tried in the playground on the reader's own model.
 
+import { measured } from "./report.js";
+
 /** @import {CaseRecord} from "../record/types.js" */
 /** @import {Diagnosis, Request, Texts} from "./client.js" */
 
@@ -21,9 +23,10 @@ export function readersRecord({ text: main, name, files }, made, index) {
   const file = several ? name : Object.keys(edited)[0];
   const text = several ? whole(made.texts, name) : made.texts[file];
   const after = several ? whole({ ...made.texts, ...edited }, name) : edited[file];
-  const { title, keyframe } = [...made.data.causes, ...made.data.hints][index];
+  const found = [...made.data.causes, ...made.data.hints][index];
+  const { title, keyframe } = found;
   return {
-    ...{ case: name.replace(/\.\w+$/, ""), number: 0, title, engine: "", name: file, text, files },
+    ...{ case: name.replace(/\.\w+$/, ""), number: 0, title, engine: "", name: file, text, files, measured: measured(found) },
     ...(file === name ? {} : { main }),
     run: { duration: 1, keyframe, qpos: {}, qvel: {}, ctrl: {} },
     signals: { contacts: { path: "ncon", columns: [], unit: "", label: "number of contacts", seen: true } },

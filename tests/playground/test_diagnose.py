@@ -92,6 +92,12 @@ def test_the_findings_are_copied_and_the_mended_model_is_saved(page: Page, serve
     assert (cause["rule"], cause["attribute"]) == ("spring-too-stiff", "stiffness")
 
     with page.expect_download() as download:
+    page.get_by_role("button", name="Copy as text").click()
+    page.wait_for_function("navigator.clipboard.readText().then((text) => text.startsWith('clinic diagnose'))")
+    text = page.evaluate("navigator.clipboard.readText()")
+    assert "rules (" in text, "what was ruled out is counted, not listed"
+    assert "rolls-for-ever" not in text
+
         page.get_by_role("button", name="Save the mended model").click()
     assert download.value.suggested_filename == "shaking.mended.xml"
     assert f'stiffness="{cause["value"]}"' in Path(download.value.path()).read_text(encoding="utf-8")

@@ -130,7 +130,7 @@ def diagnose(
 
     shown = {
         "data": made.data(),
-        "text": made.text(every=True),
+        "text": made.text(),
         "diff": made.diff(),
         "texts": texts,
         "mended": changed(made.fixed),

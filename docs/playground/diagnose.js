@@ -25,9 +25,10 @@ export async function start(place, base, rules, symptom, given) {
   try {
     const files = await readFiles(given);
     const found = models(files);
+    const single = !names.some((name) => /\.zip$/i.test(name)) && ![...files.keys()].some((path) => path.includes("/"));
     if (mine.signal.aborted) return;
     if (found.length === 0) throw new FilesError("There is no MJCF or URDF file among these: expected one that ends in .xml, .mjcf or .urdf.");
-    await examine(place, { base, rules, symptom, files, found }, found[0]);
+    await examine(place, { base, rules, symptom, files, single, found }, found[0]);
   } catch (error) {
     if (!mine.signal.aborted) place.replaceChildren(complaint(said(error)));
   }
@@ -35,7 +36,7 @@ export async function start(place, base, rules, symptom, given) {
 
 /**
  * @param {HTMLElement} place
- * @param {{base: URL, rules: string, symptom: string, files: Map<string, Uint8Array<ArrayBuffer>>, found: string[]}} all
+ * @param {{base: URL, rules: string, symptom: string, files: Map<string, Uint8Array<ArrayBuffer>>, single: boolean, found: string[]}} all
  * @param {string} path of the model
  */
 async function examine(place, all, path) {
@@ -58,7 +59,7 @@ async function examine(place, all, path) {
   show(el("div", { class: "dg-progress" }, status, bar, stop));
   place.scrollIntoView({ block: "nearest" });
   try {
-    const request = { text: textOf(all.files, path), name, files: seenFrom(all.files, path), symptom: all.symptom };
+    const request = { text: textOf(all.files, path), name, files: seenFrom(all.files, path), single: all.single, symptom: all.symptom };
     const made = await diagnose(all.base, request, tell, signal);
     show(report(made, request, all.rules, (place, index) => void tryEdit(place, all.base, readersRecord(request, made, index))));
   } catch (error) {

@@ -179,6 +179,9 @@ def test_a_folder_and_a_zip_bring_their_meshes(page: Page, served: str, tmp_path
     assert "wedge.obj is not there" in alone
     assert "Drop the model's folder" in alone
 
+    lacking = give(page, robot / "models")
+    assert "wedge.obj is not there" in lacking
+    assert "Drop the model's folder" not in lacking
 
 def test_of_several_models_one_is_chosen(page: Page, served: str, tmp_path: Path) -> None:
     part = written(tmp_path / "part.xml", "<mujoco><worldbody><geom size='1'/></worldbody></mujoco>")

@@ -64,6 +64,7 @@ const FILES = {
  * @property {string} text the model
  * @property {string} name what to call it
  * @property {[string, Uint8Array<ArrayBuffer>][]} files what it names, by path from the model's folder
+ * @property {boolean} single whether it came alone or with single files, neither in a folder nor in a zip
  * @property {string} symptom the family that the reader sees
  *
  * @typedef {(what: string, share: number) => void} Tell what is being done, and how much of it is done

@@ -23,9 +23,10 @@ export async function start(place, base, rules, symptom, given) {
   under.abort(null);
   const mine = (under = new AbortController());
   try {
+    const names = [...given].map(({ name }) => name);
     const files = await readFiles(given);
-    const found = models(files);
     const single = !names.some((name) => /\.zip$/i.test(name)) && ![...files.keys()].some((path) => path.includes("/"));
+    const found = models(files);
     if (mine.signal.aborted) return;
     if (found.length === 0) throw new FilesError("There is no MJCF or URDF file among these: expected one that ends in .xml, .mjcf or .urdf.");
     await examine(place, { base, rules, symptom, files, single, found }, found[0]);

@@ -57,8 +57,10 @@ async function examine(place, all, path) {
     status.textContent = share > 0 ? `${what} (${Math.round(100 * share)} %)` : what;
   };
   const show = (/** @type {HTMLElement} */ made) => place.replaceChildren(...others, made);
-  show(el("div", { class: "dg-progress" }, status, bar, stop));
-  place.scrollIntoView({ block: "nearest" });
+  const shown = el("div", { class: "dg-progress" }, status, bar, stop);
+  tell("Starting", 0);
+  show(shown);
+  shown.scrollIntoView({ block: "nearest" });
   try {
     const request = { text: textOf(all.files, path), name, files: seenFrom(all.files, path), single: all.single, symptom: all.symptom };
     const made = await diagnose(all.base, request, tell, signal);

@@ -24,6 +24,7 @@ DROP = """(place, files) => {
   for (const [name, bytes] of files) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
   place.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
 }"""
+TOP = "one => one.getBoundingClientRect().top"
 BAD = rules()["spring-too-stiff"].example("Bad")
 
 
@@ -91,13 +92,13 @@ def test_the_findings_are_copied_and_the_mended_model_is_saved(page: Page, serve
     (cause,) = copied["causes"]
     assert (cause["rule"], cause["attribute"]) == ("spring-too-stiff", "stiffness")
 
-    with page.expect_download() as download:
     page.get_by_role("button", name="Copy as text").click()
     page.wait_for_function("navigator.clipboard.readText().then((text) => text.startsWith('clinic diagnose'))")
     text = page.evaluate("navigator.clipboard.readText()")
     assert "rules (" in text, "what was ruled out is counted, not listed"
     assert "rolls-for-ever" not in text
 
+    with page.expect_download() as download:
         page.get_by_role("button", name="Save the mended model").click()
     assert download.value.suggested_filename == "shaking.mended.xml"
     assert f'stiffness="{cause["value"]}"' in Path(download.value.path()).read_text(encoding="utf-8")
@@ -116,7 +117,7 @@ def test_an_edit_runs_beside_the_model_as_it_was(page: Page, served: str, tmp_pa
     page.get_by_role("button", name="Run", exact=True).click()
     page.wait_for_function("document.querySelector('.pg-clock')?.dataset.steps > 0", timeout=LIMIT)
     expect(page.get_by_text("As it was: MuJoCo warns: Nan, Inf or huge value in QACC")).to_be_visible()
-    page.locator(".pg-chart").hover(position={"x": 60, "y": 40})
+    page.locator(".pg-chart .u-over").hover(position={"x": 20, "y": 20})
     expect(page.locator(".pg-newest")).to_contain_text("with the edit 0, as it was 0")
     expect(page.locator(".pg-complaint")).to_be_empty()
     expect(page.locator(".pg-warnings")).to_be_empty()
@@ -178,10 +179,10 @@ def test_a_folder_and_a_zip_bring_their_meshes(page: Page, served: str, tmp_path
     alone = give(page, robot / "models" / "wedge.xml")
     assert "wedge.obj is not there" in alone
     assert "Drop the model's folder" in alone
-
     lacking = give(page, robot / "models")
     assert "wedge.obj is not there" in lacking
     assert "Drop the model's folder" not in lacking
+
 
 def test_of_several_models_one_is_chosen(page: Page, served: str, tmp_path: Path) -> None:
     part = written(tmp_path / "part.xml", "<mujoco><worldbody><geom size='1'/></worldbody></mujoco>")
@@ -245,6 +246,36 @@ def test_the_symptom_and_everything_shown_have_names(page: Page, served: str, ro
     )
 
     assert found == []
+
+
+def test_what_is_found_is_read_on_the_first_page(page: Page, served: str, root: Path, tmp_path: Path) -> None:
+    page.set_viewport_size({"width": 1280, "height": 900})
+    opened(page, served)
+    give(page, written(tmp_path / "shaking.xml", BAD))
+    page.add_script_tag(path=root / "node_modules/axe-core/axe.min.js")
+
+    for scheme in ("default", "slate"):
+        page.evaluate("scheme => document.body.setAttribute('data-md-color-scheme', scheme)", scheme)
+        found = page.evaluate(  # white on white is incomplete to axe, and no violation
+            "axe.run('.drop', { runOnly: 'color-contrast' }).then(({ violations, incomplete }) =>"
+            "[...violations, ...incomplete].flatMap(({ nodes }) => nodes.map(({ html }) => html)))"
+        )
+        assert found == []
+
+
+def test_on_a_phone_all_stays_where_the_model_is_given(page: Page, served: str, tmp_path: Path) -> None:
+    page.set_viewport_size({"width": 390, "height": 700})
+    opened(page, served)
+    place, tiles, stop = page.locator(".dg-ask"), page.locator(".tiles"), page.get_by_role("button", name="Stop")
+    expect(page.get_by_label("What do you see?")).to_be_visible()
+    place.evaluate("place => place.scrollIntoView({ block: 'end' })")
+
+    page.locator(".dg-ask input").first.set_input_files(written(tmp_path / "still.xml", STILL))
+    expect(stop).to_be_in_viewport(ratio=1)
+    stop.click()
+
+    assert answer(page) == "still.xml: Stopped."
+    assert place.evaluate(TOP) < tiles.evaluate(TOP)
 
 
 def test_opened_as_files_the_page_says_what_it_wants(page: Page, site: Path) -> None:

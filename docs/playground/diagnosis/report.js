@@ -74,7 +74,7 @@ function finding(found, rules) {
   const written = [found.now, found.value].filter(Boolean).join(" → ");
   const change = found.value && (found.attribute ? `${found.attribute}: ${written}` : found.value);
   const made = [el("p", { class: "dg-title" }, el("strong", {}, found.title), " ", link(found.rule, rules))];
-  made.push(el("p", { class: "dg-place" }, where(found)), el("p", {}, found.says));
+  made.push(el("p", {}, where(found)), el("p", {}, found.says));
   if (change) made.push(el("p", {}, el("code", {}, change)));
   const numbers = measured(found);
   if (numbers) made.push(el("p", {}, numbers));

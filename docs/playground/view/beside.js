@@ -25,7 +25,8 @@ export class Beside {
     const place = el("div", { class: "pg-beside" });
     stage.replaceWith(place);
     const was = el("figure", {}, el("div", { class: "pg-stage" }, canvas), this.caption);
-    place.append(was, el("figure", {}, stage, el("figcaption", {}, "With the edit")), el("p", {}, player.record.measured ?? ""));
+    place.append(was, el("figure", {}, stage, el("figcaption", {}, "With the edit")));
+    if (player.record.measured) place.append(el("p", {}, player.record.measured));
     this.scene = new Scene(canvas);
     this.scene.camera = player.scene.camera;
     player.scene.rendered = () => this.scene.render();

@@ -55,6 +55,14 @@ def test_on_a_phone_the_cards_begin_after_a_screen_and_a_half(page: Page, served
     assert top <= 1.5 * PHONE["height"], "shorten what stands above the cards in home.md.j2 or home.css"
 
 
+def test_on_a_phone_the_word_of_a_tile_hides_nothing_of_its_picture(page: Page, served: str) -> None:
+    page.set_viewport_size(PHONE)  # type: ignore[arg-type]
+    page.goto(served + "index.html")
+    hidden = """tiles => tiles.filter(tile => tile.querySelector("b").getBoundingClientRect().top
+        < tile.querySelector(".tile-picture").getBoundingClientRect().bottom - 0.5).map(tile => tile.textContent)"""
+    assert page.locator(".tile").evaluate_all(hidden) == []
+
+
 def test_a_tile_shows_the_cards_of_its_symptom_and_gives_all_back(page: Page, served: str) -> None:
     page.goto(served + "index.html")
     count = page.locator(".case:visible").count()

@@ -252,6 +252,19 @@ def test_answers_are_searched_by_who_asks_for_them(page: Page, served: str) -> N
     expect(results.locator("a").first).to_have_attribute("href", re.compile("rotation-error-reads-zero"))
 
 
+def test_on_a_phone_no_button_lies_over_the_open_box(page: Page, served: str) -> None:
+    page.set_viewport_size({"width": 390, "height": 800})
+    page.goto(served + "messages.html")
+    box = page.locator(".search-header input")
+    box.fill("nan")
+    uncovered = """box => {
+      const { left, right, top, bottom } = box.getBoundingClientRect();
+      const met = document.elementFromPoint(right - (bottom - top) / 2, (top + bottom) / 2);
+      return met === box && left > 0 && right < innerWidth;
+    }"""
+    assert box.evaluate(uncovered), "what clears the box is pressed instead of another button"
+
+
 def test_it_runs_from_files(page: Page, site: Path) -> None:
     page.goto((site / "messages.html").as_uri())
     page.locator(".search-header input").fill("box falls through the floor")

@@ -23,11 +23,13 @@ export async function start(place, base, rules, symptom, given) {
   under.abort(null);
   const mine = (under = new AbortController());
   try {
+    const names = [...given].map(({ name }) => name);
     const files = await readFiles(given);
+    const single = !names.some((name) => /\.zip$/i.test(name)) && ![...files.keys()].some((path) => path.includes("/"));
     const found = models(files);
     if (mine.signal.aborted) return;
     if (found.length === 0) throw new FilesError("There is no MJCF or URDF file among these: expected one that ends in .xml, .mjcf or .urdf.");
-    await examine(place, { base, rules, symptom, files, found }, found[0]);
+    await examine(place, { base, rules, symptom, files, single, found }, found[0]);
   } catch (error) {
     if (!mine.signal.aborted) place.replaceChildren(complaint(said(error)));
   }
@@ -35,7 +37,7 @@ export async function start(place, base, rules, symptom, given) {
 
 /**
  * @param {HTMLElement} place
- * @param {{base: URL, rules: string, symptom: string, files: Map<string, Uint8Array<ArrayBuffer>>, found: string[]}} all
+ * @param {{base: URL, rules: string, symptom: string, files: Map<string, Uint8Array<ArrayBuffer>>, single: boolean, found: string[]}} all
  * @param {string} path of the model
  */
 async function examine(place, all, path) {
@@ -55,10 +57,12 @@ async function examine(place, all, path) {
     status.textContent = share > 0 ? `${what} (${Math.round(100 * share)} %)` : what;
   };
   const show = (/** @type {HTMLElement} */ made) => place.replaceChildren(...others, made);
-  show(el("div", { class: "dg-progress" }, status, bar, stop));
-  place.scrollIntoView({ block: "nearest" });
+  const shown = el("div", { class: "dg-progress" }, status, bar, stop);
+  tell("Starting", 0);
+  show(shown);
+  shown.scrollIntoView({ block: "nearest" });
   try {
-    const request = { text: textOf(all.files, path), name, files: seenFrom(all.files, path), symptom: all.symptom };
+    const request = { text: textOf(all.files, path), name, files: seenFrom(all.files, path), single: all.single, symptom: all.symptom };
     const made = await diagnose(all.base, request, tell, signal);
     show(report(made, request, all.rules, (place, index) => void tryEdit(place, all.base, readersRecord(request, made, index))));
   } catch (error) {
@@ -70,7 +74,7 @@ async function examine(place, all, path) {
 let leave = () => {};
 
 /**
- * Opens the model with the edit of a cause in the playground.
+ * Opens the model with the edit of a finding in the playground.
  * @param {HTMLElement} place
  * @param {URL} base
  * @param {CaseRecord} record

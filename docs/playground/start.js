@@ -37,7 +37,7 @@ export async function open(root, base, record, linked) {
   try {
     const [{ Playground, Beside }] = await rest;
     const playground = new Playground(root, record, engine, linked);
-    if (record.files) new Beside(playground.player, new Engine(source), record.text);
+    if (record.files) new Beside(playground.player, new Engine(source));
     return playground;
   } catch (error) {
     engine.end();

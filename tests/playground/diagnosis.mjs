@@ -14,6 +14,6 @@ const rules = zip.buffer.slice(zip.byteOffset, zip.byteOffset + zip.length);
 /** @type {Record<string, object>} */
 const found = {};
 for (const [name, text] of Object.entries(JSON.parse(readFileSync(models, "utf8")))) {
-  found[name] = JSON.parse(diagnoseIn(python, mujoco, rules, { text, name: "model.xml", files: [], symptom: "" }, [], () => {})).data;
+  found[name] = JSON.parse(diagnoseIn(python, mujoco, rules, { text, name: "model.xml", files: [], single: true, symptom: "" }, [], () => {})).data;
 }
 console.log(JSON.stringify(found));

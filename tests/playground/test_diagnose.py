@@ -24,6 +24,7 @@ DROP = """(place, files) => {
   for (const [name, bytes] of files) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
   place.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
 }"""
+TOP = "one => one.getBoundingClientRect().top"
 BAD = rules()["spring-too-stiff"].example("Bad")
 
 
@@ -91,6 +92,12 @@ def test_the_findings_are_copied_and_the_mended_model_is_saved(page: Page, serve
     (cause,) = copied["causes"]
     assert (cause["rule"], cause["attribute"]) == ("spring-too-stiff", "stiffness")
 
+    page.get_by_role("button", name="Copy as text").click()
+    page.wait_for_function("navigator.clipboard.readText().then((text) => text.startsWith('clinic diagnose'))")
+    text = page.evaluate("navigator.clipboard.readText()")
+    assert "rules (" in text, "what was ruled out is counted, not listed"
+    assert "rolls-for-ever" not in text
+
     with page.expect_download() as download:
         page.get_by_role("button", name="Save the mended model").click()
     assert download.value.suggested_filename == "shaking.mended.xml"
@@ -99,20 +106,43 @@ def test_the_findings_are_copied_and_the_mended_model_is_saved(page: Page, serve
 
 def test_an_edit_runs_beside_the_model_as_it_was(page: Page, served: str, tmp_path: Path) -> None:
     opened(page, served)
-    give(page, written(tmp_path / "shaking.xml", BAD))
+    give(page, written(tmp_path / "shaking.xml", BAD.replace("<mujoco>", "<mujoco>" + 300 * "\n")))
 
     page.get_by_role("button", name="Try this edit").click()
 
-    expect(page.locator(".cm-deletedChunk")).to_be_visible()
+    expect(page.locator(".cm-deletedChunk")).to_be_in_viewport()
+    measured = page.locator(".dg-found p", has_text="With the edit:").first.inner_text()
+    expect(page.locator(".pg-beside")).to_contain_text(measured)
     expect(page.locator(".pg-status")).to_contain_text("This runs in MuJoCo")
     page.get_by_role("button", name="Run", exact=True).click()
     page.wait_for_function("document.querySelector('.pg-clock')?.dataset.steps > 0", timeout=LIMIT)
     expect(page.get_by_text("As it was: MuJoCo warns: Nan, Inf or huge value in QACC")).to_be_visible()
+    page.locator(".pg-chart .u-over").hover(position={"x": 20, "y": 20})
+    expect(page.locator(".pg-newest")).to_contain_text("with the edit 0, as it was 0")
     expect(page.locator(".pg-complaint")).to_be_empty()
     expect(page.locator(".pg-warnings")).to_be_empty()
     expect(page.get_by_role("button", name="Check my fix")).to_have_count(0)
 
     assert len(engines(page)) == 2
+
+
+@pytest.mark.parametrize(
+    ("rule", "told"),
+    [
+        ("armature-unlike-others", "armature: 100 → 0.1 Armature over that of the next: 1000. With the edit: 1."),
+        ("rolls-for-ever", "condim: 3 → 6, friction 1 0.005 0.005 Try this edit"),
+    ],
+)
+def test_a_hint_tells_its_edit_with_what_was_measured(
+    page: Page, served: str, tmp_path: Path, rule: str, told: str
+) -> None:
+    opened(page, served)
+
+    said = give(page, written(tmp_path / "hinted.xml", rules()[rule].example("Bad")))
+
+    assert told in " ".join(said.split())
+    page.locator("li", has_text=rule).get_by_role("button", name="Try this edit").click()
+    expect(page.locator(".cm-deletedChunk").first).to_be_visible()
 
 
 def test_an_edit_of_two_files_is_tried_and_what_is_silenced_is_told(page: Page, served: str, tmp_path: Path) -> None:
@@ -149,6 +179,9 @@ def test_a_folder_and_a_zip_bring_their_meshes(page: Page, served: str, tmp_path
     alone = give(page, robot / "models" / "wedge.xml")
     assert "wedge.obj is not there" in alone
     assert "Drop the model's folder" in alone
+    lacking = give(page, robot / "models")
+    assert "wedge.obj is not there" in lacking
+    assert "Drop the model's folder" not in lacking
 
 
 def test_of_several_models_one_is_chosen(page: Page, served: str, tmp_path: Path) -> None:
@@ -213,6 +246,36 @@ def test_the_symptom_and_everything_shown_have_names(page: Page, served: str, ro
     )
 
     assert found == []
+
+
+def test_what_is_found_is_read_on_the_first_page(page: Page, served: str, root: Path, tmp_path: Path) -> None:
+    page.set_viewport_size({"width": 1280, "height": 900})
+    opened(page, served)
+    give(page, written(tmp_path / "shaking.xml", BAD))
+    page.add_script_tag(path=root / "node_modules/axe-core/axe.min.js")
+
+    for scheme in ("default", "slate"):
+        page.evaluate("scheme => document.body.setAttribute('data-md-color-scheme', scheme)", scheme)
+        found = page.evaluate(  # white on white is incomplete to axe, and no violation
+            "axe.run('.drop', { runOnly: 'color-contrast' }).then(({ violations, incomplete }) =>"
+            "[...violations, ...incomplete].flatMap(({ nodes }) => nodes.map(({ html }) => html)))"
+        )
+        assert found == []
+
+
+def test_on_a_phone_all_stays_where_the_model_is_given(page: Page, served: str, tmp_path: Path) -> None:
+    page.set_viewport_size({"width": 390, "height": 700})
+    opened(page, served)
+    place, tiles, stop = page.locator(".dg-ask"), page.locator(".tiles"), page.get_by_role("button", name="Stop")
+    expect(page.get_by_label("What do you see?")).to_be_visible()
+    place.evaluate("place => place.scrollIntoView({ block: 'end' })")
+
+    page.locator(".dg-ask input").first.set_input_files(written(tmp_path / "still.xml", STILL))
+    expect(stop).to_be_in_viewport(ratio=1)
+    stop.click()
+
+    assert answer(page) == "still.xml: Stopped."
+    assert place.evaluate(TOP) < tiles.evaluate(TOP)
 
 
 def test_opened_as_files_the_page_says_what_it_wants(page: Page, site: Path) -> None:

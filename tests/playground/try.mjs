@@ -11,7 +11,7 @@ import { applyEdits } from "../../docs/playground/engine/variant.js";
 const { name, made } = JSON.parse(readFileSync(process.argv[2], "utf8"));
 const mujoco = await loadMujoco({ print: () => {}, printErr: () => {} });
 const files = /** @type {[string, Uint8Array<ArrayBuffer>][]} */ (encoded(Object.entries(made.texts)));
-const record = readersRecord({ text: made.texts[name], name, files, symptom: "" }, made, 0);
+const record = readersRecord({ text: made.texts[name], name, files, single: false, symptom: "" }, made, 0);
 const [before, after] = [record.text, applyEdits(record.text, record.fixes[0].edits)].map((text) => {
   const model = compile(mujoco, record.main ?? text, [...files, ...encoded([[record.name, text]])]);
   return { qpos: [...start(mujoco, model, record.run).qpos], mass: [...model.body_mass] };

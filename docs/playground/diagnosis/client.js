@@ -31,6 +31,7 @@ const FILES = {
  * @typedef {object} Finding as `clinic diagnose --format json` prints it
  * @property {string} rule
  * @property {string} title
+ * @property {"cause" | "hint"} level
  * @property {string[]} elements
  * @property {string} file
  * @property {number | null} line
@@ -56,13 +57,14 @@ const FILES = {
  * @property {string} diff
  * @property {Texts} texts the model's and those that it includes
  * @property {Texts} mended the files that all edits together change
- * @property {Texts[]} edited the files that the edit of each cause changes
+ * @property {Texts[]} edited the files that the edit of each finding changes, of causes before hints
  * @property {Record<string, string>} titles of the rules
  *
  * @typedef {object} Request
  * @property {string} text the model
  * @property {string} name what to call it
  * @property {[string, Uint8Array<ArrayBuffer>][]} files what it names, by path from the model's folder
+ * @property {boolean} single whether it came alone or with single files, neither in a folder nor in a zip
  * @property {string} symptom the family that the reader sees
  *
  * @typedef {(what: string, share: number) => void} Tell what is being done, and how much of it is done

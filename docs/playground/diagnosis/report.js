@@ -14,28 +14,31 @@ const BUTTON = { class: "md-button" };
  * @param {Diagnosis} diagnosis
  * @param {Request} request what was asked
  * @param {string} rules the address of the rules' pages
- * @param {(place: HTMLElement, index: number) => void} tryEdit opens the model with the edit of a cause in a place
+ * @param {(place: HTMLElement, index: number) => void} tryEdit opens the model with the edit of a finding, causes before hints, in a place
  * @returns {HTMLElement}
  */
 export function report(diagnosis, request, rules, tryEdit) {
   const { causes, hints, silenced, ruled_out: ruledOut, engine, error } = diagnosis.data;
   const made = el("div", { class: "dg-report" }, el("p", { role: "status" }, el("strong", {}, request.name), ` ${summary(diagnosis)}`));
   if (error && causes.length === 0) made.append(el("pre", {}, error.trim()));
-  if (hints.some(({ rule }) => rule === "missing-file")) made.append(el("p", {}, "Drop the model's folder, or a zip of it, to have its files looked at too."));
+  if (request.single && hints.some(({ rule }) => rule === "missing-file")) made.append(el("p", {}, "Drop the model's folder, or a zip of it, to have its files looked at too."));
   const tried = el("div", { class: "dg-tried" });
   const item = (/** @type {Finding} */ found, /** @type {number} */ index) => {
-    const offer = Object.keys(diagnosis.edited[index]).length > 0;
-    const act = offer ? [button("Try this edit", () => tryEdit(tried, index), BUTTON)] : [];
-    return el("li", {}, ...finding(found, rules), ...act);
+    const told = el("li", {}, ...finding(found, rules));
+    const act = button("Try this edit", () => {
+      told.closest(".dg-report > *")?.after(tried);
+      tryEdit(tried, index);
+    }, BUTTON);
+    if (Object.keys(diagnosis.edited[index]).length > 0) told.append(act);
+    return told;
   };
   const items = causes.map(item);
-  if (items.length > 0) made.append(el("ol", { class: "dg-causes" }, ...items.slice(0, SHOWN)));
+  if (items.length > 0) made.append(el("ol", { class: "dg-found" }, ...items.slice(0, SHOWN)));
   const more = items.slice(SHOWN);
-  if (more.length > 0) made.append(fold(count(more.length, "more cause"), el("ol", { start: String(SHOWN + 1) }, ...more)));
-  made.append(tried);
+  if (more.length > 0) made.append(fold(count(more.length, "more cause"), el("ol", { class: "dg-found", start: String(SHOWN + 1) }, ...more)));
   if (hints.length > 0) {
-    const lines = hints.map((each) => el("li", {}, each.title, " (", link(each.rule, rules), "): ", where(each), ". ", each.says));
-    const told = fold(`${count(hints.length, "hint")}, where only you know what was meant`, el("ul", {}, ...lines));
+    const hinted = hints.map((each, index) => item(each, causes.length + index));
+    const told = fold(`${count(hints.length, "hint")}, where only you know what was meant`, el("ul", { class: "dg-found" }, ...hinted));
     told.open = causes.length === 0;
     made.append(told);
   }
@@ -68,16 +71,25 @@ function summary({ data: { causes, hints, ruled_out: ruledOut, engine, error } }
  * @param {string} rules
  */
 function finding(found, rules) {
-  const change = found.attribute ? `${found.attribute}: ${found.now || "(none)"} → ${found.value}` : found.value;
+  const written = [found.now, found.value].filter(Boolean).join(" → ");
+  const change = found.value && (found.attribute ? `${found.attribute}: ${written}` : found.value);
   const made = [el("p", { class: "dg-title" }, el("strong", {}, found.title), " ", link(found.rule, rules))];
-  made.push(el("p", { class: "dg-place" }, where(found)), el("p", {}, found.says));
+  made.push(el("p", {}, where(found)), el("p", {}, found.says));
   if (change) made.push(el("p", {}, el("code", {}, change)));
-  if (found.probe && found.unit !== "errors") {
-    const after = found.after !== null ? ` With the edit: ${shown(found.after, found.unit)}.` : "";
-    const begun = found.keyframe === null ? "" : `, from keyframe ${found.keyframe}`;
-    made.push(el("p", {}, `${capital(found.probe)}${begun}: ${shown(found.before, found.unit)}.${after}`));
-  }
+  const numbers = measured(found);
+  if (numbers) made.push(el("p", {}, numbers));
   return made;
+}
+
+/**
+ * What a finding's probe measured without its edit and with it; empty where that says nothing.
+ * @param {Finding} found
+ */
+export function measured({ level, probe, keyframe, before, after, unit }) {
+  if (!probe || unit === "errors" || (level === "hint" && after === null)) return "";
+  const edited = after === null ? "" : ` With the edit: ${shown(after, unit)}.`;
+  const begun = keyframe === null ? "" : `, from keyframe ${keyframe}`;
+  return `${capital(probe)}${begun}: ${shown(before, unit)}.${edited}`;
 }
 
 /** @param {Finding} found */

@@ -1,4 +1,6 @@
-// A cause's edit, tried in the playground on the reader's own model.
+// A finding's edit, tried in the playground on the reader's own model.
+
+import { measured } from "./report.js";
 
 /** @import {CaseRecord} from "../record/types.js" */
 /** @import {Diagnosis, Request, Texts} from "./client.js" */
@@ -12,7 +14,7 @@ const DEEPEST = 20; // files that include each other
  * began. Of an edit in several files the text is the whole model, with what it includes in the place of each `<include>`.
  * @param {Request} request
  * @param {Diagnosis} made
- * @param {number} index of the cause
+ * @param {number} index of the finding, causes before hints
  * @returns {CaseRecord}
  */
 export function readersRecord({ text: main, name, files }, made, index) {
@@ -21,9 +23,10 @@ export function readersRecord({ text: main, name, files }, made, index) {
   const file = several ? name : Object.keys(edited)[0];
   const text = several ? whole(made.texts, name) : made.texts[file];
   const after = several ? whole({ ...made.texts, ...edited }, name) : edited[file];
-  const { title, keyframe } = made.data.causes[index];
+  const found = [...made.data.causes, ...made.data.hints][index];
+  const { title, keyframe } = found;
   return {
-    ...{ case: name.replace(/\.\w+$/, ""), number: 0, title, engine: "", name: file, text, files },
+    ...{ case: name.replace(/\.\w+$/, ""), number: 0, title, engine: "", name: file, text, files, measured: measured(found) },
     ...(file === name ? {} : { main }),
     run: { duration: 1, keyframe, qpos: {}, qvel: {}, ctrl: {} },
     signals: { contacts: { path: "ncon", columns: [], unit: "", label: "number of contacts", seen: true } },

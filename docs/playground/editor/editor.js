@@ -4,7 +4,7 @@ import { defaultKeymap, history, historyKeymap, undo } from "@codemirror/command
 import { xml } from "@codemirror/lang-xml";
 import { bracketMatching, HighlightStyle, indentOnInput, indentRange, syntaxHighlighting } from "@codemirror/language";
 import { lintGutter, setDiagnostics } from "@codemirror/lint";
-import { unifiedMergeView } from "@codemirror/merge";
+import { getChunks, unifiedMergeView } from "@codemirror/merge";
 import { Compartment, EditorState } from "@codemirror/state";
 import { drawSelection, EditorView, keymap, lineNumbers } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
@@ -92,11 +92,8 @@ export class Editor {
   compare(original) {
     const extension = original === null ? [] : unifiedMergeView({ original, mergeControls: false, gutter: true });
     this.view.dispatch({ effects: this.comparison.reconfigure(extension) });
-    const first = this.view.dom.querySelector(".cm-changedLine, .cm-deletedChunk");
-    if (original !== null && first) {
-      const position = this.view.posAtDOM(first);
-      this.view.dispatch({ effects: EditorView.scrollIntoView(position, { y: "center" }) });
-    }
+    const first = getChunks(this.view.state)?.chunks[0];
+    if (first) this.view.dispatch({ effects: EditorView.scrollIntoView(Math.min(first.fromB, this.view.state.doc.length), { y: "center" }) });
   }
 
   /**

@@ -66,6 +66,7 @@
  *   which remedies that do not help do; empty if that is not known
  * @property {Record<string, {href: string, title: string}[]>} explained pages that explain a warning
  * @property {[string, Uint8Array][]} [files] what a reader's own model names, by path from its folder
+ * @property {string} [measured] what the diagnosis measured in it, in a sentence
  * @property {string} [main] the text of the reader's model, if `text` is that of a file that it includes
  */
 

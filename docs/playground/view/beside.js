@@ -1,6 +1,7 @@
 // A text that stays as it was, run and drawn beside the one that is edited: in step with it, seen from the same place.
 
 import { el } from "../page/elements.js";
+import { Samples } from "./samples.js";
 import { Scene } from "./scene.js";
 
 /** @import {Engine} from "../engine/client.js" */
@@ -11,10 +12,11 @@ export class Beside {
   /**
    * @param {Player} player
    * @param {Engine} engine of its own
-   * @param {string} text
    */
-  constructor(player, engine, text) {
+  constructor(player, engine) {
+    this.player = player;
     this.engine = engine;
+    this.samples = player.chart.broken = new Samples(Object.keys(player.record.signals));
     this.asked = { seconds: 0, steps: 0 };
     this.waiting = true;
     this.caption = el("figcaption", {}, "As it was");
@@ -24,6 +26,7 @@ export class Beside {
     stage.replaceWith(place);
     const was = el("figure", {}, el("div", { class: "pg-stage" }, canvas), this.caption);
     place.append(was, el("figure", {}, stage, el("figcaption", {}, "With the edit")));
+    if (player.record.measured) place.append(el("p", {}, player.record.measured));
     this.scene = new Scene(canvas);
     this.scene.camera = player.scene.camera;
     player.scene.rendered = () => this.scene.render();
@@ -33,7 +36,7 @@ export class Beside {
       (_, message) => (this.caption.textContent = `As it was: it ended the engine (${message})`),
     );
     engine.renew();
-    engine.post({ type: "open", text });
+    engine.post({ type: "open", text: player.record.text });
   }
 
   /** @param {any} message from the engine */
@@ -41,12 +44,14 @@ export class Beside {
     if (message.type === "opened") {
       this.scene.load(message.assets);
       this.waiting = false;
+      this.player.dirty = true; // its first picture is asked for
     } else if (message.type === "refused") {
       this.caption.textContent = `As it was: it does not compile. ${message.message}`;
     } else if (message.type === "frame") {
       this.waiting = false;
       const { warnings } = message.frame;
       this.caption.textContent = warnings.length > 0 ? `As it was: MuJoCo warns: ${warnings[0].text}` : "As it was";
+      this.samples.add(message.frame.samples);
       this.scene.draw(message.frame);
     }
   }
@@ -66,6 +71,7 @@ export class Beside {
 
   /** Back to the start of the run. */
   reset() {
+    this.samples.clear();
     this.asked = { seconds: 0, steps: 0 };
     this.engine.post({ type: "reset" });
   }

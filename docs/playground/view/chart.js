@@ -13,6 +13,9 @@ import { reach, ticks } from "./ticks.js";
 const HEIGHT = { roomy: 150, tight: 110 }; // CSS pixels
 const TIGHT = 260; // CSS pixels: so narrow a chart gets small axes
 
+/** What the reader's run and the other one are called. @param {CaseRecord} record @returns {[string, string]} */
+export const runs = ({ files }) => (files ? ["with the edit", "as it was"] : ["yours", "broken"]);
+
 /** Samples of all signals, and the plot of one. */
 export class Chart {
   /**
@@ -25,7 +28,7 @@ export class Chart {
     this.record = record;
     this.name = first;
     this.mine = new Samples(Object.keys(record.signals));
-    /** @type {Trace} the broken run as the record has it */
+    /** @type {Trace} the broken run as the record has it; of a reader's own model, as it is sampled beside */
     this.broken = { time: [], values: {} };
     this.compared = true;
     /** @type {number | null} the time under the pointer, in s */
@@ -108,8 +111,9 @@ export class Chart {
       return;
     }
     const inside = this.pointed <= (time.at(-1) ?? 0);
-    const mine = inside ? [`yours ${number(nearest(this.mine, this.name, this.pointed))}`] : [];
-    const broken = this.compared && this.pointed <= (this.broken.time.at(-1) ?? 0) ? [`broken ${number(nearest(this.broken, this.name, this.pointed))}`] : [];
+    const [yours, other] = runs(this.record);
+    const mine = inside ? [`${yours} ${number(nearest(this.mine, this.name, this.pointed))}`] : [];
+    const broken = this.compared && this.pointed <= (this.broken.time.at(-1) ?? 0) ? [`${other} ${number(nearest(this.broken, this.name, this.pointed))}`] : [];
     newest.value = `at ${shown(this.pointed, 3)} s: ${[...mine, ...broken].join(", ") || "nothing"}`;
   }
 
@@ -153,8 +157,8 @@ export class Chart {
       ],
       series: [
         {},
-        { label: "yours", stroke: colour("--md-accent-fg-color"), width: 2, points: { show: false } },
-        { label: "broken", stroke: colour("--pg-broken"), width: 2, dash: [6, 4], points: { show: false } },
+        { stroke: colour("--md-accent-fg-color"), width: 2, points: { show: false } },
+        { stroke: colour("--pg-broken"), width: 2, dash: [6, 4], points: { show: false } },
       ],
       hooks: {
         drawAxes: [(plot) => this.drawBounds(plot, colour("--pg-bound"))],

@@ -2,6 +2,7 @@
 
 import { button, choice, el, group, tickbox } from "../page/elements.js";
 import { Actuators } from "./actuators.js";
+import { runs } from "./chart.js";
 
 /** @import {CaseRecord} from "../record/types.js" */
 /** @import {Player} from "./player.js" */
@@ -101,9 +102,10 @@ function signalChoice(record, player) {
   const plot = el("div", { class: "pg-chart", role: "img", "aria-label": "The signal over simulated time" });
   const asked = el("p", { class: "pg-asked" });
   const judged = record.checks.fixed.length > 0;
-  const broken = tickbox("broken", () => player.chart.compare(broken.box.checked));
+  const [yours, other] = runs(record);
+  const broken = tickbox(other, () => player.chart.compare(broken.box.checked));
   broken.box.checked = true;
-  const key = el("p", { class: "pg-key" }, el("span", { class: "pg-mine" }, "yours"), ...(judged ? [broken.whole, el("span", { class: "pg-wanted" }, "asked")] : []));
+  const key = el("p", { class: "pg-key" }, el("span", { class: "pg-mine" }, yours), broken.whole, ...(judged ? [el("span", { class: "pg-wanted" }, "asked")] : []));
   const whole = el("div", { class: "pg-signals" }, el("div", { class: "pg-group" }, made.whole, newest), plot);
   return { whole, legend: el("div", {}, key, asked), places: { plot, newest, asked }, first: options[0][0] };
 }

@@ -130,11 +130,11 @@ def diagnose(
 
     shown = {
         "data": made.data(),
-        "text": made.text(every=True),
+        "text": made.text(),
         "diff": made.diff(),
         "texts": texts,
         "mended": changed(made.fixed),
-        "edited": [changed(apply(texts, each.edit)) for each in made.causes],
+        "edited": [changed(apply(texts, each.edit)) for each in (*made.causes, *made.hints)],
         "titles": {rule.id: rule.title for rule in rules().values()},
     }
     return json.dumps(shown)

@@ -395,6 +395,14 @@ def test_tags_that_run_into_each_other_in_one_line_are_parted(tmp_path, monkeypa
         assert diagnosed(text, tmp_path, monkeypatch).fixed["model.xml"] == whole
 
 
+def test_a_body_in_a_line_that_is_not_closed_is_closed_there(tmp_path, monkeypatch):
+    bodies = "".join(f'    <body name="b{n}" pos="{n} 0 1"><geom size="0.1"/></body>\n' for n in range(9))
+    whole = WHOLE.replace("  </worldbody>", f"{bodies}  </worldbody>")
+    line = '<body name="b3" pos="3 0 1"><geom size="0.1"/>'
+    found = diagnosed(whole.replace(f"{line}</body>", line), tmp_path, monkeypatch)
+    assert found.fixed["model.xml"].split() == whole.replace(f"{line}</body>", f"{line}\n</body>").split()
+
+
 def test_single_quotes_are_kept(tmp_path, monkeypatch):
     whole = WHOLE.replace('"', "'")
     for right in ("name='elbow'", "size='0.1'/>\n      <body", "axis='0"):

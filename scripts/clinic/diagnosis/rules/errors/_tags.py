@@ -34,7 +34,7 @@ KNOWN_TAGS = {
 }
 ALIKE = 0.6  # from which on a name is a misspelt other one
 WIDEST = 1000  # characters of white space before a tag
-DEEPER = 0.8  # of the elements are indented below their parents, where lines are indented at all
+DEEPER = 0.8  # of the elements but one have what is inside indented deeper, where lines are indented at all
 
 
 class Slip(NamedTuple):
@@ -73,7 +73,7 @@ def closed(text: str) -> Iterator[Slip]:
     last: _Tag | None = None  # the tag before, where it opened an element
     sure: list[Slip] = []  # what the tags themselves tell
     odd: dict[int, tuple[_Tag, _Tag]] = {}  # elements, by place, with a tag that is not indented as inside of them
-    pairs = deeper = 0
+    deeper: dict[int, bool] = {}  # whether the first line inside of an element is indented deeper
     leaves = _leaves(text)
     for found in PIECE.finditer(text):
         closing, name, empty = found["close"], found["name"], found["empty"]
@@ -88,7 +88,7 @@ def closed(text: str) -> Iterator[Slip]:
                 said = f"<{name}> of line {outer.line(text)} is closed as {found[0]}"
                 sure.append(Slip(tag.start, tag.end, f"</{name}>", said))
             if outer and outer.indent is not None and tag.indent is not None:
-                pairs, deeper = pairs + 1, deeper + (tag.indent > outer.indent)
+                deeper.setdefault(outer.start, tag.indent > outer.indent)
                 if tag.indent <= outer.indent:
                     odd.setdefault(outer.start, (outer, tag))
             if outer and outer.name in leaves:
@@ -111,12 +111,12 @@ def closed(text: str) -> Iterator[Slip]:
                 odd.setdefault(outer.start, (outer, tag))
             continue
         yield from sure
-        yield from _indented(text, odd, open_) if 0 < DEEPER * pairs <= deeper else ()
+        yield from _indented(text, odd, deeper, open_)
         yield from _mismatched(text, open_, tag)
         return
     if open_:
         yield from sure
-        yield from _indented(text, odd, open_) if 0 < DEEPER * pairs <= deeper else ()
+        yield from _indented(text, odd, deeper, open_)
         names = [each.name for each in reversed(open_)]
         said = f"<{names[0]}> of line {open_[-1].line(text)} is still open where the text ends"
         said += ", as if the rest of the file were missing" if len(names) > 1 else ""
@@ -131,8 +131,12 @@ def _rooted(text: str, tag: _Tag) -> Iterator[Slip]:
         yield Slip(begin, begin, f"<{tag.name}>\n", f"</{tag.name}> of line {tag.line(text)} is not opened")
 
 
-def _indented(text: str, odd: dict[int, tuple[_Tag, _Tag]], open_: list[_Tag]) -> Iterator[Slip]:
+def _indented(
+    text: str, odd: dict[int, tuple[_Tag, _Tag]], deeper: dict[int, bool], open_: list[_Tag]
+) -> Iterator[Slip]:
     """What the lines' indents tell: of the innermost element that is open, and of the first that is not as its tags."""
+    if not 0 < DEEPER * (len(deeper) - 1) <= sum(deeper.values()):
+        return
     for outer, tag in [odd[each] for each in (open_[-1].start, *list(odd)[:1]) if each in odd]:
         assert outer.indent is not None
         assert tag.indent is not None

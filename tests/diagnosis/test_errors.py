@@ -411,6 +411,11 @@ def test_single_quotes_are_kept(tmp_path, monkeypatch):
         assert found.fixed["model.xml"] == whole
 
 
+def test_a_character_that_is_not_seen_is_told_by_its_number(tmp_path, monkeypatch):
+    (cause,) = diagnosed(WHOLE.replace("<motor", "<mo\x7ftor"), tmp_path, monkeypatch).causes
+    assert (cause.now, cause.value) == ("<mo\\x7ftor", "<motor")
+
+
 def test_two_slips_are_told_each_at_its_place(tmp_path, monkeypatch):
     wrong = WHOLE.replace('axis="0', 'axis "0').replace('"tip" size="0.1"/>', '"tip" size="0.1/>')
     found = diagnosed(wrong, tmp_path, monkeypatch)

@@ -59,6 +59,7 @@ TOGETHER = (  # what is mended at once: where it stands, what becomes of it, and
 )
 KNOWS = re.compile(rf"<{NAME}(?=[\s/>])|{NAME}(?=\s*=\s*[\"\'])")
 MOST, FEW = 16, 4  # ways to mend a mark that are tried on the whole text, and that are tried on MuJoCo
+UNSEEN = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")  # characters that no terminal shows
 NEAR = 40  # characters around a mark that are shown
 JUNK, TWICE = 9, 8  # expat's numbers of text after the root, and of an attribute given twice
 
@@ -138,7 +139,7 @@ def _suspect(file: str, text: str, slip: Slip) -> Suspect:
     if "\n" not in text[begin:end] + slip.meant:  # the words around it
         begin -= len(re.findall(r"<?[^\s<>]*\Z", text[max(begin - NEAR, 0) : begin])[0])
         end += len(re.findall(r"\A[^\s<>]*>?", text[end : end + NEAR])[0])
-    now = text[begin:end].strip()
+    now = UNSEEN.sub(lambda found: f"\\x{ord(found[0]):02x}", text[begin:end].strip())
     value = (text[begin : slip.start] + slip.meant + text[slip.end : end]).strip() or "removed"
     line = text[: slip.start].count("\n") + 1
     start, stop = (len(text[:place].encode()) for place in (slip.start, slip.end))

@@ -55,6 +55,8 @@ def test_what_an_stl_file_is_instead_is_told(content, says, folder):
     ("text", "says"),
     [
         ("", "empty"),
+        ("<", "not XML"),
+        ('<?xml version="1.0"?>\n<!-- nothing -->', "no element"),
         ("<package><name>arm</name></package>", "package.xml"),
         ('<sdf version="1.6"/>', "Gazebo"),
         ("version https://git-lfs.github.com/spec/v1", "git lfs pull"),

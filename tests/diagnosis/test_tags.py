@@ -43,6 +43,31 @@ HARMED = {  # what a slip of the hand makes of a part of the text
     "a tag has no beginning": ("  <worldbody>", "  worldbody>"),
     "a name is misspelt where it is closed": ("</actuator>", "</actuater>"),
     "a character that is none": ("<motor", "<mo\0tor"),
+    "a name is misspelt where it is opened": ("  <worldbody>", "  <worldbdy>"),
+    "a tag is opened where it should be closed": ("  </worldbody>", "  <worldbody>"),
+    "a tag is empty where it should be closed": ("  </worldbody>", "  <worldbody/>"),
+    "a slash is left out before another element": ('"0 1 0"/>\n      <geom', '"0 1 0">\n      <geom'),
+    "an equals sign is left out": ('axis="0', 'axis "0'),
+    "an equals sign is a colon": ('name="elbow"', 'name:"elbow"'),
+    "an equals sign is typed too late": ('name="elbow"', 'name"=elbow"'),
+    "an equals sign and a quote are left out": ('axis="0', "axis0"),
+    "a quote is doubled": ('name="elbow"', 'name="elbow""'),
+    "a quote is another": ('name="elbow"', "name=\"elbow'"),
+    "a quote is a mark": ('name="elbow"', 'name="elbow@'),
+    "quotes are left out": ('name="elbow"', "name=elbow"),
+    "quotes are those of prose": ('name="elbow"', "name=\u201celbow\u201d"),
+    "a bracket is doubled": ("<joint", "<<joint"),
+    "a slash has a blank behind": ('"0 1 0"/>', '"0 1 0"/ >'),
+    "a slash is typed too early": ('"0 1 0"/>', '"0 1 0/">'),
+    "a slash is a backslash": ('"0 1 0"/>', '"0 1 0"\\>'),
+    "slash and bracket are left out": ('"palm" size="0.1"/>', '"palm" size="0.1"'),
+    "a name runs into the next": ("<joint name", "<jointname"),
+    "an attribute has no value": ("<joint name", "<joint limited name"),
+    "a tag has no beginning, and what it names is missed": ("<joint", "joint"),
+    "a tag is put in for a program": ("  <actuator>", "  <?x y?><actuator>"),
+    "a merge leaves one mark": ("  <actuator>", "<<<<<<< HEAD\n  <actuator>"),
+    "a merge leaves a mark that is indented": ("  <actuator>", "  <<<<<<< HEAD\n  <actuator>"),
+    "the root is not opened": ("<mujoco>\n", ""),
 }
 
 
@@ -53,6 +78,52 @@ def test_a_slip_in_the_tags_is_undone_and_nothing_else_is_touched(harm):
     found = diagnosed(WHOLE.replace(before, after))
     assert [each.rule for each in found.causes] == ["malformed-xml"], found.text()
     assert found.fixed[FILE] == WHOLE
+
+
+def test_tags_that_run_into_each_other_in_one_line_are_parted():
+    line = '<body name="toe" pos="0 0 1"><joint name="j"/><geom size="0.1"/></body>'
+    whole = WHOLE.replace("  </worldbody>", f"    {line}\n  </worldbody>")
+    for wrong in ('1"<joint name="j"/>', '1"><joint name="j">', '1"><joint name="j"/'):
+        text = whole.replace('1"><joint name="j"/>', wrong)
+        assert text != whole
+        assert diagnosed(text).fixed[FILE] == whole
+
+
+def test_a_body_in_a_line_that_is_not_closed_is_closed_there():
+    bodies = "".join(f'    <body name="b{n}" pos="{n} 0 1"><geom size="0.1"/></body>\n' for n in range(9))
+    whole = WHOLE.replace("  </worldbody>", f"{bodies}  </worldbody>")
+    line = '<body name="b3" pos="3 0 1"><geom size="0.1"/>'
+    found = diagnosed(whole.replace(f"{line}</body>", line))
+    assert found.fixed[FILE].split() == whole.replace(f"{line}</body>", f"{line}\n</body>").split()
+
+
+def test_single_quotes_are_kept():
+    whole = WHOLE.replace('"', "'")
+    for right in ("name='elbow'", "size='0.1'/>\n      <body", "axis='0"):
+        wrong = right.replace("'", "", 1) if right.startswith("axis") else right[::-1].replace("'", "", 1)[::-1]
+        found = diagnosed(whole.replace(right, wrong))
+        assert found.fixed[FILE] == whole
+
+
+def test_a_character_that_is_not_seen_is_told_by_its_number():
+    (cause,) = diagnosed(WHOLE.replace("<motor", "<mo\x7ftor")).causes
+    assert (cause.now, cause.value) == ("<mo\\x7ftor", "<motor")
+
+
+def test_two_slips_are_told_each_at_its_place():
+    wrong = WHOLE.replace('axis="0', 'axis "0').replace('"tip" size="0.1"/>', '"tip" size="0.1/>')
+    found = diagnosed(wrong)
+    assert [(each.line, each.now, each.value) for each in found.causes] == [
+        (8, 'axis "0', 'axis="0'),
+        (14, 'size="0.1/>', 'size="0.1"/>'),
+    ]
+    assert 'found `axis "0`, expected `axis="0`' in found.causes[0].says
+    assert found.fixed[FILE] == WHOLE
+
+
+def test_a_name_that_is_typed_wrong_is_not_taken_for_too_much():
+    found = diagnosed(WHOLE.replace("<actuator", "<:actuator").replace("</actuator", "</:actuator"))
+    assert [each.rule for each in found.causes] == ["unknown-element"]
 
 
 def test_of_a_body_that_is_not_opened_only_the_end_is_taken():
@@ -70,6 +141,18 @@ def test_of_a_conflict_that_a_merge_has_left_the_first_side_is_kept():
     assert "both sides of a conflict" in found.causes[0].says
 
 
+def test_the_second_side_of_a_conflict_is_kept_where_only_that_compiles():
+    sides = "<<<<<<< HEAD\n  <actuators>\n=======\n  <actuator>\n>>>>>>> theirs\n"
+    found = diagnosed(WHOLE.replace("  <actuator>\n", sides))
+    assert found.fixed[FILE] == WHOLE
+
+
+@pytest.mark.parametrize("end", ["->", "-- >"])
+def test_a_comment_ends_at_its_arrow(end):
+    found = diagnosed(WHOLE.replace("  <actuator>", f"  <!-- the motors {end}\n  <actuator>"))
+    assert found.fixed[FILE] == WHOLE.replace("  <actuator>", "  <!-- the motors -->\n  <actuator>")
+
+
 def test_a_comment_that_has_no_end_ends_with_its_line():
     found = diagnosed(WHOLE.replace("  <actuator>", "  <!-- the motors\n  <actuator>"))
     assert found.fixed[FILE] == WHOLE.replace("  <actuator>", "  <!-- the motors -->\n  <actuator>")
@@ -77,8 +160,9 @@ def test_a_comment_that_has_no_end_ends_with_its_line():
 
 @pytest.mark.parametrize("end", ['"tip" si', "<body na", '"palm" size="0.1"/>'])
 def test_a_text_that_was_cut_off_is_told_as_such(end):
-    found = mended(WHOLE[: WHOLE.index(end) + len(end)])
+    found = diagnosed(WHOLE[: WHOLE.index(end) + len(end)])
     assert "as if the rest of the file were missing" in found.causes[0].says
+    assert not diagnosed(found.fixed[FILE]).error
 
 
 def test_an_element_that_was_pasted_twice_is_taken_out():

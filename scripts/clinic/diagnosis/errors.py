@@ -18,6 +18,7 @@ from clinic.diagnosis.suspect import Suspect
 
 MOST, LIMIT = 60, 15.0  # messages, s
 OF_FILES = {"missing-file", "unusable-file"}
+FIRST = "malformed-xml"  # what is no XML is not read, and what is missed may be there
 LAST = "refused-element"  # what only takes an element out is tried where no other rule knows better
 
 Change = tuple[str, int, int, int]  # a file, where a change begins, and where it ended before and ends after it
@@ -32,7 +33,8 @@ def mended(
 
     Where files cannot be read, boxes stand in for them in all that follows (`stand_ins`).
     """
-    rules, found, changes = sorted(tried, key=lambda rule: rule.id == LAST), list[Judged](), list[Change]()
+    rules = sorted(tried, key=lambda rule: (rule.id != FIRST, rule.id == LAST))
+    found, changes = list[Judged](), list[Change]()
     written = dict(model.texts)
     until = time.monotonic() + LIMIT
     for _ in range(MOST):

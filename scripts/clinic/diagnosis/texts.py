@@ -7,7 +7,9 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
-PART = re.compile(rb"""<!--(?P<comment>.*?)-->|(?P<head><[^\s!?/>](?:"[^"]*"|'[^']*'|[^"'<>])*>)""", re.DOTALL)
+PART = re.compile(
+    rb"""<!--(?P<comment>.*?)(?P<end>-->|\Z)|(?P<head><[^\s!?/>](?:"[^"]*"|'[^']*'|[^"'<>])*>)""", re.DOTALL
+)
 VALUE = re.compile(rb"""=\s*(?P<value>"[^"]*"|'[^']*')(?P<near>(?=[^\s/>]))?""")
 DASH = re.compile(rb"-(?=-)")
 BARE = re.compile(rb"<|&(?!(?:amp|lt|gt|quot|apos|#\d+|#x[0-9A-Fa-f]+);)")
@@ -36,7 +38,7 @@ def well_formed(text: bytes) -> tuple[bytes, list[int]]:
         made += text[seen : part.start()]
         seen = part.end()
         if part["comment"] is not None:
-            made += b"<!--" + DASH.sub(b" ", part["comment"] + b"-")[:-1] + b"-->"
+            made += b"<!--" + DASH.sub(b" ", part["comment"] + b"-")[:-1] + part["end"]
             continue
         head, read = part["head"], 0
         for value in VALUE.finditer(head):

@@ -4,17 +4,49 @@ from __future__ import annotations
 
 import difflib
 import re
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
-TOKEN = re.compile(
-    r"<!--.*?-->|<\?.*?\?>|<!\[CDATA\[.*?\]\]>|<(/?)([A-Za-z_][\w.:-]*)((?:\"[^\"]*\"|'[^']*'|[^'\"<>])*?)(/?)>", re.S
+from clinic.diagnosis.rules.errors import unknown_element
+
+NAME = r"(?:[^\W\d]|:)[\w:.-]*"
+VALUE = r"""(?:"[^"<]*(?:<[^"=\s<]*)*"|'[^'<]*(?:<[^'=\s<]*)*')"""
+ATTRIBUTES = rf"(?:\s*{NAME}\s*=\s*{VALUE})*"
+PIECE = re.compile(  # what XML is made of, as far as MuJoCo reads it
+    rf"<!--(?:(?!<!--).)*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>|<![A-Z][^<>]*>|(?P<text>[^<>]+)(?=<|\Z)"
+    rf"|<(?P<close>/?)\s*(?P<name>{NAME})(?=[\s/>])(?P<attributes>{ATTRIBUTES})\s*(?P<empty>/?)>",
+    re.S,
 )
 SECTIONS = (  # what stands right below `<mujoco>`, and nowhere else
     {"option", "compiler", "statistic", "asset", "worldbody", "actuator", "sensor", "keyframe", "default", "custom"}
 )
+EMPTY = (  # as a rule
+    *("joint", "freejoint", "geom", "site", "camera", "light", "inertial"),
+    *("motor", "position", "key", "mesh", "texture", "material"),
+)
+MOST = 9  # how often a name is used that is known
+ROOTS = {"mujoco", "robot"}
+KNOWN_TAGS = {
+    *ROOTS,
+    *" ".join((unknown_element.KNOWN, unknown_element.SECTIONS, *unknown_element.HOME.values())).split(),
+}
 ALIKE = 0.6  # from which on a name is a misspelt other one
-DEEPER = 0.8  # of the elements are indented below their parents, where lines are indented at all
+WIDEST = 1000  # characters of white space before a tag
+DEEPER = 0.8  # of the elements but one have what is inside indented deeper, where lines are indented at all
+
+
+class Slip(NamedTuple):
+    """What stands between two places of a text, what is meant there, and what is wrong in words, where they help."""
+
+    start: int
+    end: int
+    meant: str
+    said: str = ""
+
+    def mended(self, text: str) -> str:
+        return text[: self.start] + self.meant + text[self.end :]
 
 
 @dataclass(frozen=True)
@@ -35,27 +67,32 @@ class _Tag:
         return text[: self.start].count("\n") + 1
 
 
-def closed(text: str) -> Iterator[tuple[str, str]]:
-    """The text with one tag added, dropped or renamed, and what was done, the likeliest first."""
+def closed(text: str) -> Iterator[Slip]:
+    """One tag added, dropped or renamed, the likeliest first."""
     open_: list[_Tag] = []
     last: _Tag | None = None  # the tag before, where it opened an element
-    sure: list[tuple[str, str]] = []  # what the tags themselves tell
-    odd: list[tuple[str, str]] = []  # where first the lines are not indented as the tags have it
-    pairs = deeper = 0
-    for found in TOKEN.finditer(text):
-        closing, name, _, empty = found.groups()
+    sure: list[Slip] = []  # what the tags themselves tell
+    odd: dict[int, tuple[_Tag, _Tag]] = {}  # elements, by place, with a tag that is not indented as inside of them
+    deeper: dict[int, bool] = {}  # whether the first line inside of an element is indented deeper
+    leaves = _leaves(text)
+    for found in PIECE.finditer(text):
+        closing, name, empty = found["close"], found["name"], found["empty"]
         if name is None:
             continue
         tag = _Tag(name, found.start(), found.end(), _margin(text, found.start()))
         if not closing:
-            if last and text[last.start : last.end] == found[0] and not empty:
-                said = f"<{name}> of line {last.line(text)} is opened twice"
-                sure.append((text[: last.end] + text[found.end() :], said))
             outer = open_[-1] if open_ else None
+            if last and text[last.start : last.end] == found[0] and not empty:
+                sure.append(Slip(last.end, found.end(), "", f"<{name}> of line {last.line(text)} is opened twice"))
+            elif outer and outer.name == name and not found["attributes"] and tag.indent in (None, outer.indent):
+                said = f"<{name}> of line {outer.line(text)} is closed as {found[0]}"
+                sure.append(Slip(tag.start, tag.end, f"</{name}>", said))
             if outer and outer.indent is not None and tag.indent is not None:
-                pairs, deeper = pairs + 1, deeper + (tag.indent > outer.indent)
-                if not odd and tag.indent <= outer.indent:
-                    odd.append(_close(text, outer, tag.start))
+                deeper.setdefault(outer.start, tag.indent > outer.indent)
+                if tag.indent <= outer.indent:
+                    odd.setdefault(outer.start, (outer, tag))
+            if outer and outer.name in leaves:
+                sure.append(_close(text, outer, outer.end))
             if outer and len(open_) > 1 and open_[0].name == "mujoco" and name in SECTIONS and outer.name != name:
                 sure.append(_close(text, outer, tag.start))
             if not empty:
@@ -64,65 +101,106 @@ def closed(text: str) -> Iterator[tuple[str, str]]:
             continue
         last = None
         if not open_:
+            yield from _rooted(text, tag)
             yield _dropped(text, tag)
             return
         outer = open_[-1]
         if outer.name == name:
             open_.pop()
-            if not odd and outer.indent is not None and tag.indent is not None and outer.indent != tag.indent:
-                if outer.indent > tag.indent:
-                    odd.append(_close(text, outer, _after(text, outer, tag.start)))
-                else:
-                    odd += [*_opened(text, tag), _dropped(text, tag)]
+            if outer.indent is not None and tag.indent is not None and outer.indent != tag.indent:
+                odd.setdefault(outer.start, (outer, tag))
             continue
-        yield from sure + odd * (0 < DEEPER * pairs <= deeper)
+        yield from sure
+        yield from _indented(text, odd, deeper, open_)
         yield from _mismatched(text, open_, tag)
         return
     if open_:
-        yield from sure + odd * (0 < DEEPER * pairs <= deeper)
+        yield from sure
+        yield from _indented(text, odd, deeper, open_)
         names = [each.name for each in reversed(open_)]
         said = f"<{names[0]}> of line {open_[-1].line(text)} is still open where the text ends"
         said += ", as if the rest of the file were missing" if len(names) > 1 else ""
-        yield text.rstrip() + "".join(f"\n</{each}>" for each in names) + "\n", said
+        yield Slip(len(text.rstrip()), len(text), "".join(f"\n</{each}>" for each in names) + "\n", said)
 
 
-def _mismatched(text: str, open_: list[_Tag], tag: _Tag) -> Iterator[tuple[str, str]]:
+def _rooted(text: str, tag: _Tag) -> Iterator[Slip]:
+    """The root opened before all else, where a closing tag is all that is left of it."""
+    if tag.name in ROOTS and not re.search(rf"<{tag.name}\b", text):
+        begin = text.index("<", text.find("?>") + 1)
+        begin -= len(_margin(text, begin) or "")
+        yield Slip(begin, begin, f"<{tag.name}>\n", f"</{tag.name}> of line {tag.line(text)} is not opened")
+
+
+def _indented(
+    text: str, odd: dict[int, tuple[_Tag, _Tag]], deeper: dict[int, bool], open_: list[_Tag]
+) -> Iterator[Slip]:
+    """What the lines' indents tell: of the innermost element that is open, and of the first that is not as its tags."""
+    if not 0 < DEEPER * (len(deeper) - 1) <= sum(deeper.values()):
+        return
+    for outer, tag in [odd[each] for each in (open_[-1].start, *list(odd)[:1]) if each in odd]:
+        assert outer.indent is not None
+        assert tag.indent is not None
+        if text[tag.start + 1] != "/":
+            yield _close(text, outer, tag.start)
+        elif outer.indent > tag.indent:
+            yield _close(text, outer, _after(text, outer, tag.start))
+        else:
+            yield from (*_opened(text, tag), _dropped(text, tag))
+
+
+def _leaves(text: str) -> set[str]:
+    """The elements that have nothing inside, as far as most of them tell."""
+    alone, opened = Counter(EMPTY if "<robot" not in text else ()), Counter[str]()
+    for found in PIECE.finditer(text):
+        if found["name"] and not found["close"]:
+            (alone if found["empty"] else opened)[found["name"]] += bool(found["attributes"] or not found["empty"])
+    return {name for name, count in alone.items() if count >= opened[name]}
+
+
+def _mismatched(text: str, open_: list[_Tag], tag: _Tag) -> Iterator[Slip]:
     """What may be done where a tag closes another element than the innermost."""
     outer, names = open_[-1], [each.name for each in open_]
-    renamed = text[: tag.start] + f"</{outer.name}>" + text[tag.end :]
-    if tag.name not in names and difflib.SequenceMatcher(None, tag.name, outer.name).ratio() >= ALIKE:
-        yield renamed, f"<{outer.name}> of line {outer.line(text)} is closed as </{tag.name}>"
+    said = f"<{outer.name}> of line {outer.line(text)} is closed as </{tag.name}>"
+    renamed = Slip(tag.start, tag.end, f"</{outer.name}>", said)
+    alike = difflib.SequenceMatcher(None, tag.name, outer.name).ratio() >= ALIKE
+    uses = [len(re.findall(rf"<{name}\b", text)) + MOST * (name in KNOWN_TAGS) for name in (outer.name, tag.name)]
+    if alike and uses[0] < uses[1]:
+        yield Slip(outer.start + 1, outer.start + 1 + len(outer.name), tag.name, said)
+    if tag.name not in names and alike:
+        yield renamed
     if tag.name in names:
         yield _close(text, outer, tag.start)
     else:
         yield from _opened(text, tag)
     yield _dropped(text, tag)
-    yield renamed, f"<{outer.name}> of line {outer.line(text)} is closed as </{tag.name}>"
+    yield renamed
 
 
-def _close(text: str, tag: _Tag, at: int) -> tuple[str, str]:
+def _close(text: str, tag: _Tag, at: int) -> Slip:
     """An element closed before a place: in itself, where nothing would be inside."""
     said = f"<{tag.name}> of line {tag.line(text)} is not closed"
     inside = text[tag.end : at]
     if not re.sub(r"<!--.*?-->", "", inside, flags=re.S).strip():
-        return text[: tag.end - 1].rstrip() + "/>" + text[tag.end :], said
+        if text.endswith('/">', 0, tag.end):
+            return Slip(tag.end - 3, tag.end, '"/>', said)
+        return Slip(len(text[: tag.end - 1].rstrip()), tag.end, "/>", said)
     here = _margin(text, at)
     if here is None:
-        return f"{text[:at]}</{tag.name}>{text[at:]}", said
+        return Slip(at, at, f"</{tag.name}>", said)
     begin = at - len(here)
-    return f"{text[:begin]}{tag.margin or ''}</{tag.name}>\n{text[begin:]}", said
+    return Slip(begin, begin, f"{tag.margin or ''}</{tag.name}>\n", said)
 
 
 def _after(text: str, tag: _Tag, before: int) -> int:
     """Where the first tag below an opening one stands that is not indented deeper."""
-    for found in TOKEN.finditer(text, tag.end, before):
-        below = _Tag(found[2] or "", found.start(), found.end(), _margin(text, found.start()))
+    for found in PIECE.finditer(text, tag.end, before):
+        below = _Tag(found["name"] or "", found.start(), found.end(), _margin(text, found.start()))
         if below.name and below.indent is not None and tag.indent is not None and below.indent <= tag.indent:
             return below.start
     return before
 
 
-def _opened(text: str, tag: _Tag) -> Iterator[tuple[str, str]]:
+def _opened(text: str, tag: _Tag) -> Iterator[Slip]:
     """The element of a closing tag opened above the lines that are indented deeper, where it takes no attributes."""
     bare = len(re.findall(rf"<{tag.name}\s*>", text))
     if tag.margin is None or not bare or 2 * bare <= len(re.findall(rf"<{tag.name}[\s/>]", text)):
@@ -137,18 +215,19 @@ def _opened(text: str, tag: _Tag) -> Iterator[tuple[str, str]]:
         at = begin
     if at < tag.start - len(tag.margin):
         said = f"</{tag.name}> of line {tag.line(text)} is not opened"
-        yield f"{text[:at]}{tag.margin}<{tag.name}>\n{text[at:]}", said
+        yield Slip(at, at, f"{tag.margin}<{tag.name}>\n", said)
 
 
-def _dropped(text: str, tag: _Tag) -> tuple[str, str]:
+def _dropped(text: str, tag: _Tag) -> Slip:
     """The text without a tag, and without its line where nothing else is there."""
     said = f"</{tag.name}> of line {tag.line(text)} closes nothing"
     if tag.margin is not None and text[tag.end : tag.end + 1] == "\n":
-        return text[: tag.start - len(tag.margin)] + text[tag.end + 1 :], said
-    return text[: tag.start] + text[tag.end :], said
+        return Slip(tag.start - len(tag.margin), tag.end + 1, "", said)
+    return Slip(tag.start, tag.end, "", said)
 
 
 def _margin(text: str, at: int) -> str | None:
     """The white space before a place in its line; None where something else stands there."""
-    before = text[text.rfind("\n", 0, at) + 1 : at]
-    return None if before.strip() else before
+    begin = max(at - WIDEST, 0)
+    before = text[begin:at].rpartition("\n")
+    return None if before[2].strip() or (begin and not before[1]) else before[2]

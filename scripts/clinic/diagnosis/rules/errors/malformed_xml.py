@@ -1,7 +1,11 @@
 """The text is not well-formed XML.
 
-A tag is closed by another name or not at all, an attribute lacks its quotes or stands twice, a comment has no end, a
-merge has left both sides of a conflict, or the text ends before its last tag.
+A tag is closed by another name or not at all, an attribute lacks its equals sign or its quotes or stands twice, a `<`,
+`/` or `>` is missing, doubled or mistyped, a comment has no end, a merge has left the marks of a conflict, or the text
+ends before its last tag.
+
+Where reading stops, every change of one mark around is tried, and a few of more. Told is the one with which all is
+read, names are known and the fewest characters change, of those with which MuJoCo compiles the model.
 
 Bad:
 
@@ -21,12 +25,12 @@ Good:
 The number: none; the text is read with the edit.
 
 When it is wrong: where a tag is missing, the place is guessed: by how the lines are indented, where they are, or else
-where the next one fits. Of a text that was cut off the rest is not known.
+where the next one fits. Of a text that was cut off the rest is not known, nor are the attributes of a `<mujoco>` that
+is missing.
 """
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Iterator
 from xml.parsers import expat
@@ -34,171 +38,110 @@ from xml.parsers import expat
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.compiled import COMPILES
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.errors._tags import closed
+from clinic.diagnosis.rules.errors._marks import ATTRIBUTE, marked, strange
+from clinic.diagnosis.rules.errors._tags import KNOWN_TAGS, NAME, PIECE, Slip, closed
+from clinic.diagnosis.rules.errors.unknown_attribute import KNOWN
 from clinic.diagnosis.suspect import Suspect
 from clinic.diagnosis.texts import well_formed
 
 TITLE = "Malformed XML"
 FAMILIES = ("will-not-compile",)
 
-BARE = re.compile(r"(\s[\w:.-]+\s*=\s*)([^\s\"'<>/][^\s\"'<>]*)")
-UNCLOSED = re.compile(r"(=\s*\"[^\"=<>]*?)(\s+[\w:.-]+\s*=\s*\")")
-CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
-NAKED = re.compile(
-    r"(?m)^[ \t]*(?=/?[a-z]\w*(?:\s+[\w:.-]+\s*=\s*\"[^\"<>]*\")*\s*/?>[ \t]*$)"
-)  # a tag without its `<`
-CONFLICT = re.compile(r"(?ms)^<{7}[^\n]*\n(.*?)^={7}[^\n]*\n.*?^>{7}[^\n]*\n")  # as git marks it
-CUT = re.compile(r"<[^<>]*\Z")
-MOST = 20  # mistakes that are mended in turn
-MANY = 2000  # lines, beyond which a change is one from the first of them to the last
+CONFLICT = re.compile(r"(?ms)^<{7}[^\n]*\n(.*?)^={7}[^\n]*\n(.*?)^>{7}[^\n]*\n")  # as git marks it
+MARKER = re.compile(r"(?m)^[ \t]*(?:<{7}|={7}|>{7})(?: .*)?\n")
+TYPESET = re.compile("=([ \\t]*)[\u2018-\u201f]([^\u2018-\u201f\"'<>\\n]*)[\u2018-\u201f\"']")
+TOGETHER = (  # what is mended at once: where it stands, what becomes of it, and what it is
+    (CONFLICT, r"\1", "a merge has left both sides of a conflict; the first is kept"),
+    (CONFLICT, r"\2", "a merge has left both sides of a conflict; the second is kept"),
+    (MARKER, "", "a merge has left the marks of a conflict"),
+    (TYPESET, r'=\1"\2"', "quotation marks of prose"),
+)
+KNOWS = re.compile(rf"<{NAME}(?=[\s/>])|{NAME}(?=\s*=\s*[\"\'])")
+MOST, FEW = 16, 4  # ways to mend a mark that are tried on the whole text, and that are tried on MuJoCo
+UNSEEN = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")  # characters that no terminal shows
+NEAR = 40  # characters around a mark that are shown
+JUNK, TWICE = 9, 8  # expat's numbers of text after the root, and of an attribute given twice
 
-Try = tuple[str, str]  # a text, and what was done to it where expat's words do not tell
+Mistake = tuple[int, int, int]  # the line of it, from the end; its column; and expat's number of what it is
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """The first line that changes when the text is mended."""
-    if model.source is not None:
-        return
+    """What mends the first mistake: first what leaves no other, then what comes further."""
     for file, text in model.texts.items():
-        mended, says = text, ""
-        for _ in range(MOST):
-            wrong = _mistake(mended)
-            if wrong is None:
-                break
-            made = _mended(mended, wrong[0])
-            if made is None:
-                break
-            mended, said = made
-            says = says or (f"{wrong[1]}: {said}" if said else wrong[1])
-        if mended != text and _mistake(mended) is None:
-            edits = _by_line(file, text, mended)
-            first = edits[0]
-            now = text.encode()[first.start : first.end].decode().strip()
-            yield Suspect(
-                (f"line {first.line}",),
-                "",
-                now,
-                first.value.strip() or "removed",
-                edits,
-                COMPILES,
-                0.0,
-                f"{file}: {says}.",
-            )
+        mistake = _mistake(text)
+        if (mistake is None and model.source is None) or not re.search(r"<\s*/?\w", text):
+            continue
+        whole, further = 0, list[Slip]()
+        for slip in _slips(text, mistake):
+            after = _mistake(slip.mended(text))
+            if after is None:
+                yield _suspect(file, text, slip)
+                if (whole := whole + 1) == FEW:
+                    break
+            elif mistake and after[:2] > mistake[:2]:
+                further.append(slip)
+        yield from (_suspect(file, text, slip) for slip in further[:FEW])
 
 
-def _mistake(text: str) -> tuple[int, str] | None:
-    """The line of the first mistake, and what it is."""
+def _mistake(text: str) -> Mistake | None:
+    """The first mistake of a text."""
     parser = expat.ParserCreate("utf-8")  # whatever the text says of itself, as MuJoCo reads it
     try:
         parser.Parse(well_formed(text.encode())[0], True)
     except expat.ExpatError as error:
-        return error.lineno, expat.errors.messages[error.code]
+        return error.lineno - text.count("\n") - 1, error.offset, error.code
     return None
 
 
-def _mended(text: str, line: int) -> Try | None:
-    """The first try that leaves no mistake, or else the first of which the next mistake is further on."""
-    further = None
-    for made in _tries(text, line):
-        found = _mistake(made[0]) if made[0] != text else (0, "")
-        if found is None:
-            return made
-        if found[0] > line:
-            further = further or made
-    return further
-
-
-def _tries(text: str, line: int) -> Iterator[Try]:
-    if CONFLICT.search(text):
-        yield CONFLICT.sub(r"\1", text), "a merge has left both sides of a conflict; the first is kept"
-    for made in _of_characters(text, line):
-        yield made, ""
+def _slips(text: str, mistake: Mistake | None) -> Iterator[Slip]:
+    """What may be meant, the likeliest first."""
+    lines = text.split("\n")
+    line = mistake[0] + len(lines) if mistake else len(lines)
+    until = sum(len(each) + 1 for each in lines[:line])
+    for pattern, kept, said in TOGETHER:
+        if places := [each.span() for each in pattern.finditer(text)]:
+            begin, end = places[0][0], places[-1][1]
+            yield Slip(begin, end, pattern.sub(kept, text[begin:end]), said)
+    for wrong, begin in strange(text, until):
+        here = text[:begin] + text[text.find(">", wrong + 1) + 1 :]
+        known = {*KNOWN.split(), *(f"<{each}" for each in KNOWN_TAGS), *KNOWS.findall(here)}
+        yield from marked(text, wrong, begin, known)[:MOST]
+    if mistake is None:
+        return
+    if mistake[2] == TWICE:
+        yield from _again(text, until - len(lines[line - 1]) - 1, until)
     yield from closed(text)
-    if cut := CUT.search(text):
-        at = text[: cut.start()].count("\n") + 1
-        kept = text[: cut.start()].rstrip() + "\n"
-        said = f"the text ends inside of a tag in line {at}, as if the rest of the file were missing"
-        yield kept, said
-        yield from ((made, said) for made, _ in closed(kept))
-    here = text.split("\n")[line - 1 : line]
-    if here and "<" not in here[0]:  # what is no tag is not XML's
-        yield _with_line(text, line, ""), ""
+    if (cut := text.rfind("<")) > text.rfind(">"):
+        kept = text[:cut].rstrip()
+        said = f"the text ends inside of a tag in line {text[:cut].count(chr(10)) + 1}"
+        for slip in closed(kept):
+            if slip.end == len(kept):
+                yield Slip(slip.start, len(text), slip.meant, f"{said}, as if the rest of the file were missing")
+    if mistake[2] == JUNK and "<" not in text[until - len(lines[line - 1]) - 1 :]:
+        yield Slip(until - len(lines[line - 1]) - 1, len(text), "")
 
 
-def _with_line(text: str, at: int, new: str) -> str:
-    lines = text.split("\n")
-    return "\n".join([*lines[: at - 1], new, *lines[at:]])
+def _again(text: str, begin: int, end: int) -> Iterator[Slip]:
+    """The second of two equal attributes of an element in a line, left out."""
+    for piece in PIECE.finditer(text, max(text.rfind("<", 0, begin), 0)):
+        if piece.start() >= end:
+            return
+        names = set[str]()
+        for each in ATTRIBUTE.finditer(text, *piece.span("attributes")):
+            if each["name"] in names:
+                yield Slip(*each.span(), "", f"{each['name']} stands twice in <{piece['name']}>")
+            names.add(each["name"])
 
 
-def _of_characters(text: str, line: int) -> Iterator[str]:
-    """The text with quotes and other marks of a line mended."""
-    lines = text.split("\n")
-    here = lines[line - 1] if line <= len(lines) else ""
-
-    def with_line(new: str, at: int = line) -> str:
-        return _with_line(text, at, new)
-
-    yield CONTROL.sub("", text)
-    yield with_line(re.sub(r"(\s[\w:.-]+\s*=\s*)([^\s\"'<>/=][^\"'<>=]*\")", r'\1"\2', here))
-    yield with_line(BARE.sub(r'\1"\2"', here))
-    for at in range(line, max(line - 4, 0), -1):  # expat stumbles over the `<` of a later line
-        if (row := "".join(lines[at - 1 : at])).count('"') % 2:
-            yield with_line(UNCLOSED.sub(r'\1"\2', row), at)
-            yield with_line(re.sub(r"(=\s*\"[^\"<>=]*?)(\s*/?>)", r'\1"\2', row), at)
-            yield with_line(re.sub(r"(=\s*\"[^\"]*)$", r'\1"', row), at)
-    yield _once(text, line)
-    for at in range(line, max(line - 4, 0), -1):
-        row, below = lines[at - 1].rstrip() if at <= len(lines) else "", "".join(lines[at : at + 2]).lstrip()
-        if row and below.startswith("<") and row.rfind("<") >= row.rfind(">"):  # a tag that has no end
-            yield from (with_line(row + end, at) for end in ("/>", ">") if not (row.endswith("/") and end == "/>"))
-    yield from (text[: found.end()] + "<" + text[found.end() :] for found in list(NAKED.finditer(text))[:3])
-    if (begun := text.rfind("<!--")) > text.rfind("-->"):
-        end = text.find("\n", begun) if "\n" in text[begun:] else len(text)
-        yield text[:end] + " -->" + text[end:]
-
-
-def _once(text: str, line: int) -> str:
-    """The text without the second of two equal attributes of the elements that are open in a line."""
-
-    def tidied(found: re.Match[str]) -> str:
-        seen: set[str] = set()
-
-        def kept(each: re.Match[str]) -> str:
-            again = each[1] in seen
-            seen.add(each[1])
-            return "" if again else each[0]
-
-        return re.sub(r"\s+([\w:.-]+)\s*=\s*(?:\"[^\"]*\"|'[^']*')", kept, found[0])
-
-    begin = sum(len(each) + 1 for each in text.split("\n")[: line - 1])
-    end = text.find("\n", begin) if "\n" in text[begin:] else len(text)
-    begin = max(text.rfind("<", 0, begin), 0) if text.rfind("<", 0, begin) > text.rfind(">", 0, begin) else begin
-    end = max(text.find(">", end) + 1, end) if text.rfind("<", 0, end) > text.rfind(">", 0, end) else end
-    return text[:begin] + re.sub(r"<[^<>]*>", tidied, text[begin:end]) + text[end:]
-
-
-def _by_line(file: str, text: str, mended: str) -> tuple[Edit, ...]:
-    """Edits that replace the lines that differ."""
-    old, new = text.split("\n"), mended.split("\n")
-    same = next((i for i, (a, b) in enumerate(zip(old, new, strict=False)) if a != b), min(len(old), len(new)))
-    tail = 0
-    while tail < min(len(old), len(new)) - same and old[-1 - tail] == new[-1 - tail]:
-        tail += 1
-    spans = [(same, len(old) - tail, same, len(new) - tail)]
-    if max(len(old), len(new)) - same - tail < MANY:
-        matched = difflib.SequenceMatcher(None, old[same : len(old) - tail], new[same : len(new) - tail], False)
-        spans = [
-            (i + same, j + same, k + same, m + same) for what, i, j, k, m in matched.get_opcodes() if what != "equal"
-        ]
-    made, size = [], [len(each.encode()) + 1 for each in old]
-    for begin, end, first, last in spans:
-        start = sum(size[:begin])
-        stop = start + max(sum(size[begin:end]) - 1, 0) if end > begin else start
-        value = "\n".join(new[first:last])
-        if end == begin:  # what is put in before a line, or after the last
-            value = value + "\n" if begin < len(old) else "\n" + value
-            start = stop = start if begin < len(old) else start - 1
-        elif first == last and end < len(old):  # the lines go with their break
-            stop += 1
-        made.append(Edit(file, begin + 1, "text", "replace", "", value, start, stop, stop))
-    return tuple(made)
+def _suspect(file: str, text: str, slip: Slip) -> Suspect:
+    begin, end = slip.start, slip.end
+    if "\n" not in text[begin:end] + slip.meant:  # the words around it
+        begin -= len(re.findall(r"<?[^\s<>]*\Z", text[max(begin - NEAR, 0) : begin])[0])
+        end += len(re.findall(r"\A[^\s<>]*>?", text[end : end + NEAR])[0])
+    now = UNSEEN.sub(lambda found: f"\\x{ord(found[0]):02x}", text[begin:end].strip())
+    value = (text[begin : slip.start] + slip.meant + text[slip.end : end]).strip() or "removed"
+    line = text[: slip.start].count("\n") + 1
+    start, stop = (len(text[:place].encode()) for place in (slip.start, slip.end))
+    edit = Edit(file, line, "text", "replace", "", slip.meant, start, stop, stop)
+    says = slip.said or f"found `{now}`, expected {f'`{value}`' if value != 'removed' else 'nothing'}"
+    return Suspect((f"line {line}",), "", now, value, (edit,), COMPILES, 0.0, f"{file}: {says}.")

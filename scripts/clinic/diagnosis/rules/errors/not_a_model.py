@@ -94,9 +94,12 @@ def _of_text(text: str) -> str:
     """What a text that is no XML is; nothing where it looks like XML."""
     if not text.strip():
         return "The file is empty."
+    if not re.sub(r"<!--.*?(?:-->|\Z)|<\?.*?\?>", "", text, flags=re.S).strip():
+        return "The file has no element: MJCF begins with <mujoco>, URDF with <robot>."
     head = text.lstrip("\ufeff \t\r\n")[:300].lower()
     known = next((says for word, says in SAID.items() if word in head), "")
-    return known or ("" if head.startswith("<") else "This is not XML, which begins with <mujoco> or <robot>.")
+    xml = re.match(r"<\s*[\w!?/]", head)
+    return known or ("" if xml else "This is not XML, which begins with <mujoco> or <robot>.")
 
 
 def _unexpanded(text: str) -> bool:

@@ -190,6 +190,29 @@ def test_a_table_of_controls_that_cannot_be_read_is_a_sentence(tmp_path, name, c
     assert said in str(caught.value)
 
 
+def _flipped(content: bytes, at: int, mask: int) -> bytes:
+    return content[:at] + bytes([content[at] ^ mask]) + content[at + 1 :]
+
+
+def test_a_damaged_npz_is_a_sentence(tmp_path):
+    path = tmp_path / "run.npz"
+    np.savez_compressed(path, time=np.arange(500) / 100, motor=np.sin(np.arange(500)))
+    sound = path.read_bytes()
+    entry = sound.index(b"PK\x01\x02")  # in the directory at the end: 6 version, 8 flags, 10 compression
+    first = entry + 46 + len("time.npy")
+    damages = {
+        "encrypted": _flipped(_flipped(sound, entry + 8, 1), 6, 1),
+        "version": _flipped(sound, entry + 6, 0xFF),
+        "compression": _flipped(_flipped(sound, entry + 10, 0xF), 8, 0xF),
+        **{f"byte {at}": _flipped(sound, at, 0xFF) for at in range(60, first - 60, 97)},
+    }
+    for damage, content in damages.items():
+        path.write_bytes(content)
+        with pytest.raises(OptionError) as caught:
+            start_of(None, [str(path)], 2.0, 0)
+        assert str(caught.value).startswith(f"--ctrl {path}: damaged"), damage
+
+
 def test_columns_of_an_npz_are_numbers_and_equally_long(tmp_path):
     for motor in ([1.0], [[1.0, 2.0], [3.0, 4.0]]):
         np.savez(tmp_path / "wrong.npz", time=[0.0, 0.1], motor=motor)

@@ -60,7 +60,7 @@ def _series(path: Path) -> list[tuple[float, Mapping[str, float]]]:
         columns = _arrays(path) if path.suffix == ".npz" else _columns(path)
     except OSError as error:
         raise OptionError(f"{said}: {error.strerror or error}; expected name=value, a CSV or NPZ") from None
-    except (ValueError, csv.Error, zipfile.BadZipFile) as error:
+    except (ValueError, csv.Error) as error:
         found = "not a text in UTF-8" if isinstance(error, UnicodeDecodeError) else error
         raise OptionError(f"{said}: {found}; expected name=value, a CSV or NPZ") from None
     length = len(columns.get("time", ()))
@@ -93,8 +93,11 @@ def _arrays(path: Path) -> Mapping[str, Sequence[object]]:
     with path.open("rb") as file:
         if not zipfile.is_zipfile(file):
             raise ValueError("not an NPZ")
-        arrays = np.load(file)
-        return {name: np.atleast_1d(arrays[name]).tolist() for name in arrays}
+        try:
+            arrays = np.load(file)
+            return {name: np.atleast_1d(arrays[name]).tolist() for name in arrays}
+        except Exception as error:  # of a damaged one: zlib's, zipfile's, the tokenizer's, ...
+            raise ValueError(f"damaged, or of another kind: {str(error) or 'it ends too early'}") from None
 
 
 def read_source(model: str) -> str:

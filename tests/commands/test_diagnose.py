@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from clinic.commands import diagnosis_output
 from clinic.commands.cli import app
 from clinic.commands.diagnosis_options import OptionError, start_of
 from clinic.diagnosis.rules import rules
 from clinic.diagnosis.simulation import Start
+from clinic.diagnosis.texts import encoded
 from clinic.pages.rules import diagnosis_schema
 from jsonschema import Draft202012Validator
 from typer.testing import CliRunner, Result
@@ -86,11 +92,50 @@ def test_fix_writes_a_new_file_and_over_one_only_when_told(model):
     assert model.read_text() == Path("new.xml").read_text() != BROKEN
 
 
-def test_fix_keeps_the_line_ends_of_the_model(model):
-    model.write_bytes(BROKEN.replace("\n", "\r\n").encode())
+@pytest.mark.parametrize("end", [b"\r\n", b"\r"])
+def test_fix_changes_no_byte_but_what_it_edits(model, end):
+    head, broken, *rest = (b"\xef\xbb\xbf<mujoco>", *BROKEN.encode().split(b"\n")[1:])
+    mixed = head + end + broken + b"\n" + end.join(rest)
+    model.write_bytes(mixed)
     run("diagnose", model, "--fix", "new.xml")
-    mended = Path("new.xml").read_bytes()
-    assert mended.count(b"\r\n") == mended.count(b"\n") == BROKEN.count("\n")
+    assert Path("new.xml").read_bytes() == mixed.replace(b"colour", b"rgba")
+
+
+def test_fix_ends_a_new_line_as_the_first_and_writes_what_the_encoding_lacks_as_a_number():
+    content = b"<a>\r\n  <b/>\n  <!-- \xf6 -->\r</a>"
+    mended = "<a>\n  <c/>\n  <d/>\n  <!-- \xf6 -->\n  <e name='\u0142'/>\n</a>"
+    wanted = b"<a>\r\n  <c/>\n  <d/>\r\n  <!-- \xf6 -->\r  <e name='&#322;'/>\r\n</a>"
+    assert encoded(mended, content) == wanted
+
+
+def test_fix_that_cannot_be_written_leaves_what_was_there(model, monkeypatch):
+    def full(_path: Path, _content: bytes) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    model.with_name("old.xml").write_text("old")
+    for out, force in (("new.xml", []), ("old.xml", ["--force"])):
+        result = run("diagnose", model, "--fix", out, *force)
+        assert (result.exit_code, result.stderr) == (2, f"clinic: --fix {out}: No space left on device\n")
+    assert {path.name: path.read_text() for path in Path().iterdir()} == {"robot.xml": BROKEN, "old.xml": "old"}
+
+
+def test_fix_leaves_a_file_that_came_into_being_meanwhile(model, monkeypatch):
+    monkeypatch.setattr(diagnosis_output, "check_output", lambda *_: Path("new.xml").write_text("meanwhile"))
+    result = run("diagnose", model, "--fix", "new.xml")
+    assert (result.exit_code, result.stderr) == (
+        2,
+        "clinic: --fix new.xml: it exists; name a new file, or add --force\n",
+    )
+    assert Path("new.xml").read_text() == "meanwhile"
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a full device")
+def test_an_output_that_takes_no_more_is_a_sentence(model):
+    command = [sys.executable, "-m", "clinic", "diagnose", model.name, "--select", "unknown-attribute"]
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert (done.returncode, done.stderr) == (2, "clinic: standard output: No space left on device\n")
 
 
 def test_fix_before_the_model_is_told_apart_from_the_file_to_write(model):

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
+import shutil
+import sys
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
@@ -11,7 +14,9 @@ from clinic.commands.diagnosis_options import STDIN, OptionError
 from clinic.commands.github import workflow_command, workflow_commands
 from clinic.commands.sarif import sarif
 from clinic.diagnosis.finding import Diagnosis
-from clinic.diagnosis.texts import decoded
+from clinic.diagnosis.texts import encoded
+
+EXISTS = "--fix {}: it exists; name a new file, or add --force"
 
 
 def check_output(models: Sequence[str], form: str, fix: str | None, force: bool) -> None:
@@ -29,14 +34,14 @@ def check_output(models: Sequence[str], form: str, fix: str | None, force: bool)
     if force and not fix:
         raise OptionError("--force goes with --fix OUT")
     if fix and Path(fix).exists() and not force:
-        raise OptionError(f"--fix {fix}: it exists; name a new file, or add --force")
+        raise OptionError(EXISTS.format(fix))
 
 
-def write_fix(model: str, made: Diagnosis, out: Path) -> None:
+def write_fix(model: str, made: Diagnosis, out: Path, force: bool) -> None:
     """Writes the mended model, with its line ends and its encoding; nothing where there is nothing to mend.
 
     Raises:
-        OptionError: If other files would have to change as well, or it cannot be written.
+        OptionError: If other files would have to change as well, or it cannot be written; what was there is there.
     """
     others = [file for file, text in made.texts.items() if made.fixed[file] != text and file != made.file]
     if others:
@@ -45,12 +50,46 @@ def write_fix(model: str, made: Diagnosis, out: Path) -> None:
         )
     if not made.diff():
         return
-    content = Path(model).read_bytes() if model != STDIN else b""
-    ends = "\r\n" if b"\r\n" in content else "\n"
+    content = Path(model).read_bytes() if model != STDIN else made.texts[made.file].encode()
     try:
-        out.write_text(made.fixed[made.file], encoding=decoded(content)[1], newline=ends)
+        _write(out, encoded(made.fixed[made.file], content), force)
+    except FileExistsError:
+        raise OptionError(EXISTS.format(out)) from None
     except OSError as error:
         raise OptionError(f"--fix {out}: {error.strerror or error}") from None
+
+
+def _write(out: Path, content: bytes, force: bool) -> None:
+    """Writes all of a file or nothing: a new one, or, where forced, in the place of one that is there."""
+    if force and out.exists() and not out.is_file():  # /dev/stdout
+        out.write_bytes(content)
+        return
+    out = out.resolve()
+    part = out.with_name(f"{out.name}.{os.getpid()}.part") if force else out
+    part.touch(exist_ok=False)
+    try:
+        part.write_bytes(content)
+        if out.exists():
+            shutil.copymode(out, part)
+        part.replace(out)
+    except BaseException:
+        part.unlink()
+        raise
+
+
+def say(text: str) -> None:
+    """Prints.
+
+    Raises:
+        OptionError: If standard output takes no more.
+    """
+    try:
+        print(text, flush=True)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or Python tries again when it ends
+        raise OptionError(f"standard output: {error.strerror or error}") from None
 
 
 def printed(

@@ -176,6 +176,11 @@ def test_a_file_that_is_no_text_is_a_sentence(tmp_path):
         diagnose(tmp_path / "model.xml")
 
 
+def test_a_device_is_no_model():
+    with pytest.raises(DiagnosisError, match="/dev/zero: not a regular file"):
+        diagnose("/dev/zero")
+
+
 def test_a_text_in_latin_1_is_diagnosed(tmp_path):
     (tmp_path / "model.xml").write_bytes(TALL.replace("<mujoco>", "<mujoco><!-- per\xe7euse -->").encode("latin-1"))
     assert [each.line for each in diagnose(tmp_path / "model.xml").causes] == [

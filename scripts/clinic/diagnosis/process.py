@@ -115,6 +115,8 @@ def _read(source: Any) -> tuple[str, str, str]:
     if not isinstance(source, (str, Path)):
         raise DiagnosisError(f"{type(source).__name__}: expected a path, a text, an MjSpec, or a pair (model, xml)")
     path = Path(source).absolute()
+    if path.is_char_device() or path.is_block_device():  # /dev/zero ends never
+        raise DiagnosisError(f"{source}: not a regular file")
     try:
         return decoded(path.read_bytes())[0], path.name, str(path.parent)
     except OSError as error:

@@ -9,7 +9,9 @@ from collections.abc import Callable
 from difflib import SequenceMatcher
 from pathlib import Path
 
-PART = re.compile(rb"""<!--(?P<comment>.*?)-->|(?P<head><[^\s!?/>](?:"[^"]*"|'[^']*'|[^"'<>])*>)""", re.DOTALL)
+PART = re.compile(
+    rb"""<!--(?P<comment>.*?)(?P<end>-->|\Z)|(?P<head><[^\s!?/>](?:"[^"]*"|'[^']*'|[^"'<>])*>)""", re.DOTALL
+)
 VALUE = re.compile(rb"""=\s*(?P<value>"[^"]*"|'[^']*')(?P<near>(?=[^\s/>]))?""")
 DASH = re.compile(rb"-(?=-)")
 BARE = re.compile(rb"<|&(?!(?:amp|lt|gt|quot|apos|#\d+|#x[0-9A-Fa-f]+);)")
@@ -39,7 +41,7 @@ def well_formed(text: bytes) -> tuple[bytes, list[int]]:
         made += text[seen : part.start()]
         seen = part.end()
         if part["comment"] is not None:
-            made += b"<!--" + DASH.sub(b" ", part["comment"] + b"-")[:-1] + b"-->"
+            made += b"<!--" + DASH.sub(b" ", part["comment"] + b"-")[:-1] + part["end"]
             continue
         head, read = part["head"], 0
         for value in VALUE.finditer(head):
@@ -99,7 +101,7 @@ def read_texts(main: str, name: str, read: Callable[[str], str | None]) -> dict[
     texts, left = {name: main}, [(name, main)]
     while left:
         around, text = left.pop()
-        for found in re.findall(r"<include\s[^>]*?file\s*=\s*[\"']([^\"']+)[\"']", text):
+        for found in re.findall(r"<include\s[^<>]*?file\s*=\s*[\"']([^\"']+)[\"']", text):
             for path in (found, found if around == name else beside(around, found)):
                 if path in texts:
                     break

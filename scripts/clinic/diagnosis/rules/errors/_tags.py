@@ -8,7 +8,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 TOKEN = re.compile(
-    r"<!--.*?-->|<\?.*?\?>|<!\[CDATA\[.*?\]\]>|<(/?)([A-Za-z_][\w.:-]*)((?:\"[^\"]*\"|'[^']*'|[^'\"<>])*?)(/?)>", re.S
+    r"<!--.*?(?:-->|\Z)|<\?.*?\?>|<!\[CDATA\[.*?\]\]>|<(/?)([A-Za-z_][\w.:-]*)((?:\"[^\"]*\"|'[^']*'|[^'\"<>])*?)(/?)>",
+    re.S,
 )
 SECTIONS = (  # what stands right below `<mujoco>`, and nowhere else
     {"option", "compiler", "statistic", "asset", "worldbody", "actuator", "sensor", "keyframe", "default", "custom"}

@@ -13,6 +13,7 @@ import mujoco
 import pytest
 from clinic.diagnosis import process
 from clinic.diagnosis.finding import DIES, FAILS, KILLED, LATE
+from clinic.diagnosis.given import CHANGED
 from clinic.diagnosis.process import DiagnosisError, Request, diagnose
 from clinic.diagnosis.simulation import Start
 from folders import CORNER, FOLDERS, write_model
@@ -51,6 +52,28 @@ def test_a_path_a_text_a_spec_and_a_pair_give_the_same(tmp_path):
     found = [[each.rule for each in clinic.diagnose(source).causes] for source in given]
     assert found[0]
     assert all(each == found[0] for each in found)
+
+
+def test_a_model_whose_numbers_a_program_has_changed_is_told_from_its_text():
+    class Wrapped:  # as dm_control has it
+        ptr = mujoco.MjModel.from_xml_string(TALL)
+
+    assert [each.rule for each in diagnose((Wrapped, TALL), select=["masks"]).hints] == []
+    Wrapped.ptr.opt.timestep *= 1 + 1e-6  # as a text rounds it
+    assert [each.rule for each in diagnose((Wrapped, TALL), select=["masks"]).hints] == []
+    Wrapped.ptr.opt.timestep = 0.02
+    Wrapped.ptr.geom_contype[0] = 2
+    Wrapped.ptr.body_mass[1] = float("nan")
+    (hint,) = diagnose((Wrapped, TALL), select=["masks"]).hints
+    assert hint.rule == CHANGED
+    assert "opt.timestep is 0.02, in the text 0.01; body_mass[1] is nan, in the text 0.05; geom_con" in hint.says
+    larger = TALL.replace("</body>", "<geom size='0.1'/></body>")
+    assert "geom_friction has 1 rows, the text's 2" in diagnose((Wrapped, larger), select=["masks"]).hints[0].says
+
+
+def test_a_pair_without_a_model_is_a_sentence():
+    with pytest.raises(DiagnosisError, match=r"\(str, \.\.\.\): expected a pair of an MjModel and its path"):
+        diagnose((TALL, TALL))
 
 
 def test_the_reader_s_file_is_left_as_it_is_and_the_folder_too(tmp_path):

@@ -138,8 +138,8 @@ class Diagnosis:
         if len(shown) < len(self.causes):
             lines.append(f"   and {len(self.causes) - len(shown)} more: --all")
         for each in self.hints:
-            place = (f"{each.file}:{each.line}" if each.line else "", _elements(each.elements))
-            lines.append(f"hint     {each.rule}  {'  '.join(filter(None, place))}: {each.says}{_edited(each)}")
+            place = (each.rule, f"{each.file}:{each.line}" if each.line else "", _elements(each.elements))
+            lines.append(f"hint     {'  '.join(filter(None, place))}: {each.says}{_edited(each)}")
         if not self.causes and not self.hints:
             tried = f"by {_tried(self.ruled_out, every)}"
             lines.append(

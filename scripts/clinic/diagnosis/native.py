@@ -12,7 +12,7 @@ from weakref import WeakSet
 import mujoco
 import numpy as np
 
-from clinic.diagnosis.engine import Compiled, CompileError, Contact
+from clinic.diagnosis.engine import CompileError, Contact
 from clinic.diagnosis.texts import read_file
 
 OBJECTS = {"joint": "njnt", "camera": "ncam", "equality": "neq", "actuator": "nu", "dof": "nv", "sensor": "nsensor"}
@@ -135,7 +135,7 @@ class NativeEngine:
         self.made = WeakSet[NativeModel]()
         mujoco.set_mju_user_warning(lambda _: None)
 
-    def compile(self, main: str, files: Mapping[str, str]) -> Compiled:
+    def compile(self, main: str, files: Mapping[str, str]) -> NativeModel:
         texts = {name: text.encode() for name, text in files.items()}
         try:
             return self._loaded(mujoco.MjModel.from_xml_string, main, texts)

@@ -43,6 +43,7 @@ class Request:
     start: Start | None
     select: tuple[str, ...]
     ignore: tuple[str, ...]
+    model: Any = None  # the `mujoco.MjModel` that a program made of the text
 
 
 def diagnose(
@@ -59,7 +60,8 @@ def diagnose(
 
     Args:
         source: The path of an MJCF or URDF file; a text, which begins with `<`; an `mujoco.MjSpec`; or a pair of an
-            `mujoco.MjModel` and the path or text that it was compiled from.
+            `mujoco.MjModel` and the path or text that it was compiled from. The text is what is diagnosed; a hint says
+            where the model has other numbers.
         assets: Files that the model names, by name, where they lie on no disk.
         symptom: The family of symptoms that is seen (`clinic/record/families.toml`); its causes come first, and what
             the program of its page measures is told with them.
@@ -71,9 +73,10 @@ def diagnose(
     Raises:
         DiagnosisError: If the model cannot be read, is given in another form, or does not have the start.
     """
+    model, source = _pair(source)
     text, name, folder = _read(source)
     given = {key: value if isinstance(value, bytes) else str(value).encode() for key, value in (assets or {}).items()}
-    request = Request(text, name, folder, given, symptom, _code_of(symptom), start, tuple(select), tuple(ignore))
+    request = Request(text, name, folder, given, symptom, _code_of(symptom), start, tuple(select), tuple(ignore), model)
     died: dict[str, str] = {}
     while True:
         made, trying, said = _asked(replace(request, ignore=(*request.ignore, *died)), tell)
@@ -99,9 +102,17 @@ def _code_of(symptom: str) -> str:
     return code_of(symptom)
 
 
+def _pair(source: Any) -> tuple[Any, Any]:
+    """A model and its source; None for the one where only the other is given. dm_control has a class around a model."""
+    if not isinstance(source, tuple) or len(source) != 2:
+        return None, source
+    model = getattr(source[0], "ptr", source[0])
+    if type(model).__name__ != "MjModel":
+        raise DiagnosisError(f"({type(model).__name__}, ...): expected a pair of an MjModel and its path or text")
+    return model, source[1]
+
+
 def _read(source: Any) -> tuple[str, str, str]:
-    if isinstance(source, tuple) and len(source) == 2:
-        return _read(source[1])
     if hasattr(source, "to_xml"):
         try:
             return source.to_xml(), "MjSpec", str(getattr(source, "modelfiledir", "") or os.getcwd())
@@ -191,15 +202,22 @@ def main() -> None:
 
     engine = NativeEngine(request.assets)
     try:
+        texts = read_texts(request.text, request.name, read)
         made = examine(
             engine,
-            read_texts(request.text, request.name, read),
+            texts,
             symptom=request.symptom,
             start=request.start,
             select=request.select,
             ignore=request.ignore,
             tell=lambda rule: print(f"trying {rule}", flush=True),
         )
+        if request.model is not None and not made.error:
+            from clinic.diagnosis.given import changed
+
+            others = {each: text for each, text in texts.items() if each != request.name}
+            hints = changed(request.model, engine.compile(request.text, others).mj, request.name)
+            made = replace(made, hints=(*hints, *made.hints))
         if request.measurement and not made.error and MEASURING not in request.ignore:
             from clinic.diagnosis.symptom import measure
 

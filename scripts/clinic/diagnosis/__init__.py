@@ -1,7 +1,7 @@
 """What is wrong with a reader's model, proved on it: an edit that makes the measured symptom go away names the cause.
 
-All but `native`, `given`, `process`, `symptom` and `bench` needs nothing but Python's standard library, so that it runs in a
-browser too.
+All but `native`, `given`, `process`, `symptom` and `bench` needs nothing but Python's standard library, so that it runs
+in a browser too.
 
 texts, source, edit     the model's texts; their elements with places; changes of them
 engine, native, browser what is asked of a physics engine; MuJoCo's Python binding as one, its WebAssembly as another

@@ -16,7 +16,7 @@ from clinic.diagnosis.source import Element, read_source
 from clinic.diagnosis.stand_ins import StandIns
 from clinic.diagnosis.suspect import Suspect
 
-MOST, LIMIT = 60, 15.0  # messages, s
+MOST, LIMIT = 60, 15.0  # messages, s of processor time
 OF_FILES = {"missing-file", "unusable-file"}
 LAST = "refused-element"  # what only takes an element out is tried where no other rule knows better
 
@@ -34,9 +34,9 @@ def mended(
     """
     rules, found, changes = sorted(tried, key=lambda rule: rule.id == LAST), list[Judged](), list[Change]()
     written = dict(model.texts)
-    until = time.monotonic() + LIMIT
+    until = time.process_time() + LIMIT
     for _ in range(MOST):
-        if not model.error or time.monotonic() > until:
+        if not model.error or time.process_time() > until:
             break
         best, hints = _best(model, rules, tell)
         if best is None:

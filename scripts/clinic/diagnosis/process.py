@@ -18,9 +18,10 @@ from clinic.diagnosis.finding import KILLED, LATE, Diagnosis, ending
 from clinic.diagnosis.simulation import Start, StartError
 from clinic.diagnosis.texts import decoded, read_file, read_texts
 
-LIMIT = 60.0  # s, for one process
+LIMIT = 60  # s of processor time, for one process
+PATIENCE = 300.0  # s by the clock, for one that waits, or has to
 MEMORY = 4 * 2**30  # bytes
-KILL = 9  # the signal with which the system ends what it has no memory for
+KILL, XCPU = 9, 24  # the signals with which the system ends what it has no memory, and no time for
 DEATHS = 5  # of the engine, after which the diagnosis ends
 MEASURING = "what the symptom's page measures"
 CHILD = (sys.executable, "-m", "clinic.diagnosis.process")
@@ -86,7 +87,7 @@ def diagnose(
         if not trying or len(died) > DEATHS:
             doing = f"while trying {trying}" if trying else "while compiling the model"
             ended = {
-                LATE: f"no answer in {LIMIT:g} s",
+                LATE: f"no answer in {LIMIT} s of processor time, or in {PATIENCE:g} s by the clock,",
                 KILLED: "the system ended the process, as it does where memory runs out,",
                 "": "MuJoCo ended the process",
             }.get(said, said)
@@ -141,15 +142,19 @@ def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | N
     found = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}  # what this process can import
     pipe = subprocess.PIPE
     child = subprocess.Popen(CHILD, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, env=found)
+    if sys.platform == "linux":
+        import resource
+
+        resource.prlimit(child.pid, resource.RLIMIT_CPU, (LIMIT, LIMIT + 1))
     late = threading.Event()
 
     def end() -> None:
         late.set()
         child.kill()
 
-    timer = threading.Timer(LIMIT, end)
+    timer = threading.Timer(PATIENCE, end)
     timer.start()
-    trying, killed = "", False
+    trying, status = "", 0
     try:
         assert child.stdin is not None
         assert child.stdout is not None
@@ -166,14 +171,14 @@ def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | N
                 return None, trying, rest.decode()
             if kind == b"wrong":
                 raise DiagnosisError(rest.decode())
-        killed = child.wait() == -KILL
+        status = child.wait()
     except BrokenPipeError:
         pass
     finally:
         timer.cancel()
         child.kill()
         child.communicate()
-    return None, trying, LATE if late.is_set() else KILLED * killed
+    return None, trying, LATE if late.is_set() or status == -XCPU else KILLED * (status == -KILL)
 
 
 def _end_with_who_asked() -> None:

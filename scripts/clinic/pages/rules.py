@@ -62,7 +62,7 @@ def diagnosis_schema() -> dict[str, Any]:
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "A diagnosis",
         "type": "object",
-        "required": ["engine", "file", "causes", "hints", "silenced", "ruled_out", "error", "measured"],
+        "required": ["engine", "file", "causes", "hints", "silenced", "ruled_out", "untried", "error", "measured"],
         "properties": {
             "engine": {"type": "string", "description": "The release of MuJoCo that ran the model."},
             "file": {"type": "string"},
@@ -70,6 +70,11 @@ def diagnosis_schema() -> dict[str, Any]:
             "hints": several,
             "silenced": {**several, "description": "Causes and hints that comments in the model silence."},
             "ruled_out": {"type": "array", "items": {"type": "string"}},
+            "untried": {
+                "type": "array",
+                "items": {"type": "string"},
+                "description": "Rules for which no time was left.",
+            },
             "error": {"type": "string", "description": "Why it does not compile; empty where it does."},
             "measured": {"anyOf": [{"$ref": "#/$defs/Measured"}, {"type": "null"}]},
         },

@@ -201,6 +201,12 @@ def test_a_file_that_is_no_text_is_a_sentence(tmp_path):
         diagnose(tmp_path / "model.xml")
 
 
+def test_a_model_that_no_memory_holds_is_a_sentence():
+    field = '<asset><hfield name="field" nrow="100000" ncol="100000" size="10 10 1 0.1"/></asset>'
+    with pytest.raises(DiagnosisError, match="model.xml: MuJoCo stops without a message, as it does where the memory"):
+        diagnose(TALL.replace("<worldbody>", f"{field}<worldbody>"))
+
+
 def test_a_device_is_no_model():
     with pytest.raises(DiagnosisError, match="/dev/zero: not a regular file"):
         diagnose("/dev/zero")

@@ -144,8 +144,8 @@ class Diagnosis:
             place = (each.rule, f"{each.file}:{each.line}" if each.line else "", _elements(each.elements))
             lines.append(f"hint     {'  '.join(filter(None, place))}: {each.says}{_edited(each)}")
         if self.ruled_out:
-            told = _tried(self.ruled_out, every)
-            lines.append(f"ruled out: {told}" if self.causes or self.hints else f"Nothing found, by {told}.")
+            tried = _tried(self.ruled_out, every)
+            lines.append(f"ruled out: {tried}" if self.causes or self.hints else f"Nothing found, by {tried}.")
         elif not lines and not self.untried:
             lines.append("Nothing found, for no chosen rule is about a model that compiles.")
         if self.untried:

@@ -173,6 +173,8 @@ class NativeEngine:
             return NativeModel(partial(load, main, self.assets | texts), self.made)
         except (ValueError, mujoco.FatalError) as error:
             raise CompileError(str(error)) from None
+        except RuntimeError:  # an exception of C++ that the binding does not know; MuJoCo is of no use after it
+            raise MemoryError("MuJoCo stops without a message, as it does where the memory does not suffice") from None
 
 
 def _field(of: Any, field: str) -> Any:

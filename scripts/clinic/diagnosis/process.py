@@ -230,7 +230,8 @@ def main() -> None:
             told = measure(request.symptom, request.measurement, engine, made.texts, request.start)
             made = replace(made, measured=told)
     except (MemoryError, RecursionError) as error:
-        print(f"wrong {request.name}: {type(error).__name__}: the model is too large", flush=True)
+        said = error if "MuJoCo" in str(error) else f"{type(error).__name__}: the model is too large"
+        print(f"wrong {request.name}: {said}", flush=True)
         return
     except StartError as error:
         print(f"wrong {request.name}: {error}", flush=True)

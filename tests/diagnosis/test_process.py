@@ -203,8 +203,25 @@ def test_a_file_that_is_no_text_is_a_sentence(tmp_path):
 
 def test_a_model_that_no_memory_holds_is_a_sentence():
     field = '<asset><hfield name="field" nrow="100000" ncol="100000" size="10 10 1 0.1"/></asset>'
-    with pytest.raises(DiagnosisError, match="model.xml: MuJoCo stops without a message, as it does where the memory"):
+    with pytest.raises(DiagnosisError, match="MuJoCo stops without a message, as it does where the memory"):
         diagnose(TALL.replace("<worldbody>", f"{field}<worldbody>"))
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"symptom": "burns"}, "symptom burns: expected one of explodes, "),
+        ({"select": ["unknown-atribute"]}, "no rule is called unknown-atribute; unknown-attribute is"),
+        ({"ignore": ["unknown-atribute"]}, "no rule is called unknown-atribute; unknown-attribute is"),
+        ({"select": "visual-mass"}, "'visual-mass': expected a list of rules"),
+        ({"select": ["masks"], "ignore": ["masks"]}, "ignore masks: no rule is left"),
+        ({"start": Start(duration=float("nan"))}, "duration nan: expected a time in s"),
+        ({"start": Start(duration=-1.0)}, "duration -1.0: expected a time in s"),
+    ],
+)
+def test_an_argument_that_cannot_be_taken_is_a_sentence(given, said):
+    with pytest.raises(ValueError, match=f"^{said}"):
+        diagnose(TALL, **given)
 
 
 def test_a_device_is_no_model():

@@ -9,7 +9,7 @@ import zipfile
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 
-from clinic.diagnosis.ignores import unknown
+from clinic.diagnosis.process import DiagnosisError, check_rules
 from clinic.diagnosis.rules import Rule, rules
 from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.texts import decoded
@@ -140,11 +140,10 @@ def chosen_rules(select: Collection[str], ignore: Collection[str]) -> tuple[list
         OptionError: If one is not known, with the nearest, or none is left.
     """
     select, ignore = ([rule for words in some for rule in words.split(",") if rule] for some in (select, ignore))
-    for rule in (*select, *ignore):
-        if rule not in rules():
-            raise OptionError(unknown(rule))
-    if not set(select or rules()) - set(ignore):
-        raise OptionError(f"--ignore {','.join(ignore)}: no rule is left")
+    try:
+        check_rules(select, ignore)
+    except DiagnosisError as error:
+        raise OptionError(str(error)) from None
     return select, ignore
 
 

@@ -25,7 +25,7 @@ def check_output(models: Sequence[str], form: str, fix: str | None, force: bool)
     Raises:
         OptionError: If not.
     """
-    if not models:
+    if not models or not all(models):  # an empty one is a variable of the shell that is not set
         taken = f"; {fix} is what --fix writes: clinic diagnose {fix} --fix" if fix else ": clinic diagnose robot.xml"
         raise OptionError(f"no model is named{taken}")
     for asked, wanted in ((form == "json", "--format json"), (bool(fix), f"--fix {fix}")):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import math
 import os
 import pickle
 import subprocess
@@ -15,8 +16,11 @@ from typing import Any
 
 from clinic.diagnosis.diagnose import examine
 from clinic.diagnosis.finding import KILLED, LATE, Diagnosis, ending
+from clinic.diagnosis.ignores import unknown
+from clinic.diagnosis.rules import rules
 from clinic.diagnosis.simulation import Start, StartError
 from clinic.diagnosis.texts import decoded, read_file, read_texts
+from clinic.record.families import families
 
 LIMIT = 60  # s of processor time, for one process
 PATIENCE = 300.0  # s by the clock, for one that waits, or has to
@@ -72,8 +76,11 @@ def diagnose(
         tell: Is called with the id of each rule before it is tried.
 
     Raises:
-        DiagnosisError: If the model cannot be read, is given in another form, or does not have the start.
+        DiagnosisError: If the model cannot be read, is given in another form, or does not have the start; or if another
+            argument is not what it may be.
     """
+    check_rules(select, ignore)
+    _check(symptom, start)
     model, source = _pair(source)
     text, name, folder = _read(source)
     given = {key: value if isinstance(value, bytes) else str(value).encode() for key, value in (assets or {}).items()}
@@ -92,6 +99,29 @@ def diagnose(
                 "": "MuJoCo ended the process",
             }.get(said, said)
             raise DiagnosisError(f"{name}: {ended} {doing}")
+
+
+def check_rules(select: Collection[str], ignore: Collection[str]) -> None:
+    """Whether there are these rules, and some of them are left.
+
+    Raises:
+        DiagnosisError: If not, with the nearest rule.
+    """
+    for given in (select, ignore):
+        if isinstance(given, str):
+            raise DiagnosisError(f"{given!r}: expected a list of rules")
+    for rule in (*select, *ignore):
+        if rule not in rules():
+            raise DiagnosisError(unknown(rule))
+    if not set(select or rules()) - set(ignore):
+        raise DiagnosisError(f"ignore {','.join(ignore)}: no rule is left")
+
+
+def _check(symptom: str, start: Start | None) -> None:
+    if symptom and symptom not in families():
+        raise DiagnosisError(f"symptom {symptom}: expected one of {', '.join(families())}")
+    if start and not 0 < start.duration < math.inf:
+        raise DiagnosisError(f"duration {start.duration}: expected a time in s")
 
 
 def _code_of(symptom: str) -> str:

@@ -81,6 +81,17 @@ def test_fix_prints_a_diff_and_writes_nothing(model):
     assert model.read_text() == BROKEN
 
 
+def test_fix_of_a_model_without_a_cause_names_the_hints_that_have_an_edit(model):
+    model.write_text(WELL)
+    assert run("diagnose", model, "--fix").stdout == "nothing to change\n"
+    model.write_text(rules()["axis-unlike-name"].example("Bad"))
+    result = run("diagnose", model.name, "--fix", "new.xml", "--select", "axis-unlike-name")
+    assert result.stdout == (
+        "No cause, so nothing is changed; the hint axis-unlike-name has an edit: clinic diagnose robot.xml\n"
+    )
+    assert not Path("new.xml").exists()
+
+
 def test_fix_writes_a_new_file_and_over_one_only_when_told(model):
     assert run("diagnose", model, "--fix", "new.xml").exit_code == 1
     assert run("diagnose", "new.xml").exit_code == 0

@@ -107,6 +107,16 @@ def printed(
         wrong = [workflow_command("error", model, 1, "cannot be run", said) for model, said in failed]
         return "\n".join([line for folder, each in found for line in workflow_commands(folder, each)] + wrong)
     if diff:
-        return "".join(each.diff() for _, each in made).removesuffix("\n") or "nothing to change"
+        diffs = "".join(each.diff() for _, each in made).removesuffix("\n")
+        return diffs or "\n".join(dict.fromkeys(_nothing_to_change(*each) for each in made))
     several = len(made) + len(failed) > 1
     return "\n\n".join((f"{model}\n" if several else "") + each.text(every) for model, each in made)
+
+
+def _nothing_to_change(model: str, made: Diagnosis) -> str:
+    """Why there is no diff: what a hint's edit would do is told, and it is left to the reader."""
+    hints = dict.fromkeys(each.rule for each in made.hints if each.edit and each.after is not None)
+    if made.causes or not hints:
+        return "nothing to change"
+    have = "the hints {} have edits" if len(hints) > 1 else "the hint {} has an edit"
+    return f"No cause, so nothing is changed; {have.format(', '.join(hints))}: clinic diagnose {model}"

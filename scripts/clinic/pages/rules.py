@@ -15,7 +15,7 @@ from pydantic import TypeAdapter
 
 from clinic.diagnosis.bench.lock import Kept, score
 from clinic.diagnosis.diagnose import examine
-from clinic.diagnosis.finding import Diagnosis, Finding, Measured
+from clinic.diagnosis.finding import Finding, Measured
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import Rule, rules
 from clinic.pages.benchmark import benchmark
@@ -84,21 +84,17 @@ def diagnosis_schema() -> dict[str, Any]:
 
 def _told() -> Files:
     """What a diagnosis of each rule's examples prints, by rule."""
-    made, before = {}, os.getcwd()
+    made, before, engine = {}, os.getcwd(), NativeEngine()
     with tempfile.TemporaryDirectory() as folder:
         os.mkdir(own := os.path.join(folder, "model"))  # a rule looks into the folder around it, too
         os.chdir(own)
         try:
             for rule in rules().values():
-                made[rule.id] = {which: _diagnosed(rule.example(which)) for which in ("Bad", "Good")}
+                shown = {which: {"model.xml": rule.example(which)} for which in ("Bad", "Good")}
+                made[rule.id] = {which: examine(engine, texts).text() for which, texts in shown.items()}
         finally:
             os.chdir(before)
     return {TOLD: json.dumps(made).encode()}
-
-
-def _diagnosed(text: str) -> str:
-    found: Diagnosis = examine(NativeEngine(), {"model.xml": text})
-    return found.text().partition("\nruled out")[0] if found.causes or found.hints else "Nothing found."
 
 
 def _page(rule: Rule, told: Mapping[str, str], cases: Mapping[str, Case], kept: Kept) -> str:

@@ -7,7 +7,7 @@ import { last } from "./files.js";
 /** @import {Diagnosis, Finding, Request, Texts} from "./client.js" */
 
 const SHOWN = 3;
-const NO_PAGE = new Set(["engine-dies", "ignore-comment"]); // what is said of no rule
+const NO_PAGE = new Set(["engine-dies", "rule-fails", "ignore-comment"]); // what is said of no rule
 const BUTTON = { class: "md-button" };
 
 /**

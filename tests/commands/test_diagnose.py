@@ -15,7 +15,7 @@ from clinic.commands import diagnosis_output
 from clinic.commands.cli import app
 from clinic.commands.diagnosis_options import OptionError, start_of
 from clinic.diagnosis.rules import rules
-from clinic.diagnosis.simulation import Start
+from clinic.diagnosis.start import Start
 from clinic.diagnosis.texts import encoded
 from clinic.pages.rules import diagnosis_schema
 from jsonschema import Draft202012Validator

@@ -18,7 +18,7 @@ from clinic.diagnosis.diagnose import examine
 from clinic.diagnosis.finding import KILLED, LATE, Diagnosis, ending
 from clinic.diagnosis.ignores import unknown
 from clinic.diagnosis.rules import rules
-from clinic.diagnosis.simulation import Start, StartError
+from clinic.diagnosis.start import Start, StartError
 from clinic.diagnosis.texts import decoded, read_file, read_texts
 from clinic.record.families import families
 

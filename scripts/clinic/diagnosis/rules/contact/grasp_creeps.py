@@ -59,8 +59,8 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A grasp that creeps"
 FAMILIES = ("slips", "drifts")
-SINCE = "0.1"
 CASE = "box-creeps-out-of-grasp"
+LEVEL = "cause"
 UNPLANTED = "nothing is held in a grasp at the start of a healthy model"
 
 MOST, SLOW = 0.05, 0.01  # radii a second; of a hint, in jaws that closed on it
@@ -72,7 +72,7 @@ FIRM = 3.0  # times the weight, that friction carries
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The solver's options, where a free body hangs on moving parts alone, or slides in jaws that hold it firmly."""
     of = model.simulation
-    if not any(of.model("opt.gravity")):
+    if not of.gravity:
         return
     passes = of.model("opt.noslip_iterations")[0] > 0
     hung = None if passes else next(_hung(of), None)

@@ -55,9 +55,7 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A link that touches nothing"
 FAMILIES = ("falls-through", "slips")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "some links are left out on purpose"
 
 MANY, FEW, SMALL = 5, 2, 0.5
@@ -77,13 +75,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     names = (*(of.name("body", body) for body in found), *(of.name("geom", geom) for geom in geoms))
     says = f"{of.name('body', found[0])} has no geom that can touch anything, and the other links have one."
     masks = masks_told(of, geoms[0])
-    wanted = "a geom that collides"
-    yield Suspect(names, "contype, conaffinity", masks, "1, 1", (), probe, 0, says, wanted, level="hint")
+    yield Suspect(names, "contype, conaffinity", masks, "1, 1", (), probe, 0, says, "a geom that collides")
 
 
 def _bare(of: Simulation) -> list[int]:
     """The links that touch nothing, of robots of which nearly all do."""
-    owner, welds, parents = root_of(of), of.model("body_weldid"), of.model("body_parentid")
+    owner, welds = root_of(of), of.model("body_weldid")
     links, hard = _links(of)
     size = {link: max(of.model("geom_rbound")[geom] for geom in geoms) for link, geoms in links.items()}
     robots: dict[int, list[int]] = {}
@@ -95,7 +92,7 @@ def _bare(of: Simulation) -> list[int]:
             continue
         bare = [link for link in robot if link not in hard]
         middle = sorted(size[link] for link in robot)[len(robot) // 2]
-        above = {link: int(welds[int(parents[link])]) for link in bare}
+        above = {link: int(welds[of.parent(link)]) for link in bare}
         limb = [each for each in bare if above[each] in hard]
         if len(robot) >= MANY and 0 < len(bare) <= FEW:
             large = [each for each in limb if size[each] > SMALL * middle and not _light(of, each)]
@@ -134,8 +131,8 @@ def _light(of: Simulation, link: int) -> bool:
 
 def _enclosed(of: Simulation, link: int, links: Mapping[int, Sequence[int]]) -> bool:
     """Whether nearly all of a link is in the boxes around what collides of the links beside it, at the start."""
-    welds, parents = of.model("body_weldid"), of.model("body_parentid")
-    above = {each: int(welds[int(parents[each])]) for each in links}
+    welds = of.model("body_weldid")
+    above = {each: int(welds[of.parent(each)]) for each in links}
     beside = [geom for each in links if above[each] == link or each == above[link] for geom in links[each]]
     of.begin()
     seen = [point for geom in links[link] for point in in_world(of, geom, MOST_POINTS)]

@@ -40,7 +40,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "An impossible inertia"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
 
 NO_BODY = "Of any body each principal moment is positive, and at most the sum of the other two."
 ONCE = "fullinertia says how the body is turned, so that nothing else can."
@@ -59,7 +58,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         inertial = element if element.tag == "inertial" else element.first("inertial") or element
         if "mjMINVAL" in said and "-" not in inertial.get("diaginertia").replace("e-", ""):
             continue  # too little of it, which another rule tells
-        if model.source.urdf:
+        if model.urdf:
             yield from _in_urdf(inertial, said)
         elif "fullinertia" in inertial.attributes:
             for attribute in ("diaginertia", *ORIENTATIONS):

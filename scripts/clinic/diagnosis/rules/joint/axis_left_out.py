@@ -44,8 +44,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A joint whose axis is left out"
 FAMILIES = ("stuck", "drifts", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "only URDF has such joints, and the healthy models are MJCF"
 
 MOVES = ("revolute", "continuous", "prismatic")
@@ -53,7 +51,7 @@ MOVES = ("revolute", "continuous", "prismatic")
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The joints without an axis, all together, where others have one."""
-    if model.source is None or not model.source.urdf:
+    if model.source is None or not model.urdf:
         return
     joints = [each for each in model.source.root.children if each.tag == "joint" and each.get("type") in MOVES]
     bare = [each for each in joints if each.first("axis") is None]

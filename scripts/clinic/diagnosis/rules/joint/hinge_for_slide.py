@@ -45,8 +45,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A hinge with the range or the name of a slide"
 FAMILIES = ("stuck", "passes-limit", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a joint of another type is planted as that of a pair"
 
 NARROW = 0.15  # rad
@@ -139,9 +137,5 @@ def _hinges(of: Simulation, *joints: int) -> list[int]:
 def _ranges(of: Simulation) -> dict[int, float]:
     """The width in rad of the range of each hinge that is driven or has a spring."""
     driven = set(of.drivers) | {joint for joint, stiffness in enumerate(of.model("jnt_stiffness")) if stiffness}
-    made = {}
-    for joint in range(of.count("joint")):
-        if joint in driven and of.joint_type(joint) == HINGE and of.model("jnt_limited")[joint]:
-            low, high = of.row("jnt_range", joint, 2)
-            made[joint] = high - low
-    return {joint: wide for joint, wide in made.items() if wide > 0}
+    wide = {joint: high - low for joint, (low, high) in of.ranges.items() if joint in driven and high > low}
+    return {joint: width for joint, width in wide.items() if of.joint_type(joint) == HINGE}

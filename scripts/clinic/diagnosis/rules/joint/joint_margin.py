@@ -31,7 +31,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.servo import alone
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -39,8 +39,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A limit that pushes before it is reached"
 FAMILIES = ("stuck", "sags")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model has a margin of limits above 10 % of the range"
 
 MOST = 0.1  # of the range
@@ -86,7 +84,7 @@ def _wide(of: Simulation, kind: str) -> dict[int, float]:
             continue
         if kind == "tendon":
             made[each] = margins[each] / max(high - low, 1e-9)
-        elif of.joint_type(each) in (HINGE, SLIDE):
+        elif each in of.scalar_joints:
             made[each] = _pushed(of, each, low, high)
     return made
 

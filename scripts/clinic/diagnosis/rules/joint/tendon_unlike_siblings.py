@@ -83,8 +83,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A finger's tendon unlike the others'"
 FAMILIES = ("stuck", "drifts", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have three tendons that are alike"
 
 BAR = re.compile(r"(?i)anti.?roll|sway|stabili")
@@ -141,7 +139,7 @@ def _adds(of: Simulation, part: Sequence[tuple[int, float]]) -> float:
     """Above 0 where two parallel joints of one kind are added, below where one is taken from the other; else 0."""
     of.as_written()
     (one, first), (other, second) = part
-    along = dot(*(of.data_row("xaxis", joint, 3) for joint in (one, other)))
+    along = dot(*(of.axis(joint) for joint in (one, other)))
     same = of.joint_type(one) == of.joint_type(other) and abs(along) > PARALLEL
     return first * second * along if same else 0.0
 

@@ -60,8 +60,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Wheels or a steering that turn the other way"
 FAMILIES = ("drifts", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "the models of the bench are MJCF"
 
 STEERING = re.compile(r"steer", re.IGNORECASE)
@@ -94,4 +92,4 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _least(of: Simulation, joints: tuple[int, ...], against: Vector) -> float:
     """How far all of some axes point along a direction."""
     of.begin()
-    return min(dot(of.data_row("xaxis", joint, 3), against) for joint in joints)
+    return min(dot(of.axis(joint), against) for joint in joints)

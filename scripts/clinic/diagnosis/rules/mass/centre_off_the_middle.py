@@ -58,9 +58,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A centre of mass beside the middle"
 FAMILIES = ("drifts", "wrong-mass")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "trunks of healthy robots carry batteries and computers aside"
 
 OFF, ON = 0.2, 0.01  # of the distance of the twins
@@ -121,7 +119,7 @@ def _of_the_plane(of: Simulation, common: int, normal: Vector) -> Iterator[int]:
     for body in of.ancestors(common)[:-1]:
         yield body
         for joint in of.joints_of(body):
-            along = abs(dot(of.data_row("xaxis", joint, 3), normal))
+            along = abs(dot(of.axis(joint), normal))
             if not (along > ALONG if of.joint_type(joint) == HINGE else along < 1 - ALONG):
                 return
 

@@ -32,7 +32,6 @@ When it is wrong: a balloon. Where all of the model is so, it may be written in 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
@@ -45,7 +44,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, counted
 
 TITLE = "Lighter than air"
 FAMILIES = ("falls-through", "explodes", "stuck")
-SINCE = "0.1"
 
 FEATHER = 0.005  # kg/m3
 AIR, LIMIT, LIGHT, FEW = 1.2, 300.0, 1.0, 3
@@ -58,10 +56,10 @@ METRES, CENTIMETRES = (5.0, 20.0), 500.0  # m/s2
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Trees of moving bodies that collide and weigh next to nothing."""
     of = model.simulation
-    if unit_of_lengths(of) or math.hypot(*of.model("opt.gravity")) > CENTIMETRES:
+    if unit_of_lengths(of) or of.gravity > CENTIMETRES:
         return
     masses = of.model("body_mass")
-    in_metres = METRES[0] < math.hypot(*of.model("opt.gravity")) < METRES[1]
+    in_metres = METRES[0] < of.gravity < METRES[1]
     most = LIGHT if in_metres and not of.model("opt.density")[0] else LIMIT  # in a fluid it may float
     yield from _links(model, most)
     yield from _for_mass(model, most)
@@ -99,11 +97,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _groups(of: Simulation) -> list[tuple[int, list[int]]]:
     """What moves together by its root, and a light link or two by themselves, of a tree that is heavy enough."""
-    owner, trees = root_of(of), dict[int, list[int]]()
+    owner, welds, trees, links = root_of(of), of.model("body_weldid"), dict[int, list[int]](), dict[int, list[int]]()
     for body in of.moving_bodies:
         trees.setdefault(owner[body], []).append(body)
-    light = [body for body in of.moving_bodies if of.joints_of(body) and _air(of, body) > LIMIT]
-    alone = [(body, [body]) for body in light if trees.get(body) != [body]]
+        links.setdefault(int(welds[body]), []).append(body)
+    light = {body: link for body, link in links.items() if of.joints_of(body) and _air(of, *link) > LIMIT}
+    alone = [(body, link) for body, link in light.items() if trees.get(body) != link]
     return [*trees.items(), *(alone if len(light) <= 2 else [])]
 
 

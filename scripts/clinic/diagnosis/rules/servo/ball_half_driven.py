@@ -35,15 +35,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import BALL, TRN_IN_PARENT
-from clinic.diagnosis.probes.vector import Vector, dot, norm, sub, unit
+from clinic.diagnosis.probes.vector import Vector, across, norm, unit
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A ball joint with too few motors"
 FAMILIES = ("stuck", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "the healthy models drive few ball joints"
 
 AXES, LEAST = 3, 1e-6
@@ -64,9 +62,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         probe = Probe("axes of a ball joint that nothing drives", "", _missing, (joint,), dynamic=False)
         names = (of.name("joint", joint), *(of.name("actuator", each) for each in driving))
         element = model.element("actuator", driving[0])
-        yield Suspect(
-            names, "gear", gears[0], "three actuators", (), probe, 0, says, "three axes", level="hint", at=element
-        )
+        yield Suspect(names, "gear", gears[0], "three actuators", (), probe, 0, says, "three axes", at=element)
 
 
 def _driving(of: Simulation, joint: int) -> list[int]:
@@ -83,7 +79,7 @@ def _missing(of: Simulation, joint: int) -> float:
     for each in _driving(of, joint):
         left = tuple(of.row("actuator_gear", each, 6)[:3])
         for axis in spanned:
-            left = sub(left, tuple(dot(left, axis) * x for x in axis))
+            left = across(left, axis)
         if norm(left) > LEAST:
             spanned.append(unit(left))
     return float(AXES - len(spanned))

@@ -41,7 +41,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from clinic.diagnosis.edit import Edit, set_attribute
-from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.couplings import Coupling, couplings
 from clinic.diagnosis.probes.load import carriers, loads, outdone, strain, strains, travel, yielded, yields
 from clinic.diagnosis.probes.servo import Servo, servos
@@ -54,7 +53,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A force range too small for the weight"
 FAMILIES = ("sags", "stuck")
-SINCE = "0.1"
 CASE = "arm-stops-short"
 
 STRAIN = 1.2
@@ -218,11 +216,8 @@ def _undriven(model: ReaderModel) -> Iterator[Suspect]:
     simulation = model.simulation
     if simulation.count("actuator"):
         return
-    weak = [
-        joint
-        for joint, limited in enumerate(simulation.model("jnt_actfrclimited"))
-        if limited and simulation.joint_type(joint) in (HINGE, SLIDE) and _weight_over_limit(simulation, joint) > STRAIN
-    ]
+    limited = [joint for joint in simulation.scalar_joints if simulation.model("jnt_actfrclimited")[joint]]
+    weak = [joint for joint in limited if _weight_over_limit(simulation, joint) > STRAIN]
     if weak:
         worst = max(weak, key=lambda joint: _weight_over_limit(simulation, joint))
         limit, name = simulation.row("jnt_actfrcrange", worst, 2)[1], simulation.name("joint", worst)
@@ -237,7 +232,6 @@ def _undriven(model: ReaderModel) -> Iterator[Suspect]:
             STRAIN,
             f"The weight at {name} is up to {need:.3g}, and no actuator may give more than {limit:.3g} there.",
             "1 and less; motors are chosen for twice the weight and more",
-            level="hint",
         )
 
 

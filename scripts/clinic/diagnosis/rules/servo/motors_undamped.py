@@ -48,17 +48,15 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.servo.no_armature import ROTOR
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Motors on joints that nothing damps"
 FAMILIES = ("oscillates", "explodes", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "the harm shows under a controller in code alone"
 
 ENOUGH, LEAST = 3, 1.0  # motors; N m s/rad
-ROTOR = 0.01  # kg m2
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -97,7 +95,7 @@ def _bare(of: Simulation) -> list[int]:
     hinges = [joint for joint in of.drivers if of.joint_type(joint) == HINGE]
     fields = ("dof_damping", "dof_armature", "dof_frictionloss")
     held = any(of.model(field)[of.dof(joint)] for joint in hinges for field in fields)
-    motors = all(int(of.model(f"actuator_{kind}type")[each]) == 0 for each in actuators for kind in ("gain", "bias"))
+    motors = all(of.actuator_types(each)[:2] == (0, 0) for each in actuators)
     fluid = any(of.model(f"opt.{what}")[0] for what in ("density", "viscosity"))
-    ranged = [joint for joint in hinges if of.model("jnt_limited")[joint]]  # a rotor turns round, as a wheel does
+    ranged = [joint for joint in hinges if joint in of.ranges]  # a rotor turns round, as a wheel does
     return [] if held or not motors or fluid or len(ranged) < len(hinges) else hinges

@@ -55,7 +55,6 @@ from clinic.diagnosis.suspect import Suspect, rounded
 
 TITLE = "A servo too weak for the weight it carries"
 FAMILIES = ("sags", "drifts")
-SINCE = "0.1"
 CASE = "servo-sags"
 
 LATE, CRAWLS = 0.6, 10.0  # s: the time constant above which a step is tried, of a hinge and a slide
@@ -104,8 +103,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _alone(of: Simulation) -> list[Servo]:
     """The servos of joints that no motor drives as well, through which code may carry the weight."""
-    kinds = zip(*(of.model(f"actuator_{kind}type") for kind in ("gain", "bias", "dyn")), strict=True)
-    motors = {of.driven_joint(each) for each, kind in enumerate(kinds) if not any(kind)}
+    motors = {of.driven_joint(each) for each in range(of.count("actuator")) if of.is_motor(each)}
     return [each for each in servos(of) if each.joint not in motors]
 
 
@@ -178,7 +176,6 @@ def _little(model: ReaderModel, found: dict[int, float]) -> Iterator[Suspect]:
             f"The weight at {of.name('joint', worst.joint)}, up to {load:.3g} {worst.force_unit}, moves it "
             f"{sagging:.2g} {worst.unit} off its target{share}, unless gravcomp takes the weight away.",
             f"below {part * LITTLE:g} rad, or {100 * part * SHARE:g} % of the range of a slide",
-            level="hint",
         )
 
 

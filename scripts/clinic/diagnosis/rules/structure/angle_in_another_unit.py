@@ -39,8 +39,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "An angle in another unit"
 FAMILIES = ("wrong-numbers", "camera", "jumps-at-start", "sensor-reads-zero")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "which turn a part should have, only a drawing tells"
 
 TURNED = ("body", "geom", "site", "camera", "frame", "inertial", "replicate")
@@ -52,7 +50,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if model.source is None:
         return
     radians = model.angle_unit == 1.0
-    turned = ("origin",) if model.source.urdf else TURNED
+    turned = ("origin",) if model.urdf else TURNED
     found = {each: angles for each in model.source.elements(*turned) if (angles := _angles(each, radians))}
     if not found:
         return

@@ -37,8 +37,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, counted
 
 TITLE = "A flex that falls apart or goes flat"
 FAMILIES = ("explodes", "falls-through", "sags")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model with a flex is planted with faults"
 
 FLAT = 0.7  # of its height
@@ -46,7 +44,7 @@ FLAT = 0.7  # of its height
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Flexcomps of loose points, each."""
-    if model.source is None or not any(model.simulation.model("opt.gravity")):
+    if model.source is None or not model.simulation.gravity:
         return
     yield from _soft(model)
     for flex in model.source.elements("flexcomp"):

@@ -43,8 +43,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A link far from what it hangs on"
 FAMILIES = ("sags", "jumps-at-start", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "where a link belongs, only a drawing tells"
 
 FAR, METRES, BESIDE = 20.0, 2.0, 0.4  # what two bodies count for beside the whole mechanism
@@ -71,13 +69,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _hung(model: ReaderModel) -> list[int]:
     """The bodies with joints that hang on another body; in a URDF, whose root is the world, all."""
     of, urdf = model.simulation, model.urdf
-    return [body for body in of.moving_bodies if of.joints_of(body) and (urdf or of.model("body_parentid")[body])]
+    return [body for body in of.moving_bodies if of.joints_of(body) and (urdf or of.parent(body))]
 
 
 def _apart(of: Simulation, body: int) -> float:
     """How far a body is from its parent, in sizes of its mechanism or of the two bodies."""
     owner, bodies, kinds = root_of(of), of.model("geom_bodyid"), of.model("geom_type")
-    whole, parent, pair = [0.0], int(of.model("body_parentid")[body]), dict[int, float]()
+    whole, parent, pair = [0.0], of.parent(body), dict[int, float]()
     for geom, radius in enumerate(of.model("geom_rbound")):
         on = int(bodies[geom])
         if int(kinds[geom]) in (PLANE, HFIELD):

@@ -44,9 +44,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A tool beside the site that it belongs to"
 FAMILIES = ("wrong-numbers", "jumps-at-start", "drifts")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "few healthy models have a tool in a body of its own, and a site for it"
 
 PLACE = re.compile(r"attach|flange|mount|tool|tcp", re.IGNORECASE)
@@ -88,7 +86,7 @@ def _drawn_there(of: Simulation, body: int, site: int) -> bool:
 
 def _sites(of: Simulation, body: int) -> list[int]:
     """The sites of a body's parent that are for tools; none of the world's."""
-    parent, names = int(of.model("body_parentid")[body]), of.names("site")
+    parent, names = of.parent(body), of.names("site")
     owners = of.model("site_bodyid") if parent else ()
     return [site for site, owner in enumerate(owners) if int(owner) == parent and PLACE.search(names[site])]
 

@@ -80,9 +80,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A robot unlike the data sheet of its name"
 FAMILIES = ("wrong-numbers", "stuck", "passes-limit")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "few of the models of the bench are robots that are sold"
 
 STRONGER, STRONG = 0.05, 1 / 3  # of the effort; the share of the joints that have theirs
@@ -184,11 +182,7 @@ def _ranges(model: ReaderModel, robot: Robot, ranges: dict[int, tuple[float, flo
 
 def _ranged(of: Simulation, joints: dict[int, list[Joint]]) -> dict[int, tuple[float, float]]:
     """The data sheet's range of each joint that has one."""
-    return {
-        joint: nearest_range(lines, *of.row("jnt_range", joint, 2))
-        for joint, lines in joints.items()
-        if of.model("jnt_limited")[joint]
-    }
+    return {joint: nearest_range(lines, *of.ranges[joint]) for joint, lines in joints.items() if joint in of.ranges}
 
 
 def _elsewhere(of: Simulation, joint: int, right: tuple[float, float]) -> float:

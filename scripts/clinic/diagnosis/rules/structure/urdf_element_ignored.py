@@ -41,8 +41,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "An element that is passed over"
 FAMILIES = ("jumps-at-start", "wrong-mass", "camera")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "only URDF has such elements, and the healthy models are MJCF"
 
 INSIDE = {
@@ -56,7 +54,7 @@ MEANT = {"pose": "origin", "limits": "limit", "dynamic": "dynamics", "axes": "ax
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """What stands in joints and parts of links and is none of URDF's elements, by its tag."""
-    if model.source is None or not model.source.urdf:
+    if model.source is None or not model.urdf:
         return
     yield from _mimics(model.source)
     found: dict[str, list[str]] = {}

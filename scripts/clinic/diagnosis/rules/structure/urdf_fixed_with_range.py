@@ -45,8 +45,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A fixed joint with a range"
 FAMILIES = ("stuck",)
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "the healthy models that faults are planted in are MJCF"
 
 WHEEL = re.compile(r"(?i)wheel(?!.*(cover|mount|guard|encoder|hub))(?<!caster_wheel)(?<!steering_wheel)")
@@ -56,7 +54,7 @@ SLIDES = re.compile("(?i)slid|prism|lift|finger")
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The joint of a URDF that is alone so, and wheels that are all so."""
-    if model.source is None or not model.source.urdf:
+    if model.source is None or not model.urdf:
         return
     yield from _called_fixed(model.source)
     all_joints = [each for each in model.source.root.children if each.tag == "joint"]

@@ -36,9 +36,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.drive import commanded
-from clinic.diagnosis.probes.run import fastest
+from clinic.diagnosis.probes.run import FAST, fastest
 from clinic.diagnosis.probes.servo import BEARS, damped_beyond, damping_is_implicit, explicit_damping
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
@@ -46,10 +45,9 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Damping that the integrator cannot follow"
 FAMILIES = ("explodes", "oscillates")
-SINCE = "0.1"
 CASE = "finger-explodes-at-once"
 
-FAST, TENTH = 100.0, 0.1  # rad/s; of the symptom is left
+TENTH = 0.1  # of the symptom is left
 SYMPTOMS = ((fastest(), FAST), (shake(), SHAKES), (commanded(), FAST))
 STOPS = 20.0  # h d / M of a joint that is at rest within a twentieth of a step
 
@@ -93,7 +91,7 @@ def overdamped(model: ReaderModel) -> Suspect | None:
     """Damping of joints that equalities tie, which stops them within a small part of a step, where less keeps calm."""
     of = model.simulation
     damping, masses = of.model("dof_damping"), of.mass_diagonal
-    dofs = {joint: of.dof(joint) for joint in range(of.count("joint")) if of.joint_type(joint) in (HINGE, SLIDE)}
+    dofs = {joint: of.dof(joint) for joint in of.scalar_joints}
     shares = {joint: of.timestep * damping[dof] / max(masses[dof], 1e-12) for joint, dof in dofs.items()}
     found = sorted((joint for joint, share in shares.items() if share > STOPS), key=lambda joint: -shares[joint])
     shown = [(probe, limit) for probe, limit in SYMPTOMS if found and model.measured(probe) > limit]

@@ -60,8 +60,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A joint in the middle that turns to one side"
 FAMILIES = ("stuck", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have a waist or a neck"
 
 MOST, ALIKE, PAIRS = 0.3, 0.98, 2
@@ -98,10 +96,10 @@ def _middle(of: Simulation) -> tuple[int, ...]:
     if len(mirrored) < PAIRS:
         return ()
     made = []
-    for joint in range(of.count("joint")):
+    for joint in of.ranges:
         mover = of.body_of("joint", joint)
         lefts = [left for left in mirrored if mover not in of.ancestors(found.common[left])]
-        if of.joint_type(joint) != HINGE or not of.model("jnt_limited")[joint] or not lefts:
+        if of.joint_type(joint) != HINGE or not lefts:
             continue
         largest = max(lefts, key=lambda left: found.size[left])
         image, near = found.images[largest], FITS * found.size[largest]

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from clinic.commands import diagnosis_output
 from clinic.commands.cli import app
 from clinic.commands.diagnosis_options import OptionError, start_of
 from clinic.diagnosis.rules import rules
 from clinic.diagnosis.start import Start
+from clinic.diagnosis.texts import encoded
 from clinic.pages.rules import diagnosis_schema
 from jsonschema import Draft202012Validator
 from typer.testing import CliRunner, Result
@@ -75,6 +81,17 @@ def test_fix_prints_a_diff_and_writes_nothing(model):
     assert model.read_text() == BROKEN
 
 
+def test_fix_of_a_model_without_a_cause_names_the_hints_that_have_an_edit(model):
+    model.write_text(WELL)
+    assert run("diagnose", model, "--fix").stdout == "nothing to change\n"
+    model.write_text(rules()["axis-unlike-name"].example("Bad"))
+    result = run("diagnose", model.name, "--fix", "new.xml", "--select", "axis-unlike-name")
+    assert result.stdout == (
+        "No cause, so nothing is changed; the hint axis-unlike-name has an edit: clinic diagnose robot.xml\n"
+    )
+    assert not Path("new.xml").exists()
+
+
 def test_fix_writes_a_new_file_and_over_one_only_when_told(model):
     assert run("diagnose", model, "--fix", "new.xml").exit_code == 1
     assert run("diagnose", "new.xml").exit_code == 0
@@ -86,11 +103,50 @@ def test_fix_writes_a_new_file_and_over_one_only_when_told(model):
     assert model.read_text() == Path("new.xml").read_text() != BROKEN
 
 
-def test_fix_keeps_the_line_ends_of_the_model(model):
-    model.write_bytes(BROKEN.replace("\n", "\r\n").encode())
+@pytest.mark.parametrize("end", [b"\r\n", b"\r"])
+def test_fix_changes_no_byte_but_what_it_edits(model, end):
+    head, broken, *rest = (b"\xef\xbb\xbf<mujoco>", *BROKEN.encode().split(b"\n")[1:])
+    mixed = head + end + broken + b"\n" + end.join(rest)
+    model.write_bytes(mixed)
     run("diagnose", model, "--fix", "new.xml")
-    mended = Path("new.xml").read_bytes()
-    assert mended.count(b"\r\n") == mended.count(b"\n") == BROKEN.count("\n")
+    assert Path("new.xml").read_bytes() == mixed.replace(b"colour", b"rgba")
+
+
+def test_fix_ends_a_new_line_as_the_first_and_writes_what_the_encoding_lacks_as_a_number():
+    content = b"<a>\r\n  <b/>\n  <!-- \xf6 -->\r</a>"
+    mended = "<a>\n  <c/>\n  <d/>\n  <!-- \xf6 -->\n  <e name='\u0142'/>\n</a>"
+    wanted = b"<a>\r\n  <c/>\n  <d/>\r\n  <!-- \xf6 -->\r  <e name='&#322;'/>\r\n</a>"
+    assert encoded(mended, content) == wanted
+
+
+def test_fix_that_cannot_be_written_leaves_what_was_there(model, monkeypatch):
+    def full(_path: Path, _content: bytes) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    model.with_name("old.xml").write_text("old")
+    for out, force in (("new.xml", []), ("old.xml", ["--force"])):
+        result = run("diagnose", model, "--fix", out, *force)
+        assert (result.exit_code, result.stderr) == (2, f"clinic: --fix {out}: No space left on device\n")
+    assert {path.name: path.read_text() for path in Path().iterdir()} == {"robot.xml": BROKEN, "old.xml": "old"}
+
+
+def test_fix_leaves_a_file_that_came_into_being_meanwhile(model, monkeypatch):
+    monkeypatch.setattr(diagnosis_output, "check_output", lambda *_: Path("new.xml").write_text("meanwhile"))
+    result = run("diagnose", model, "--fix", "new.xml")
+    assert (result.exit_code, result.stderr) == (
+        2,
+        "clinic: --fix new.xml: it exists; name a new file, or add --force\n",
+    )
+    assert Path("new.xml").read_text() == "meanwhile"
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a full device")
+def test_an_output_that_takes_no_more_is_a_sentence(model):
+    command = [sys.executable, "-m", "clinic", "diagnose", model.name, "--select", "unknown-attribute"]
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert (done.returncode, done.stderr) == (2, "clinic: standard output: No space left on device\n")
 
 
 def test_fix_before_the_model_is_told_apart_from_the_file_to_write(model):
@@ -139,7 +195,7 @@ def test_a_symptom_in_words_is_read_as_one_and_the_others_are_named(model):
         (["nowhere.xml"], "nowhere.xml: No such file"),
         (["robot.xml", "--symptom", "burns"], "--symptom burns: expected one of explodes, "),
         (["robot.xml", "--select", "unknown-atribute"], "no rule is called unknown-atribute; unknown-attribute is"),
-        (["robot.xml", "--select", "masks", "--ignore", "masks"], "--ignore masks: no rule is left"),
+        (["robot.xml", "--select", "masks", "--ignore", "masks"], "ignore masks: no rule is left"),
         (["robot.xml", "--ctrl", "motor=fast"], "--ctrl motor=fast: 'fast' is not a number"),
         (["robot.xml", "--ctrl", "motor=nan"], "--ctrl motor=nan: 'nan' is not a number"),
         (["robot.xml", "--ctrl", "nowhere.csv"], "--ctrl nowhere.csv: No such file"),
@@ -147,6 +203,7 @@ def test_a_symptom_in_words_is_read_as_one_and_the_others_are_named(model):
         (["driven.xml", "--keyframe", "home"], "driven.xml: keyframe home: the model has bent"),
         (["driven.xml", "--keyframe", "1"], "driven.xml: keyframe 1: the model has bent"),
         ([], "no model is named: clinic diagnose robot.xml"),
+        (["robot.xml", ""], "no model is named: clinic diagnose robot.xml"),
         (["robot.xml", "driven.xml", "--format", "json"], "--format json takes one model, not 2"),
         (["robot.xml", "driven.xml", "--fix", "new.xml"], "--fix new.xml takes one model, not 2"),
         (["robot.xml", "--force"], "--force goes with --fix OUT"),
@@ -188,6 +245,29 @@ def test_a_table_of_controls_that_cannot_be_read_is_a_sentence(tmp_path, name, c
     with pytest.raises(OptionError) as caught:
         start_of(None, [str(tmp_path / name)], 2.0, 0)
     assert said in str(caught.value)
+
+
+def _flipped(content: bytes, at: int, mask: int) -> bytes:
+    return content[:at] + bytes([content[at] ^ mask]) + content[at + 1 :]
+
+
+def test_a_damaged_npz_is_a_sentence(tmp_path):
+    path = tmp_path / "run.npz"
+    np.savez_compressed(path, time=np.arange(500) / 100, motor=np.sin(np.arange(500)))
+    sound = path.read_bytes()
+    entry = sound.index(b"PK\x01\x02")  # in the directory at the end: 6 version, 8 flags, 10 compression
+    first = entry + 46 + len("time.npy")
+    damages = {
+        "encrypted": _flipped(_flipped(sound, entry + 8, 1), 6, 1),
+        "version": _flipped(sound, entry + 6, 0xFF),
+        "compression": _flipped(_flipped(sound, entry + 10, 0xF), 8, 0xF),
+        **{f"byte {at}": _flipped(sound, at, 0xFF) for at in range(60, first - 60, 97)},
+    }
+    for damage, content in damages.items():
+        path.write_bytes(content)
+        with pytest.raises(OptionError) as caught:
+            start_of(None, [str(path)], 2.0, 0)
+        assert str(caught.value).startswith(f"--ctrl {path}: damaged"), damage
 
 
 def test_columns_of_an_npz_are_numbers_and_equally_long(tmp_path):

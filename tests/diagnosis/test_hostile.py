@@ -8,7 +8,9 @@ import pytest
 from clinic.commands.cli import app
 from clinic.diagnosis.edit import apply, set_attribute
 from clinic.diagnosis.rules import rules
+from clinic.diagnosis.rules.errors._tags import closed
 from clinic.diagnosis.source import Source
+from clinic.diagnosis.texts import read_texts, well_formed
 from diagnosed import causes, with_edits
 from mutilated import KINDS, mutilated
 from typer.testing import CliRunner
@@ -68,3 +70,12 @@ def test_an_attribute_without_a_blank_before_it_is_set_and_not_written_twice() -
         """<geom name='b"margin="1" c' margin="0"/>"""
         in apply(texts, [set_attribute(geom, "margin", "0")])["model.xml"]
     )
+
+
+def test_many_comments_and_includes_that_do_not_end_are_read_once() -> None:
+    """Hours, if each of them were followed to the end of the text."""
+    text = "<mujoco>" + "<!--" * 300_000
+    assert len(well_formed(text.encode())[0]) == len(text)
+    assert [(each.start, each.meant) for each in closed(text)] == [(len(text), "\n</mujoco>\n")]
+    text = "<include " * 300_000
+    assert read_texts(text, "model.xml", lambda _: None) == {"model.xml": text}

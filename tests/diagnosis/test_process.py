@@ -13,6 +13,7 @@ import mujoco
 import pytest
 from clinic.diagnosis import process
 from clinic.diagnosis.finding import DIES, FAILS, KILLED, LATE
+from clinic.diagnosis.given import CHANGED
 from clinic.diagnosis.process import DiagnosisError, Request, diagnose
 from clinic.diagnosis.start import Start
 from folders import CORNER, FOLDERS, write_model
@@ -51,6 +52,28 @@ def test_a_path_a_text_a_spec_and_a_pair_give_the_same(tmp_path):
     found = [[each.rule for each in clinic.diagnose(source).causes] for source in given]
     assert found[0]
     assert all(each == found[0] for each in found)
+
+
+def test_a_model_whose_numbers_a_program_has_changed_is_told_from_its_text():
+    class Wrapped:  # as dm_control has it
+        ptr = mujoco.MjModel.from_xml_string(TALL)
+
+    assert [each.rule for each in diagnose((Wrapped, TALL), select=["masks"]).hints] == []
+    Wrapped.ptr.opt.timestep *= 1 + 1e-6  # as a text rounds it
+    assert [each.rule for each in diagnose((Wrapped, TALL), select=["masks"]).hints] == []
+    Wrapped.ptr.opt.timestep = 0.02
+    Wrapped.ptr.geom_contype[0] = 2
+    Wrapped.ptr.body_mass[1] = float("nan")
+    (hint,) = diagnose((Wrapped, TALL), select=["masks"]).hints
+    assert hint.rule == CHANGED
+    assert "opt.timestep is 0.02, in the text 0.01; body_mass[1] is nan, in the text 0.05; geom_con" in hint.says
+    larger = TALL.replace("</body>", "<geom size='0.1'/></body>")
+    assert "geom_friction has 1 rows, the text's 2" in diagnose((Wrapped, larger), select=["masks"]).hints[0].says
+
+
+def test_a_pair_without_a_model_is_a_sentence():
+    with pytest.raises(DiagnosisError, match=r"\(str, \.\.\.\): expected a pair of an MjModel and its path"):
+        diagnose((TALL, TALL))
 
 
 def test_the_reader_s_file_is_left_as_it_is_and_the_folder_too(tmp_path):
@@ -95,10 +118,12 @@ def test_where_a_rule_fails_that_is_no_fault_of_the_model_or_the_engine(monkeypa
     assert "masks failed (AttributeError: nthe): a mistake of the clinic" in found.hints[0].says
 
 
-def test_a_rule_that_takes_too_long_says_nothing_of_the_model(monkeypatch):
-    slow = DIES_ON_A_RULE.format(rule="masks").replace("os.abort()", "__import__('time').sleep(60)")
+@pytest.mark.parametrize("does", ["__import__('time').sleep(60)", "exec('while True: pass')"], ids=["waits", "works"])
+def test_a_rule_that_takes_too_long_says_nothing_of_the_model(monkeypatch, does):
+    slow = DIES_ON_A_RULE.format(rule="masks").replace("os.abort()", does)
     monkeypatch.setattr(process, "CHILD", (sys.executable, "-c", slow))
-    monkeypatch.setattr(process, "LIMIT", 10.0)
+    monkeypatch.setattr(process, "PATIENCE", 10.0 if "sleep" in does else 300.0)
+    monkeypatch.setattr(process, "LIMIT", 10)
     found = diagnose(TALL, select=["masks", "spring-too-stiff"])
     assert DIES not in {each.rule for each in found.causes}
     assert [each.rule for each in found.hints] == [LATE]
@@ -174,6 +199,34 @@ def test_a_file_that_is_no_text_is_a_sentence(tmp_path):
     (tmp_path / "model.xml").write_bytes(b"<mujoco>\n<!-- \0 -->\n</mujoco>")
     with pytest.raises(DiagnosisError, match="not a text in UTF-8: byte 0x00 in line 2"):
         diagnose(tmp_path / "model.xml")
+
+
+def test_a_model_that_no_memory_holds_is_a_sentence():
+    field = '<asset><hfield name="field" nrow="100000" ncol="100000" size="10 10 1 0.1"/></asset>'
+    with pytest.raises(DiagnosisError, match="MuJoCo stops without a message, as it does where the memory"):
+        diagnose(TALL.replace("<worldbody>", f"{field}<worldbody>"))
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"symptom": "burns"}, "symptom burns: expected one of explodes, "),
+        ({"select": ["unknown-atribute"]}, "no rule is called unknown-atribute; unknown-attribute is"),
+        ({"ignore": ["unknown-atribute"]}, "no rule is called unknown-atribute; unknown-attribute is"),
+        ({"select": "visual-mass"}, "'visual-mass': expected a list of rules"),
+        ({"select": ["masks"], "ignore": ["masks"]}, "ignore masks: no rule is left"),
+        ({"start": Start(duration=float("nan"))}, "duration nan: expected a time in s"),
+        ({"start": Start(duration=-1.0)}, "duration -1.0: expected a time in s"),
+    ],
+)
+def test_an_argument_that_cannot_be_taken_is_a_sentence(given, said):
+    with pytest.raises(ValueError, match=f"^{said}"):
+        diagnose(TALL, **given)
+
+
+def test_a_device_is_no_model():
+    with pytest.raises(DiagnosisError, match="/dev/zero: not a regular file"):
+        diagnose("/dev/zero")
 
 
 def test_a_text_in_latin_1_is_diagnosed(tmp_path):

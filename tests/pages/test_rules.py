@@ -6,9 +6,29 @@ import tempfile
 from pathlib import Path
 
 import pytest
+from clinic.commands.cli import app
 from clinic.diagnosis.bench.lock import Kept
+from clinic.diagnosis.rules import rules
 from clinic.pages.rules import rule_pages
 from clinic.work.cache import Cache
+from typer.testing import CliRunner
+
+
+@pytest.mark.parametrize("which", ["Bad", "Good"])
+def test_what_the_command_is_said_to_print_is_what_it_prints(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, which: str
+) -> None:
+    rule = rules()["visual-mass"]
+    monkeypatch.setattr("clinic.pages.rules.rules", lambda: {rule.id: rule})
+    monkeypatch.chdir(tmp_path)
+    Path("model.xml").write_text(rule.example(which), encoding="utf-8")
+    printed = CliRunner().invoke(app, ["diagnose", "model.xml"]).stdout
+
+    page = rule_pages({}, Cache(tmp_path / "cache"), Kept())["rules/visual-mass.md"].decode()
+
+    said = page.partition(f"## {which}\n")[2]
+    assert f"`clinic diagnose` prints:\n\n``` {{ .text .wrap }}\n{printed}```" in said
+    assert printed.startswith("1  cause   visual-mass" if which == "Bad" else "Nothing found, by ")
 
 
 def test_files_that_lie_around_are_no_part_of_an_example(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import subprocess
 import zipfile
 from pathlib import Path
 
 import pytest
+from clinic.diagnosis.finding import FAILS, Diagnosis, remark
 from clinic.diagnosis.rules import rules
 from live import LIMIT, engines
 from playwright.sync_api import Page, expect
@@ -222,6 +224,21 @@ def test_what_cannot_be_diagnosed_is_said_in_a_sentence(
     assert said in give(page, given)
 
     assert give(page, written(tmp_path / "still.xml", STILL)).startswith("still.xml was run")
+
+
+def test_rules_that_had_no_time_are_listed_and_of_a_failure_there_is_no_page(fresh: Page, root: Path) -> None:
+    command = ["node_modules/.bin/esbuild", "docs/playground/diagnosis/report.js", "--bundle", "--global-name=made"]
+    fresh.add_script_tag(content=subprocess.run(command, cwd=root, capture_output=True, text=True, check=True).stdout)
+    hints = (remark(FAILS, "A rule failed", "masks failed.", "still.xml"),)
+    made = Diagnosis("4.0.0", "still.xml", (), hints, (), (), untried=("tilted-ground", "visual-mass"))
+    shown = {"data": made.data(), "text": "", "diff": "", "texts": {}, "mended": {}, "edited": [], "titles": {}}
+
+    fresh.evaluate("(shown) => document.body.append(made.report(shown, {name: 'still.xml'}, 'rules/'))", shown)
+
+    fresh.get_by_text("No time was left for 2 rules").click()
+    expect(fresh.get_by_role("link", name="tilted-ground")).to_be_visible()
+    expect(fresh.get_by_text(FAILS)).to_be_visible()
+    expect(fresh.get_by_role("link", name=FAILS)).to_have_count(0)
 
 
 def test_it_stops(page: Page, served: str, tmp_path: Path) -> None:

@@ -52,7 +52,7 @@ const FILES = {
  *
  * @typedef {object} Diagnosis as scripts/clinic/diagnosis/browser.py makes it
  * @property {{engine: string, file: string, causes: Finding[], hints: Finding[], silenced: Finding[], ruled_out: string[],
- *   error: string}} data
+ *   untried: string[], error: string}} data
  * @property {string} text
  * @property {string} diff
  * @property {Texts} texts the model's and those that it includes

@@ -7,7 +7,7 @@ import { last } from "./files.js";
 /** @import {Diagnosis, Finding, Request, Texts} from "./client.js" */
 
 const SHOWN = 3;
-const NO_PAGE = new Set(["engine-dies", "ignore-comment"]); // what is said of no rule
+const NO_PAGE = new Set(["engine-dies", "rule-fails", "ignore-comment"]); // what is said of no rule
 const BUTTON = { class: "md-button" };
 
 /**
@@ -18,7 +18,7 @@ const BUTTON = { class: "md-button" };
  * @returns {HTMLElement}
  */
 export function report(diagnosis, request, rules, tryEdit) {
-  const { causes, hints, silenced, ruled_out: ruledOut, engine, error } = diagnosis.data;
+  const { causes, hints, silenced, ruled_out: ruledOut, untried, engine, error } = diagnosis.data;
   const made = el("div", { class: "dg-report" }, el("p", { role: "status" }, el("strong", {}, request.name), ` ${summary(diagnosis)}`));
   if (error && causes.length === 0) made.append(el("pre", {}, error.trim()));
   if (request.single && hints.some(({ rule }) => rule === "missing-file")) made.append(el("p", {}, "Drop the model's folder, or a zip of it, to have its files looked at too."));
@@ -47,10 +47,9 @@ export function report(diagnosis, request, rules, tryEdit) {
     const lines = silenced.map((each) => el("li", {}, each.title, " (", link(each.rule, rules), "): ", where(each), ": ", each.silenced));
     made.append(fold(`Silenced by comments in the model: ${count(silenced.length, "finding")}`, el("ul", {}, ...lines)));
   }
-  if (ruledOut.length > 0) {
-    const lines = ruledOut.map((id) => el("li", {}, diagnosis.titles[id] ?? id, " (", link(id, rules), ")"));
-    made.append(fold(`Ruled out: ${count(ruledOut.length, "rule")} found nothing`, el("ul", {}, ...lines)));
-  }
+  const named = (/** @type {string[]} */ ids) => el("ul", {}, ...ids.map((id) => el("li", {}, diagnosis.titles[id] ?? id, " (", link(id, rules), ")")));
+  if (ruledOut.length > 0) made.append(fold(`Ruled out: ${count(ruledOut.length, "rule")} found nothing`, named(ruledOut)));
+  if (untried.length > 0) made.append(fold(`No time was left for ${count(untried.length, "rule")}`, named(untried)));
   const mended = Object.keys(diagnosis.mended).length > 0 ? [button("Save the mended model", () => save(diagnosis.mended, request.name), BUTTON)] : [];
   const text = `clinic diagnose ${request.name}, in a page with MuJoCo ${engine}\n${diagnosis.text}\n`;
   const actions = [copy("Copy as text", text), copy("Copy as JSON", JSON.stringify(diagnosis.data, null, 1)), ...mended];

@@ -50,7 +50,7 @@ def diagnose(
     """Say what is wrong with your own model; exit code 0 if no cause is found, 1 for a cause, 2 if it cannot be run."""
     from clinic.commands.console import console
     from clinic.commands.diagnosis_options import STDIN, OptionError, chosen_rules, family_of, read_source, start_of
-    from clinic.commands.diagnosis_output import check_output, printed, write_fix
+    from clinic.commands.diagnosis_output import check_output, printed, say, write_fix
     from clinic.diagnosis.finding import Diagnosis
     from clinic.diagnosis.process import DiagnosisError
     from clinic.diagnosis.process import diagnose as run
@@ -75,20 +75,20 @@ def diagnose(
                 except DiagnosisError as error:
                     failed.append((model, str(error)))
         if fix and made:
-            write_fix(*made[0], Path(fix))
+            write_fix(*made[0], Path(fix), force)
+        for _, said in failed:
+            print(f"clinic: {said}", file=sys.stderr)
+        if made or form in ("sarif", "github"):
+            say(printed(made, failed, form, fix is not None, every))
+        if every and form == "text":
+            from clinic.triage.process import reports
+
+            for path in [Path(model) for model, found in made if not found.error and model != STDIN]:
+                for report in reports(path):
+                    say(report)
     except OptionError as error:
         print(f"clinic: {error}", file=sys.stderr)
         raise typer.Exit(2) from None
-    for _, said in failed:
-        print(f"clinic: {said}", file=sys.stderr)
-    if made or form in ("sarif", "github"):
-        print(printed(made, failed, form, fix is not None, every))
-    if every and form == "text":
-        from clinic.triage.process import reports
-
-        for path in [Path(model) for model, found in made if not found.error and model != STDIN]:
-            for report in reports(path):
-                print(report, flush=True)
     causes, broken = any(found.causes for _, found in made), any(found.error for _, found in made)
     raise typer.Exit(1 if causes else 2 if failed or broken else 0)
 

@@ -9,7 +9,7 @@ import zipfile
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 
-from clinic.diagnosis.ignores import unknown
+from clinic.diagnosis.process import DiagnosisError, check_rules
 from clinic.diagnosis.rules import Rule, rules
 from clinic.diagnosis.start import Start
 from clinic.diagnosis.texts import decoded
@@ -60,7 +60,7 @@ def _series(path: Path) -> list[tuple[float, Mapping[str, float]]]:
         columns = _arrays(path) if path.suffix == ".npz" else _columns(path)
     except OSError as error:
         raise OptionError(f"{said}: {error.strerror or error}; expected name=value, a CSV or NPZ") from None
-    except (ValueError, csv.Error, zipfile.BadZipFile) as error:
+    except (ValueError, csv.Error) as error:
         found = "not a text in UTF-8" if isinstance(error, UnicodeDecodeError) else error
         raise OptionError(f"{said}: {found}; expected name=value, a CSV or NPZ") from None
     length = len(columns.get("time", ()))
@@ -93,8 +93,11 @@ def _arrays(path: Path) -> Mapping[str, Sequence[object]]:
     with path.open("rb") as file:
         if not zipfile.is_zipfile(file):
             raise ValueError("not an NPZ")
-        arrays = np.load(file)
-        return {name: np.atleast_1d(arrays[name]).tolist() for name in arrays}
+        try:
+            arrays = np.load(file)
+            return {name: np.atleast_1d(arrays[name]).tolist() for name in arrays}
+        except Exception as error:  # of a damaged one: zlib's, zipfile's, the tokenizer's, ...
+            raise ValueError(f"damaged, or of another kind: {str(error) or 'it ends too early'}") from None
 
 
 def read_source(model: str) -> str:
@@ -137,11 +140,10 @@ def chosen_rules(select: Collection[str], ignore: Collection[str]) -> tuple[list
         OptionError: If one is not known, with the nearest, or none is left.
     """
     select, ignore = ([rule for words in some for rule in words.split(",") if rule] for some in (select, ignore))
-    for rule in (*select, *ignore):
-        if rule not in rules():
-            raise OptionError(unknown(rule))
-    if not set(select or rules()) - set(ignore):
-        raise OptionError(f"--ignore {','.join(ignore)}: no rule is left")
+    try:
+        check_rules(select, ignore)
+    except DiagnosisError as error:
+        raise OptionError(str(error)) from None
     return select, ignore
 
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from clinic.diagnosis.diagnose import examine
+from clinic.diagnosis.diagnose import examine, in_turn
 from clinic.diagnosis.edit import apply
 from clinic.diagnosis.engine import Compiled, CompileError, Contact
 from clinic.diagnosis.finding import ending
@@ -119,8 +119,8 @@ def diagnose(
 
     def trying(said: str) -> None:
         if rule := rules().get(said):
-            alike = [each.id for each in rules().values() if each.of_errors == rule.of_errors]
-            tell(rule.id, rule.title, alike.index(rule.id) / len(alike))
+            alike = in_turn(each for each in rules().values() if each.of_errors == rule.of_errors)
+            tell(rule.id, rule.title, alike.index(rule) / len(alike))
 
     texts = read_texts(text, name, read)
     made = ending(examine(engine, texts, symptom=symptom, ignore=died or (), tell=trying), died or {}, name)

@@ -20,7 +20,7 @@ from clinic.diagnosis.stand_ins import StandIns
 from clinic.diagnosis.start import Start
 from clinic.diagnosis.suspect import Suspect
 
-LIMIT = 20.0  # s for a start, after which no further rule is tried
+LIMIT = 20.0  # s of processor time for a start, after which no further rule is tried
 OF_SHAPES = {"contact", "mass", "parts-coincide"}  # rules, by area or id, that boxes in the place of meshes mislead
 MENDED = "What else is told was measured with these mended."
 LARGER = 3.0  # times the boxes' size: what is told is the same with these
@@ -47,7 +47,7 @@ def examine(
         select: Rules to try; all where empty.
         ignore: Rules not to try.
         tell: Is called with the id of each rule before it is tried.
-        limit: How long rules are tried for each start, in s.
+        limit: How long rules are tried for each start, in s of processor time, which no other process takes from them.
 
     Raises:
         StartError: If the model compiles and does not have the start.
@@ -55,12 +55,12 @@ def examine(
     model = ReaderModel(engine, texts, read_source(texts), start or Start(), symptom)
     ignores = Ignores(model)
     wanted = [rule for name, rule in rules().items() if name not in ignore and (not select or name in select)]
-    of_errors, others = ([rule for rule in wanted if rule.of_errors == ill] for ill in (True, False))
+    of_errors, others = (in_turn(rule for rule in wanted if rule.of_errors == ill) for ill in (True, False))
     trial = _Trial(ignores, start, tell, limit)
     error, families = model.error, (symptom,) if symptom else ()
     if error:
         found, left, placed = mended(model, of_errors, tell)
-        made, found = _Made([], left.texts, [], model), grouped(found)
+        made, found = _Made([], left.texts, [], [], model), grouped(found)
         if not left.error:
             made = trial.behind(left, others, as_hints=any(each.level == "cause" for each in found))
             suspects = (_located(each.suspect, made.model) for each in made.found)
@@ -70,10 +70,11 @@ def examine(
     else:
         found, of_errors, made = [], [], trial.from_starts(model, others)
     found += order(grouped(made.found), families)
-    tried, named = [*of_errors, *made.tried], {each.rule.id for each in found}
+    named, untried = {each.rule.id for each in found}, {rule.id for rule in made.untried}
+    tried = {rule.id for rule in (*of_errors, *made.tried)} - untried
     findings = [
         *(finding_of(each, made.model) for each in found),
-        *ignores.findings({each.id for each in tried}, named),
+        *ignores.findings(tried, named),
     ]
     kept = [each for each in findings if not each.silenced]
     return Diagnosis(
@@ -82,11 +83,17 @@ def examine(
         tuple(each for each in kept if each.level == "cause"),
         tuple(each for each in kept if each.level == "hint"),
         tuple(each for each in findings if each.silenced),
-        tuple(rule.id for rule in tried if rule.id not in named),
+        tuple(sorted(tried - named)),
         error,
         texts,
         made.fixed,
+        untried=tuple(sorted(untried - named)),
     )
+
+
+def in_turn(wanted: Iterable[Rule]) -> list[Rule]:
+    """Rules as they are tried: first those that can name a cause."""
+    return sorted(wanted, key=lambda rule: rule.level == "hint")
 
 
 def _measured_with(found: Sequence[Judged], engine: Engine, more: bool) -> list[Judged]:
@@ -113,6 +120,7 @@ class _Made(NamedTuple):
     found: list[Judged]
     fixed: Mapping[str, str]
     tried: list[Rule]
+    untried: list[Rule]  # for want of time
     model: ReaderModel
 
 
@@ -125,30 +133,31 @@ class _Trial:
     tell: Callable[[str], None]
     limit: float
 
-    def once(self, model: ReaderModel, wanted: Iterable[Rule]) -> _Made:
+    def once(self, model: ReaderModel, wanted: Sequence[Rule]) -> _Made:
         """All rules, one after the other, until the time is over."""
         found: list[Judged] = []
         tried: list[Rule] = []
         afloat = model.afloat() if any(rule.afloat for rule in wanted) else model
-        until = time.monotonic() + self.limit
+        until = time.process_time() + self.limit
 
         def asked(rule: Rule) -> ReaderModel:
             return afloat if rule.afloat else model
 
         for rule in wanted:
-            if time.monotonic() > until:
+            if time.process_time() > until:
                 break
             self.tell(rule.id)
             tried.append(rule)
             judged = (judge(asked(rule), rule, suspect) for suspect in suspects_of(asked(rule), rule, self.tell))
             found += [each for each in judged if each is not None]
+        found.sort(key=lambda each: each.rule.id)  # whoever was first to look
         found = [replace(each, silenced=self.ignores.why(each, model)) for each in without_rivals(found)]
         found = without_consequences(found, asked)
         edits: list[Edit] = []
         for each in found:
             if each.proved and not isinstance(model.with_edits([*edits, *each.suspect.edits]), CompileError):
                 edits += each.suspect.edits
-        return _Made(found, apply(model.texts, edits), tried, model)
+        return _Made(found, apply(model.texts, edits), tried, [*wanted[len(tried) :]], model)
 
     def from_starts(self, model: ReaderModel, wanted: Sequence[Rule]) -> _Made:
         """The same from the model's start and, where no cause is found there, from its first keyframe."""
@@ -158,7 +167,8 @@ class _Trial:
             again = self.once(begun, made.tried)
             seen = {rule.id for rule in again.tried}
             # a hint of the model's own start that is not one of the keyframe's stays
-            return again._replace(found=again.found + [each for each in made.found if each.rule.id not in seen])
+            kept = [each for each in made.found if each.rule.id not in seen]
+            return again._replace(found=again.found + kept, untried=made.untried + again.untried)
         return made
 
     def behind(self, left: ReaderModel, wanted: Sequence[Rule], as_hints: bool) -> _Made:
@@ -187,4 +197,4 @@ class _Trial:
             if (each.rule.id, each.suspect.elements, each.suspect.says) in same
             and not meshes & {*each.suspect.elements}
         ]
-        return made._replace(found=kept)
+        return made._replace(found=kept, untried=made.untried + again.untried)

@@ -16,7 +16,7 @@ from clinic.diagnosis.stand_ins import StandIns
 from clinic.diagnosis.start import Start
 from clinic.diagnosis.suspect import Suspect
 
-MOST, LIMIT = 60, 15.0  # messages, s
+MOST, LIMIT = 60, 15.0  # messages, s of processor time
 OF_FILES = {"missing-file", "unusable-file"}
 FIRST = "malformed-xml"  # what is no XML is not read, and what is missed may be there
 LAST = "refused-element"  # what only takes an element out is tried where no other rule knows better
@@ -36,9 +36,9 @@ def mended(
     rules = sorted(tried, key=lambda rule: (rule.id != FIRST, rule.id == LAST))
     found, changes = list[Judged](), list[Change]()
     written = dict(model.texts)
-    until = time.monotonic() + LIMIT
+    until = time.process_time() + LIMIT
     for _ in range(MOST):
-        if not model.error or time.monotonic() > until:
+        if not model.error or time.process_time() > until:
             break
         best, hints = _best(model, rules, tell)
         if best is None:

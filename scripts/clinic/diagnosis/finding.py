@@ -99,6 +99,7 @@ class Diagnosis:
         texts: The model's texts by file.
         fixed: The same with the edits of all causes that go together.
         measured: What the measurements of the symptom that the reader names give; None without one.
+        untried: Rules for which no time was left, from one start at least.
     """
 
     engine: str
@@ -111,6 +112,7 @@ class Diagnosis:
     texts: Mapping[str, str] = field(default_factory=dict)
     fixed: Mapping[str, str] = field(default_factory=dict)
     measured: Measured | None = None
+    untried: tuple[str, ...] = ()
 
     def data(self) -> dict[str, Any]:
         """The public contract, as JSON has it."""
@@ -121,6 +123,7 @@ class Diagnosis:
             "hints": [each.data() for each in self.hints],
             "silenced": [each.data() for each in self.silenced],
             "ruled_out": list(self.ruled_out),
+            "untried": list(self.untried),
             "error": self.error,
             "measured": asdict(self.measured) if self.measured else None,
         }
@@ -138,15 +141,15 @@ class Diagnosis:
         if len(shown) < len(self.causes):
             lines.append(f"   and {len(self.causes) - len(shown)} more: --all")
         for each in self.hints:
-            place = (f"{each.file}:{each.line}" if each.line else "", _elements(each.elements))
-            lines.append(f"hint     {each.rule}  {'  '.join(filter(None, place))}: {each.says}{_edited(each)}")
-        if not self.causes and not self.hints:
-            tried = f"by {_tried(self.ruled_out, every)}"
-            lines.append(
-                f"Nothing found, {tried if self.ruled_out else 'for no chosen rule is about a model that compiles'}."
-            )
-        elif self.ruled_out:
-            lines.append(f"ruled out: {_tried(self.ruled_out, every)}")
+            place = (each.rule, f"{each.file}:{each.line}" if each.line else "", _elements(each.elements))
+            lines.append(f"hint     {'  '.join(filter(None, place))}: {each.says}{_edited(each)}")
+        if self.ruled_out:
+            tried = _tried(self.ruled_out, every)
+            lines.append(f"ruled out: {tried}" if self.causes or self.hints else f"Nothing found, by {tried}.")
+        elif not lines and not self.untried:
+            lines.append("Nothing found, for no chosen rule is about a model that compiles.")
+        if self.untried:
+            lines.append(f"no time for {_tried(self.untried, every)}")
         if self.silenced:
             told = (f"{each.rule} {each.file}" + (f":{each.line}" if each.line else "") for each in self.silenced)
             lines.append(f"silenced ({len(self.silenced)}): {', '.join(told)}")

@@ -12,7 +12,7 @@ from weakref import WeakSet
 import mujoco
 import numpy as np
 
-from clinic.diagnosis.engine import Compiled, CompileError, Contact
+from clinic.diagnosis.engine import CompileError, Contact
 from clinic.diagnosis.texts import read_file
 
 OBJECTS = {"joint": "njnt", "camera": "ncam", "equality": "neq", "actuator": "nu", "dof": "nv", "sensor": "nsensor"}
@@ -135,7 +135,7 @@ class NativeEngine:
         self.made = WeakSet[NativeModel]()
         mujoco.set_mju_user_warning(lambda _: None)
 
-    def compile(self, main: str, files: Mapping[str, str]) -> Compiled:
+    def compile(self, main: str, files: Mapping[str, str]) -> NativeModel:
         texts = {name: text.encode() for name, text in files.items()}
         try:
             return self._loaded(mujoco.MjModel.from_xml_string, main, texts)
@@ -173,6 +173,8 @@ class NativeEngine:
             return NativeModel(partial(load, main, self.assets | texts), self.made)
         except (ValueError, mujoco.FatalError) as error:
             raise CompileError(str(error)) from None
+        except RuntimeError:  # an exception of C++ that the binding does not know; MuJoCo is of no use after it
+            raise MemoryError("MuJoCo stops without a message, as it does where the memory does not suffice") from None
 
 
 def _field(of: Any, field: str) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import math
 import os
 import pickle
 import subprocess
@@ -15,12 +16,16 @@ from typing import Any
 
 from clinic.diagnosis.diagnose import examine
 from clinic.diagnosis.finding import KILLED, LATE, Diagnosis, ending
+from clinic.diagnosis.ignores import unknown
+from clinic.diagnosis.rules import rules
 from clinic.diagnosis.start import Start, StartError
 from clinic.diagnosis.texts import decoded, read_file, read_texts
+from clinic.record.families import families
 
-LIMIT = 60.0  # s, for one process
+LIMIT = 60  # s of processor time, for one process
+PATIENCE = 300.0  # s by the clock, for one that waits, or has to
 MEMORY = 4 * 2**30  # bytes
-KILL = 9  # the signal with which the system ends what it has no memory for
+KILL, XCPU = 9, 24  # the signals with which the system ends what it has no memory, and no time for
 DEATHS = 5  # of the engine, after which the diagnosis ends
 MEASURING = "what the symptom's page measures"
 CHILD = (sys.executable, "-m", "clinic.diagnosis.process")
@@ -43,6 +48,7 @@ class Request:
     start: Start | None
     select: tuple[str, ...]
     ignore: tuple[str, ...]
+    model: Any = None  # the `mujoco.MjModel` that a program made of the text
 
 
 def diagnose(
@@ -59,7 +65,8 @@ def diagnose(
 
     Args:
         source: The path of an MJCF or URDF file; a text, which begins with `<`; an `mujoco.MjSpec`; or a pair of an
-            `mujoco.MjModel` and the path or text that it was compiled from.
+            `mujoco.MjModel` and the path or text that it was compiled from. The text is what is diagnosed; a hint says
+            where the model has other numbers.
         assets: Files that the model names, by name, where they lie on no disk.
         symptom: The family of symptoms that is seen (`clinic/record/families.toml`); its causes come first, and what
             the program of its page measures is told with them.
@@ -69,11 +76,15 @@ def diagnose(
         tell: Is called with the id of each rule before it is tried.
 
     Raises:
-        DiagnosisError: If the model cannot be read, is given in another form, or does not have the start.
+        DiagnosisError: If the model cannot be read, is given in another form, or does not have the start; or if another
+            argument is not what it may be.
     """
+    check_rules(select, ignore)
+    _check(symptom, start)
+    model, source = _pair(source)
     text, name, folder = _read(source)
     given = {key: value if isinstance(value, bytes) else str(value).encode() for key, value in (assets or {}).items()}
-    request = Request(text, name, folder, given, symptom, _code_of(symptom), start, tuple(select), tuple(ignore))
+    request = Request(text, name, folder, given, symptom, _code_of(symptom), start, tuple(select), tuple(ignore), model)
     died: dict[str, str] = {}
     while True:
         made, trying, said = _asked(replace(request, ignore=(*request.ignore, *died)), tell)
@@ -83,11 +94,34 @@ def diagnose(
         if not trying or len(died) > DEATHS:
             doing = f"while trying {trying}" if trying else "while compiling the model"
             ended = {
-                LATE: f"no answer in {LIMIT:g} s",
+                LATE: f"no answer in {LIMIT} s of processor time, or in {PATIENCE:g} s by the clock,",
                 KILLED: "the system ended the process, as it does where memory runs out,",
                 "": "MuJoCo ended the process",
             }.get(said, said)
             raise DiagnosisError(f"{name}: {ended} {doing}")
+
+
+def check_rules(select: Collection[str], ignore: Collection[str]) -> None:
+    """Whether there are these rules, and some of them are left.
+
+    Raises:
+        DiagnosisError: If not, with the nearest rule.
+    """
+    for given in (select, ignore):
+        if isinstance(given, str):
+            raise DiagnosisError(f"{given!r}: expected a list of rules")
+    for rule in (*select, *ignore):
+        if rule not in rules():
+            raise DiagnosisError(unknown(rule))
+    if not set(select or rules()) - set(ignore):
+        raise DiagnosisError(f"ignore {','.join(ignore)}: no rule is left")
+
+
+def _check(symptom: str, start: Start | None) -> None:
+    if symptom and symptom not in families():
+        raise DiagnosisError(f"symptom {symptom}: expected one of {', '.join(families())}")
+    if start and not 0 < start.duration < math.inf:
+        raise DiagnosisError(f"duration {start.duration}: expected a time in s")
 
 
 def _code_of(symptom: str) -> str:
@@ -99,9 +133,17 @@ def _code_of(symptom: str) -> str:
     return code_of(symptom)
 
 
+def _pair(source: Any) -> tuple[Any, Any]:
+    """A model and its source; None for the one where only the other is given. dm_control has a class around a model."""
+    if not isinstance(source, tuple) or len(source) != 2:
+        return None, source
+    model = getattr(source[0], "ptr", source[0])
+    if type(model).__name__ != "MjModel":
+        raise DiagnosisError(f"({type(model).__name__}, ...): expected a pair of an MjModel and its path or text")
+    return model, source[1]
+
+
 def _read(source: Any) -> tuple[str, str, str]:
-    if isinstance(source, tuple) and len(source) == 2:
-        return _read(source[1])
     if hasattr(source, "to_xml"):
         try:
             return source.to_xml(), "MjSpec", str(getattr(source, "modelfiledir", "") or os.getcwd())
@@ -115,6 +157,8 @@ def _read(source: Any) -> tuple[str, str, str]:
     if not isinstance(source, (str, Path)):
         raise DiagnosisError(f"{type(source).__name__}: expected a path, a text, an MjSpec, or a pair (model, xml)")
     path = Path(source).absolute()
+    if path.is_char_device() or path.is_block_device():  # /dev/zero ends never
+        raise DiagnosisError(f"{source}: not a regular file")
     try:
         return decoded(path.read_bytes())[0], path.name, str(path.parent)
     except OSError as error:
@@ -128,15 +172,19 @@ def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | N
     found = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}  # what this process can import
     pipe = subprocess.PIPE
     child = subprocess.Popen(CHILD, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, env=found)
+    if sys.platform == "linux":
+        import resource
+
+        resource.prlimit(child.pid, resource.RLIMIT_CPU, (LIMIT, LIMIT + 1))
     late = threading.Event()
 
     def end() -> None:
         late.set()
         child.kill()
 
-    timer = threading.Timer(LIMIT, end)
+    timer = threading.Timer(PATIENCE, end)
     timer.start()
-    trying, killed = "", False
+    trying, status = "", 0
     try:
         assert child.stdin is not None
         assert child.stdout is not None
@@ -153,14 +201,14 @@ def _asked(request: Request, tell: Callable[[str], None]) -> tuple[Diagnosis | N
                 return None, trying, rest.decode()
             if kind == b"wrong":
                 raise DiagnosisError(rest.decode())
-        killed = child.wait() == -KILL
+        status = child.wait()
     except BrokenPipeError:
         pass
     finally:
         timer.cancel()
         child.kill()
         child.communicate()
-    return None, trying, LATE if late.is_set() else KILLED * killed
+    return None, trying, LATE if late.is_set() or status == -XCPU else KILLED * (status == -KILL)
 
 
 def _end_with_who_asked() -> None:
@@ -189,15 +237,22 @@ def main() -> None:
 
     engine = NativeEngine(request.assets)
     try:
+        texts = read_texts(request.text, request.name, read)
         made = examine(
             engine,
-            read_texts(request.text, request.name, read),
+            texts,
             symptom=request.symptom,
             start=request.start,
             select=request.select,
             ignore=request.ignore,
             tell=lambda rule: print(f"trying {rule}", flush=True),
         )
+        if request.model is not None and not made.error:
+            from clinic.diagnosis.given import changed
+
+            others = {each: text for each, text in texts.items() if each != request.name}
+            hints = changed(request.model, engine.compile(request.text, others).mj, request.name)
+            made = replace(made, hints=(*hints, *made.hints))
         if request.measurement and not made.error and MEASURING not in request.ignore:
             from clinic.diagnosis.symptom import measure
 
@@ -205,7 +260,8 @@ def main() -> None:
             told = measure(request.symptom, request.measurement, engine, made.texts, request.start)
             made = replace(made, measured=told)
     except (MemoryError, RecursionError) as error:
-        print(f"wrong {request.name}: {type(error).__name__}: the model is too large", flush=True)
+        said = error if "MuJoCo" in str(error) else f"{type(error).__name__}: the model is too large"
+        print(f"wrong {request.name}: {said}", flush=True)
         return
     except StartError as error:
         print(f"wrong {request.name}: {error}", flush=True)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import codecs
 import posixpath
 import re
 from collections.abc import Callable
+from difflib import SequenceMatcher
 from pathlib import Path
 
 PART = re.compile(
@@ -14,6 +16,7 @@ VALUE = re.compile(rb"""=\s*(?P<value>"[^"]*"|'[^']*')(?P<near>(?=[^\s/>]))?""")
 DASH = re.compile(rb"-(?=-)")
 BARE = re.compile(rb"<|&(?!(?:amp|lt|gt|quot|apos|#\d+|#x[0-9A-Fa-f]+);)")
 CONTROL = bytes.maketrans(bytes(range(1, 32)), bytes(each if each in b"\t\n\r" else 63 for each in range(1, 32)))
+END = re.compile(r"\r\n?|\n")
 FRONT = re.compile(rb"(?:\xef\xbb\xbf)?[^<]*(?:<\?xml.*?\?>)?", re.DOTALL)
 
 
@@ -65,10 +68,26 @@ def decoded(content: bytes) -> tuple[str, str]:
         line = content[: content.index(0)].count(b"\n") + 1
         raise ValueError(f"byte 0x00 in line {line}")
     try:
-        text, encoding = content.decode("utf-8-sig"), "utf-8"
+        encoding = "utf-8-sig" if content.startswith(codecs.BOM_UTF8) else "utf-8"
+        text = content.decode(encoding)
     except UnicodeDecodeError:
         text, encoding = content.decode("latin-1"), "latin-1"
-    return text.replace("\r\n", "\n").replace("\r", "\n"), encoding
+    return END.sub("\n", text), encoding
+
+
+def encoded(text: str, content: bytes) -> bytes:
+    """A text made of another by edits, in the encoding of its bytes and with their line ends; a new line has the first.
+
+    A character that the encoding lacks is written as `&#..;`.
+    """
+    before, encoding = decoded(content)
+    ends = END.findall(content.decode(encoding))
+    old, new, made = before.split("\n"), text.split("\n"), list[str]()
+    for _, start, end, first, last in SequenceMatcher(None, old, new).get_opcodes():
+        kept = ends[start:end][: last - first]
+        made += kept + (ends[:1] or ["\n"]) * (last - first - len(kept))
+    whole = "".join(line + end for line, end in zip(new, [*made[: len(new) - 1], ""], strict=True))
+    return whole.encode(encoding, "xmlcharrefreplace")
 
 
 def read_texts(main: str, name: str, read: Callable[[str], str | None]) -> dict[str, str]:
@@ -82,7 +101,7 @@ def read_texts(main: str, name: str, read: Callable[[str], str | None]) -> dict[
     texts, left = {name: main}, [(name, main)]
     while left:
         around, text = left.pop()
-        for found in re.findall(r"<include\s[^>]*?file\s*=\s*[\"']([^\"']+)[\"']", text):
+        for found in re.findall(r"<include\s[^<>]*?file\s*=\s*[\"']([^\"']+)[\"']", text):
             for path in (found, found if around == name else beside(around, found)):
                 if path in texts:
                     break

@@ -15,7 +15,7 @@ from pydantic import TypeAdapter
 
 from clinic.diagnosis.bench.lock import Kept, score
 from clinic.diagnosis.diagnose import examine
-from clinic.diagnosis.finding import Diagnosis, Finding, Measured
+from clinic.diagnosis.finding import Finding, Measured
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import Rule, rules
 from clinic.pages.benchmark import benchmark
@@ -62,7 +62,7 @@ def diagnosis_schema() -> dict[str, Any]:
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "A diagnosis",
         "type": "object",
-        "required": ["engine", "file", "causes", "hints", "silenced", "ruled_out", "error", "measured"],
+        "required": ["engine", "file", "causes", "hints", "silenced", "ruled_out", "untried", "error", "measured"],
         "properties": {
             "engine": {"type": "string", "description": "The release of MuJoCo that ran the model."},
             "file": {"type": "string"},
@@ -70,6 +70,11 @@ def diagnosis_schema() -> dict[str, Any]:
             "hints": several,
             "silenced": {**several, "description": "Causes and hints that comments in the model silence."},
             "ruled_out": {"type": "array", "items": {"type": "string"}},
+            "untried": {
+                "type": "array",
+                "items": {"type": "string"},
+                "description": "Rules for which no time was left.",
+            },
             "error": {"type": "string", "description": "Why it does not compile; empty where it does."},
             "measured": {"anyOf": [{"$ref": "#/$defs/Measured"}, {"type": "null"}]},
         },
@@ -79,21 +84,17 @@ def diagnosis_schema() -> dict[str, Any]:
 
 def _told() -> Files:
     """What a diagnosis of each rule's examples prints, by rule."""
-    made, before = {}, os.getcwd()
+    made, before, engine = {}, os.getcwd(), NativeEngine()
     with tempfile.TemporaryDirectory() as folder:
         os.mkdir(own := os.path.join(folder, "model"))  # a rule looks into the folder around it, too
         os.chdir(own)
         try:
             for rule in rules().values():
-                made[rule.id] = {which: _diagnosed(rule.example(which)) for which in ("Bad", "Good")}
+                shown = {which: {"model.xml": rule.example(which)} for which in ("Bad", "Good")}
+                made[rule.id] = {which: examine(engine, texts).text() for which, texts in shown.items()}
         finally:
             os.chdir(before)
     return {TOLD: json.dumps(made).encode()}
-
-
-def _diagnosed(text: str) -> str:
-    found: Diagnosis = examine(NativeEngine(), {"model.xml": text})
-    return found.text().partition("\nruled out")[0] if found.causes or found.hints else "Nothing found."
 
 
 def _page(rule: Rule, told: Mapping[str, str], cases: Mapping[str, Case], kept: Kept) -> str:

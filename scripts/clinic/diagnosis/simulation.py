@@ -238,6 +238,10 @@ class Simulation:
         """FREE, BALL, SLIDE or HINGE."""
         return int(self.model("jnt_type")[joint])
 
+    def unit(self, joint: int) -> str:
+        """Of a joint's position."""
+        return "m" if self.joint_type(joint) == SLIDE else "rad"
+
     def body_of(self, kind: str, index: int) -> int:
         """The body that a joint, geom or site is of."""
         return int(self.model(REFERENCES[kind])[index])

@@ -15,6 +15,10 @@ FIXED, AFFINE = 0, 1  # mjtGain; mjtBias: none, affine
 INTEGRATOR = 1  # mjtDyn
 STEP = {True: 0.1, False: 0.01}  # of a hinge in rad, of a slide in m
 
+COEFFICIENTS = {  # units of stiffness, damping and inertia, by that of the joint's position
+    "rad": ("N m/rad", "N m s/rad", "kg m2"),
+    "m": ("N/m", "N s/m", "kg"),
+}
 BEARS = {0: 2.0, 1: 2.79}  # the largest stable h d / M of a damper, by mjtIntegrator: explicit Euler, RK4
 EULERDAMP_OFF = 1 << 15  # mjtDisableBit
 

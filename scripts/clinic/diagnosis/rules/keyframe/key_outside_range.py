@@ -95,7 +95,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             qpos[of.place(joint)] = position
         worst = max(off, key=lambda joint: weighed(of, joint, off[joint]))
         low, high = of.row("jnt_range", worst, 2)
-        says = f"{of.name('joint', worst)} stands {abs(off[worst]):.3g} outside of {low:.3g} to {high:.3g}."
+        far = f"{abs(off[worst]):.3g} {of.unit(worst)}"
+        says = f"{of.name('joint', worst)} stands {far} outside of {low:.3g} to {high:.3g}."
         if len(off) == 1 and _either(of, key, worst, off[worst]):
             yield _of_either(model, key, worst, says, written(qpos))
             continue
@@ -203,7 +204,7 @@ def _ranges(model: ReaderModel, key: int, held: Mapping[int, tuple[float, float]
         unit = model.angle_unit if of.joint_type(joint) == HINGE else 1.0
         value = written([x / unit for x in wanted])
         says = f"{of.name('key', key)} puts {of.name('joint', joint)} at {at:.3g}, and its servo is to hold it there; "
-        says += f"the range ends at {low if at < low else high:.3g}."
+        says += f"the range ends at {low if at < low else high:.3g} {of.unit(joint)}."
         yield Suspect(
             (of.name("joint", joint), of.name("key", key)),
             "range",
@@ -269,8 +270,8 @@ def _limits(model: ReaderModel, always: Collection[int]) -> Iterator[Suspect]:
     for joint in always:
         low, high = of.row("jnt_range", joint, 2)
         says = f"Each of the {of.count('key')} keyframes puts {of.name('joint', joint)} outside"
-        says += f" of {low:.3g} to {high:.3g}."
-        probe = Probe("joint outside of its range at a keyframe", "rad", _beyond, (0, joint), dynamic=False)
+        says += f" of {low:.3g} to {high:.3g} {of.unit(joint)}."
+        probe = Probe("joint outside of its range at a keyframe", of.unit(joint), _beyond, (0, joint), dynamic=False)
         edits = model.set("joint", [joint], "limited", "false")
         now = model.value("joint", joint, "range") or ""
         yield Suspect((of.name("joint", joint),), "range", now, "no limit", edits, probe, LIMIT, says, level="hint")

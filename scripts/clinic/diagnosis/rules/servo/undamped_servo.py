@@ -39,7 +39,7 @@ import math
 from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.probes.servo import STEP, Servo, overshoot, servos
+from clinic.diagnosis.probes.servo import COEFFICIENTS, STEP, Servo, overshoot, servos
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.reader_model import ReaderModel
@@ -68,6 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if (weaker := _weaker(model, found)) is not None:
         yield weaker
         return
+    stiff, damps, mass = COEFFICIENTS[worst.unit]
     yield Suspect(
         tuple(of.name("actuator", each.actuator) for each in found),
         "dampratio",
@@ -76,8 +77,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         tuple(edit for edits in found.values() for edit in edits),
         overshoot(tuple(each.actuator for each in found)),
         most,
-        f"Stiffness {worst.stiffness:.3g} and damping {worst.damping:.3g} on an inertia of {worst.inertia:.2g} "
-        f"are a damping ratio of {worst.ratio:.2g}.",
+        f"Stiffness {worst.stiffness:.3g} {stiff} and damping {worst.damping:.3g} {damps} on an inertia of "
+        f"{worst.inertia:.2g} {mass} are a damping ratio of {worst.ratio:.2g}.",
         WELL,
         level="hint" if keen or all(_loaded(model, each) for each in found) else "cause",
     )

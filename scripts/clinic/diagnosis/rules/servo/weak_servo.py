@@ -93,7 +93,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             sag([each.actuator for each in weak]),
             most,
             f"The weight at {simulation.name('joint', worst.joint)} is up to {load[worst.dof]:.3g} "
-            f"{worst.force_unit}, and its servo gives {worst.stiffness:.3g} for each {worst.unit}.",
+            f"{worst.force_unit}, and its servo gives {worst.stiffness:.3g} {worst.force_unit} for each {worst.unit}.",
             f"below {most:g} {worst.unit}; of healthy models with servos 0.29 is the most, 0.5 where the base is free",
         )
     yield from _bends(model, much)

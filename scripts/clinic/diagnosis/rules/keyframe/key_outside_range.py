@@ -29,10 +29,11 @@ Good:
 The number: how far the worst joint is outside: 0.1 rad or 4 cm, and more. Where the joint's servo is told to hold it
 there, and may be, the joint's range is what is told. What would be inside in degrees, with the controls that are equal
 to it, or far inside with the other sign, is written so, and two that would be inside in each other's place are
-exchanged; else it is put to the end of the range. A joint that every one of several keyframes puts outside is a hint
-that its range is wrong. Where no servo and no other keyframe moves it, the range may as well have the wrong sign, and
-nothing is edited. Of hinges without a range a whole multiple of 15 from 30 on is told as a hint, where no other
-keyframe turns them by more than once.
+exchanged; else it is put to the end of the range.
+
+A joint that every one of several keyframes puts outside is a hint that its range is wrong. Where no servo and no other
+keyframe moves it, the range may as well have the wrong sign, and nothing is edited. Of hinges without a range a whole
+multiple of 15 from 30 on is told as a hint, where no other keyframe turns them by more than once.
 
 When it is wrong: a limit that is soft on purpose.
 """

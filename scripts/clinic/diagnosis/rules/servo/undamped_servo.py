@@ -24,11 +24,12 @@ Good:
 
 The number: a damping ratio under 0.08, and a step of 0.1 rad (0.01 m for a slide), without gravity and contacts, that
 overshoots by more than 22 % and crosses its target four times. With a damping ratio z the overshoot of one joint alone
-is exp(-pi z / sqrt(1 - z^2)), 0.78 for 0.08; neighbours take up some of it. A joint whose
-`frictionloss` holds the step is left alone. Legs of healthy robots go down to 0.1. Servos whose twins have the same
-gains and more of it are a hint: what they move is unlike. Where a model rattles from step to step too, and a tenth or a
-hundredth of `kp` mends both, that is told. With `--symptom oscillates` a damping ratio under 0.5 and an overshoot of
-more than 12 % are told too, as a hint.
+is exp(-pi z / sqrt(1 - z^2)), 0.78 for 0.08; neighbours take up some of it. A joint whose `frictionloss` holds the step
+is left alone.
+
+Legs of healthy robots go down to 0.1. Servos whose twins have the same gains and more of it are a hint: what they move
+is unlike. Where a model rattles from step to step too, and a tenth or a hundredth of `kp` mends both, that is told.
+With `--symptom oscillates` a damping ratio under 0.5 and an overshoot of more than 12 % are told too, as a hint.
 
 When it is wrong: friction that the model leaves to contacts, or a controller that adds the damping.
 """

@@ -411,3 +411,13 @@ def test_a_centre_of_mass_in_mm_is_mended_by_its_unit(pos: str, value: str):
     text = f"<mujoco><worldbody>{body}</worldbody></mujoco>"
     found = examine(NativeEngine(), {"model.xml": text}, select=["centre-of-mass-outside"]).hints
     assert [each.value for each in found] == [f"pos {value}"]
+
+
+@pytest.mark.parametrize(("tip", "named"), [(1, []), (1e-6, ["lighter-than-air"])])
+def test_a_link_weighs_what_is_fixed_to_it_too(tip: float, named: list[str]) -> None:
+    text = f"""<mujoco><worldbody><body name="cart" pos="0 0 1"><joint type="slide" axis="1 0 0"/>
+      <geom type="box" size="0.3 0.2 0.1" mass="1"/>
+      <body name="pole"><joint axis="0 1 0"/><geom type="capsule" fromto="0 0 0.2 0 0 1" size="0.05" mass="1e-6"/>
+      <body name="tip" pos="0 0 1"><geom size="0.1" mass="{tip}"/></body></body></body></worldbody></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["lighter-than-air"])
+    assert [each.rule for each in found.causes] == named

@@ -187,3 +187,17 @@ def test_the_one_wall_that_sticks_out_of_a_maze_is_told(size: str, more: str, to
     model = {"maze.xml": f"<mujoco><worldbody><body><joint/>{rim}{wall}{more}</body></worldbody></mujoco>"}
     found = examine(NativeEngine(), model, select=["full-lengths"]).hints
     assert [each.value for each in found] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("height", "hinge", "told"),
+    [(0.3, "", True), (1, "", False), (0.3, 'range="-20 20"', False), (0.3, 'type="slide"', False)],
+    ids=["low", "high", "in a range", "a slide"],
+)
+def test_a_pole_that_swings_into_the_floor_is_told(height: float, hinge: str, told: bool) -> None:
+    text = f"""<mujoco><worldbody><geom name="floor" type="plane" size="3 3 0.1"/>
+      <body pos="0 0 {height}"><joint name="way" type="slide" axis="1 0 0"/><geom type="box" size="0.1 0.05 0.05"/>
+      <body><joint name="pole" axis="0 1 0" {hinge}/><geom type="capsule" fromto="0 0 0.1 0 0 0.6" size="0.02"/></body>
+      </body></worldbody><actuator><motor joint="way"/></actuator></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["swing-blocked"]).hints
+    assert [each.elements for each in found] == [('joint "pole"', 'geom "floor"')] * told

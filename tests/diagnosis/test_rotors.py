@@ -74,3 +74,20 @@ def test_a_drone_that_hovers_is_left_alone(text):
 )
 def test_a_drone_that_does_not_hover_is_told(text, attribute):
     assert told(text) == [attribute]
+
+
+@pytest.mark.parametrize(
+    ("hinge", "told"),
+    [('axis="0 0 1"', True), ('axis="0 0 1" damping="0.001"', False), ('axis="1 0 0"', False), (None, False)],
+    ids=["loose", "damped", "across", "none"],
+)
+def test_a_rotor_that_turns_loosely_keeps_its_drag_to_itself(hinge: str | None, told: bool) -> None:
+    joint = f"<joint {hinge}/>" if hinge else ""
+    rotor = (
+        f'<body pos="0 0 0.05">{joint}<geom type="cylinder" size="0.05 0.002" mass="0.01"/><site name="top"/></body>'
+    )
+    text = f"""<mujoco><worldbody><body pos="0 0 1"><freejoint/><geom type="box" size="0.1 0.1 0.02" mass="0.5"/>
+      {rotor}</body></worldbody>
+      <actuator><motor site="top" gear="0 0 1 0 0 0.02" ctrlrange="0 10"/></actuator></mujoco>"""
+    found = examine(NativeEngine(), {"model.xml": text}, select=["rotors-not-independent"]).hints
+    assert [each.value for each in found] == ["0.0004"] * told

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import mujoco
 import pytest
+from clinic.diagnosis import engine
 from clinic.diagnosis.judge import suspects_of
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.probes.run import extent
@@ -99,3 +101,23 @@ def test_a_written_extent_makes_no_model_smaller_than_its_bodies():
     small = '<statistic extent="0.1"/>'
     sizes = [extent(Simulation(NativeEngine().compile(text.format(each), {}), Start())) for each in ("", small)]
     assert sizes == pytest.approx([0.64, 0.6])
+
+
+@pytest.mark.parametrize(
+    ("prefix", "kind"),
+    [
+        ("TRN_", "mjtTrn"),
+        ("GAIN_", "mjtGain"),
+        ("BIAS_", "mjtBias"),
+        ("DYN_", "mjtDyn"),
+        ("OBJ_", "mjtObj"),
+        ("WRAP_", "mjtWrap"),
+        ("SENS_", "mjtSensor"),
+    ],
+)
+def test_the_numbers_of_enumerations_are_mujocos(prefix: str, kind: str) -> None:
+    members = getattr(mujoco, kind).__members__
+    known = {name: value for name, value in vars(engine).items() if name.startswith(prefix)}
+    theirs = {name: int(members[f"mj{name.replace('TRN_IN_PARENT', 'TRN_JOINTINPARENT')}"]) for name in known}
+    assert known
+    assert known == theirs

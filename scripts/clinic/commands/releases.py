@@ -109,16 +109,16 @@ def npm_environment(root: Path, release: str) -> tuple[list[str], Path]:
     return [sys.executable], folder
 
 
-def listen_to(root: Path, messages: Sequence[Message], releases: Iterable[str] = PYTHON) -> Heard:
+def listen_to(root: Path, messages: Sequence[Message]) -> Heard:
     """What the releases say otherwise, when the messages are provoked there.
 
     Raises:
         RuntimeError: If an environment cannot be made or nothing can be provoked in it.
     """
-    wanted, codes = list(releases), codes_of(messages)
+    codes = codes_of(messages)
     with ThreadPoolExecutor(jobs()) as pool:
-        pythons = (python_environment(root, release)[0][0] for release in wanted)
-        return listen(messages, dict(zip(wanted, pool.map(lambda each: provoke(codes, each), pythons), strict=True)))
+        pythons = (python_environment(root, release)[0][0] for release in PYTHON)
+        return listen(messages, dict(zip(PYTHON, pool.map(lambda each: provoke(codes, each), pythons), strict=True)))
 
 
 def _known(case: Case) -> bool:

@@ -10,12 +10,21 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple, Protocol
 
 FREE, BALL, SLIDE, HINGE = range(4)  # mjtJoint
-PLANE, HFIELD, SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX, MESH = range(8)  # mjtGeom
-TRN_IN_PARENT, TRN_SITE, TRN_BODY = 1, 4, 5  # mjtTrn
-GAIN_MUSCLE, DYN_MUSCLE = 2, 4  # mjtGain; mjtDyn
+PLANE, HFIELD, SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX, MESH, SDF = range(9)  # mjtGeom
+TRN_IN_PARENT, TRN_TENDON, TRN_SITE, TRN_BODY = 1, 3, 4, 5  # mjtTrn
+GAIN_FIXED, GAIN_MUSCLE = 0, 2  # mjtGain
+BIAS_NONE, BIAS_AFFINE = 0, 1  # mjtBias
+DYN_INTEGRATOR, DYN_FILTER, DYN_FILTEREXACT, DYN_MUSCLE = range(1, 5)  # mjtDyn
 OBJ_SITE, OBJ_TENDON = 6, 18  # mjtObj
 WRAP_JOINT = 1  # mjtWrap
-CONTACTS_OFF, SPRINGS_OFF, GRAVITY_OFF, ACTUATORS_OFF = 1 << 4, 1 << 5, 1 << 7, 1 << 11  # mjtDisableBit
+SENS_TOUCH, SENS_FORCE, SENS_TORQUE, SENS_RANGEFINDER, SENS_JOINTPOS, SENS_ACTUATORFRC = 0, 4, 5, 7, 9, 15  # mjtSensor
+CAM_FIXED, CAM_TRACK, CAM_TRACKCOM = range(3)  # mjtCamLight
+EULER, RK4, IMPLICIT, IMPLICITFAST = range(4)  # mjtIntegrator
+PYRAMIDAL, ELLIPTIC = range(2)  # mjtCone
+CONSTRAINTS_OFF, CONTACTS_OFF, SPRINGS_OFF, GRAVITY_OFF = 1 << 0, 1 << 4, 1 << 5, 1 << 7  # mjtDisableBit
+ACTUATORS_OFF, REFSAFE_OFF, EULERDAMP_OFF = 1 << 11, 1 << 12, 1 << 15
+OVERRIDE_ON, ENERGY_ON = 1 << 0, 1 << 1  # mjtEnableBit
+DEFAULT_TIMESTEP = 0.002  # s
 
 
 class CompileError(ValueError):

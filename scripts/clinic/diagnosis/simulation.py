@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property, wraps
 from typing import TypeVar, TypeVarTuple
 
-from clinic.diagnosis.engine import BALL, FREE, HINGE, SLIDE, Compiled
+from clinic.diagnosis.engine import BALL, FREE, HINGE, SLIDE, TRN_IN_PARENT, Compiled
 
 WIDTH = {FREE: (7, 6), BALL: (4, 3), SLIDE: (1, 1), HINGE: (1, 1)}  # of a joint in qpos and qvel
 REFERENCES = {"body": "body_parentid", "joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid"}
@@ -268,7 +268,7 @@ class Simulation:
 
     def driven_joint(self, actuator: int) -> int | None:
         """The hinge or slide that an actuator drives directly; None for another transmission."""
-        if int(self.model("actuator_trntype")[actuator]) > 1:
+        if int(self.model("actuator_trntype")[actuator]) > TRN_IN_PARENT:
             return None
         joint = int(self.model("actuator_trnid")[2 * actuator])
         return joint if self.joint_type(joint) in (HINGE, SLIDE) else None

@@ -6,7 +6,7 @@ from clinic.diagnosis.engine import OBJ_SITE
 from clinic.diagnosis.probes.vector import Vector, add, norm, sub, times
 from clinic.diagnosis.simulation import Simulation, kept
 
-CONNECT, WELD, COUPLED = range(3)  # mjtEq
+CONNECT, WELD, COUPLED, TIED = range(4)  # mjtEq; COUPLED of two joints, TIED of two tendons
 
 Frame = tuple[Vector, Vector]  # where it is in the world, and its axes
 

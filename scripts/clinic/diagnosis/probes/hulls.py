@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from clinic.diagnosis.engine import CAPSULE, CYLINDER, MESH, SPHERE, Contact
+from clinic.diagnosis.engine import CAPSULE, CYLINDER, MESH, SDF, SPHERE, Contact
 from clinic.diagnosis.probes.overlap import beginning
 from clinic.diagnosis.probes.shape import root_of
-from clinic.diagnosis.probes.surface import SDF, Triangle, jointed_roots, nearest, triangles
+from clinic.diagnosis.probes.surface import Triangle, jointed_roots, nearest, triangles
 from clinic.diagnosis.probes.vector import Vector, add, at, cross, dot, sub, times
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe

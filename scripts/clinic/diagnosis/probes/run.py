@@ -10,6 +10,8 @@ from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
+FAST = 100.0  # rad/s, 16 turns a second: above it a joint is too fast
+
 
 @dataclass(frozen=True)
 class State:

@@ -7,20 +7,28 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from clinic.diagnosis.engine import ACTUATORS_OFF, CONTACTS_OFF, DYN_MUSCLE, HINGE, SPRINGS_OFF
+from clinic.diagnosis.engine import (
+    ACTUATORS_OFF,
+    BIAS_AFFINE,
+    CONTACTS_OFF,
+    DYN_INTEGRATOR,
+    DYN_MUSCLE,
+    EULER,
+    EULERDAMP_OFF,
+    GAIN_FIXED,
+    HINGE,
+    RK4,
+    SPRINGS_OFF,
+)
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
-FIXED, AFFINE = 0, 1  # mjtGain; mjtBias: none, affine
-INTEGRATOR = 1  # mjtDyn
 STEP = {True: 0.1, False: 0.01}  # of a hinge in rad, of a slide in m
-
 COEFFICIENTS = {  # units of stiffness, damping and inertia, by that of the joint's position
     "rad": ("N m/rad", "N m s/rad", "kg m2"),
     "m": ("N/m", "N s/m", "kg"),
 }
-BEARS = {0: 2.0, 1: 2.79}  # the largest stable h d / M of a damper, by mjtIntegrator: explicit Euler, RK4
-EULERDAMP_OFF = 1 << 15  # mjtDisableBit
+BEARS = {EULER: 2.0, RK4: 2.79}  # the largest stable h d / M of a damper; Euler's without eulerdamp
 
 
 @dataclass(frozen=True)
@@ -94,7 +102,7 @@ def feedback(simulation: Simulation) -> dict[int, tuple[float, float]]:
     made: dict[int, tuple[float, float]] = {}
     for actuator in range(simulation.count("actuator")):
         joint = simulation.driven_joint(actuator)
-        if joint is None or int(simulation.model("actuator_biastype")[actuator]) != AFFINE:
+        if joint is None or int(simulation.model("actuator_biastype")[actuator]) != BIAS_AFFINE:
             continue
         bias, gear = simulation.bias(actuator), simulation.gear(actuator)
         kp, kv = made.get(joint, (0.0, 0.0))
@@ -104,10 +112,8 @@ def feedback(simulation: Simulation) -> dict[int, tuple[float, float]]:
 
 def damping_is_implicit(simulation: Simulation) -> bool:
     """Whether Euler takes the damping of joints implicitly."""
-    return (
-        not int(simulation.model("opt.integrator")[0])
-        and not int(simulation.model("opt.disableflags")[0]) & EULERDAMP_OFF
-    )
+    integrator, flags = (int(simulation.model(f"opt.{name}")[0]) for name in ("integrator", "disableflags"))
+    return integrator == EULER and not flags & EULERDAMP_OFF
 
 
 def damped_beyond(simulation: Simulation) -> dict[int, float]:
@@ -132,10 +138,15 @@ def explicit_damping(simulation: Simulation) -> list[float]:
     return damping
 
 
+def affine(simulation: Simulation, actuator: int) -> bool:
+    """Whether a force is a fixed gain times the control, be it filtered, and an affine function of place and speed."""
+    gain, bias, dyn = (int(simulation.model(f"actuator_{kind}type")[actuator]) for kind in ("gain", "bias", "dyn"))
+    return gain == GAIN_FIXED and bias == BIAS_AFFINE and dyn not in (DYN_INTEGRATOR, DYN_MUSCLE)
+
+
 def _servo(simulation: Simulation, actuator: int) -> Servo | None:
     joint = simulation.driven_joint(actuator)
-    kinds = [int(simulation.model(f"actuator_{kind}")[actuator]) for kind in ("gaintype", "biastype", "dyntype")]
-    if joint is None or kinds[0] != FIXED or kinds[1] != AFFINE or kinds[2] in (INTEGRATOR, DYN_MUSCLE):
+    if joint is None or not affine(simulation, actuator):
         return None
     gain, bias = simulation.gain(actuator)[0], simulation.bias(actuator)
     gear = simulation.gear(actuator)

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 
-from clinic.diagnosis.engine import MESH
+from clinic.diagnosis.engine import MESH, SDF
 from clinic.diagnosis.probes.shape import root_of, roots
 from clinic.diagnosis.probes.vector import Vector, add, at, dot, sub, times, transpose
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
-SDF = 8  # mjtGeom
 SAMPLES = 25
 MOST_FACES = 20_000  # of a finer mesh nothing is told
 NEAR = 0.1  # of the size: as near is touched at the surface, however near

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from clinic.diagnosis.engine import DYN_MUSCLE, HINGE, SLIDE, WRAP_JOINT
+from clinic.diagnosis.engine import HINGE, SLIDE, TRN_TENDON, WRAP_JOINT
 from clinic.diagnosis.probes.equalities import COUPLED
-from clinic.diagnosis.probes.servo import AFFINE, FIXED, INTEGRATOR
+from clinic.diagnosis.probes.servo import affine
 from clinic.diagnosis.simulation import Simulation, kept
 
-TENDON = 3  # mjtTrn
 WRAPS = {1: "joint", 3: "site", 4: "geom", 5: "geom"}  # mjtWrap: joint, site, sphere, cylinder
 POSES, GOLDEN = 64, 0.6180339887
 
@@ -24,7 +23,7 @@ def joints_of(of: Simulation, tendon: int) -> list[tuple[int, float]]:
 def pulled(of: Simulation) -> dict[int, int]:
     """The tendon that each actuator on one pulls, by actuator."""
     kinds = enumerate(of.model("actuator_trntype"))
-    return {each: int(of.model("actuator_trnid")[2 * each]) for each, kind in kinds if int(kind) == TENDON}
+    return {each: int(of.model("actuator_trnid")[2 * each]) for each, kind in kinds if int(kind) == TRN_TENDON}
 
 
 def path(of: Simulation, tendon: int) -> list[tuple[str, int]]:
@@ -75,9 +74,8 @@ def sampled(of: Simulation) -> list[tuple[float, ...]]:
 
 def servo(of: Simulation, actuator: int) -> tuple[float, float] | None:
     """Of a position servo on a tendon: the length it asks for at control 0, and what a unit adds; else None."""
-    kinds = [int(of.model(f"actuator_{kind}type")[actuator]) for kind in ("trn", "gain", "bias", "dyn")]
     gain, bias, gear = of.gain(actuator)[0], of.bias(actuator), of.gear(actuator)
-    if kinds[:3] != [TENDON, FIXED, AFFINE] or kinds[3] in (INTEGRATOR, DYN_MUSCLE) or bias[1] >= 0 or not gain * gear:
+    if actuator not in pulled(of) or not affine(of, actuator) or bias[1] >= 0 or not gain * gear:
         return None
     return bias[0] / (-bias[1] * gear), gain / (-bias[1] * gear)
 

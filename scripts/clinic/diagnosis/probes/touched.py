@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from clinic.diagnosis.engine import SENS_FORCE, SENS_TORQUE, SENS_TOUCH
 from clinic.diagnosis.probes.overlap import relatives
 from clinic.diagnosis.probes.vector import at
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
-
-TOUCH, FORCE, TORQUE, RANGE = 0, 4, 5, 7  # mjtSensor
 
 
 @dataclass
@@ -29,7 +28,7 @@ class Read:
 def touched(simulation: Simulation) -> dict[int, Read]:
     """Each touch, force and torque sensor, over the time after letting go, but for parts that overlap at the start."""
     kinds, of, places = (simulation.model(f"sensor_{name}") for name in ("type", "objid", "adr"))
-    made = {i: Read() for i, kind in enumerate(kinds) if int(kind) in (TOUCH, FORCE, TORQUE)}
+    made = {i: Read() for i, kind in enumerate(kinds) if int(kind) in (SENS_TOUCH, SENS_FORCE, SENS_TORQUE)}
     if not made:
         return made
     bodies, owners = simulation.model("geom_bodyid"), simulation.model("site_bodyid")
@@ -39,7 +38,7 @@ def touched(simulation: Simulation) -> dict[int, Read]:
         contacts, data = simulation.engine.contacts(), simulation.data("sensordata")
         centres = tuple(simulation.data("site_xpos"))
         for sensor, seen in made.items():
-            site, width = int(of[sensor]), 1 if int(kinds[sensor]) == TOUCH else 3
+            site, width = int(of[sensor]), 1 if int(kinds[sensor]) == SENS_TOUCH else 3
             values = data[int(places[sensor]) : int(places[sensor]) + width]
             seen.reading = max(seen.reading, math.hypot(*values))
             carried = 0.0

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from itertools import product
 
 from clinic.diagnosis.edit import Edit, orient
-from clinic.diagnosis.engine import HFIELD, PLANE
+from clinic.diagnosis.engine import CAM_FIXED, CAM_TRACK, CAM_TRACKCOM, HFIELD, PLANE
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.vector import IDENTITY, Vector, add, at, cross, dot, sub, times, transpose
 from clinic.diagnosis.reader_model import ReaderModel
@@ -16,7 +16,6 @@ from clinic.diagnosis.simulation import Simulation
 
 ASPECT = 1.0  # of the image's sides, where the model does not say
 VISIBLE = 3  # groups from this one on are hidden by default
-FIXED, TRACK, TRACKCOM = range(3)  # mjtCamLight
 HEAD = re.compile("(?i)head|neck|skull")
 
 
@@ -31,8 +30,8 @@ def onlookers(simulation: Simulation) -> list[int]:
     bodies, modes = simulation.model("cam_bodyid"), simulation.model("cam_mode")
     made = []
     for camera, body in enumerate(bodies):
-        still = int(body) == 0 and int(modes[camera]) == FIXED
-        after = int(modes[camera]) in (TRACK, TRACKCOM)
+        still = int(body) == 0 and int(modes[camera]) == CAM_FIXED
+        after = int(modes[camera]) in (CAM_TRACK, CAM_TRACKCOM)
         if still or after:
             made.append(camera)
     return made
@@ -126,7 +125,7 @@ def turned(model: ReaderModel, camera: int, right: Sequence[float], up: Sequence
     simulation.begin()
     body = int(simulation.model("cam_bodyid")[camera])
     m = simulation.data_row("xmat", body, 9)
-    if int(simulation.model("cam_mode")[camera]) in (TRACK, TRACKCOM):
+    if int(simulation.model("cam_mode")[camera]) in (CAM_TRACK, CAM_TRACKCOM):
         m = m if any(m) else IDENTITY
     local = [sum(m[3 * row + column] * axis[row] for row in range(3)) for axis in (right, up) for column in range(3)]
     return orient(element, "xyaxes", " ".join(f"{round(each, 6) + 0.0:.4g}" for each in local))

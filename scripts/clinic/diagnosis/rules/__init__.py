@@ -4,9 +4,9 @@ A rule's name is its module's, with hyphens. The module has
 
 TITLE      the fault, in a few words
 FAMILIES   the symptoms that it explains, by their names in `families.toml`; the first is the likeliest
-SINCE      the release of the clinic that brought it
+SINCE      the release of the clinic that brought it, where that is not the first
 LEVEL      "hint", where it finds less than four in five of the faults that the bench plants for it
-UNPLANTED  why the bench plants none for it, where it plants none
+UNPLANTED  why the bench plants none for it, where it plants none: then all it tells is a hint, but for LEVEL = "cause"
 MINOR      whether what it tells moves nothing by itself, so that it is told after all else
 AFLOAT     whether a URDF is looked at with its root free to move, where it is not the world
 CASE       the case that shows it, where there is one
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from clinic.diagnosis.suspect import Level, Suspect
 
 COMPILES_NOT = "will-not-compile"
+FIRST = "0.1"
 USUAL = 0.3  # the share of right ones among a rule's, where nothing is known
 
 
@@ -108,15 +109,16 @@ def rules() -> dict[str, Rule]:
             continue
         module = importlib.import_module(found.name)
         *_, area, name = found.name.replace("_", "-").split(".")
+        unplanted = getattr(module, "UNPLANTED", "")
         made[name] = Rule(
             id=name,
             area=area,
             title=module.TITLE,
             families=module.FAMILIES,
-            since=module.SINCE,
+            since=getattr(module, "SINCE", FIRST),
             case=getattr(module, "CASE", None),
-            level=getattr(module, "LEVEL", "cause"),
-            unplanted=getattr(module, "UNPLANTED", ""),
+            level=getattr(module, "LEVEL", "hint" if unplanted else "cause"),
+            unplanted=unplanted,
             minor=getattr(module, "MINOR", False),
             odds=_odds().get(name, USUAL),
             text=(module.__doc__ or "").strip(),

@@ -41,9 +41,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A collision shape beside what is seen"
 FAMILIES = ("falls-through", "stuck", "jumps-at-start", "slips")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "a collision shape that is moved aside harms by what happens to be there"
 
 MOVED, TURNED = 2.0, 5.0  # mm; degrees

@@ -41,7 +41,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Contacts without friction"
 FAMILIES = ("slips", "rolls-on")
-SINCE = "0.1"
 CASE = "crate-slides-off-table"
 
 MOST = 0.3  # of the push's speed

@@ -43,8 +43,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "More contacts with a terrain than are kept"
 FAMILIES = ("falls-through", "sinks", "jumps-at-start", "oscillates")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have a height field"
 
 KEPT = 50  # mjMAXCONPAIR

@@ -39,8 +39,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Friction beyond any material"
 FAMILIES = ("slips", "sinks", "rolls-on")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "what it does is planted as friction-too-high"
 
 MOST = 20.0

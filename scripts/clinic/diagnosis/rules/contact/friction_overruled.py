@@ -31,6 +31,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import OVERRIDE_ON
 from clinic.diagnosis.probes.touch import resting
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
@@ -38,12 +39,9 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A friction that the other geom overrules"
 FAMILIES = ("stuck", "slips", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "how slippery it is to be, only intent knows"
 
 SLIPPERY, TIMES, LEAST = 0.2, 4.0, 1e-3
-OVERRIDE = 1  # mjtEnableBit
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -70,7 +68,7 @@ def _over(of: Simulation, geom: int) -> float:
 def _felt(of: Simulation) -> dict[int, float]:
     """The least friction of the contacts that each slippery geom rests on."""
     friction, made = of.model("geom_friction")[::3], dict[int, float]()
-    if int(of.model("opt.enableflags")[0]) & OVERRIDE:
+    if int(of.model("opt.enableflags")[0]) & OVERRIDE_ON:
         return made
     for contact, decides in resting(of):
         for geom in contact.geoms if decides.dim > 1 else ():

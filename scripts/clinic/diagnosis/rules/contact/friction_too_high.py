@@ -30,13 +30,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import ELLIPTIC
 from clinic.diagnosis.probes.touch import DRY, depth, edits_of, names_of, resting, with_like
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Friction beyond the pyramidal cone"
 FAMILIES = ("sinks", "falls-through")
-SINCE = "0.1"
 CASE = "box-sinks-into-floor"
 
 HIGH, MOST = 3.0, 0.04
@@ -46,7 +46,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """What decides the contacts that carry something with friction above 3, where the cone is pyramidal."""
     simulation = model.simulation
     high = [decides for _, decides in resting(simulation) if decides.dim > 1 and decides.friction > HIGH]
-    if not high or int(simulation.model("opt.cone")[0]) == 1:
+    if not high or int(simulation.model("opt.cone")[0]) == ELLIPTIC:
         return
     frictions = simulation.model("geom_friction")
     most = max(each.friction for each in high)

@@ -42,7 +42,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Friction next to nothing"
 FAMILIES = ("slips", "rolls-on")
-SINCE = "0.1"
 
 LOW, MOST = 0.12, 0.5
 NONE, MANY = 0.001, 60  # friction; geoms of which pairs are looked at
@@ -106,7 +105,6 @@ def _none(model: ReaderModel) -> Iterator[Suspect]:
             1.5,
             "Where they touch each other there is no friction, although condim asks for it.",
             "0.15 to 2 for dry solids",
-            level="hint",
         )
 
 

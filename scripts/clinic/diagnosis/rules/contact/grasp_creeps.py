@@ -59,8 +59,8 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A grasp that creeps"
 FAMILIES = ("slips", "drifts")
-SINCE = "0.1"
 CASE = "box-creeps-out-of-grasp"
+LEVEL = "cause"
 UNPLANTED = "nothing is held in a grasp at the start of a healthy model"
 
 MOST, SLOW = 0.05, 0.01  # radii a second; of a hint, in jaws that closed on it

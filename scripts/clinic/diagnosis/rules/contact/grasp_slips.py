@@ -49,7 +49,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A grasp that friction cannot hold"
 FAMILIES = ("slips",)
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "the fingers of the healthy models hold nothing when they close"
 CASE = "grasp-slips"
 

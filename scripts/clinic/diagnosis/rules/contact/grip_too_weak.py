@@ -52,8 +52,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Jaws that press too weakly"
 FAMILIES = ("slips",)
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "most healthy models have nothing to grasp"
 
 FEW, RUBBER, TIMES = 3.0, 0.5, 5.0  # times the weight; the least friction of a grip; times the gain

@@ -61,9 +61,9 @@ from clinic.diagnosis.suspect import Level, Suspect
 
 TITLE = "A hull that closes a mesh's hole"
 FAMILIES = ("falls-through", "stuck", "jumps-at-start")
-SINCE = "0.1"
 AFLOAT = True
 CASE = "ball-stops-above-cup"
+LEVEL = "cause"
 UNPLANTED = "the healthy models have no hollow mesh that something falls into"
 
 AWAY = 0.15  # of the size of the mesh, or of what touches it

@@ -34,21 +34,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import PYRAMIDAL
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A high impratio under pyramidal cones"
 FAMILIES = ("slips",)
-SINCE = "0.1"
-LEVEL = "hint"
 MINOR = True
 UNPLANTED = "what it does hangs on what is held, and most healthy models hold nothing"
 MOST = 5.0
 
 
 def _uneven(simulation: Simulation) -> float:
-    return simulation.model("opt.impratio")[0] if simulation.model("opt.cone")[0] == 0 else 1.0
+    return simulation.model("opt.impratio")[0] if simulation.model("opt.cone")[0] == PYRAMIDAL else 1.0
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -52,8 +52,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Links that jam within the range"
 FAMILIES = ("stuck",)
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a wider range is harm by itself, whether links jam in it or not"
 
 POSES, LINKS, DEEP, JAMMED, FREE = 21, 2, 0.1, 0.5, 0.06
@@ -93,7 +91,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         says += f" So it is with {len(others)} more joint{'s' * (len(others) > 1)}." if others else ""
         joints = tuple(joint for _, joint, _, _ in jammed)
         probe = Probe("share of the range in which two links jam", "", _share, joints, dynamic=False)
-        yield Suspect(names, "range", "", "", (), probe, JAMMED, says, "an <exclude>, or a smaller range", level="hint")
+        yield Suspect(names, "range", "", "", (), probe, JAMMED, says, "an <exclude>, or a smaller range")
 
 
 def _told(of: Simulation, share: float, joint: int, one: int, other: int) -> tuple[tuple[str, ...], str]:

@@ -55,9 +55,7 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A link that touches nothing"
 FAMILIES = ("falls-through", "slips")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "some links are left out on purpose"
 
 MANY, FEW, SMALL = 5, 2, 0.5
@@ -77,8 +75,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     names = (*(of.name("body", body) for body in found), *(of.name("geom", geom) for geom in geoms))
     says = f"{of.name('body', found[0])} has no geom that can touch anything, and the other links have one."
     masks = masks_told(of, geoms[0])
-    wanted = "a geom that collides"
-    yield Suspect(names, "contype, conaffinity", masks, "1, 1", (), probe, 0, says, wanted, level="hint")
+    yield Suspect(names, "contype, conaffinity", masks, "1, 1", (), probe, 0, says, "a geom that collides")
 
 
 def _bare(of: Simulation) -> list[int]:

@@ -43,7 +43,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Contacts that push before anything touches"
 FAMILIES = ("stuck", "sinks", "jumps-at-start")
-SINCE = "0.1"
 
 MOST = 0.2  # of the thinner geom's thickness
 SEEN = 0.005  # of how far the thing reaches

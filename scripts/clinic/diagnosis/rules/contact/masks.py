@@ -44,7 +44,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Collision masks that do not match"
 FAMILIES = ("falls-through", "stuck")
-SINCE = "0.1"
 CASE = "box-falls-through-floor"
 
 GHOST = "target|goal|ghost|marker|mocap|visual|reference|hint"

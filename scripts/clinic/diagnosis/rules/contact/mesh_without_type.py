@@ -36,8 +36,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A mesh that became a sphere"
 FAMILIES = ("falls-through", "stuck", "wrong-mass", "jumps-at-start")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a sphere may be what is meant"
 
 

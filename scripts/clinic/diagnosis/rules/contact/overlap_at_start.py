@@ -50,7 +50,6 @@ from clinic.diagnosis.suspect import Level, Probe, Suspect
 
 TITLE = "Something begins inside of something else"
 FAMILIES = ("jumps-at-start", "sinks", "explodes")
-SINCE = "0.1"
 CASE = "stacked-boxes-fly-apart"
 
 MOST = 0.05

@@ -54,7 +54,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Parts that overlap at the start"
 FAMILIES = ("jumps-at-start", "stuck", "explodes")
-SINCE = "0.1"
 LEVEL = "hint"
 CASE = "joint-snaps-at-start"
 

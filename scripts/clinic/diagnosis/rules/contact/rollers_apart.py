@@ -47,8 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A wheel of rollers that stand apart"
 FAMILIES = ("oscillates", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model stands on wheels of rollers"
 
 ENOUGH, MOST = 5, 0.03

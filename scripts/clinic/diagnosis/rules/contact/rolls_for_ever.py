@@ -39,8 +39,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A ball that never stops rolling"
 FAMILIES = ("rolls-on", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model has a ball that is meant to stop"
 
 MOST = 0.99  # of the speed

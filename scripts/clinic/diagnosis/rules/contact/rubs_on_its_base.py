@@ -45,8 +45,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A link that rubs on its fixed base"
 FAMILIES = ("stuck",)
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "whether a base touches the link on it is the geoms', which no edit of one number changes"
 
 POSES, ALWAYS, DEEP = 21, 0.99, 0.1

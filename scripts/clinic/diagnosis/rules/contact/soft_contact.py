@@ -40,7 +40,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Contacts too soft"
 FAMILIES = ("sinks", "falls-through", "slips")
-SINCE = "0.1"
 LEVEL = "hint"
 
 MOST = 0.05  # of the thinner geom's thickness

@@ -36,8 +36,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A solref that no timestep can follow"
 FAMILIES = ("oscillates", "explodes", "jumps-at-start")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "the guard keeps it from doing harm in most models"
 
 MOST = 10.0

@@ -32,6 +32,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.engine import REFSAFE_OFF
 from clinic.diagnosis.probes.run import let_go
 from clinic.diagnosis.probes.shape import falling, size, solid
 from clinic.diagnosis.reader_model import ReaderModel
@@ -40,10 +41,8 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Contacts that throw things off"
 FAMILIES = ("jumps-at-start", "explodes", "oscillates")
-SINCE = "0.1"
 
 MOST = 0.5  # sizes
-REFSAFE = 4096  # mjtDisableBit
 
 
 def _leaps(simulation: Simulation) -> float:
@@ -66,7 +65,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         says = "A negative solref is stiffness and damping, and nothing keeps them below what the timestep can follow."
         edits = model.set("geom", stiff, "solref", "0.02 1")
         yield Suspect(names, "solref", now, "0.02 1", edits, probe, MOST, says, "0.02 1, MuJoCo's default", excess=2.0)
-    if int(simulation.model("opt.disableflags")[0]) & REFSAFE and model.source is not None:
+    if int(simulation.model("opt.disableflags")[0]) & REFSAFE_OFF and model.source is not None:
         flags = [each for each in model.source.elements("flag") if each.get("refsafe") == "disable"]
         edits = tuple(set_attribute(each, "refsafe", "enable") for each in flags)
         says = "The guard that keeps a contact's time constant above two timesteps is off."

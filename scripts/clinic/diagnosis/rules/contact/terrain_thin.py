@@ -40,8 +40,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A terrain that is thin"
 FAMILIES = ("falls-through",)
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have a height field"
 
 HIGH, SECONDS, DEEP = 4.0, 2.0, "1"  # m above the start; s; m of base that an edit gives

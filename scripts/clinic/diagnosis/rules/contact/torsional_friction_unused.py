@@ -43,8 +43,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "Torsional friction that condim leaves out"
 FAMILIES = ("slips", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 MINOR = True
 UNPLANTED = "in none of the healthy models do fingers hold anything at the start"
 

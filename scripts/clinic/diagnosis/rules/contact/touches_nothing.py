@@ -61,9 +61,7 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A foot, wheel or finger that touches nothing"
 FAMILIES = ("falls-through", "slips", "drifts")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "only names say what a part is for"
 
 FINGER = "finger|fingertip|pad|jaw|claw"
@@ -94,9 +92,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     names = (*(of.name("body", body) for body in found), *(of.name("geom", geom) for geom in geoms))
     says = f"{of.name('body', found[0])} has no geom that can touch anything, and other parts of the robot have."
     masks = masks_told(of, geoms[0])
-    yield Suspect(
-        names, "contype, conaffinity", masks, "1, 1", (), probe, 0, says, "a geom that collides", level="hint"
-    )  # fmt: skip
+    yield Suspect(names, "contype, conaffinity", masks, "1, 1", (), probe, 0, says, "a geom that collides")
 
 
 def _fingers(model: ReaderModel) -> Iterator[Suspect]:

@@ -40,7 +40,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Too fast for a thin contact"
 FAMILIES = ("falls-through", "sinks")
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "nothing in the healthy models is thrown at something thin"
 CASE = "ball-passes-through-shelf"
 

@@ -46,8 +46,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A visual geom that collides"
 FAMILIES = ("wrong-mass", "explodes", "jumps-at-start", "stuck", "slow")
-SINCE = "0.1"
-LEVEL = "hint"
 CASE = "small-stack-is-slow"
 UNPLANTED = "only a name says what a geom is for"
 

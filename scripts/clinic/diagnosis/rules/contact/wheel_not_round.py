@@ -66,8 +66,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A wheel that is not round"
 FAMILIES = ("stuck", "drifts", "oscillates")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model stands on a wheel that is a single cylinder or box"
 
 VARIES, CENTRED = 0.1, 0.2

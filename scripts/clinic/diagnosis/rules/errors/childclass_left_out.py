@@ -45,7 +45,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A childclass that is left out"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "few healthy models have parts that do not compile without their class"
 
 SAID = re.compile(r"fromto requires|size \d+ must be positive")

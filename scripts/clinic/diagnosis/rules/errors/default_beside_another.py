@@ -44,7 +44,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A default class beside the main one"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "healthy models have one default at the top, and what is inside of it is used by name"
 
 

@@ -41,7 +41,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Something given twice"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "what is given twice in a text was written by hand or by an exporter, and healthy models have none"
 
 TWICE = re.compile(r"repeated element: '(\w+)'|unique element '(\w+)' found")

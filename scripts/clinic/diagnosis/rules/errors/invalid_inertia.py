@@ -40,7 +40,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "An impossible inertia"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
 
 NO_BODY = "Of any body each principal moment is positive, and at most the sum of the other two."
 ONCE = "fullinertia says how the body is turned, so that nothing else can."

@@ -38,7 +38,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A value that MuJoCo does not take"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
 
 WORDS = {"revolute": "hinge", "continuous": "hinge", "rotational": "hinge", "prismatic": "slide", "floating": "free"}
 WORDS |= {"cube": "box", "rectangle": "box", "ball": "sphere", "rod": "capsule", "cuboid": "box", "fixed": "hinge"}

@@ -41,7 +41,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A keyframe of the wrong size"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
 
 FREE, UNIT = 7, 0.02  # numbers of a free joint; how far from 1 the quaternion's length may be
 MESSAGE = re.compile(r"key(?:frame)? '?([^':]*)'?: invalid (\w+) size, expected (?:length )?(\d+)")

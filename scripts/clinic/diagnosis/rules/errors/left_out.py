@@ -45,7 +45,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Something that must be there is left out"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "models of which something was left out do not compile, and no healthy one is without what it needs"
 
 VALUES = {  # by element and attribute; what stands for any element has no tag

@@ -35,7 +35,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A malformed number"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
 
 MESSAGE = re.compile(
     r"(bad format in|problem reading|number is too large in|(?!required|at most).*) ?attribute '(\w+)'(.*)"

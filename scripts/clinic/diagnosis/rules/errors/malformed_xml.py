@@ -40,7 +40,6 @@ from clinic.diagnosis.texts import well_formed
 
 TITLE = "Malformed XML"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
 
 BARE = re.compile(r"(\s[\w:.-]+\s*=\s*)([^\s\"'<>/][^\s\"'<>]*)")
 UNCLOSED = re.compile(r"(=\s*\"[^\"=<>]*?)(\s+[\w:.-]+\s*=\s*\")")

@@ -44,7 +44,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A moving body without mass"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
 
 WEIGH = ("class", "mass", "density")
 UNKNOWN = "0.01"  # kg of a ball without inertia

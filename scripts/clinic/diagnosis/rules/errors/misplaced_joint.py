@@ -52,7 +52,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A joint where none can be"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
 
 SAID = ("free joint can only", "World body cannot have joints", "more than 6 dofs", "ball followed by")
 

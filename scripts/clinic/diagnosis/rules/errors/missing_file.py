@@ -46,7 +46,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A file that is not there"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
 
 MESSAGE = re.compile(r".*(?:opening file|resource not found[^']*|file not found[^']*|could not open[^']*) ?'([^']+)'")
 NEARLY = 0.7  # of the letters

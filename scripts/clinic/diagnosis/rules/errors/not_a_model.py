@@ -35,7 +35,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The file is no model"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "a healthy model is a model"
 
 ROOTS = {

@@ -38,7 +38,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "An element that MuJoCo refuses"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "what is planted has a rule of its own"
 
 NEEDED = ("mujoco", "robot", "worldbody", "body", "link")  # too much would go with them

@@ -39,7 +39,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A name that is used twice"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
 
 MESSAGE = re.compile(r".*repeated (?:default )?(?:name|class name)(?: '([^']+)')?(?: in (\w+))?")
 WORD = re.compile(r"([A-Za-z]+|\d+)")

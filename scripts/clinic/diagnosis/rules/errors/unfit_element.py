@@ -41,7 +41,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Something that does not fit what it belongs to"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "what does not fit was written so by hand; a healthy model has other ways to be spoilt"
 
 TABLE = (

@@ -40,7 +40,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "An unknown or removed attribute"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
 
 MESSAGE = re.compile(r"(?:Schema violation: )?unrecognized attribute: '([\w:.-]+)'")
 RENAMED = {  # from the changelog

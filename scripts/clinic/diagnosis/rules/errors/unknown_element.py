@@ -39,7 +39,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "An unknown or misplaced element"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
 
 RENAMED = {
     "hinge": "joint",

@@ -43,7 +43,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A reference to a name that does not exist"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
 
 NAME = re.compile(r"'([^']+)'")
 SAID = re.compile(

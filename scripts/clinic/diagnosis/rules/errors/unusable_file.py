@@ -45,7 +45,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A mesh or picture that MuJoCo cannot use"
 FAMILIES = ("will-not-compile",)
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "the fault is in a file beside the model"
 
 FORMATS = {

@@ -47,8 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An armature unlike that of all others"
 FAMILIES = ("stuck", "slow")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "an armature of its own is planted for servo-held-back"
 
 MOST, OTHERS = 20.0, 2

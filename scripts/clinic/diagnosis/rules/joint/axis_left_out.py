@@ -44,8 +44,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A joint whose axis is left out"
 FAMILIES = ("stuck", "drifts", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "only URDF has such joints, and the healthy models are MJCF"
 
 MOVES = ("revolute", "continuous", "prismatic")

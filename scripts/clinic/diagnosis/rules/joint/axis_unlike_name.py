@@ -47,8 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A joint along another axis than its name says"
 FAMILIES = ("drifts", "stuck", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "which way a name points, only names tell, and most healthy slides say none"
 
 AXES = {"x": 0, "forward": 0, "y": 1, "side": 1, "lateral": 1, "z": 2, "vertical": 2}

@@ -64,8 +64,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "One axis of a row unlike the others"
 FAMILIES = ("drifts", "stuck", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model of the bench has a row of six hinges about one axis"
 
 BESIDE, ROW = 2, 5

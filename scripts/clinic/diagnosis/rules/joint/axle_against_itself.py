@@ -60,8 +60,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "Two wheels of an axle against each other"
 FAMILIES = ("drifts", "stuck", "slips")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model of the bench drives two wheels by a tendon, or couples a steering"
 
 ALONG = 0.95  # cosine

@@ -48,8 +48,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A default class that does not reach what it is for"
 FAMILIES = ("oscillates", "explodes", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "which class a joint was meant to have, only its maker knows"
 
 KINDS = ("joint", "geom", "site", "camera", "light")

@@ -53,8 +53,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A tendon's coefficient unlike the others"
 FAMILIES = ("stuck", "wrong-numbers", "oscillates")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have three coefficients"
 
 ENOUGH, TIMES = 3, 8.0

@@ -62,8 +62,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A coupling unlike the others"
 FAMILIES = ("stuck", "drifts", "jumps-at-start")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have three couplings"
 
 ENOUGH = 3

@@ -40,8 +40,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A door that does not turn on its edge"
 FAMILIES = ("stuck", "drifts", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have doors"
 
 DOOR = re.compile(r"door|(?<![a-z])(gate|hatch|flap|lid)(?![a-z])", re.IGNORECASE)

@@ -38,8 +38,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An effort of zero"
 FAMILIES = ("stuck", "explodes")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "only URDF has efforts, and the healthy models are MJCF"
 MINOR = True
 

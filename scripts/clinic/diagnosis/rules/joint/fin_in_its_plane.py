@@ -44,8 +44,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A fin that turns in its own plane"
 FAMILIES = ("stuck", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models swim"
 
 THIN, ALONG = 0.2, 0.95  # of the next thicker; cosine

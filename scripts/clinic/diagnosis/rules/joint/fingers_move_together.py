@@ -52,8 +52,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Fingers that move the same way"
 FAMILIES = ("stuck", "slips")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model has two slides that are coupled"
 
 MOST = 0.9

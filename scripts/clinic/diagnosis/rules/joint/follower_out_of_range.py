@@ -55,7 +55,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A joint may not go where it is led"
 FAMILIES = ("stuck", "jumps-at-start")
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "one healthy model has a joint that follows another"
 
 LOST, WITHIN = 0.5, 0.05

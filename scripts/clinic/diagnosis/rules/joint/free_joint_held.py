@@ -42,7 +42,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A free joint with the damping of the others"
 FAMILIES = ("stuck", "drifts", "slow", "sags")
-SINCE = "0.1"
 
 MOST = 0.1  # of the weight
 FIELDS = ("damping", "frictionloss", "stiffness", "armature")

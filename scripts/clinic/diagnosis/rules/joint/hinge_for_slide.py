@@ -45,8 +45,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A hinge with the range or the name of a slide"
 FAMILIES = ("stuck", "passes-limit", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a joint of another type is planted as that of a pair"
 
 NARROW = 0.15  # rad

@@ -52,8 +52,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Three hinges in place of a ball joint"
 FAMILIES = ("explodes", "wrong-numbers", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "three hinges without a range are rare, and harm in one pose alone"
 
 ACROSS, LOST = 0.2, 0.5
@@ -78,7 +76,7 @@ def _suspect(model: ReaderModel, found: list[int], sliding: bool) -> Suspect:
     probe = Probe("ways to turn that are lost at 90 degrees", "", _lost, (found[0],), dynamic=False)
     names = (*(of.name("body", body) for body in found), *(of.name("joint", joint) for joint in hinges))
     at = model.element("joint", hinges[0])
-    return Suspect(names, "type", "hinge, hinge, hinge", value, (), probe, LOST, says, value, level="hint", at=at)
+    return Suspect(names, "type", "hinge, hinge, hinge", value, (), probe, LOST, says, value, at=at)
 
 
 def _slides_too(of: Simulation, body: int) -> bool:

@@ -52,7 +52,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "Damping or friction holds a joint"
 FAMILIES = ("stuck", "sags")
-SINCE = "0.1"
 LEVEL = "hint"
 
 FIELDS = ("damping", "frictionloss")

@@ -39,8 +39,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A limit that pushes before it is reached"
 FAMILIES = ("stuck", "sags")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model has a margin of limits above 10 % of the range"
 
 MOST = 0.1  # of the range

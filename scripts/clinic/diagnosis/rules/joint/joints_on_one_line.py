@@ -43,7 +43,7 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "Joints that turn about one line"
 FAMILIES = ("explodes", "drifts")
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "a second joint on the line of the first is a fault at every strength"
 
 LINKS = 3

@@ -61,8 +61,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A knee that turns sideways"
 FAMILIES = ("stuck", "drifts", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "which hinge is a knee, only names tell, and few healthy models of the bench have one that they name"
 
 KNEE = re.compile("(?i)knee|calf")

@@ -33,7 +33,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Negative damping or stiffness"
 FAMILIES = ("explodes", "oscillates", "drifts")
-SINCE = "0.1"
 
 FIELDS = {"damping": "dof_damping", "stiffness": "jnt_stiffness"}
 

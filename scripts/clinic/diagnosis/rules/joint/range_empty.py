@@ -43,7 +43,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A range without any extent"
 FAMILIES = ("passes-limit", "stuck")
-SINCE = "0.1"
 LEVEL = "hint"
 
 

@@ -45,7 +45,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Ranges in degrees read as radians, or the other way"
 FAMILIES = ("stuck", "passes-limit", "jumps-at-start")
-SINCE = "0.1"
 CASE = "elbow-will-not-bend"
 
 NARROW, WIDE = 0.12, 25.0  # rad

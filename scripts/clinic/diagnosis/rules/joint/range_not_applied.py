@@ -37,7 +37,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A range that is not applied"
 FAMILIES = ("passes-limit",)
-SINCE = "0.1"
 
 TURN = 6.2  # rad
 ROOM = 10.0  # times the model's extent

@@ -52,8 +52,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A root on the limbs' springs"
 FAMILIES = ("drifts", "stuck")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have a root of slides"
 
 FEW = 3

@@ -42,8 +42,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A slide that leaves its guide"
 FAMILIES = ("passes-limit", "drifts", "falls-through")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have drawers"
 
 MILLIMETRES = 50.0  # of its own length, which no guide has

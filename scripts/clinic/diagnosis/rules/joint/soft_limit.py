@@ -40,8 +40,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A limit that gives way"
 FAMILIES = ("passes-limit", "sags")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a soft limit may be meant"
 
 SPEED = {HINGE: 3.0, SLIDE: 0.3}  # rad/s, m/s

@@ -46,8 +46,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A spring that hangs at its stop"
 FAMILIES = ("sags", "sinks", "stuck")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "healthy models have few slides with springs"
 
 MOST, USUAL, LITTLE, STILL = 0.75, 0.3, 0.05, 0.05  # of the way to the limit; m/s

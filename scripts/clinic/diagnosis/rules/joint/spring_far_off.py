@@ -38,7 +38,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A spring at rest far outside of the range"
 FAMILIES = ("drifts", "stuck", "jumps-at-start", "explodes")
-SINCE = "0.1"
 LEVEL = "hint"
 
 FAR = 2.5  # rad

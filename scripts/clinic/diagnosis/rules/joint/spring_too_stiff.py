@@ -30,19 +30,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HINGE, SLIDE
-from clinic.diagnosis.probes.run import fastest
+from clinic.diagnosis.engine import DEFAULT_TIMESTEP, HINGE, SLIDE
+from clinic.diagnosis.probes.run import FAST, fastest
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A spring too stiff for the timestep"
 FAMILIES = ("explodes", "oscillates")
-SINCE = "0.1"
 CASE = "arm-explodes"
-
-FAST = 100.0
-USUAL = 0.002  # s
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -53,7 +49,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for joint, each in enumerate(stiffness):
         if each > 0 and simulation.joint_type(joint) in (HINGE, SLIDE):
             rate = (each / max(mass[simulation.dof(joint)], 1e-12)) ** 0.5
-            if min(step, USUAL) * rate > 0.6:  # a chain's fastest mode is up to three times as fast
+            if min(step, DEFAULT_TIMESTEP) * rate > 0.6:  # a chain's fastest mode is up to three times as fast
                 found[joint] = rate
     if not found:
         return

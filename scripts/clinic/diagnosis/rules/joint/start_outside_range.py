@@ -42,7 +42,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A joint starts outside of its range"
 FAMILIES = ("jumps-at-start", "explodes")
-SINCE = "0.1"
 LEVEL = "hint"
 
 OUTSIDE, UNPOSED = 0.05, 0.5  # of the range

@@ -46,8 +46,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, counted, rounded
 
 TITLE = "A rope that never gets taut"
 FAMILIES = ("falls-through", "drifts", "sensor-reads-zero", "stuck")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model hangs anything on a rope"
 
 SLACK, GROWN = 1 / 0.95, 1.1

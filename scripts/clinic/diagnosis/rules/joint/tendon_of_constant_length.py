@@ -58,8 +58,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A tendon whose length never changes"
 FAMILIES = ("stuck", "sensor-reads-zero")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "what it is meant to cross, only intent knows"
 
 LEAST = 1e-3  # of the largest coefficient

@@ -51,8 +51,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A tendon starts outside of its range"
 FAMILIES = ("jumps-at-start", "explodes")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "the limited tendons of the healthy models are those of two hands"
 
 OUTSIDE, SOME = 0.8, 0.2

@@ -59,8 +59,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A tendon through the site of another"
 FAMILIES = ("wrong-numbers", "stuck", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have tendons with three sites"
 
 WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+|\d+")

@@ -51,8 +51,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A tendon that turns back on its way"
 FAMILIES = ("wrong-numbers", "stuck", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models of the bench have a tendon through sites"
 
 SHORTER = 0.25

@@ -83,8 +83,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A finger's tendon unlike the others'"
 FAMILIES = ("stuck", "drifts", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have three tendons that are alike"
 
 BAR = re.compile(r"(?i)anti.?roll|sway|stabili")

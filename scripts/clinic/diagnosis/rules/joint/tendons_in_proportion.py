@@ -60,8 +60,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "Two tendons that do the same"
 FAMILIES = ("drifts", "sags", "stuck")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models drive two joints by two tendons"
 
 SAME = 1e-3  # of the product of two coefficients

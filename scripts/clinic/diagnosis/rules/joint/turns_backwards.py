@@ -60,8 +60,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Wheels or a steering that turn the other way"
 FAMILIES = ("drifts", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "the models of the bench are MJCF"
 
 STEERING = re.compile(r"steer", re.IGNORECASE)

@@ -59,9 +59,7 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A wheel that cannot go on turning"
 FAMILIES = ("stuck", "slow")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "only names say what is a wheel"
 
 ROUND, ACROSS = (SPHERE, ELLIPSOID, CYLINDER, MESH), 0.7

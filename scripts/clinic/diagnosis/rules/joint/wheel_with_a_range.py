@@ -47,8 +47,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A wheel with a range"
 FAMILIES = ("stuck", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "nearly no healthy model stands on wheels"
 
 TURNS, LEVEL_ENOUGH = 4.0, 0.3

@@ -47,8 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A keyframe's torques are the angles of its pose"
 FAMILIES = ("drifts", "jumps-at-start", "sags")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model has a keyframe with controls of motors"
 FEW = 1.0
 

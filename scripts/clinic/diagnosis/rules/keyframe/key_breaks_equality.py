@@ -58,8 +58,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A keyframe that breaks an equality"
 FAMILIES = ("jumps-at-start", "stuck", "explodes")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have a keyframe and a coupling"
 
 COUPLING, GAP = 0.1, 0.02  # of the follower's range or way; of the model's extent

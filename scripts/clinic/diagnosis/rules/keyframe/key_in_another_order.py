@@ -50,7 +50,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A keyframe in another order than the joints"
 FAMILIES = ("jumps-at-start", "drifts", "explodes")
-SINCE = "0.1"
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -45,8 +45,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A keyframe is in the air"
 FAMILIES = ("jumps-at-start", "falls-through")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "from where a robot should fall, only intent knows"
 
 HIGH, LOW = 1.0, 0.25  # sizes of the robot

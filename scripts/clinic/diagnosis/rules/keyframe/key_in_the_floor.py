@@ -41,7 +41,6 @@ from clinic.diagnosis.suspect import Level, Suspect
 
 TITLE = "A keyframe is in the floor"
 FAMILIES = ("jumps-at-start", "explodes")
-SINCE = "0.1"
 
 SHARE = 0.06  # of the size of what is free
 

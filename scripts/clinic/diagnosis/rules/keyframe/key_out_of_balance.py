@@ -45,8 +45,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A keyframe's motor pushes the wrong way"
 FAMILIES = ("drifts", "jumps-at-start", "sags")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model has a keyframe with controls of motors"
 
 OFF, BALANCED = 0.5, 0.25  # of the motor's force

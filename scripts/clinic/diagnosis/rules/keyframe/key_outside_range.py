@@ -57,7 +57,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A keyframe is outside of the joints' ranges"
 FAMILIES = ("jumps-at-start", "explodes")
-SINCE = "0.1"
 CASE = "arm-jumps-at-reset"
 
 LIMIT = 0.1  # rad

@@ -44,7 +44,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A keyframe's quaternion has w last"
 FAMILIES = ("drifts", "jumps-at-start")
-SINCE = "0.1"
 
 LIMIT, TILTED, UPRIGHT = 60.0, 60.0, 15.0  # degrees
 

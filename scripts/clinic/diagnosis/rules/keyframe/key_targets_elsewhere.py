@@ -55,7 +55,7 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many, rounded
 
 TITLE = "A keyframe's targets are not its pose"
 FAMILIES = ("drifts", "jumps-at-start", "sags")
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "no healthy model has a keyframe with controls"
 
 LIMIT, FAR = 0.1, 0.5  # rad or m

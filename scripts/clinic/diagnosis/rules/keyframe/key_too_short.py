@@ -50,7 +50,7 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A keyframe is too short"
 FAMILIES = ("jumps-at-start", "drifts")
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "no healthy model has a free body that stands before its robot"
 
 

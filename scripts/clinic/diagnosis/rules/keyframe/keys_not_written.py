@@ -39,8 +39,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Keyframes that nobody wrote"
 FAMILIES = ("jumps-at-start", "passes-limit")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "keyframes that nobody asks for harm nobody"
 MINOR = True
 

@@ -54,9 +54,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A centre of mass in the joint"
 FAMILIES = ("wrong-mass", "sags", "drifts")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "which link a counterweight balances, only its maker knows"
 
 FAR, OUTSIDE = 0.7, 0.5

@@ -43,9 +43,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A centre of mass with the wrong sign"
 FAMILIES = ("drifts", "sags", "wrong-mass")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "most links of healthy models have their centre near the axis, where its sign matters little"
 
 FAR, NEARER, LIGHT = 0.4, 0.25, 0.01

@@ -42,7 +42,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The centre of mass is outside of the body"
 FAMILIES = ("drifts", "sags")
-SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 

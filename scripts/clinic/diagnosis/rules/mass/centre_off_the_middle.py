@@ -58,9 +58,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A centre of mass beside the middle"
 FAMILIES = ("drifts", "wrong-mass")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "trunks of healthy robots carry batteries and computers aside"
 
 OFF, ON = 0.2, 0.01  # of the distance of the twins

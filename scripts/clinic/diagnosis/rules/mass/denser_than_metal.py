@@ -40,7 +40,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Denser than metal"
 FAMILIES = ("sags", "wrong-mass", "explodes", "stuck")
-SINCE = "0.1"
 AFLOAT = True
 
 METAL, LIGHT, WATER = 24000.0, 0.05, 1000.0
@@ -115,7 +114,6 @@ def _steel(model: ReaderModel) -> Iterator[Suspect]:
         STEEL,
         f"Half of its {len(found)} links have more than {middle:.3g} kg/m3, as if they were of solid metal.",
         "300 to 3,000 kg/m3: 207 of 208 robots have less than 5,000 in the middle",
-        level="hint",
     )
 
 

@@ -41,7 +41,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A geom stands twice"
 FAMILIES = ("wrong-mass", "sags", "drifts")
-SINCE = "0.1"
 AFLOAT = True
 
 MORE = 1.05

@@ -48,7 +48,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Gravity compensation on some links alone"
 FAMILIES = ("sags", "drifts")
-SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 

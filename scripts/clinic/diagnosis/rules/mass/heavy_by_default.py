@@ -38,8 +38,6 @@ from clinic.diagnosis.suspect import Suspect, rounded
 
 TITLE = "An object as heavy as water"
 FAMILIES = ("wrong-mass", "stuck", "sags")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "what an object should weigh, only its maker knows"
 
 HEAVY = 5.0  # kg

@@ -47,7 +47,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The inertia lies across the body"
 FAMILIES = ("drifts", "oscillates")
-SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 

@@ -45,8 +45,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An inertia larger than the whole model"
 FAMILIES = ("wrong-mass", "stuck", "explodes")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "the kinds of wrong inertias are planted in bodies with geoms, of which other rules tell"
 MOST, FELT = 2.0, 0.01  # of the inertia at a joint
 USUAL = 0.1  # of the model's size, which the edit gives

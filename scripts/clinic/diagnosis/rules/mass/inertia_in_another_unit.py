@@ -46,7 +46,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The inertias are in another unit"
 FAMILIES = ("stuck", "explodes", "wrong-mass", "oscillates")
-SINCE = "0.1"
 AFLOAT = True
 
 TENS, WITHIN, LIMIT = 2.5, 1.5, 2.5  # powers of ten; times the inertia at the joint

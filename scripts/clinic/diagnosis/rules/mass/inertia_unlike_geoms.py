@@ -45,7 +45,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The inertia is not that of the geoms"
 FAMILIES = ("explodes", "oscillates", "stuck", "drifts", "wrong-mass")
-SINCE = "0.1"
 AFLOAT = True
 CASE = "heavy-base-spins"
 LEVEL = "hint"

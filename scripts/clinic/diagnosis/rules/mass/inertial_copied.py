@@ -49,9 +49,7 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "An inertial copied from another link"
 FAMILIES = ("wrong-mass", "drifts", "sags")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "which of two links an inertial is of stands nowhere"
 
 SIDE = re.compile(r"left|right|front|rear|back|upper|lower|(?<![a-z])(?:[lrfb]|[fhrblm][lrfhb])(?![a-z])|[\W\d_]+")

@@ -58,7 +58,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A body without its inertial"
 FAMILIES = ("wrong-mass", "sags", "drifts")
-SINCE = "0.1"
 AFLOAT = True
 LEVEL = "hint"
 
@@ -96,10 +95,8 @@ def _jointed(model: ReaderModel) -> Iterator[Suspect]:
                 continue
             mass = of.model("body_mass")[body]
             says = f"{others} others have an <inertial>; its {mass:.3g} kg are those of its geoms."
-            yield Suspect(
-                (of.name("body", body),), "inertial", "left out", "", (), mass_of((body,)), 0.0, says,
-                "its own <inertial>", level="hint",
-            )  # fmt: skip
+            names = (of.name("body", body),)
+            yield Suspect(names, "inertial", "left out", "", (), mass_of((body,)), 0.0, says, "its own <inertial>")
 
 
 def _by_class(model: ReaderModel, body: int) -> set[str]:

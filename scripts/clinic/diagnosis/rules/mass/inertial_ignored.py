@@ -39,8 +39,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Every <inertial> is overruled"
 FAMILIES = ("wrong-mass", "sags")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model has the attribute and an <inertial>"
 
 MOST, SAME = 0.2, 0.02

@@ -47,7 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, counted
 
 TITLE = "Lighter than air"
 FAMILIES = ("falls-through", "explodes", "stuck")
-SINCE = "0.1"
 
 FEATHER = 0.005  # kg/m3
 AIR, LIMIT, LIGHT, FEW = 1.2, 300.0, 1.0, 3
@@ -101,11 +100,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _groups(of: Simulation) -> list[tuple[int, list[int]]]:
     """What moves together by its root, and a light link or two by themselves, of a tree that is heavy enough."""
-    owner, trees = root_of(of), dict[int, list[int]]()
+    owner, welds, trees, links = root_of(of), of.model("body_weldid"), dict[int, list[int]](), dict[int, list[int]]()
     for body in of.moving_bodies:
         trees.setdefault(owner[body], []).append(body)
-    light = [body for body in of.moving_bodies if of.joints_of(body) and _air(of, body) > LIMIT]
-    alone = [(body, [body]) for body in light if trees.get(body) != [body]]
+        links.setdefault(int(welds[body]), []).append(body)
+    light = {body: link for body, link in links.items() if of.joints_of(body) and _air(of, *link) > LIMIT}
+    alone = [(body, link) for body, link in light.items() if trees.get(body) != link]
     return [*trees.items(), *(alone if len(light) <= 2 else [])]
 
 

@@ -57,9 +57,7 @@ from clinic.diagnosis.suspect import Suspect, rounded
 
 TITLE = "A mass that is not its inertia's"
 FAMILIES = ("wrong-mass", "sags", "drifts")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "what is planted in the mass alone other rules tell by its density"
 
 TIMES, ALIKE, OTHERS = 4.0, 2.0, 3

@@ -58,9 +58,7 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A link unlike the others in density"
 FAMILIES = ("wrong-mass", "sags", "drifts")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "what a link should weigh, only its maker knows"
 
 DENSE, SHARE, MANY, GRAM = 4.0, 0.06, 4, 0.001
@@ -93,7 +91,6 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"{of.name('body', worst)} is {rounded(ratio)} times as dense as the link in the middle of the "
             f"{len(robot)} of its robot.",
             "below 4 times in 130 of 135 robots",
-            level="hint",
         )
 
 

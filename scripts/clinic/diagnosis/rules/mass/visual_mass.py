@@ -43,7 +43,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Geoms that are only seen have mass"
 FAMILIES = ("sags", "wrong-mass", "drifts")
-SINCE = "0.1"
 AFLOAT = True
 CASE = "drone-will-not-hover"
 

@@ -43,18 +43,16 @@ from collections.abc import Iterator
 from itertools import product
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import MESH, PLANE
+from clinic.diagnosis.engine import CAM_FIXED, MESH, PLANE
 from clinic.diagnosis.probes.sides import by_name
 from clinic.diagnosis.probes.vector import add, dot, flipped, sub, times, transpose, unit, written
-from clinic.diagnosis.probes.view import FIXED, HEAD, axes, opening, things, through, turned
+from clinic.diagnosis.probes.view import HEAD, axes, opening, things, through, turned
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A camera that looks into its own mount"
 FAMILIES = ("camera",)
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have a camera on a body"
 
 MOST = 8.5  # of nine rays
@@ -135,7 +133,7 @@ def _along_fingers(of: Simulation, camera: int) -> float:
     body = int(of.model("cam_bodyid")[camera])
     names = of.names("body")
     fingers = [each for each in of.children.get(body, []) if FINGER.search(names[each]) and of.joints_of(each)]
-    if not body or len(fingers) < 2 or int(of.model("cam_mode")[camera]) != FIXED:
+    if not body or len(fingers) < 2 or int(of.model("cam_mode")[camera]) != CAM_FIXED:
         return 0.0
     of.begin()
     middle = [sum(of.data_row("subtree_com", each, 3)[i] for each in fingers) / len(fingers) for i in range(3)]

@@ -43,7 +43,6 @@ from clinic.diagnosis.suspect import Level, Probe, Suspect
 
 TITLE = "A camera that looks past everything"
 FAMILIES = ("camera",)
-SINCE = "0.1"
 
 MOST = 0.999
 LEAST, CLOSE, OUTSIDE = 0.005, 20.0, 1.2  # of the image's height; of the model's; of its radius

@@ -33,14 +33,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.view import FIXED, HEAD, axes, onlookers, turned
+from clinic.diagnosis.engine import CAM_FIXED
+from clinic.diagnosis.probes.view import HEAD, axes, onlookers, turned
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Level, Probe, Suspect
 
 TITLE = "A camera that is upside down"
 FAMILIES = ("camera",)
-SINCE = "0.1"
 CASE = "camera-upside-down"
 
 MOST, ASIDE, UPSIDE = 100.0, 45.0, 0.9  # degrees, degrees; of the view's direction along the vertical
@@ -77,21 +77,21 @@ def _aboard(simulation: Simulation) -> list[int]:
     heads = [body for body in range(1, simulation.count("body")) if HEAD.search(simulation.name("body", body))]
     carriers = {*simulation.free_bodies, *heads}
     pairs = enumerate(zip(bodies, modes, strict=True))
-    return [camera for camera, (body, mode) in pairs if int(mode) == FIXED and int(body) in carriers]
+    return [camera for camera, (body, mode) in pairs if int(mode) == CAM_FIXED and int(body) in carriers]
 
 
 def _aside(simulation: Simulation) -> Iterator[Suspect]:
     """Each camera of the world, of a body with a free joint or of a head whose image lies on its side."""
     modes, aboard = simulation.model("cam_mode"), _aboard(simulation)
     for camera in range(simulation.count("camera")):
-        if int(modes[camera]) != FIXED or not (camera in onlookers(simulation) or camera in aboard):
+        if int(modes[camera]) != CAM_FIXED or not (camera in onlookers(simulation) or camera in aboard):
             continue
         roll = _roll(simulation, camera)
         if roll > ASIDE and _tilt(simulation, camera) <= MOST:  # else told as upside down
             probe = Probe("image's horizon against the world's", "degrees", _roll, (camera,), dynamic=False)
             says = f"The image's right points {roll:.0f} degrees up or down in the world: the image lies on its side."
             name, turned_by = (simulation.name("camera", camera),), f"turned by {roll:.0f} degrees"
-            yield Suspect(name, "xyaxes", "", turned_by, (), probe, ASIDE, says, "0 to 45 degrees", level="hint")
+            yield Suspect(name, "xyaxes", "", turned_by, (), probe, ASIDE, says, "0 to 45 degrees")
 
 
 def _roll(simulation: Simulation, camera: int) -> float:

@@ -40,7 +40,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Clipping planes that cut everything away"
 FAMILIES = ("camera",)
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "no harm is measured in images"
 
 MOST = 0.9

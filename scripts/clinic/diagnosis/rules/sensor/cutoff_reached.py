@@ -36,18 +36,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, remove_attribute
-from clinic.diagnosis.probes.touched import RANGE
+from clinic.diagnosis.engine import SENS_ACTUATORFRC, SENS_JOINTPOS, SENS_RANGEFINDER
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A sensor that reads its cutoff"
 FAMILIES = ("sensor-reads-zero",)
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "one healthy model has a sensor with a cutoff"
 
 MOST, MUCH = 0.8, 5.0
-POSITION, FORCE = 9, 15  # mjtSensor: jointpos, actuatorfrc
 
 
 def _clipped(simulation: Simulation, sensor: int) -> float:
@@ -67,8 +66,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     simulation = model.simulation
     kinds = simulation.model("sensor_type")
     for sensor, cutoff in enumerate(simulation.model("sensor_cutoff")):
-        usual = _usual(simulation, sensor) if int(kinds[sensor]) == RANGE else 0.0
-        if cutoff <= 0 or (int(kinds[sensor]) == RANGE and cutoff * MUCH > usual):
+        usual = _usual(simulation, sensor) if int(kinds[sensor]) == SENS_RANGEFINDER else 0.0
+        if cutoff <= 0 or (int(kinds[sensor]) == SENS_RANGEFINDER and cutoff * MUCH > usual):
             continue
         probe = Probe("time at its cutoff", "of the run", _clipped, (sensor,))
         if model.measured(probe) > MOST:
@@ -93,8 +92,8 @@ def _clips(of: Simulation, sensor: int) -> float:
     """How many times its cutoff the force of an actuator, or a joint's place, goes by its range; 0 without one."""
     kind, cutoff = int(of.model("sensor_type")[sensor]), of.model("sensor_cutoff")[sensor]
     limited, reach = {
-        FORCE: ("actuator_forcelimited", "actuator_forcerange"),
-        POSITION: ("jnt_limited", "jnt_range"),
+        SENS_ACTUATORFRC: ("actuator_forcelimited", "actuator_forcerange"),
+        SENS_JOINTPOS: ("jnt_limited", "jnt_range"),
     }.get(kind, ("", ""))
     read = int(of.model("sensor_objid")[sensor])
     if not limited or cutoff <= 0 or not of.model(limited)[read]:
@@ -105,5 +104,5 @@ def _clips(of: Simulation, sensor: int) -> float:
 def _usual(of: Simulation, sensor: int) -> float:
     """The cutoff that all other rangefinders have, two and more; 0 where they have none or differ."""
     kinds, cutoffs = of.model("sensor_type"), of.model("sensor_cutoff")
-    others = [cutoffs[each] for each, kind in enumerate(kinds) if int(kind) == RANGE and each != sensor]
+    others = [cutoffs[each] for each, kind in enumerate(kinds) if int(kind) == SENS_RANGEFINDER and each != sensor]
     return others[0] if len(others) > 1 and len(set(others)) == 1 else 0.0

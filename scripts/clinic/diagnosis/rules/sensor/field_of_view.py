@@ -38,7 +38,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A field of view next to nothing, or all around"
 FAMILIES = ("camera",)
-SINCE = "0.1"
 
 NARROW, HIGH = 15.0, 145.0  # degrees
 PART = 0.25  # of the scene that an image should hold
@@ -79,4 +78,4 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         ):
             probe = Probe("field of view", "degrees", _default, (camera,), dynamic=False)
             says = "It has a resolution and no field of view: MuJoCo's default of 45 degrees, not the real lens."
-            yield Suspect(name, "fovy", "45", "the lens's", (), probe, 0.0, says, level="hint")
+            yield Suspect(name, "fovy", "45", "the lens's", (), probe, 0.0, says)

@@ -39,15 +39,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, replace
-from clinic.diagnosis.probes.touched import FORCE, TORQUE, touched, unread
+from clinic.diagnosis.engine import SENS_FORCE, SENS_TORQUE
+from clinic.diagnosis.probes.touched import touched, unread
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A force sensor on a free body"
 FAMILIES = ("sensor-reads-zero",)
-SINCE = "0.1"
 CASE = "force-sensor-reads-zero"
+LEVEL = "cause"
 UNPLANTED = "to set free what carries a healthy model's force sensor breaks more than the sensor"
 
 MOST = 0.99
@@ -60,7 +61,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     kinds, of, owners = (simulation.model(name) for name in ("sensor_type", "sensor_objid", "site_bodyid"))
     for sensor, seen in touched(simulation).items():
         site = int(of[sensor])
-        if int(kinds[sensor]) not in (FORCE, TORQUE) or int(owners[site]) not in simulation.free_bodies:
+        if int(kinds[sensor]) not in (SENS_FORCE, SENS_TORQUE) or int(owners[site]) not in simulation.free_bodies:
             continue
         if not seen.carried:
             if seen.reading < NOTHING:
@@ -89,4 +90,4 @@ def _idle(simulation: Simulation, sensor: int, site: int) -> Suspect:
     )
     says = "A free joint does not pass on what contacts press. A site in a body that hangs on this one reads it."
     probe = counted("sensors of a free body", 1)
-    return Suspect(names, "site", "", "one in a body below", (), probe, 0.5, says, "0", level="hint")
+    return Suspect(names, "site", "", "one in a body below", (), probe, 0.5, says, "0")

@@ -47,8 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An orientation of the inertia's axes"
 FAMILIES = ("wrong-numbers",)
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "hardly any healthy model reads the orientation of a body"
 
 TURNED = 5.0  # degrees

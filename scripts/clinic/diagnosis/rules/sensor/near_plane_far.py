@@ -36,7 +36,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.engine import PLANE
+from clinic.diagnosis.engine import CAM_FIXED, PLANE
 from clinic.diagnosis.probes.shape import mechanisms, root_of
 from clinic.diagnosis.probes.vector import Vector, dot, norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
@@ -45,8 +45,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A near plane far before a robot's camera"
 FAMILIES = ("camera",)
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no harm is measured in images"
 
 FAR, NEAR = 0.5, 0.02  # of the size of what the camera is built on
@@ -84,8 +82,8 @@ def _ahead(of: Simulation, camera: int) -> float:
     if not owner:  # of all that is before it, the far end of the nearest
         seen = [far for each, _ in _mechanisms(of).values() if (far := _far_end(lens, view, each))]
         return FAR * plane / min(seen) if seen else 0.0
-    on_board = int(of.model("cam_mode")[camera]) == 0 and any(math.dist(lens, place) < size for place in places)
-    return plane / size if on_board else 0.0
+    on_board = any(math.dist(lens, place) < size for place in places)
+    return plane / size if on_board and int(of.model("cam_mode")[camera]) == CAM_FIXED else 0.0
 
 
 def _far_end(lens: Vector, view: Vector, places: Sequence[Vector]) -> float:

@@ -36,7 +36,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Nothing is lit"
 FAMILIES = ("camera",)
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "no harm is measured in images"
 
 COLOURS = {"ambient": "0.1 0.1 0.1", "diffuse": "0.4 0.4 0.4", "specular": "0.5 0.5 0.5"}  # MuJoCo's defaults

@@ -34,7 +34,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A principal point far from the middle"
 FAMILIES = ("camera",)
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "no camera of the healthy models has a principal point"
 
 MOST = 0.25  # of the sensor's side

@@ -36,9 +36,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import OBJ_SITE
+from clinic.diagnosis.engine import OBJ_SITE, SENS_RANGEFINDER
 from clinic.diagnosis.probes.shape import boxes, root_of
-from clinic.diagnosis.probes.touched import RANGE
 from clinic.diagnosis.probes.vector import add
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -46,8 +45,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A rangefinder that sees its own robot"
 FAMILIES = ("sensor-reads-zero",)
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "healthy models with a rangefinder are too few"
 
 MOST = 0.5  # of the rangefinders of a model: fewer are rays of a scan
@@ -57,7 +54,7 @@ NEAR = 1e-3  # m
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Rangefinders that see a geom of their own robot, where it is not a few of a scan."""
     of = model.simulation
-    rays = [each for each, kind in enumerate(of.model("sensor_type")) if int(kind) == RANGE]
+    rays = [each for each, kind in enumerate(of.model("sensor_type")) if int(kind) == SENS_RANGEFINDER]
     found = _blind(of)
     if not found or len(found) < MOST * len(rays):
         return
@@ -68,7 +65,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     probe = how_many("rangefinders that see their own robot", _blind)
     site = int(of.model("sensor_objid")[sensor])
     now = " ".join(f"{x:.3g}" for x in of.row("site_pos", site, 3))
-    yield Suspect(names, "pos of the site", now, "outside", (), probe, 0, says, "a free view", level="hint")
+    yield Suspect(names, "pos of the site", now, "outside", (), probe, 0, says, "a free view")
 
 
 def _blind(of: Simulation) -> dict[int, tuple[int, float]]:
@@ -79,7 +76,7 @@ def _blind(of: Simulation) -> dict[int, tuple[int, float]]:
     readings, kinds = of.data("sensordata"), of.model("sensor_objtype")
     for sensor, kind in enumerate(of.model("sensor_type")):
         reading = readings[int(of.model("sensor_adr")[sensor])]
-        if int(kind) != RANGE or int(kinds[sensor]) != OBJ_SITE or reading < 0:
+        if int(kind) != SENS_RANGEFINDER or int(kinds[sensor]) != OBJ_SITE or reading < 0:
             continue
         site = int(of.model("sensor_objid")[sensor])
         body = of.body_of("site", site)

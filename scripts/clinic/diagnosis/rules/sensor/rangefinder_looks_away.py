@@ -40,9 +40,8 @@ from collections.abc import Iterator
 from itertools import product
 
 from clinic.diagnosis.edit import Edit, orient
-from clinic.diagnosis.engine import FREE, HINGE, OBJ_SITE, SLIDE, CompileError
+from clinic.diagnosis.engine import FREE, HINGE, OBJ_SITE, SENS_RANGEFINDER, SLIDE, CompileError
 from clinic.diagnosis.probes.key import start_at
-from clinic.diagnosis.probes.touched import RANGE
 from clinic.diagnosis.probes.vector import Vector, add, dot, sub, times, transpose, written
 from clinic.diagnosis.probes.view import through
 from clinic.diagnosis.reader_model import ReaderModel
@@ -52,8 +51,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A rangefinder that looks the wrong way"
 FAMILIES = ("sensor-reads-zero", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "healthy models with a rangefinder are too few"
 
 SCAN = 8  # rangefinders
@@ -102,12 +99,12 @@ def _found(of: Simulation, sensor: int) -> list[int]:
 def _astray(of: Simulation) -> dict[int, int]:
     """The site of each rangefinder that looks the wrong way."""
     kinds = [int(kind) for kind in of.model("sensor_type")]
-    if not 0 < kinds.count(RANGE) <= SCAN:
+    if not 0 < kinds.count(SENS_RANGEFINDER) <= SCAN:
         return {}
     sites = {
         sensor: int(of.model("sensor_objid")[sensor])
         for sensor, kind in enumerate(kinds)
-        if kind == RANGE and int(of.model("sensor_objtype")[sensor]) == OBJ_SITE
+        if kind == SENS_RANGEFINDER and int(of.model("sensor_objtype")[sensor]) == OBJ_SITE
     }
     blind = dict(sites)
     for key in range(-1, of.count("key")):

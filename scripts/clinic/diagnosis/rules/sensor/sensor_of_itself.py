@@ -46,8 +46,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A sensor that measures a frame in itself"
 FAMILIES = ("sensor-reads-zero", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models measure one frame in another"
 
 BODIES = {"geom": "geom_bodyid", "site": "site_bodyid", "camera": "cam_bodyid"}

@@ -38,20 +38,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from clinic.diagnosis.engine import OBJ_SITE
+from clinic.diagnosis.engine import OBJ_SITE, SENS_FORCE, SENS_TORQUE
 from clinic.diagnosis.probes.sides import sided
-from clinic.diagnosis.probes.touched import FORCE, TORQUE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A sensor apart from its unit"
 FAMILIES = ("wrong-numbers",)
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "readings that differ are not counted as harm"
 
-UNITS = ({1, 2, 3, 6}, {FORCE, TORQUE})  # mjtSensor: accelerometer, velocimeter, gyro, magnetometer
+UNITS = ({1, 2, 3, 6}, {SENS_FORCE, SENS_TORQUE})  # mjtSensor: accelerometer, velocimeter, gyro, magnetometer
 UNIT, FRAME_QUATERNION = {1, 3}, 27  # accelerometer and gyro; framequat
 QUATERNION = 4  # numbers: how the unit's frame is turned belongs to it
 

@@ -41,46 +41,45 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from clinic.diagnosis.probes.attached import OBJECTS
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A sensor reads another part than its name says"
 FAMILIES = ("wrong-numbers", "sensor-reads-zero")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "only a name says what a sensor is for"
 
-OF = {1: "body", 2: "body", 3: "joint", 6: "site"}  # mjtObj
+KINDS = ("body", "joint", "site")
 SISTERS = 3
 
 
 class Meant(NamedTuple):
-    """What a sensor is called after, and what it reads in its place: `objname` or `refname`."""
+    """What a sensor reads as its `objname` or `refname`, and the name, maybe of another kind, that it bears."""
 
     end: str
     kind: str
     read: str
-    meant_kind: str
     meant: str
+    other_kind: str = ""
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each sensor that has the name of something else than what it reads, or in which it reads."""
     of = model.simulation
-    for sensor, (end, kind, read, meant_kind, meant) in _misnamed(of).items():
+    for sensor, found in _misnamed(of).items():
         probe = Probe("whether a sensor reads another part than its name says", "", _wrong, (sensor,), dynamic=False)
-        element = model.element("sensor", sensor)
-        attribute = end if element is not None and element.get(end) else kind
-        edits = model.set("sensor", [sensor], attribute, meant)
-        if kind != meant_kind:
-            edits += model.set("sensor", [sensor], "objtype", meant_kind)
-        does = "reads" if end == "objname" else "measures in"
-        says = f'{of.name("sensor", sensor)} {does} {kind} "{read}", and bears the name of {meant_kind} "{meant}".'
-        if not _within(meant, of.names("sensor")[sensor]):
-            says = f'{of.name("sensor", sensor)} reads {kind} "{read}"; its sisters read what is called like "{meant}".'
-        elements, healthy = (of.name("sensor", sensor),), f"the {meant_kind} of its name"
-        yield Suspect(elements, attribute, read, meant, edits, probe, 0.5, says, healthy, level="hint")
+        name, element, kind = of.name("sensor", sensor), model.element("sensor", sensor), found.other_kind or found.kind
+        attribute = found.end if element is not None and element.get(found.end) else found.kind
+        edits = model.set("sensor", [sensor], attribute, found.meant)
+        if found.other_kind:
+            edits += model.set("sensor", [sensor], "objtype", kind)
+        does = "reads" if found.end == "objname" else "measures in"
+        says = f'{name} {does} {found.kind} "{found.read}", and bears the name of {kind} "{found.meant}".'
+        if not _within(found.meant, of.names("sensor")[sensor]):
+            says = f'{name} reads {found.kind} "{found.read}"; its sisters read what is called like "{found.meant}".'
+        healthy = f"the {kind} of its name"
+        yield Suspect((name,), attribute, found.read, found.meant, edits, probe, 0.5, says, healthy, level="hint")
 
 
 def _wrong(of: Simulation, sensor: int) -> float:
@@ -96,17 +95,18 @@ def _misnamed(of: Simulation) -> dict[int, Meant]:
         other = of.names(reference)[at] if reference else ""
         own = of.names(kind)[index] if kind else ""
         if (meant := _named(of, name, kind, index)) and meant != other:
-            made[sensor] = Meant("objname", kind, own, kind, meant)
+            made[sensor] = Meant("objname", kind, own, meant)
         elif kind == "body" and (meant := _site_of(of, name, index)):
-            made[sensor] = Meant("objname", kind, own, "site", meant)
+            made[sensor] = Meant("objname", kind, own, meant, other_kind="site")
         elif (meant := _named(of, name, reference, at)) and _beside(of, name, meant, kind, index):
-            made[sensor] = Meant("refname", reference, other, reference, meant)
+            made[sensor] = Meant("refname", reference, other, meant)
     return made
 
 
 def _end(of: Simulation, sensor: int, end: str) -> tuple[str, int]:
     """The kind and number of what a sensor reads, or reads in; an empty kind for none, and for others than these."""
-    return OF.get(int(of.model(f"sensor_{end}type")[sensor]), ""), int(of.model(f"sensor_{end}id")[sensor])
+    kind = OBJECTS.get(int(of.model(f"sensor_{end}type")[sensor]), "")
+    return kind if kind in KINDS else "", int(of.model(f"sensor_{end}id")[sensor])
 
 
 def _named(of: Simulation, sensor: str, kind: str, index: int) -> str:
@@ -160,7 +160,7 @@ def _unlike_sisters(of: Simulation) -> dict[int, Meant]:
         odd = [each for each in some if each[2] != usual]
         if len(some) >= SISTERS and times == len(some) - 1 and odd[0][1] + usual in of.names(kind):
             sensor, word, tail = odd[0]
-            made[sensor] = Meant("objname", kind, word + tail, kind, word + usual)
+            made[sensor] = Meant("objname", kind, word + tail, word + usual)
     return made
 
 

@@ -46,8 +46,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Two sensors that read the same"
 FAMILIES = ("wrong-numbers", "sensor-reads-zero")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "one reading under two names may be meant"
 
 KINDS = {"joint": "joint", "site": "site", "actuator": "actuator", "tendon": "tendon"}

@@ -41,8 +41,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A sensor of another kind than its name says"
 FAMILIES = ("wrong-numbers", "sensor-reads-zero")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "what a sensor is meant to read stands in its name alone"
 
 SAID = {  # the words for what a sensor reads, and the kinds that read it; the first is what is meant

@@ -37,9 +37,8 @@ import math
 from collections.abc import Iterator
 from itertools import product
 
-from clinic.diagnosis.engine import BOX, CAPSULE, CYLINDER, ELLIPSOID, SPHERE
+from clinic.diagnosis.engine import BOX, CAPSULE, CYLINDER, ELLIPSOID, SENS_TOUCH, SPHERE
 from clinic.diagnosis.probes.shape import in_pairs, solid
-from clinic.diagnosis.probes.touched import TOUCH
 from clinic.diagnosis.probes.vector import Vector, add, sub, times, transpose
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -47,8 +46,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A touch sensor whose site is off the surface"
 FAMILIES = ("sensor-reads-zero",)
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "what the sensor is to feel, only intent knows"
 
 NEAR, SHARE = 1e-3, 0.1  # m; of the geom's smallest half size
@@ -65,7 +62,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     for sensor, kind in enumerate(of.model("sensor_type")):
         site = int(of.model("sensor_objid")[sensor])
-        if int(kind) != TOUCH or not (reason := why(of, site)):
+        if int(kind) != SENS_TOUCH or not (reason := why(of, site)):
             continue
         body = of.name("body", of.body_of("site", site))
         inside = reason == INSIDE

@@ -36,8 +36,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import SENS_TOUCH
 from clinic.diagnosis.probes.shape import solid
-from clinic.diagnosis.probes.touched import TOUCH, touched, unread
+from clinic.diagnosis.probes.touched import touched, unread
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.sensor.touch_site_off_the_surface import OUTSIDE
@@ -47,7 +48,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A touch sensor whose site misses the contacts"
 FAMILIES = ("sensor-reads-zero",)
-SINCE = "0.1"
 LEVEL = "hint"
 CASE = "touch-sensor-reads-zero"
 
@@ -61,12 +61,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each touch sensor that is alone on its body, with a site as large as the contacts are far."""
     simulation = model.simulation
     kinds, of, owners = (simulation.model(name) for name in ("sensor_type", "sensor_objid", "site_bodyid"))
-    sites = [int(of[i]) for i, kind in enumerate(kinds) if int(kind) == TOUCH]
+    sites = [int(of[i]) for i, kind in enumerate(kinds) if int(kind) == SENS_TOUCH]
     bodies = [owners[site] for site in sites]
     yield from _none_of_many(model)
     for sensor, seen in touched(simulation).items():
         site = int(of[sensor])
-        if int(kinds[sensor]) != TOUCH or (bodies.count(owners[site]) > 1 and not _dwarf(simulation, site, sites)):
+        if int(kinds[sensor]) != SENS_TOUCH or (bodies.count(owners[site]) > 1 and not _dwarf(simulation, site, sites)):
             continue
         if seen.reach < (AWAY if seen.reading > 0 else NEAR) * max(simulation.row("site_size", site, 3)):
             continue
@@ -106,7 +106,7 @@ def _none_of_many(model: ReaderModel) -> Iterator[Suspect]:
     sites, owners = of.model("sensor_objid"), of.model("site_bodyid")
     bodies: dict[int, list[int]] = {}
     for sensor, seen in touched(of).items():
-        if int(of.model("sensor_type")[sensor]) == TOUCH and seen.carried > 0:
+        if int(of.model("sensor_type")[sensor]) == SENS_TOUCH and seen.carried > 0:
             bodies.setdefault(int(owners[int(sites[sensor])]), []).append(sensor)
     for body, sensors in bodies.items():
         several = [int(sites[sensor]) for sensor in sensors]

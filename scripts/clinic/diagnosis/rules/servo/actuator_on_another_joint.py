@@ -44,7 +44,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "An actuator drives another joint than its name says"
 FAMILIES = ("stuck", "drifts", "sags")
-SINCE = "0.1"
 
 LONG = 4  # letters
 WORDS = ("actuator", "act", "motor", "servo", "joint", "ctrl", "pos", "position", "torque", "a", "m", "j", "t")

@@ -53,6 +53,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes import equalities
 from clinic.diagnosis.probes.copied import Line, misled
+from clinic.diagnosis.probes.equalities import TIED
 from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.probes.tendons import joints_of, pulled
 from clinic.diagnosis.reader_model import ReaderModel
@@ -61,11 +62,8 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "An actuator pulls another tendon than its name says"
 FAMILIES = ("stuck", "drifts", "sags")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have actuators on tendons"
 
-TIED = 3  # mjtEq: two tendons
 ACTS = ("stiffness", "damping", "frictionloss", "limited")
 
 

@@ -49,8 +49,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "An adhesion that holds nothing"
 FAMILIES = ("slips", "falls-through")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have an adhesion"
 
 LIFTS = 5.0  # times the weight

@@ -42,8 +42,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A ball joint with too few motors"
 FAMILIES = ("stuck", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "the healthy models drive few ball joints"
 
 AXES, LEAST = 3, 1e-6
@@ -64,9 +62,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         probe = Probe("axes of a ball joint that nothing drives", "", _missing, (joint,), dynamic=False)
         names = (of.name("joint", joint), *(of.name("actuator", each) for each in driving))
         element = model.element("actuator", driving[0])
-        yield Suspect(
-            names, "gear", gears[0], "three actuators", (), probe, 0, says, "three axes", level="hint", at=element
-        )
+        yield Suspect(names, "gear", gears[0], "three actuators", (), probe, 0, says, "three axes", at=element)
 
 
 def _driving(of: Simulation, joint: int) -> list[int]:

@@ -59,8 +59,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "One servo without a control range"
 FAMILIES = ("passes-limit", "explodes", "stuck")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a servo without a range harms only when it is sent beyond"
 
 FEW, MORE = 2, 3

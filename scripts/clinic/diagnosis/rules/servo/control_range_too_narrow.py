@@ -48,7 +48,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "The control range misses the joint's range"
 FAMILIES = ("stuck", "passes-limit", "sags")
-SINCE = "0.1"
 CASE = "servo-moves-a-fraction"
 
 MISSED, UNLED = 0.6, 0.9

@@ -49,7 +49,6 @@ from clinic.diagnosis.suspect import Level, Probe, Suspect
 
 TITLE = "The control range goes beyond the joint's range"
 FAMILIES = ("passes-limit", "stuck", "explodes")
-SINCE = "0.1"
 LEVEL = "hint"
 CASE = "finger-passes-its-limit"
 

@@ -61,7 +61,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "One control range is not the joint's"
 FAMILIES = ("stuck", "passes-limit")
-SINCE = "0.1"
 LEVEL = "hint"
 
 ALIKE, UNLIKE, FAR, FEW = 0.01, 0.03, 0.9, 2

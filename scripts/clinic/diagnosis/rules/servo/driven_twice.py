@@ -52,8 +52,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "Two actuators on one joint"
 FAMILIES = ("stuck", "sags", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "an actuator on another joint is planted for actuator-on-another-joint"
 
 KINDS = ("gaintype", "biastype", "dyntype")

@@ -42,8 +42,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A force range that leaves no force"
 FAMILIES = ("stuck",)
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model has an actuator that may only push or pull"
 
 

@@ -38,8 +38,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A joint's force limit below its actuator's"
 FAMILIES = ("stuck", "sags", "slow")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "nearly no healthy model has both limits"
 
 TIMES = 1.2

@@ -57,7 +57,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A force range too small for the weight"
 FAMILIES = ("sags", "stuck")
-SINCE = "0.1"
 CASE = "arm-stops-short"
 
 STRAIN = 1.2
@@ -240,7 +239,6 @@ def _undriven(model: ReaderModel) -> Iterator[Suspect]:
             STRAIN,
             f"The weight at {name} is up to {need:.3g}, and no actuator may give more than {limit:.3g} there.",
             "1 and less; motors are chosen for twice the weight and more",
-            level="hint",
         )
 
 

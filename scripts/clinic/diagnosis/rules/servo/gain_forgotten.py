@@ -56,8 +56,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, counted, rounded
 
 TITLE = "A servo without a gain among others that have one"
 FAMILIES = ("sags", "stuck", "oscillates")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a gain that is as small as the default is planted as a weak servo"
 
 SLOW = 3.0  # rad/s

@@ -40,8 +40,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A gain that is not the servo's bias"
 FAMILIES = ("stuck", "passes-limit", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a control that is scaled differs from a slip by intent alone"
 
 OFF, SCALED = 0.02, 5.0

@@ -40,7 +40,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A gear that divides the servo's target"
 FAMILIES = ("sags", "stuck", "oscillates")
-SINCE = "0.1"
 LEVEL = "hint"
 MOST = 1.5
 

@@ -41,11 +41,10 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator, Sequence
 
-from clinic.diagnosis.engine import HINGE, SLIDE, TRN_IN_PARENT, WRAP_JOINT
+from clinic.diagnosis.engine import HINGE, SLIDE, TRN_IN_PARENT, TRN_TENDON, WRAP_JOINT
 from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, WELD, held, kind_of, sited
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.siblings import groups
-from clinic.diagnosis.probes.tendons import TENDON
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -53,8 +52,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A joint without an actuator among others that have one"
 FAMILIES = ("stuck", "sags", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no kind of fault in the bench takes an actuator away"
 
 MOST, MANY, NUMBER = 2, 8, re.compile(r"\d+")
@@ -139,7 +136,7 @@ def _turns(of: Simulation, *joints: int) -> bool:
 def _moved(of: Simulation) -> set[int]:
     """The joints that an actuator, a tendon or a coupling moves; none where other things are driven."""
     kinds = [int(each) for each in of.model("actuator_trntype")]
-    if any(kind > TRN_IN_PARENT and kind != TENDON for kind in kinds):
+    if any(kind > TRN_IN_PARENT and kind != TRN_TENDON for kind in kinds):
         return set()
     made = set(of.drivers)
     if not made:

@@ -48,8 +48,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A servo's two parts are clipped apart"
 FAMILIES = ("sags", "stuck")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model of the bench has a servo of two actuators"
 
 

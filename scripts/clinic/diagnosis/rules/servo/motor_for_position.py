@@ -40,8 +40,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A motor that is told angles"
 FAMILIES = ("sags", "stuck", "drifts", "passes-limit")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "which unit a control has, only intent knows"
 
 NEAR = 0.01  # of the range

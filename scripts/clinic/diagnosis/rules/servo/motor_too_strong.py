@@ -40,8 +40,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A motor far too strong for its joint"
 FAMILIES = ("explodes", "oscillates", "slips")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a gear that is too large by a hundred is planted as that of a pair"
 
 FAST, USUAL, SECONDS = 1000.0, 300.0, 0.2  # rad/s, rad/s, s

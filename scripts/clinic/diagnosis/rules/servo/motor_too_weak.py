@@ -34,16 +34,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import BIAS_AFFINE
 from clinic.diagnosis.probes.load import loads
-from clinic.diagnosis.probes.servo import AFFINE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A motor too weak for what it moves"
 FAMILIES = ("stuck", "sags", "slow")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "how fast a joint should be, its maker knows"
 
 SLOW = 1.0  # s2/m, s2/rad
@@ -101,7 +99,7 @@ def _strongest(of: Simulation, actuator: int) -> float:
 def _burden(of: Simulation, actuator: int) -> float:
     """The greatest load of a joint's weight over what its velocity servo gives while it stands; 0 for what is none."""
     joint, bias = of.driven_joint(actuator), of.bias(actuator)[:3]
-    velocity = int(of.model("actuator_biastype")[actuator]) == AFFINE and not any(bias[:2]) and bias[2] < 0
+    velocity = int(of.model("actuator_biastype")[actuator]) == BIAS_AFFINE and not any(bias[:2]) and bias[2] < 0
     if joint is None or not velocity or not of.model("actuator_ctrllimited")[actuator] or len(of.drivers[joint]) > 1:
         return 0.0
     if of.model("jnt_stiffness")[joint] or of.count("equality") or of.count("tendon"):

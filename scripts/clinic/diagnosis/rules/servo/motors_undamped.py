@@ -48,17 +48,15 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.servo.no_armature import ROTOR
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Motors on joints that nothing damps"
 FAMILIES = ("oscillates", "explodes", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "the harm shows under a controller in code alone"
 
 ENOUGH, LEAST = 3, 1.0  # motors; N m s/rad
-ROTOR = 0.01  # kg m2
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -53,8 +53,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A muscle is excited below zero"
 FAMILIES = ("stuck", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 MINOR = True
 UNPLANTED = "no healthy model has muscles with a range of their own"
 

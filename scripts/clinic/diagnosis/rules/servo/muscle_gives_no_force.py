@@ -48,8 +48,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A muscle that gives no force"
 FAMILIES = ("stuck", "sags")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a muscle may be paralysed on purpose"
 
 LEAST = 0.9

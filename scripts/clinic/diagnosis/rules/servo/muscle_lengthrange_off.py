@@ -47,8 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A muscle whose length range is another's"
 FAMILIES = ("stuck", "sags", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "the healthy models of the bench have no muscles with a length range of their own"
 
 LIMIT, USUAL = 0.2, 1 / 3

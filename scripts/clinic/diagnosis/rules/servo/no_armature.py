@@ -38,9 +38,10 @@ import math
 from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import DEFAULT_TIMESTEP, IMPLICIT, IMPLICITFAST
 from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.probes.matter import explicit
-from clinic.diagnosis.probes.run import fastest
+from clinic.diagnosis.probes.run import FAST, fastest
 from clinic.diagnosis.probes.servo import COEFFICIENTS, damped_beyond, feedback
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
@@ -49,14 +50,10 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A gain too high for a joint without armature"
 FAMILIES = ("explodes", "oscillates")
-SINCE = "0.1"
 CASE = "hand-shakes-at-once"
 
-USUAL = 0.002  # s
-IMPLICIT = (2, 3)  # mjtIntegrator that treats an actuator's damping implicitly
-FAST = 100.0
 NEAR = 0.5  # of what one joint alone bears: in a chain it is less
-ROTOR = 0.01  # kg m2
+ROTOR = 0.01  # kg m2 at the joint, of a motor behind its gear
 ABSURD = 30.0  # h d / M: ten times what RK4 bears, and no damping of that inertia
 
 
@@ -67,8 +64,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     thin = {body for body, each in explicit(model) if each.absurd and each.radius < 1}  # the inertia is the fault
     bodies = simulation.model("jnt_bodyid")
     gains = {joint: each for joint, each in _gains(simulation).items() if bodies[joint] not in thin}
-    found = {joint: each for joint, each in gains.items() if _excess(each, min(step, USUAL)) > NEAR}
-    if not found and len(gains) > 1 and step <= 5 * USUAL:
+    found = {joint: each for joint, each in gains.items() if _excess(each, min(step, DEFAULT_TIMESTEP)) > NEAR}
+    if not found and len(gains) > 1 and step <= 5 * DEFAULT_TIMESTEP:
         usual = sorted(_excess(each, step) for each in gains.values())[(len(gains) - 1) // 2]
         found = {joint: each for joint, each in gains.items() if _excess(each, step) > max(NEAR, 10 * usual)}
     if not found:
@@ -114,7 +111,7 @@ def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
     bounded = probe == commanded() and math.isfinite(model.measured(probe))
     if bounded:  # so fast may a wheel be, and a propeller
         light = [joint for joint in light if of.model("jnt_limited")[joint]]
-    if not light or probe is None or of.timestep > 5 * USUAL:
+    if not light or probe is None or of.timestep > 5 * DEFAULT_TIMESTEP:
         return
     least = min(light, key=lambda joint: inertia[of.dof(joint)])
     few = f"{inertia[of.dof(least)]:.2g} {COEFFICIENTS[of.unit(least)][2]}"
@@ -143,7 +140,7 @@ def _symptom(model: ReaderModel) -> Probe | None:
 def _gains(simulation: Simulation) -> dict[int, tuple[float, float, float, float]]:
     """Position gain, velocity gain where it is explicit, inertia, and velocity gain where it is implicit, by joint."""
     made: dict[int, tuple[float, float, float, float]] = {}
-    implicit = int(simulation.model("opt.integrator")[0]) in IMPLICIT
+    implicit = int(simulation.model("opt.integrator")[0]) in (IMPLICIT, IMPLICITFAST)
     for joint, (kp, kv) in feedback(simulation).items():
         inertia = max(simulation.mass_diagonal[simulation.dof(joint)], 1e-12)
         made[joint] = (kp, kv * (not implicit), inertia, kv * implicit)

@@ -43,7 +43,8 @@ import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.probes.tendons import TENDON, joints_of
+from clinic.diagnosis.engine import BIAS_NONE, GAIN_FIXED, TRN_TENDON
+from clinic.diagnosis.probes.tendons import joints_of
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -51,8 +52,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A motor that pushes a rope"
 FAMILIES = ("drifts", "stuck")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a tendon may stand for a piston"
 
 MOST = 10.0  # times what it pulls
@@ -92,7 +91,7 @@ def _forces(of: Simulation, actuator: int) -> tuple[float, float]:
     """The most that a motor on a spatial tendon pushes and pulls in N; zeros for another actuator."""
     fields = [of.model(f"actuator_{field}")[actuator] for field in ("trntype", "gaintype", "biastype", "ctrllimited")]
     tendon = int(of.model("actuator_trnid")[2 * actuator])
-    if tuple(map(int, fields)) != (TENDON, 0, 0, 1):
+    if tuple(map(int, fields)) != (TRN_TENDON, GAIN_FIXED, BIAS_NONE, 1):
         return 0.0, 0.0
     if joints_of(of, tendon):
         return 0.0, 0.0

@@ -49,8 +49,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A rotor unlike the others"
 FAMILIES = ("drifts", "stuck")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "only one of the healthy models flies"
 
 ENOUGH, SAME, ASIDE = 3, 1e-3, 0.7  # rotors, m, cosine

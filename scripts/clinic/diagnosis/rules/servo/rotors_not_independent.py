@@ -35,6 +35,9 @@ Good:
 The number: the volume that thrust and the torques about the drone's three axes span, each made as long as 1; four
 rotors that are arranged well have 1, and those that cannot be told apart 0. Suspected is less than a hundredth.
 
+A rotor that turns on a hinge of its own must hand its drag on to the drone: through the hinge's damping. About a hinge
+with neither damping nor friction the torque makes the rotor ever faster, and the drone feels nothing of it.
+
 When it is wrong: a drone that turns by other means. Only the drone itself tells which way its rotors turn: a hint.
 """
 
@@ -43,24 +46,25 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.rotors import rotors
-from clinic.diagnosis.probes.vector import add, dot, norm
+from clinic.diagnosis.probes.vector import add, dot, norm, times
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, how_many, rounded
 
 TITLE = "Rotors that cannot yaw alone"
 FAMILIES = ("drifts", "stuck")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "only one of the healthy models flies"
 
 ROTORS, LEAST = 4, 0.01
+ALONG, SPIN = 0.9, 500.0  # cosine; rad/s, at which damping hands the whole torque on
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Four motors at sites of one free body, with thrust and drag, whose effects are not independent."""
     of = model.simulation
+    yield from _loose(model)
     for body in of.free_bodies:
         found = rotors(of, body)
         if len(found) != ROTORS or _spanned(of, body) >= LEAST:
@@ -77,6 +81,46 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         says = "Those on one side turn alike, so that yaw comes with roll or pitch."
         now = ", ".join(f"{gear[5]:+g}" for gear in gears)
         yield Suspect(names, "gear", now, "diagonal ones alike", edits, probe, 1 - LEAST, says, "diagonal rotors alike")
+
+
+def _loose(model: ReaderModel) -> Iterator[Suspect]:
+    """The hinges about which a rotor's drag does nothing but spin it."""
+    of = model.simulation
+    hinges = _freely_turned(of)
+    if not hinges:
+        return
+    inertia, torque = (max(each) for each in zip(*hinges.values(), strict=True))
+    probe = how_many("rotors whose torque turns nothing but themselves", _freely_turned)
+    edits = model.set("joint", list(hinges), "damping", rounded(torque / SPIN))
+    names = tuple(of.name("joint", joint) for joint in hinges)
+    says = (
+        f"Its torque of {torque:.3g} N m is about the axis of {names[0]}, which has no damping: it spins an inertia of "
+    )
+    says += f"{inertia:.2g} kg m2 ever faster, and never reaches the body."
+    value = rounded(torque / SPIN)
+    yield Suspect(names, "damping", "0", value, edits, probe, 0, says, f"{torque:.3g} N m at {SPIN:g} rad/s")
+
+
+def _freely_turned(of: Simulation) -> dict[int, tuple[float, float]]:
+    """By hinge without damping, friction and limits about which a rotor's drag is: its inertia, and the torque."""
+    sites, bodies, made = of.model("actuator_trnid"), of.model("site_bodyid"), dict[int, tuple[float, float]]()
+    for each in (each for body in of.free_bodies for each in rotors(of, body) if norm(each.drag)):
+        site = int(sites[2 * each.actuator])
+        drag = of.row("actuator_gear", each.actuator, 6)[3:]
+        for joint in of.joints_of(int(bodies[site])):
+            dof = of.dof(joint)
+            held = of.model("jnt_limited")[joint] or of.model("dof_damping")[dof] or of.model("dof_frictionloss")[dof]
+            if of.joint_type(joint) == HINGE and not held and not of.model("jnt_stiffness")[joint]:
+                of.begin()
+                along = abs(dot(of.data_row("xaxis", joint, 3), times(of.data_row("site_xmat", site, 9), drag)))
+                ends = (
+                    of.row("actuator_ctrlrange", each.actuator, 2)
+                    if of.model("actuator_ctrllimited")[each.actuator]
+                    else (1.0,)
+                )
+                if along > ALONG * norm(drag):
+                    made[joint] = of.mass_diagonal[dof], along * max(map(abs, ends))
+    return made
 
 
 def _spanned(of: Simulation, body: int) -> float:

@@ -73,8 +73,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "Rotors that do not hover"
 FAMILIES = ("drifts", "sags")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "only one of the healthy models flies"
 
 HOVER = re.compile(r"(?i)hover")

@@ -43,7 +43,6 @@ from clinic.diagnosis.suspect import Suspect, rounded
 
 TITLE = "A joint that holds its servo back"
 FAMILIES = ("stuck", "sags", "drifts")
-SINCE = "0.1"
 LEVEL = "hint"
 
 LATE = {True: 0.6, False: 10.0}  # s: by hinge, slide

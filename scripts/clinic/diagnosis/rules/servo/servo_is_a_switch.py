@@ -43,8 +43,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A servo that switches from end to end of its force"
 FAMILIES = ("oscillates", "slips")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a gain that high is planted as one that is too high for the inertia"
 
 STIFF, SWIFT, TURNS = 4.0, 5.0, 0.3

@@ -47,8 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A servo that works to one side only, or to the wrong one"
 FAMILIES = ("stuck", "drifts", "sags")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "whether a joint needs both sides, only its maker knows"
 
 LITTLE, END, BEYOND = 0.05, 0.001, 0.2

@@ -36,20 +36,18 @@ import math
 from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import DYN_MUSCLE
+from clinic.diagnosis.engine import DYN_FILTER, DYN_FILTEREXACT, DYN_MUSCLE
 from clinic.diagnosis.probes.load import sags, travel
-from clinic.diagnosis.probes.servo import AFFINE, FIXED, servos
+from clinic.diagnosis.probes.servo import affine, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "An actuator that lags by a second"
 FAMILIES = ("slow", "oscillates")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have actuators with a filter"
 
-FILTERS, SLOW = (2, 3), 0.5  # mjDYN_FILTER and mjDYN_FILTEREXACT; s
+FILTERS, SLOW = (DYN_FILTER, DYN_FILTEREXACT), 0.5  # s
 LATE, PROMPT = 0.6, 0.2  # s: the quotient that is told, and that an edit leaves
 SAGS = 0.1  # of a joint's way
 USUAL = {True: "0.01 0.04", False: "0.02"}  # of a muscle, of others
@@ -90,7 +88,7 @@ def _damped(model: ReaderModel) -> Iterator[Suspect]:
     probe = Probe("kv over kp", "s", _lag, (worst,), dynamic=False)
     value = rounded(kv * PROMPT / times[worst])
     healthy = "0.5 s is the most of 55 healthy models with servos"
-    yield Suspect(names, "kv", f"{kv:.3g}", value, (), probe, LATE - 1e-6, says, healthy, level="hint")
+    yield Suspect(names, "kv", f"{kv:.3g}", value, (), probe, LATE - 1e-6, says, healthy)
 
 
 def _weak(of: Simulation, actuators: Collection[int]) -> bool:
@@ -101,9 +99,8 @@ def _weak(of: Simulation, actuators: Collection[int]) -> bool:
 
 def _lag(of: Simulation, actuator: int) -> float:
     """kv over kp of a position servo in s; 0 of another actuator."""
-    kinds = [int(of.model(f"actuator_{kind}type")[actuator]) for kind in ("gain", "bias", "dyn")]
-    bias = of.bias(actuator)
-    return bias[2] / bias[1] if kinds == [FIXED, AFFINE, 0] and bias[1] < 0 and of.gain(actuator)[0] else 0.0
+    bias, plain = of.bias(actuator), affine(of, actuator) and not of.model("actuator_dyntype")[actuator]
+    return bias[2] / bias[1] if plain and bias[1] < 0 and of.gain(actuator)[0] else 0.0
 
 
 def _attribute(model: ReaderModel, actuator: int) -> str:

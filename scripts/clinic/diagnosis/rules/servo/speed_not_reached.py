@@ -51,9 +51,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import HINGE
+from clinic.diagnosis.engine import BIAS_AFFINE, HINGE
 from clinic.diagnosis.probes.load import loads
-from clinic.diagnosis.probes.servo import AFFINE, speed_gain
+from clinic.diagnosis.probes.servo import speed_gain
 from clinic.diagnosis.probes.shape import size
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -61,8 +61,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A joint far below the speed it is told"
 FAMILIES = ("stuck", "slow")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "nearly no healthy model has velocity servos of wheels"
 
 MISSING, HALF, SECONDS, MORE = 0.8, 0.5, 2.0, 20.0
@@ -129,7 +127,7 @@ def _wheels(of: Simulation) -> list[Wheel]:
     for actuator in range(of.count("actuator")):
         joint = of.driven_joint(actuator)
         limited = of.model("actuator_ctrllimited")[actuator]
-        if joint is None or not limited or int(of.model("actuator_biastype")[actuator]) != AFFINE:
+        if joint is None or not limited or int(of.model("actuator_biastype")[actuator]) != BIAS_AFFINE:
             continue
         gain = speed_gain(of, actuator)
         gear = of.gear(actuator)

@@ -45,8 +45,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "A spring that holds its servo back"
 FAMILIES = ("sags", "stuck")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a spring beside a servo may be meant"
 
 MOST = 0.2  # of the way

@@ -59,7 +59,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An actuator far stronger or weaker than all others"
 FAMILIES = ("stuck", "sags", "explodes", "drifts")
-SINCE = "0.1"
 LEVEL = "hint"
 
 MOST, LEAST = 8.0, 4  # times; actuators of one kind

@@ -34,15 +34,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import DYN_MUSCLE
-from clinic.diagnosis.probes.servo import AFFINE, INTEGRATOR
+from clinic.diagnosis.engine import BIAS_AFFINE, DYN_INTEGRATOR, DYN_MUSCLE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A servo that does not hold its target"
 FAMILIES = ("stuck", "explodes", "sags", "passes-limit")
-SINCE = "0.1"
 
 
 def _away(simulation: Simulation, actuators: tuple[int, ...]) -> float:
@@ -98,9 +96,9 @@ def _found(model: ReaderModel) -> list[tuple[int, float, tuple[float, ...]]]:
     """The actuators that do not pull towards their target, with the gain and the bias of each."""
     simulation, made = model.simulation, []
     for actuator in range(simulation.count("actuator")):
-        if int(simulation.model("actuator_biastype")[actuator]) != AFFINE:
+        if int(simulation.model("actuator_biastype")[actuator]) != BIAS_AFFINE:
             continue
-        if int(simulation.model("actuator_dyntype")[actuator]) in (INTEGRATOR, DYN_MUSCLE):
+        if int(simulation.model("actuator_dyntype")[actuator]) in (DYN_INTEGRATOR, DYN_MUSCLE):
             continue
         if (placed := model.element("actuator", actuator)) is not None and placed.tag == "cylinder":
             continue  # whose force is that of a pressure

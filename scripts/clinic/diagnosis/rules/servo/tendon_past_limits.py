@@ -53,8 +53,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A servo on a tendon pulls joints past their limits"
 FAMILIES = ("passes-limit", "stuck")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have servos on tendons"
 
 MOST, SECONDS, HALVES = 0.3, 1.0, 6

@@ -55,8 +55,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A servo whose tendon cannot be as long as it is told"
 FAMILIES = ("stuck", "passes-limit", "jumps-at-start")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have servos on tendons"
 
 MOST, SPARE, LEAST = 2 / 3, 0.2, 0.05

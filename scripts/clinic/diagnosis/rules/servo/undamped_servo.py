@@ -48,7 +48,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "An undamped servo rings"
 FAMILIES = ("oscillates", "explodes")
-SINCE = "0.1"
 CASE = "servo-oscillates"
 
 WELL = "a damping ratio of 0.7 to 1 (MuJoCo's manual, dampratio)"

@@ -59,7 +59,6 @@ from clinic.diagnosis.suspect import Suspect, rounded
 
 TITLE = "A servo too weak for the weight it carries"
 FAMILIES = ("sags", "drifts")
-SINCE = "0.1"
 CASE = "servo-sags"
 
 LATE, CRAWLS = 0.6, 10.0  # s: the time constant above which a step is tried, of a hinge and a slide
@@ -182,7 +181,6 @@ def _little(model: ReaderModel, found: dict[int, float]) -> Iterator[Suspect]:
             f"The weight at {of.name('joint', worst.joint)}, up to {load:.3g} {worst.force_unit}, moves it "
             f"{sagging:.2g} {worst.unit} off its target{share}, unless gravcomp takes the weight away.",
             f"below {part * LITTLE:g} rad, or {100 * part * SHARE:g} % of the range of a slide",
-            level="hint",
         )
 
 

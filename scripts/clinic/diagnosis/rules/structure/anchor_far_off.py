@@ -48,8 +48,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An anchor far from what it connects"
 FAMILIES = ("drifts", "jumps-at-start", "explodes")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "the 81 models of the bench connect nothing by an anchor"
 
 STRAIGHT = 1.02

@@ -39,8 +39,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "An angle in another unit"
 FAMILIES = ("wrong-numbers", "camera", "jumps-at-start", "sensor-reads-zero")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "which turn a part should have, only a drawing tells"
 
 TURNED = ("body", "geom", "site", "camera", "frame", "inertial", "replicate")

@@ -83,9 +83,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An arm unlike the data sheet of its name"
 FAMILIES = ("wrong-numbers", "drifts", "wrong-mass", "passes-limit")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "one of the 81 models of the bench is an arm that is sold"
 
 TURNED, ACROSS = math.radians(5), 0.5  # of a hand; the sine of the angle between its fingers' way and the flange's axis
@@ -233,7 +231,7 @@ def _hand(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     says = f"Its fingers slide {off:.0f} degrees aside from where those of {arm.names[0]} do: it is mounted so."
     names, value = (hand, *(of.name("joint", joint) for joint in fingers)), f"turned by {off:.0f} degrees"
     probe = Probe("way of the fingers off", "rad", _aside, (row.joints, fingers[0], arm.grip), dynamic=False)
-    yield Suspect(names, "quat", "", value, (), probe, TURNED, says, value, level="hint")
+    yield Suspect(names, "quat", "", value, (), probe, TURNED, says, value)
 
 
 def _aside(of: Simulation, joints: tuple[int, ...], finger: int, grip: float) -> float:
@@ -266,7 +264,7 @@ def _mass(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
         now, value = f"{own:.4g} kg", f"{own * alone[1]:.4g} kg"
         total = weight + own * (alone[1] - 1)
         says += f" With {value} in place of {now} for {names[0]} it is {total:.3g} kg: its point is misplaced."
-    yield Suspect(names, "mass", now, value, (), probe, most, says, f"{arm.mass:.3g} kg", excess=off, level="hint")
+    yield Suspect(names, "mass", now, value, (), probe, most, says, f"{arm.mass:.3g} kg", excess=off)
 
 
 def _shifted(of: Simulation, joints: tuple[int, ...], right: float) -> tuple[int, float] | None:

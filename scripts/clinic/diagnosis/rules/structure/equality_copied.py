@@ -57,8 +57,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "An equality copied and not adapted"
 FAMILIES = ("stuck", "drifts", "jumps-at-start")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have equalities on both sides"
 
 

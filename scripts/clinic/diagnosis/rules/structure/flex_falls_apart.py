@@ -37,8 +37,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, counted
 
 TITLE = "A flex that falls apart or goes flat"
 FAMILIES = ("explodes", "falls-through", "sags")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model with a flex is planted with faults"
 
 FLAT = 0.7  # of its height

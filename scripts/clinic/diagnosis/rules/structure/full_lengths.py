@@ -42,8 +42,6 @@ from clinic.diagnosis.suspect import Suspect, counted, how_many
 
 TITLE = "A size with full lengths"
 FAMILIES = ("jumps-at-start", "explodes", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "how large a box should be, only its maker knows"
 
 WALLS, OUT = 3, 0.02  # others in a row; of the length of all others

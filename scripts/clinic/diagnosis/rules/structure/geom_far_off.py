@@ -43,9 +43,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A geom far away from the rest"
 FAMILIES = ("jumps-at-start", "drifts", "stuck")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "what is far away harms by what happens to be there"
 
 FAR, ENOUGH = 3.0, 3

@@ -51,9 +51,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A geom larger than all the rest"
 FAMILIES = ("jumps-at-start", "stuck", "wrong-mass", "explodes")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "how large a geom should be, only its maker knows"
 
 LARGE, ENOUGH = 2.0, 3

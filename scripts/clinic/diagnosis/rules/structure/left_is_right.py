@@ -45,8 +45,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "What is called left is on the right"
 FAMILIES = ("drifts", "camera", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "which side is which, only the names of a pair tell"
 
 LEAST, ALIKE = 0.005, 0.9  # m; cosine between the views of two cameras

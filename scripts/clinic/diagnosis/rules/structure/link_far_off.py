@@ -43,8 +43,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A link far from what it hangs on"
 FAMILIES = ("sags", "jumps-at-start", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "where a link belongs, only a drawing tells"
 
 FAR, METRES, BESIDE = 20.0, 2.0, 0.4  # what two bodies count for beside the whole mechanism

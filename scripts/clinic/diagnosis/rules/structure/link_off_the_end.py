@@ -47,9 +47,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A link off the end of the one before"
 FAMILIES = ("drifts", "stuck", "jumps-at-start", "wrong-numbers")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "where a link belongs, only a drawing tells"
 
 APART, TOUCHES, LINKS, LARGE = 0.3, 0.05, 3, 100  # sizes of the link; bodies

@@ -69,8 +69,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A mechanism that its loops lock"
 FAMILIES = ("stuck", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "the healthy models have few loops"
 
 MOST, SMALL = 0.1, 1e-3  # shares of how fast a joint tears at the connections

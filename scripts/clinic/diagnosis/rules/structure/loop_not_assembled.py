@@ -56,9 +56,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A loop that is not closed at the start"
 FAMILIES = ("jumps-at-start", "explodes", "stuck")
-SINCE = "0.1"
 CASE = "linkage-jumps-at-start"
-LEVEL = "hint"
 UNPLANTED = "the healthy models connect and weld nothing but what is moved by mocap"
 
 CLOSED, MANY, LONG = 1e-3, 3, 12  # of the gap; loops that are open; bodies of a loop

@@ -57,8 +57,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "The mesh of another link"
 FAMILIES = ("wrong-numbers", "jumps-at-start", "stuck")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "what a mesh is called after, only names tell"
 
 MANY = 3

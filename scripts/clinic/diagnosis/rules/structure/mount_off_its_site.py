@@ -44,9 +44,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A tool beside the site that it belongs to"
 FAMILIES = ("wrong-numbers", "jumps-at-start", "drifts")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "few healthy models have a tool in a body of its own, and a site for it"
 
 PLACE = re.compile(r"attach|flange|mount|tool|tcp", re.IGNORECASE)

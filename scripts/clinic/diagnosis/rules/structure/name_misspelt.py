@@ -53,8 +53,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A name that is misspelt"
 FAMILIES = ("wrong-numbers", "stuck")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "what a name is to be, only its siblings tell"
 
 KINDS = ("body", "joint", "actuator", "sensor", "site")
@@ -77,9 +75,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 value = _corrected(name, word, meant[0])
                 probe = counted("names with a word that is nearly another", 1)
                 at = model.element(kind, index)
-                yield Suspect(
-                    (of.name(kind, index),), "name", name, value, (), probe, 0, says, value, level="hint", at=at
-                )
+                yield Suspect((of.name(kind, index),), "name", name, value, (), probe, 0, says, value, at=at)
 
 
 def _corrected(name: str, word: str, meant: str) -> str:

@@ -35,8 +35,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A number that is none"
 FAMILIES = ("wrong-numbers", "explodes", "camera")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "the compiler refuses most of what one would plant"
 
 NONE = re.compile(r"[-+]?nan", re.IGNORECASE)

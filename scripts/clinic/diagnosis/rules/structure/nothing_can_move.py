@@ -39,7 +39,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Nothing can move"
 FAMILIES = ("stuck", "falls-through")
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "a healthy model in which nothing moves is left out of the bench"
 
 FREE_JOINT = "<freejoint/>"

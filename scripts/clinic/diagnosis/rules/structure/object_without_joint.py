@@ -50,8 +50,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "An object without a joint"
 FAMILIES = ("stuck",)
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "only intent knows what is to stay where it is"
 
 HANGS, NEAR, SMALL = 0.005, 0.001, 0.15  # m above the floor, and from other things; half of what a gripper holds

@@ -57,8 +57,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "Two parts in one place"
 FAMILIES = ("jumps-at-start", "stuck", "slips")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "fingers of healthy models that are put in one place are told as overlapping"
 
 NEAR = 1e-6  # m

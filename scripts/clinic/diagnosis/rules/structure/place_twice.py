@@ -39,9 +39,7 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A place that is written twice"
 FAMILIES = ("wrong-numbers", "jumps-at-start", "stuck")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "no healthy model has a geom at the place of its body"
 
 AWAY, SAME = 0.02, 1e-6  # m

@@ -48,8 +48,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "Quaternions in the other order"
 FAMILIES = ("wrong-numbers", "drifts", "jumps-at-start", "camera")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "healthy models of the bench have too few quaternions"
 
 LEAST, HALF = 2, 0.5  # quaternions; of the length

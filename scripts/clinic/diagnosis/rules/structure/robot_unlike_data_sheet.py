@@ -80,9 +80,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A robot unlike the data sheet of its name"
 FAMILIES = ("wrong-numbers", "stuck", "passes-limit")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "few of the models of the bench are robots that are sold"
 
 STRONGER, STRONG = 0.05, 1 / 3  # of the effort; the share of the joints that have theirs

@@ -50,7 +50,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "The robot is fixed to the world"
 FAMILIES = ("stuck",)
-SINCE = "0.1"
 LEVEL = "hint"
 
 LEG = re.compile(r"(?<![a-z])[lr]?(hip|thigh|knee|calf|shin|ankle|leg|foot|femur|tibia)(?![a-z])", re.IGNORECASE)

@@ -42,8 +42,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Scenery that can move"
 FAMILIES = ("drifts", "slips")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "only intent knows what is scenery"
 
 SCENERY = frozenset(

@@ -42,8 +42,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A site far outside of its robot"
 FAMILIES = ("wrong-numbers", "sensor-reads-zero")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "where a site is meant to be stands nowhere"
 
 FAR, LEAST = 0.3, 0.5  # of the box's diagonal; m

@@ -50,8 +50,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An equality that gives way"
 FAMILIES = ("drifts", "sags")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a soft equality may be meant"
 
 MOST, BY_MOCAP = 0.1, 0.3  # s

@@ -41,8 +41,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "An element that is passed over"
 FAMILIES = ("jumps-at-start", "wrong-mass", "camera")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "only URDF has such elements, and the healthy models are MJCF"
 
 INSIDE = {

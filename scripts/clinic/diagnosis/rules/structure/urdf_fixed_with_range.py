@@ -45,8 +45,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A fixed joint with a range"
 FAMILIES = ("stuck",)
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "the healthy models that faults are planted in are MJCF"
 
 WHEEL = re.compile(r"(?i)wheel(?!.*(cover|mount|guard|encoder|hub))(?<!caster_wheel)(?<!steering_wheel)")

@@ -54,9 +54,7 @@ from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "Something lower than the wheels, or a caster above them"
 FAMILIES = ("drifts", "slips", "jumps-at-start", "stuck")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "nearly no healthy model stands on wheels"
 
 CASTER = re.compile(r"caster|castor|ball_?wheel|roller", re.IGNORECASE)

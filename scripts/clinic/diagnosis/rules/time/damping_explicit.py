@@ -38,7 +38,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.drive import commanded
-from clinic.diagnosis.probes.run import fastest
+from clinic.diagnosis.probes.run import FAST, fastest
 from clinic.diagnosis.probes.servo import BEARS, COEFFICIENTS, damped_beyond, damping_is_implicit, explicit_damping
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
@@ -46,10 +46,9 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Damping that the integrator cannot follow"
 FAMILIES = ("explodes", "oscillates")
-SINCE = "0.1"
 CASE = "finger-explodes-at-once"
 
-FAST, TENTH = 100.0, 0.1  # rad/s; of the symptom is left
+TENTH = 0.1  # of the symptom is left
 SYMPTOMS = ((fastest(), FAST), (shake(), SHAKES), (commanded(), FAST))
 STOPS = 20.0  # h d / M of a joint that is at rest within a twentieth of a step
 

@@ -35,6 +35,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import ENERGY_ON, RK4
 from clinic.diagnosis.probes.run import resets
 from clinic.diagnosis.probes.servo import alone
 from clinic.diagnosis.reader_model import ReaderModel
@@ -43,14 +44,10 @@ from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "Energy from nowhere"
 FAMILIES = ("explodes", "oscillates")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a timestep that is too long is planted for timestep-too-long"
 
 GAIN, SHARE = 0.08, 0.5
 TIME = 2.0  # s
-ENERGY = 1 << 1  # mjtEnableBit
-RK4 = 1
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -71,7 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _gained(of: Simulation) -> float:
     """The most energy beyond that of the start, as a share of the most kinetic energy, in 2 s."""
     flags = of.model("opt.enableflags")[0]
-    of.engine.write_model("opt.enableflags", [int(flags) | ENERGY])
+    of.engine.write_model("opt.enableflags", [int(flags) | ENERGY_ON])
     try:
         of.begin()
         with alone(of, gravity=True, limp=True):

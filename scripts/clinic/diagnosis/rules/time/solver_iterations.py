@@ -38,7 +38,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The solver stops too early"
 FAMILIES = ("explodes", "sinks", "oscillates", "slips", "drifts")
-SINCE = "0.1"
 LEVEL = "hint"
 
 FAST, DEEP, HALF = 20.0, 0.005, 0.5  # rad/s; of the extent; of the symptom that may be left

@@ -45,8 +45,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import DEFAULT_TIMESTEP
 from clinic.diagnosis.probes.drive import commanded, pressed_in
-from clinic.diagnosis.probes.run import fastest, sunk
+from clinic.diagnosis.probes.run import FAST, fastest, sunk
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.probes.solver import patient
 from clinic.diagnosis.probes.springs import coarse, strays
@@ -54,16 +55,14 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.joint.tendon_outside_range import far_outside
 from clinic.diagnosis.rules.time.damping_explicit import overdamped
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Level, Probe, Suspect
 
 TITLE = "The timestep is too long"
 FAMILIES = ("explodes", "oscillates", "falls-through")
-SINCE = "0.1"
 
-FAST = 100.0  # rad/s
 SECONDS, WHOLE = 2.0, 0.9  # what is run, and the share of it that a run with a shorter step has to last
 SUNK, PRESSED = 0.05, 0.035  # of the model's extent
-USUAL, UNUSUAL = 0.002, 0.04  # s: MuJoCo's default, and what no healthy model has
+UNUSUAL = 0.04  # s, which no healthy model has
 STRAYS, FINE = 0.15, 10  # of a spring's range, from where a tenth of the step takes it
 CHANCE = 0.95  # of the step: what is well at that is no matter of its length
 TENTH, THIRD, HALF = 0.1, 1 / 3, 0.5  # what is left of a symptom that is gone; contacts are never without depth
@@ -97,7 +96,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             if model.measured(probe, edits) <= min(limit, share * before):
                 says = f"At {step / divisor:g} s the same motion stays calm."
                 now, value = f"{step:g}", f"{step / divisor:g}"
-                level = "hint" if probe in (commanded(), pressed_in()) and step <= USUAL else "cause"
+                level: Level = "hint" if probe in (commanded(), pressed_in()) and step <= DEFAULT_TIMESTEP else "cause"
                 yield Suspect(
                     ("the timestep",), "timestep", now, value, edits, probe, limit, says, share=share, level=level
                 )

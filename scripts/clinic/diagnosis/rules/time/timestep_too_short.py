@@ -36,8 +36,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A timestep that is too short"
 FAMILIES = ("slow", "stuck")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "it does no harm but to patience"
 
 MANY, USUAL = 50_000, "0.002"

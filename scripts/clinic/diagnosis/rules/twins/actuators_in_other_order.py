@@ -38,36 +38,14 @@ Bad:
 
 Good:
 
-    <mujoco>
-      <worldbody>
-        <body pos="0 0 1">
-          <freejoint/>
-          <geom size="0.1"/>
-          <body pos="0.2 0.1 0">
-            <joint name="FL" axis="0 1 0" damping="1"/>
-            <geom size="0.03"/>
-          </body>
-          <body pos="0.2 -0.1 0">
-            <joint name="FR" axis="0 1 0" damping="1"/>
-            <geom size="0.03"/>
-          </body>
-          <body pos="-0.2 0.1 0">
-            <joint name="RL" axis="0 1 0" damping="1"/>
-            <geom size="0.03"/>
-          </body>
-          <body pos="-0.2 -0.1 0">
-            <joint name="RR" axis="0 1 0" damping="1"/>
-            <geom size="0.03"/>
-          </body>
-        </body>
-      </worldbody>
-      <actuator>
-        <motor joint="FL"/>
-        <motor joint="FR"/>
-        <motor joint="RL"/>
-        <motor joint="RR"/>
-      </actuator>
-    </mujoco>
+    -     <motor joint="FR"/>
+    -     <motor joint="FL"/>
+    -     <motor joint="RR"/>
+    -     <motor joint="RL"/>
+    +     <motor joint="FL"/>
+    +     <motor joint="FR"/>
+    +     <motor joint="RL"/>
+    +     <motor joint="RR"/>
 
 The number: how many actuators do not drive the joint of the same place. Told of free robots where exchanging left and
 right puts all of them in order.
@@ -86,8 +64,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "The actuators are in another order than the joints"
 FAMILIES = ("drifts",)
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a model has one order, and only names tell that another was meant"
 
 
@@ -107,7 +83,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = f"They drive {order} ...; the joints stand in the order " + " ".join(
         of.engine.name("joint", joint) for joint in sorted(driven)[:8]
     )
-    yield Suspect(names, "order", order, "that of the joints", (), probe, 0.5, says, "one order", level="hint")
+    yield Suspect(names, "order", order, "that of the joints", (), probe, 0.5, says, "one order")
 
 
 def _driven(of: Simulation) -> list[int]:

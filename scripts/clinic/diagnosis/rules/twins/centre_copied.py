@@ -61,9 +61,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A centre of mass copied to the other side and not mirrored"
 FAMILIES = ("drifts", "wrong-mass")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "on a robot of which both sides are wrong, no side tells it"
 
 FAR = 0.002  # m

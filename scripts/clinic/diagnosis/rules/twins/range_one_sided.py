@@ -60,8 +60,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A joint in the middle that turns to one side"
 FAMILIES = ("stuck", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "few healthy models have a waist or a neck"
 
 MOST, ALIKE, PAIRS = 0.3, 0.98, 2

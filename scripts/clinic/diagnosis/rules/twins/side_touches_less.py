@@ -59,8 +59,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A side that touches less than the other"
 FAMILIES = ("falls-through",)
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "in the healthy models of the bench both sides have the same masks"
 
 ENOUGH, MOST = 3, 0.6

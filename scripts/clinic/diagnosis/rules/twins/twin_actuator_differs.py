@@ -71,7 +71,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The actuator of a pair is unlike its twin"
 FAMILIES = ("stuck", "drifts", "oscillates", "sags")
-SINCE = "0.1"
 LEVEL = "hint"
 
 

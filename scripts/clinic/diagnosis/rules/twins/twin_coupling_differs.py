@@ -62,8 +62,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A coupling unlike that of the other side"
 FAMILIES = ("drifts", "wrong-numbers", "stuck")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model of the bench couples joints on two sides"
 
 UNLIKE, STEPS = 0.05, 10

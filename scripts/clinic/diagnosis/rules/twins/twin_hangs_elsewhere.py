@@ -70,8 +70,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A part that hangs on the other side"
 FAMILIES = ("drifts", "stuck", "jumps-at-start")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no edit of one number hangs a part elsewhere"
 
 

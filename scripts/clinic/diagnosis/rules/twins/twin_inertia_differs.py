@@ -69,7 +69,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The mass of a body is unlike its twin's"
 FAMILIES = ("drifts", "oscillates")
-SINCE = "0.1"
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

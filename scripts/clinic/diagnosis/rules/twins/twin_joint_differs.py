@@ -64,7 +64,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The joint of a pair is unlike its twin"
 FAMILIES = ("drifts", "stuck", "oscillates")
-SINCE = "0.1"
 LEVEL = "hint"
 
 

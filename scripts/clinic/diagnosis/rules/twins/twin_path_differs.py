@@ -63,8 +63,6 @@ from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A tendon's path unlike that of the other side"
 FAMILIES = ("wrong-numbers", "drifts", "stuck")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no healthy model of the bench has tendons on two sides"
 
 Point = tuple[str, int]  # a site or geom by kind and number

@@ -63,7 +63,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "A part is not the mirror image of its twin"
 FAMILIES = ("drifts", "falls-through", "slips", "camera")
-SINCE = "0.1"
 LEVEL = "hint"
 
 

@@ -68,8 +68,6 @@ from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The sensor of a pair is attached elsewhere than its twin"
 FAMILIES = ("sensor-reads-zero", "drifts")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "a sensor of the wrong side harms no motion, and readings that differ are not counted as harm"
 
 

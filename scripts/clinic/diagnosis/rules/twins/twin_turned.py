@@ -65,8 +65,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A limb that is turned unlike its twin"
 FAMILIES = ("drifts", "jumps-at-start", "wrong-numbers")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "no pair of limbs in the bench's healthy models is written with a turn of its own"
 
 LEAST, LEFT, TURNED = 3, 0.2, 1e-3  # so many astray; the share that may stay so; what tells a turn from none

@@ -55,9 +55,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Two wheels of one axle that are not alike"
 FAMILIES = ("drifts", "stuck")
-SINCE = "0.1"
 AFLOAT = True
-LEVEL = "hint"
 UNPLANTED = "nearly no healthy model stands on wheels"
 
 AGAINST, ALONG, LEVEL_ENOUGH, UNLIKE = 0.9, 0.95, 0.2, 0.002

@@ -46,7 +46,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import GAIN_MUSCLE
+from clinic.diagnosis.engine import BIAS_NONE, GAIN_MUSCLE
 from clinic.diagnosis.probes.shape import FLUID, in_pairs, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -54,11 +54,7 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "An attribute that has no effect"
 FAMILIES = ("stuck", "drifts", "wrong-numbers", "sags")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "what was meant by it, only intent knows"
-
-USER, NONE = 3, 0  # mjtGain, mjtBias
 
 
 class Idle(NamedTuple):
@@ -126,10 +122,9 @@ def _read(of: Simulation, attribute: str, each: int) -> bool:
     """Whether something reads an attribute."""
     match attribute:
         case "biasprm":
-            return int(of.model("actuator_biastype")[each]) != NONE
+            return int(of.model("actuator_biastype")[each]) != BIAS_NONE
         case "lengthrange":
-            kinds = {int(of.model(f"actuator_{what}type")[each]) for what in ("gain", "bias")}
-            return bool(kinds & {GAIN_MUSCLE, USER})
+            return any(of.model(f"actuator_{what}type")[each] >= GAIN_MUSCLE for what in ("gain", "bias"))
         case "forcerange" | "ctrlrange":
             low, high = of.row(f"actuator_{attribute}", each, 2)
             return bool(of.model(f"actuator_{attribute.removesuffix('range')}limited")[each]) or low >= high

@@ -33,16 +33,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.engine import CONTACTS_OFF
+from clinic.diagnosis.engine import CONSTRAINTS_OFF, CONTACTS_OFF
 from clinic.diagnosis.probes.fall import below, fallen, limit
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Contacts are switched off"
 FAMILIES = ("falls-through",)
-SINCE = "0.1"
 
-FLAGS = {CONTACTS_OFF: "contact", 1: "constraint"}  # mjtDisableBit
+FLAGS = {CONTACTS_OFF: "contact", CONSTRAINTS_OFF: "constraint"}
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:

@@ -47,7 +47,7 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "An exclude that forbids a contact that is needed"
 FAMILIES = ("falls-through",)
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "in the healthy models several bodies touch the floor: one exclusion drops nothing through it"
 
 NEAR, END = 0.02, 0.15  # of the height of a robot: so much higher than its lowest point may a foot be, or a limb's end

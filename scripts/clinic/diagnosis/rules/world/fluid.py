@@ -47,7 +47,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A medium that holds everything back"
 FAMILIES = ("slow", "stuck", "drifts")
-SINCE = "0.1"
 
 MOST = 0.1  # of the weight
 MEDIUM = (  # air, what is told, what is told where geoms are shaped for it, and the unit

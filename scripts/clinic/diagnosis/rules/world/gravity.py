@@ -45,7 +45,6 @@ from clinic.diagnosis.suspect import Probe, Suspect, counted
 
 TITLE = "Gravity points the wrong way, or has the wrong size"
 FAMILIES = ("falls-through", "drifts", "stuck", "sags")
-SINCE = "0.1"
 
 ANGLE, SHORT, LONG = 45.0, 0.025, 5.0  # degrees, s, s
 USUAL = "0 0 -9.81"

@@ -48,8 +48,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Lengths in another unit than gravity"
 FAMILIES = ("drifts", "sags", "stuck", "explodes", "wrong-mass")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "to write a model in millimetres changes nearly all of its numbers"
 
 LARGE, THIN = 5.0, 10.0  # m, kg/m3

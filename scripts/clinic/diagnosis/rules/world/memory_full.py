@@ -45,7 +45,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "The memory is full"
 FAMILIES = ("falls-through", "explodes")
-SINCE = "0.1"
+LEVEL = "cause"
 UNPLANTED = "no single edit of a healthy model makes so many contacts"
 
 

@@ -50,7 +50,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A mesh in another unit"
 FAMILIES = ("jumps-at-start", "explodes", "wrong-mass", "camera", "stuck")
-SINCE = "0.1"
 
 STAND_IN = re.compile(r"fake|dummy|virtual", re.IGNORECASE)  # a frame of a URDF that must have a shape
 TIMES, USUAL = 100.0, 10.0  # the usual size

@@ -40,8 +40,6 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A plane turned about its own normal"
 FAMILIES = ("stuck", "rolls-on", "slips")
-SINCE = "0.1"
-LEVEL = "hint"
 UNPLANTED = "nothing changes in a healthy model whose floor is turned about its normal"
 
 LEAST, LEVEL_ENOUGH = 1.0, 1e-6  # degrees; of the quaternion

@@ -50,7 +50,6 @@ from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A flag switches it off"
 FAMILIES = ("stuck", "passes-limit", "drifts", "sags", "slips")
-SINCE = "0.1"
 LEVEL = "hint"
 
 GROUPS = 31

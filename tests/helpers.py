@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -252,6 +253,22 @@ def only_problem(folder: Path) -> Problem:
         check_against_model(load_case(folder))
     (found,) = caught.value.problems
     return found
+
+
+def told(problems: Iterable[Problem]) -> list[str]:
+    """Every problem as `line: field | found | expected | repair`, that of another file with its name before it."""
+    return [
+        f"{p.file.removeprefix('cases/falling-box/case.yaml')}"
+        f"{p.line}: {p.where} | {p.found} | {p.expected} | {p.repair}"
+        for p in sorted(problems)
+    ]
+
+
+def refused(folder: Path) -> list[str]:
+    """The problems of a case that is not read."""
+    with pytest.raises(CaseError) as caught:
+        load_case(folder)
+    return told(caught.value.problems)
 
 
 def decoded(content: bytes) -> list[np.ndarray]:

@@ -12,8 +12,8 @@ import pytest
 from clinic.commands.diagnosis_options import OptionError
 from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.process import DiagnosisError
-from clinic.diagnosis.simulation import StartError
 from clinic.diagnosis.source import SourceError
+from clinic.diagnosis.start import StartError
 from clinic.engine.mjcf import ModelError
 from clinic.engine.quotation import QuotationError
 from clinic.engine.render import RenderError

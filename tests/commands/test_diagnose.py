@@ -10,7 +10,7 @@ import pytest
 from clinic.commands.cli import app
 from clinic.commands.diagnosis_options import OptionError, start_of
 from clinic.diagnosis.rules import rules
-from clinic.diagnosis.simulation import Start
+from clinic.diagnosis.start import Start
 from clinic.pages.rules import diagnosis_schema
 from jsonschema import Draft202012Validator
 from typer.testing import CliRunner, Result

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from clinic.diagnosis.diagnose import examine
-from clinic.diagnosis.edit import apply
-from clinic.diagnosis.native import NativeEngine
+from diagnosed import hints
+from scenery import ARM, FLOOR
 
 HALL = """<mujoco>{0}<worldbody><light pos="0 0 3"/>
   <geom type="plane" size="0 0 1"/><geom type="box" size=".1 100 2" pos="100 0 2"/>
@@ -25,7 +24,7 @@ HALL = """<mujoco>{0}<worldbody><light pos="0 0 3"/>
 )
 def test_a_camera_of_the_world_whose_near_plane_cuts_the_robot_away_is_told(visual: str, away: int, told: bool) -> None:
     model = HALL.format(visual, away).replace("--", "")
-    found = examine(NativeEngine(), {"hall.xml": model}, select=["near-plane-far"]).hints
+    found = hints(model, "near-plane-far")
     assert [each.elements for each in found] == [('camera "side"',)] * told
     assert all(each.after is not None and each.after < 0.5 < each.before for each in found)
 
@@ -44,11 +43,8 @@ def test_an_eye_that_is_turned_as_the_other_one_and_looks_at_it_is_told(left, ri
     eyes = (
         f'<camera name="eye_l" pos=".1 .03 0" xyaxes="{left}"/><camera name="eye_r" pos=".1 -.03 0" xyaxes="{right}"/>'
     )
-    text = {"fish.xml": f"<mujoco><worldbody><body><freejoint/><geom size='.02'/>{eyes}</body></worldbody></mujoco>"}
-    found = examine(NativeEngine(), text, select=["camera-blocked"]).hints
-    assert [(each.elements[0], each.value) for each in found] == ([told] if told else [])
-    for each in found:
-        assert not examine(NativeEngine(), apply(text, each.edit), select=["camera-blocked"]).hints
+    text = f"<mujoco><worldbody><body><freejoint/><geom size='.02'/>{eyes}</body></worldbody></mujoco>"
+    assert [(each.elements[0], each.value) for each in hints(text, "camera-blocked")] == ([told] if told else [])
 
 
 @pytest.mark.parametrize(
@@ -58,9 +54,8 @@ def test_an_eye_that_is_turned_as_the_other_one_and_looks_at_it_is_told(left, ri
 )
 def test_a_camera_from_which_the_model_is_a_dot_is_brought_near(place: str, told: str | None) -> None:
     camera = f'<camera name="web" pos="{place}" xyaxes="1 0 0 0 .4 .92"/>'
-    text = {"m.xml": f"<mujoco><worldbody>{camera}<body><joint/><geom size='.15'/></body></worldbody></mujoco>"}
-    found = examine(NativeEngine(), text, select=["camera-sees-nothing"]).hints
-    assert [each.value for each in found] == ([told] if told else [])
+    text = f"<mujoco><worldbody>{camera}<body><joint/><geom size='.15'/></body></worldbody></mujoco>"
+    assert [each.value for each in hints(text, "camera-sees-nothing")] == ([told] if told else [])
 
 
 @pytest.mark.parametrize(
@@ -79,6 +74,38 @@ def test_a_camera_on_a_hand_that_looks_away_from_its_fingers_is_told(axes, finge
     both = "".join(finger.format(*each) for each in (("_l", 0.02), ("_r", -0.02))[:fingers])
     camera = f'<camera name="wrist" pos="0 0 .06" xyaxes="{axes}"/>'
     hand = f'<body name="hand" pos="0 0 1"><joint/><geom size=".02"/>{camera}{both}'
-    text = {"hand.xml": f"<mujoco><worldbody>{hand}</body></worldbody></mujoco>"}
-    found = examine(NativeEngine(), text, select=["camera-blocked"]).hints
-    assert [each.value for each in found] == ([told] if told else [])
+    text = f"<mujoco><worldbody>{hand}</body></worldbody></mujoco>"
+    assert [each.value for each in hints(text, "camera-blocked")] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(("body", "told"), [("head", True), ("hand", False)])
+@pytest.mark.parametrize("axes", ["0 0 1 0 1 0", "0 -1 0 0 0 -1"], ids=["on its side", "upside down"])
+def test_the_image_of_a_head_is_level_and_that_of_a_hand_as_it_likes(body, told, axes):
+    camera = f'<body name="{body}" pos="0 0 1">{ARM}<camera name="eye" xyaxes="{axes}"/></body>'
+    text = f"<mujoco><worldbody>{FLOOR}{camera}</worldbody></mujoco>"
+    assert [each.elements for each in hints(text, "camera-upside-down")] == [('camera "eye"',)] * told
+
+
+@pytest.mark.parametrize(("chest", "told"), [("0.1 0 0.1", True), ("-0.3 0 -0.1", False)])
+def test_a_head_that_sees_its_own_chest_alone_is_told(chest, told):
+    eye = '<camera name="eye" xyaxes="0 -1 0 0.6 0 0.8" fovy="20"/><geom type="sphere" size="0.03"/>'
+    head = f'<body name="head" pos="0 0 0.25">{ARM}{eye}</body>'
+    trunk = f'<geom type="box" size="0.3 0.2 0.05" pos="{chest}"/>'
+    text = f'<mujoco><worldbody>{FLOOR}<body name="torso" pos="0 0 1">{trunk}{head}</body></worldbody></mujoco>'
+    assert [each.elements for each in hints(text, "camera-blocked")] == [('camera "eye"',)] * told
+
+
+@pytest.mark.parametrize(
+    ("place", "camera", "told"),
+    [
+        pytest.param("0 0 0.1", 'pos="0.2 0 -0.13"', ["0.2 0 0.13"], id="sign"),
+        pytest.param("0 0 0.1", 'pos="0.2 0 -0.05"', [], id="above"),
+        pytest.param("0 0 0.1", 'pos="0.2 0 -0.13" euler="180 0 0"', [], id="looks-up"),
+        pytest.param("0 0 -0.01", "", [], id="lies-in-the-floor"),
+    ],
+)
+def test_a_camera_below_the_floor_is_told(place, camera, told):
+    car = f'<freejoint/><geom type="box" size="0.1 0.05 0.09"/><camera {{}}{camera}/>'
+    body = car.format("" if "euler" in camera or not camera else 'xyaxes="0 -1 0 0 0 1" ')
+    text = f'<mujoco><worldbody>{FLOOR}<body pos="{place}">{body}</body></worldbody></mujoco>'
+    assert [each.value for each in hints(text, "camera-blocked") if each.attribute == "pos"] == told

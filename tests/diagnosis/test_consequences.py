@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from clinic.diagnosis.diagnose import examine
-from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.process import diagnose
+from diagnosed import causes, diagnosed, findings, hints
 
 MM = "-20 -20 -20  20 -20 -20  20 20 -20  -20 20 -20  -20 -20 20  20 -20 20  20 20 20  -20 20 20"
 ALONE = f"""<mujoco>
@@ -31,8 +30,8 @@ def test_a_mesh_in_millimetres_explains_that_it_begins_in_the_floor(tmp_path):
 
 def test_a_mesh_of_a_text_that_no_parser_reads_is_told_without_an_edit():
     with_two_roots = ALONE + "<mujoco/>"
-    found = examine(NativeEngine(), {"model.xml": with_two_roots}, select=["mesh-in-another-unit"])
-    assert [(each.elements, each.edit) for each in found.hints] == [(('mesh "mug"',), ())]
+    found = hints(with_two_roots, "mesh-in-another-unit")
+    assert [(each.elements, each.edit) for each in found] == [(('mesh "mug"',), ())]
 
 
 @pytest.mark.parametrize("scale", ["0.001 0.001 0.001", "1e-5 1e-5 1e-5"])
@@ -106,8 +105,7 @@ def test_one_mesh_among_others_is_a_speck_or_a_screw(scale, told):
         for x, name in enumerate(("mug", "lid"))
     )
     text = f"<mujoco><asset>{meshes}</asset><worldbody>{bodies}</worldbody></mujoco>"
-    found = examine(NativeEngine(), {"model.xml": text}, select=["mesh-in-another-unit"])
-    assert [each for finding in (*found.causes, *found.hints) for each in finding.elements] == told
+    assert [each for finding in findings(text, "mesh-in-another-unit") for each in finding.elements] == told
 
 
 ARM = """<mujoco>
@@ -129,14 +127,14 @@ ARM = """<mujoco>
     ids=["in millimetres", "beyond the end", "in the middle"],
 )
 def test_a_servo_is_too_weak_but_for_a_mass_beyond_all_measure(centre, kp, causes):
-    found = examine(NativeEngine(), {"model.xml": ARM.format(centre=centre, kp=kp)})
+    found = diagnosed(ARM.format(centre=centre, kp=kp))
     assert [each.rule for each in found.causes] == causes, found.text()
 
 
 def test_what_a_comment_silences_takes_no_cause_away():
     silenced = "<!-- clinic: ignore[centre-of-mass-outside] the counterweight is not drawn -->"
     text = ARM.format(centre="150", kp="40").replace("<inertial", f"{silenced}\n      <inertial")
-    found = examine(NativeEngine(), {"model.xml": text})
+    found = diagnosed(text)
     assert "weak-servo" in [each.rule for each in found.causes], found.text()
 
 
@@ -148,7 +146,7 @@ def test_two_links_in_millimetres_are_one_reason():
       </body>
     </body>"""
     text = ARM.format(centre="-150", kp="40").replace("</body>", forearm)
-    assert {each.rule for each in examine(NativeEngine(), {"model.xml": text}).causes} == {"centre-of-mass-outside"}
+    assert {each.rule for each in causes(text)} == {"centre-of-mass-outside"}
 
 
 def walker(shin: str) -> str:
@@ -182,7 +180,7 @@ def walker(shin: str) -> str:
     ],
 )
 def test_an_overlap_follows_from_the_part_that_is_not_its_twins_image_and_tells_which_it_is(shin, follows):
-    found = examine(NativeEngine(), {"model.xml": walker(shin)})
+    found = diagnosed(walker(shin))
     told = [each.rule for each in found.hints]
     assert not found.causes, found.text()
     assert told.index("twin-place-differs") < told.index(follows)
@@ -192,7 +190,7 @@ def test_an_overlap_follows_from_the_part_that_is_not_its_twins_image_and_tells_
 
 def test_an_overlap_without_a_part_that_is_displaced_is_told_as_it_was():
     buried = walker("0 0 -0.26").replace('pos="0 0 0.58"', 'pos="0 0 0.4"')
-    assert [each.rule for each in examine(NativeEngine(), {"model.xml": buried}).causes] == ["overlap-at-start"]
+    assert [each.rule for each in causes(buried)] == ["overlap-at-start"]
 
 
 @pytest.mark.parametrize(("odd", "value"), [(3, "-0.1 0 0"), (0, "")])
@@ -202,6 +200,6 @@ def test_a_link_that_goes_back_to_where_its_parent_hangs_is_turned(odd, value):
         '<geom type="capsule" fromto="0 0 0 -0.06 0 0" size="0.02"/>'
         for i in range(1, 7)
     )
-    found = examine(NativeEngine(), {"model.xml": f"<mujoco><worldbody>{chain}{'</body>' * 6}</worldbody></mujoco>"})
+    found = diagnosed(f"<mujoco><worldbody>{chain}{'</body>' * 6}</worldbody></mujoco>")
     told = [(each.rule, each.elements[0], each.value) for each in found.hints if "overlap" not in each.rule]
     assert told == [("parts-coincide", 'body "s3"', value)] * bool(value), found.text()

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from clinic.diagnosis.diagnose import Diagnosis, examine
-from clinic.diagnosis.edit import apply
-from clinic.diagnosis.native import NativeEngine
+from clinic.diagnosis.diagnose import Diagnosis
+from diagnosed import diagnosed, hints
 
 FISH = """<mujoco>
   <option {option}/>
@@ -31,8 +30,7 @@ STILL = 'gravity="0 0 0"'
 
 
 def fish(option: str, geom: str = SHAPED, joint: str = "<freejoint/>") -> Diagnosis:
-    text = FISH.format(option=option, geom=geom, joint=joint)
-    return examine(NativeEngine(), {"model.xml": text})
+    return diagnosed(FISH.format(option=option, geom=geom, joint=joint))
 
 
 @pytest.mark.parametrize(
@@ -95,18 +93,17 @@ def test_a_swimmer_with_a_density_in_g_per_cm3_is_told(density: str, told: str |
 def test_a_fin_that_turns_in_its_own_plane_is_told(axis, size, more, told):
     text = FISH.format(option=f"{WATER} {STILL}", geom=SHAPED, joint="<freejoint/>")
     text = text.replace('"tail" axis="0 0 1"/>', f'"tail" axis="{axis}" range="-40 40"/>{more}')
-    text = {"model.xml": text.replace('"0.04 0.005 0.03"', f'"{size}"')}
-    found = examine(NativeEngine(), text, select=["fin-in-its-plane"]).hints
+    text = text.replace('"0.04 0.005 0.03"', f'"{size}"')
+    found = hints(text, "fin-in-its-plane")
     assert [(each.attribute, each.value) for each in found] == ([told] if told else [])
 
 
 def test_a_fin_on_what_turns_about_the_same_axis_gets_the_other_size():
     text = FISH.format(option=f"{WATER} {STILL}", geom=SHAPED, joint='<joint axis="0 0 1"/>')
     text = text.replace('"tail" axis="0 0 1"', '"tail" axis="0 0 1" range="-40 40"')
-    fish_ = {"model.xml": text.replace("0.04 0.005 0.03", "0.04 0.03 0.005")}
-    (found,) = examine(NativeEngine(), fish_, select=["fin-in-its-plane"]).hints
+    fish_ = text.replace("0.04 0.005 0.03", "0.04 0.03 0.005")
+    (found,) = hints(fish_, "fin-in-its-plane")
     assert (found.attribute, found.value) == ("size", "0.04 0.005 0.03")
-    assert not examine(NativeEngine(), apply(fish_, found.edit), select=["fin-in-its-plane"]).hints
 
 
 @pytest.mark.parametrize(
@@ -121,6 +118,5 @@ def test_a_density_of_air_in_grams_is_told_by_the_viscosity_beside_it(option: st
     drone = (
         '<body pos="0 0 1"><freejoint/><geom type="box" size="0.1 0.1 0.02" mass="2" fluidshape="ellipsoid"/></body>'
     )
-    text = {"drone.xml": f"<mujoco><option {option}/><worldbody>{drone}</worldbody></mujoco>"}
-    found = examine(NativeEngine(), text, select=["fluid"]).hints
-    assert [each.value for each in found if each.attribute == "density"] == ([told] if told else [])
+    text = f"<mujoco><option {option}/><worldbody>{drone}</worldbody></mujoco>"
+    assert [each.value for each in hints(text, "fluid") if each.attribute == "density"] == ([told] if told else [])

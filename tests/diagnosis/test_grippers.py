@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from clinic.diagnosis.diagnose import examine
-from clinic.diagnosis.edit import apply
-from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import rules
+from diagnosed import causes, diagnosed, findings, hints, with_edits
 
 HAND = """
 <mujoco>
@@ -65,7 +63,7 @@ OTHER = '<joint joint1="tip" joint2="knuckle" polycoef="0 0.7 0 0 0"/>'
 
 
 def told(text: str, rule: str) -> list[tuple[str, str, str]]:
-    found = examine(NativeEngine(), {"model.xml": text})
+    found = diagnosed(text)
     assert not found.error
     return [(each.level, each.attribute, each.value) for each in (*found.causes, *found.hints) if each.rule == rule]
 
@@ -101,7 +99,7 @@ def test_fingers_that_nothing_couples_go_to_one_side(change, ill):
     ],
 )
 def test_the_finger_that_crosses_the_middle_is_the_one_to_turn(more, change, wrong):
-    found = examine(NativeEngine(), {"model.xml": HAND.format(**(USUAL | change | {"more": more}))})
+    found = diagnosed(HAND.format(**(USUAL | change | {"more": more})))
     (told,) = (each for each in found.hints if each.rule == "fingers-move-together")
     assert told.elements[0] == f'joint "{wrong or ("a" if COUPLED[0] in more else "b")}"'
 
@@ -144,7 +142,7 @@ def test_the_range_of_a_leader_in_mm_is_told_and_not_that_of_its_follower(leader
     )
     text = f"""<mujoco><compiler autolimits="true"/><worldbody>{fingers}</worldbody>
       <equality><joint joint1="b" joint2="a"/></equality></mujoco>"""
-    found = examine(NativeEngine(), {"model.xml": text}, select=["follower-out-of-range"]).causes
+    found = causes(text, "follower-out-of-range")
     assert [(each.elements[0], each.value) for each in found] == ([(f'joint "{told[0]}"', told[1])] if told else [])
 
 
@@ -165,7 +163,7 @@ def test_an_adhesion_that_holds_nothing_is_told(adhesion: str, chip: str, told: 
         <body name="cup" pos="0 0 -0.02"><geom type="cylinder" size="0.01 0.015" mass="0.05"/></body></body>
       <body name="chip" pos="0 0 0.0101">{chip}<geom type="box" size="0.02 0.02 0.01" mass="0.04"/></body></worldbody>
     <actuator><adhesion {adhesion} ctrlrange="0 1"/></actuator></mujoco>"""
-    found = examine(NativeEngine(), {"model.xml": text}, select=["adhesion-holds-nothing"]).hints
+    found = hints(text, "adhesion-holds-nothing")
     assert [(each.attribute, each.value, each.after) for each in found] == [
         (attribute, value, pytest.approx(after)) for attribute, value, after in told
     ]
@@ -173,6 +171,7 @@ def test_an_adhesion_that_holds_nothing_is_told(adhesion: str, chip: str, told: 
 
 JAW = '<body pos="0 .026 0"><joint name="jaw" type="slide" axis="0 -1 0"/><geom size="{0}" type="box"/></body>'
 PALM = f'<body name="palm" pos="0 0 1"><joint name="turn"/><geom pos="0 -.03 0" size="{{0}}" type="box"/>{JAW}</body>'
+GRASP = ("grasp-creeps", "grip-too-weak", "grasp-slips")
 THING = '<body name="thing"><freejoint/><geom size=".02 .015 .02" type="box" mass="0.1"/></body>'
 GRIPPER = (
     '<mujoco><default><geom friction="{1}"/></default>{3}<worldbody><geom type="plane" size="1 1 1" pos="0 0 -0.02"/>'
@@ -195,18 +194,16 @@ GRIPPER = (
     ids=["creeps", "hard friction", "no slip", "weak", "slippery", "nothing to hold"],
 )
 def test_what_a_jaw_and_its_palm_would_lift_is_tried_between_them(model, told):
-    found = examine(NativeEngine(), {"model.xml": model}, select=["grasp-creeps", "grip-too-weak", "grasp-slips"])
-    assert [(each.rule, each.attribute, each.value) for each in (*found.causes, *found.hints)] == told
-    edits = [edit for each in (*found.causes, *found.hints) for edit in each.edit]
-    fixed = examine(NativeEngine(), apply({"model.xml": model}, edits))
-    assert not {"grasp-creeps", "grip-too-weak", "grasp-slips"} & {each.rule for each in (*fixed.causes, *fixed.hints)}
+    found = findings(model, *GRASP)
+    assert [(each.rule, each.attribute, each.value) for each in found] == told
+    assert not findings(with_edits(model, *found), *GRASP)
 
 
 @pytest.mark.parametrize(("symptom", "told"), [("", []), ("slips", ["grasp-creeps"]), ("sags", [])])
 def test_a_slow_creep_is_told_to_whom_something_slips(symptom: str, told: list[str]):
     text = rules()["grasp-creeps"].example("Bad")
     text = text.replace("<worldbody>", '<option cone="elliptic" impratio="10"/><worldbody>', 1)
-    found = examine(NativeEngine(), {"model.xml": text}, select=["grasp-creeps"], symptom=symptom)
+    found = diagnosed(text, "grasp-creeps", symptom=symptom)
     assert [each.rule for each in found.hints] == told
     assert not found.causes
 
@@ -219,9 +216,7 @@ def test_of_two_hands_each_is_mended_for_itself():
     model = GRIPPER.format(400, 0.02, 30, '<option cone="elliptic" impratio="100"/>')
     model = model.replace(PALM.format(".02 .01 .02"), hand + other)
     grip = '<position joint="other_jaw" kp="400" kv="20" ctrlrange="0 0.04" forcerange="-30 30"/>'
-    (told,) = examine(
-        NativeEngine(), {"model.xml": model.replace("<actuator>", f"<actuator>{grip}")}, select=["grasp-slips"]
-    ).causes
+    (told,) = causes(model.replace("<actuator>", f"<actuator>{grip}"), "grasp-slips")
     assert len(told.edit) == 4
 
 
@@ -239,6 +234,5 @@ def test_of_fingers_of_a_urdf_the_factor_is_told_where_it_leads_out_of_the_range
     )
     mimic = f'<mimic joint="left_joint" multiplier="{factor}"/>'
     both = finger.format("left", 0.01, "0 1 0", "", inertial) + finger.format("right", -0.01, axis, mimic, inertial)
-    text = {"g.urdf": f'<robot name="g"><link name="palm"/>{both}</robot>'}
-    found = examine(NativeEngine(), text, select=["fingers-move-together"]).hints
-    assert [(each.attribute, each.value) for each in found] == [(attribute, value)]
+    text = f'<robot name="g"><link name="palm"/>{both}</robot>'
+    assert [(each.attribute, each.value) for each in hints(text, "fingers-move-together")] == [(attribute, value)]

@@ -5,14 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from clinic.diagnosis.diagnose import examine
-from clinic.diagnosis.native import NativeEngine
+from diagnosed import diagnosed
 
 MODELS = sorted((Path(__file__).parent / "healthy").glob("*.xml"))
 
 
 @pytest.mark.parametrize("path", MODELS, ids=lambda path: path.stem)
 def test_nothing_is_found(path):
-    found = examine(NativeEngine(), {path.name: path.read_text()})
+    found = diagnosed(path.read_text())
     assert not (*found.causes, *found.hints), found.text()
     assert not found.error

@@ -6,11 +6,10 @@ from pathlib import Path
 
 import pytest
 from clinic.commands.cli import app
-from clinic.diagnosis.diagnose import examine
 from clinic.diagnosis.edit import apply, set_attribute
-from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import rules
 from clinic.diagnosis.source import Source
+from diagnosed import causes, with_edits
 from mutilated import KINDS, mutilated
 from typer.testing import CliRunner
 
@@ -34,9 +33,7 @@ def test_a_mutilated_model_is_diagnosed_or_refused(seed: int, tmp_path: Path, mo
 @pytest.mark.parametrize("name", ["no-such", "utf-32", "latin-1"])
 def test_a_text_is_read_as_utf_8_whatever_it_declares(name: str) -> None:
     text = rules()["visual-mass"].example("Bad").replace('"drill"', '"perçeuse"')
-    (cause,) = examine(
-        NativeEngine(), {"model.xml": f'<?xml version="1.0" encoding="{name}"?>\n{text}'}, select=["visual-mass"]
-    ).causes
+    (cause,) = causes(f'<?xml version="1.0" encoding="{name}"?>\n{text}', "visual-mass")
     assert (cause.elements, cause.line) == (('body "perçeuse"',), 6)
 
 
@@ -57,11 +54,10 @@ def test_what_mujoco_reads_and_xml_does_not_allow_is_mended_at_its_place(before:
     odd = text.replace(before, after)
     assert text.count(before) == 1
 
-    plain, told = (examine(NativeEngine(), {"model.xml": each}, select=["visual-mass"]) for each in (text, odd))
+    (plain,), (told,) = (causes(each, "visual-mass") for each in (text, odd))
 
-    assert [each.elements for each in told.causes] == [each.elements for each in plain.causes]
-    mended = [apply({"model.xml": each}, found.causes[0].edit) for each, found in ((text, plain), (odd, told))]
-    assert mended[1]["model.xml"] == mended[0]["model.xml"].replace(before, after)
+    assert told.elements == plain.elements
+    assert with_edits(odd, told) == with_edits(text, plain).replace(before, after)
 
 
 def test_an_attribute_without_a_blank_before_it_is_set_and_not_written_twice() -> None:

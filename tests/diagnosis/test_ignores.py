@@ -7,6 +7,7 @@ from clinic.diagnosis.diagnose import Diagnosis, examine
 from clinic.diagnosis.ignores import ID
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import rules
+from diagnosed import diagnosed, hints
 
 DRILL = """<body name="drill" pos="0 0 1">
   <freejoint/>
@@ -17,7 +18,7 @@ DRILL = """<body name="drill" pos="0 0 1">
 WHY = "<!-- clinic: ignore[visual-mass] the shell weighs -->\n"
 
 
-def diagnosed(*parts: str, **files: str) -> Diagnosis:
+def examined(*parts: str, **files: str) -> Diagnosis:
     included = {f"{name}.xml": text for name, text in files.items()}
     return examine(NativeEngine(), {"model.xml": "\n".join(parts), **included}, select=["visual-mass", "masks"])
 
@@ -40,7 +41,7 @@ def scene(inside: str) -> str:
     ],
 )
 def test_a_rule_is_silenced_on_the_element_that_follows(text):
-    made = diagnosed(text)
+    made = examined(text)
     assert made.causes == ()
     (silenced,) = made.silenced
     assert (silenced.rule, silenced.silenced) == ("visual-mass", "the shell weighs")
@@ -66,7 +67,7 @@ def test_a_rule_is_silenced_on_the_element_that_follows(text):
     ],
 )
 def test_a_comment_that_silences_nothing_is_told_with_its_line(text, line, said):
-    made = diagnosed(text)
+    made = examined(text)
     assert [each.rule for each in made.causes] == ["visual-mass"]
     assert made.silenced == ()
     (hint,) = (each for each in made.hints if each.rule == ID)
@@ -76,49 +77,46 @@ def test_a_comment_that_silences_nothing_is_told_with_its_line(text, line, said)
 
 def test_a_finding_about_two_elements_is_silenced_where_both_are():
     other = DRILL.replace("drill", "lamp").replace("0 0 1", "0 0 3").replace("shell", "shade")
-    assert diagnosed(scene(WHY + DRILL + other)).silenced == ()
-    both = diagnosed(scene(WHY + DRILL + WHY.replace("shell", "shade") + other))
+    assert examined(scene(WHY + DRILL + other)).silenced == ()
+    both = examined(scene(WHY + DRILL + WHY.replace("shell", "shade") + other))
     assert [each.silenced for each in both.silenced] == ["the shell weighs; the shade weighs"]
 
 
 def test_a_finding_about_no_element_is_silenced_where_its_edit_is():
     visual = '<visual><headlight active="0"/></visual><worldbody>'
     text = scene(DRILL).replace("<worldbody>", WHY.replace("visual-mass", "nothing-lit") + visual)
-    (silenced,) = examine(NativeEngine(), {"model.xml": text}, select=["nothing-lit"]).silenced
+    (silenced,) = diagnosed(text, "nothing-lit").silenced
     assert silenced.elements == ("the headlight",)
 
 
 def test_a_rule_that_is_not_tried_leaves_its_comment_alone():
-    made = examine(
-        NativeEngine(), {"model.xml": scene(WHY + DRILL)}, ignore=["visual-mass"], select=["visual-mass", "masks"]
-    )
-    assert made.hints == ()
+    assert not hints(scene(WHY + DRILL), "visual-mass", "masks", ignore=["visual-mass"])
 
 
 def test_a_comment_holds_in_an_included_file_and_for_one():
     part = scene(WHY + DRILL)
-    inside = diagnosed('<mujoco><include file="part.xml"/></mujoco>', part=part)
+    inside = examined('<mujoco><include file="part.xml"/></mujoco>', part=part)
     assert [(each.file, each.line) for each in inside.silenced] == [("part.xml", 6)]
-    before = diagnosed(f'<mujoco>{WHY}<include file="part.xml"/></mujoco>', part=scene(DRILL))
+    before = examined(f'<mujoco>{WHY}<include file="part.xml"/></mujoco>', part=scene(DRILL))
     assert [(each.file, each.line) for each in before.silenced] == [("part.xml", 5)]
-    beside = diagnosed(f'<mujoco><include file="part.xml"/>{WHY}<option/></mujoco>', part=scene(DRILL))
+    beside = examined(f'<mujoco><include file="part.xml"/>{WHY}<option/></mujoco>', part=scene(DRILL))
     assert [each.rule for each in beside.causes] == ["visual-mass"]
 
 
 def test_what_is_silenced_is_counted_in_the_text_and_told_in_the_data():
-    made = diagnosed(scene(WHY + DRILL))
+    made = examined(scene(WHY + DRILL))
     assert made.text().endswith("\nsilenced (1): visual-mass model.xml:6")
     assert [each["silenced"] for each in made.data()["silenced"]] == ["the shell weighs"]
 
 
 def test_a_keyframe_is_tried_where_all_causes_of_the_start_are_silenced():
     text = scene(WHY + DRILL).replace("</worldbody>", '</worldbody><keyframe><key name="up"/></keyframe>')
-    (silenced,) = diagnosed(text).silenced
+    (silenced,) = examined(text).silenced
     assert silenced.keyframe == 0
 
 
 def test_a_hint_without_an_edit_has_the_line_of_its_element():
     text = rules()["mass-unlike-links"].example("Bad")
-    (hint,) = examine(NativeEngine(), {"model.xml": text}, select=["mass-unlike-links"]).hints
+    (hint,) = hints(text, "mass-unlike-links")
     assert hint.edit == ()
     assert f'name="{hint.elements[0].split(chr(34))[1]}"' in text.splitlines()[(hint.line or 0) - 1]

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from clinic.diagnosis.diagnose import Diagnosis, examine
-from clinic.diagnosis.edit import apply
-from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import rules
+from diagnosed import findings, hints
 
 TIED = """
 <mujoco>
@@ -27,15 +25,9 @@ TIED = """
 """
 
 
-def found(text: str, rule: str) -> list[str]:
-    """What a rule says of a model, and that its edits unsay it."""
-    told: Diagnosis = examine(NativeEngine(), {"model.xml": text}, select=[rule])
-    return [each.says for each in (*told.causes, *told.hints)]
-
-
 def test_a_weld_that_is_off_is_told_where_its_parts_stand_as_if_it_held():
-    assert found(TIED.format(height="0.92"), "switched-off") != []
-    assert found(TIED.format(height="0.5"), "switched-off") == []
+    assert findings(TIED.format(height="0.92"), "switched-off") != []
+    assert findings(TIED.format(height="0.5"), "switched-off") == []
 
 
 FOURBAR = """
@@ -65,8 +57,7 @@ FOURBAR = """
 def test_a_loop_between_two_links_of_the_world_that_is_off_is_told_and_a_latch_is_not(free, told):
     off = FOURBAR.replace('anchor="0.3 0 0"', 'anchor="0.3 0 0" active="false"')
     off = off.replace('<joint name="rocker" axis="0 1 0"/>', free or '<joint name="rocker" axis="0 1 0"/>')
-    found = examine(NativeEngine(), {"model.xml": off}, select=["switched-off"])
-    assert [each.elements[0] for each in found.hints] == told
+    assert [each.elements[0] for each in hints(off, "switched-off")] == told
 
 
 @pytest.mark.parametrize("eye", ["0.3 0 0", "0.2 0 0.1"])
@@ -77,8 +68,7 @@ def test_a_swing_that_carries_a_loop_is_not_locked_by_it_though_it_begins_apart(
     text = text.replace('<joint name="coupler"', f'<site name="eye" pos="{eye}"/><joint name="coupler"')
     text = text.replace('<joint name="rocker"', '<site name="lug" pos="0.1 0 0.1"/><joint name="rocker"')
     driven = '<actuator><velocity joint="swing" kv="1" ctrlrange="-3 3"/></actuator></mujoco>'
-    found = examine(NativeEngine(), {"model.xml": text.replace("</mujoco>", driven)}, select=["loop-locked"])
-    assert not found.hints
+    assert not hints(text.replace("</mujoco>", driven), "loop-locked")
 
 
 def test_the_hinge_across_all_others_is_named_where_a_loop_locks():
@@ -86,10 +76,10 @@ def test_the_hinge_across_all_others_is_named_where_a_loop_locks():
     text = FOURBAR.replace("</mujoco>", driven)
     across = text.replace('name="rocker" axis="0 1 0"', 'name="rocker" axis="0 0 1"')
     assert across != text
-    locked = [each for each in examine(NativeEngine(), {"model.xml": across}).hints if each.rule == "loop-locked"]
+    locked = [each for each in hints(across) if each.rule == "loop-locked"]
     assert [(each.attribute, each.value) for each in locked] == [("axis", "0 1 0")]
     assert locked[0].elements == ('joint "crank"', 'equality "loop"', 'joint "rocker"')
-    assert "loop-locked" not in [each.rule for each in examine(NativeEngine(), {"model.xml": text}).hints]
+    assert "loop-locked" not in [each.rule for each in hints(text)]
 
 
 @pytest.mark.parametrize(("mass", "told"), [(50, True), (1, False)])
@@ -117,8 +107,8 @@ def test_a_weld_that_a_load_pulls_apart_is_told(mass, told):
   </equality>
 </mujoco>
 """
-    says = found(text, "soft-equality")
-    assert [" apart where the equality holds them together" in each for each in says] == [True] * told
+    found = findings(text, "soft-equality")
+    assert [" apart where the equality holds them together" in each.says for each in found] == [True] * told
 
 
 @pytest.mark.parametrize(("place", "told"), [("0.35 0 1", False), ("0.9 0.3 1", True)])
@@ -129,7 +119,7 @@ def test_a_cable_that_does_not_reach_what_it_is_connected_to_is_told(place: str,
           <geom type="capsule" fromto="0 0 0 0.15 0 0" size="0.01"/></body></body>
       <body name="box" pos="{place}"><geom type="box" size="0.05 0.05 0.05"/></body></worldbody>
     <equality><connect body1="box" body2="end" anchor="-0.05 0 0"/></equality></mujoco>"""
-    found = [each for each in examine(NativeEngine(), {"model.xml": text}).hints if each.rule == "anchor-far-off"]
+    found = [each for each in hints(text) if each.rule == "anchor-far-off"]
     assert bool(found) is told
     assert not found or 'Put body "end" where it is to be held' in found[0].says
 
@@ -160,11 +150,10 @@ TURNED = LOOP.replace('"rocker" pos="0.5 0 1"', '"rocker" pos="0.5 0 1" euler="0
 )
 def test_a_loop_that_a_slip_of_the_pen_opens_is_closed_there(text, right, wrong, told):
     assert text.count(right) == 1
-    broken = {"model.xml": text.replace(right, wrong)}
-    (found,) = examine(NativeEngine(), broken, select=["loop-not-assembled"]).hints
+    broken = text.replace(right, wrong)
+    (found,) = hints(broken, "loop-not-assembled")
     assert (found.elements[0], found.attribute, found.value) == told
-    assert not examine(NativeEngine(), apply(broken, found.edit), select=["loop-not-assembled"]).hints
-    assert not examine(NativeEngine(), {"model.xml": text}, select=["loop-not-assembled"]).hints
+    assert not hints(text, "loop-not-assembled")
 
 
 @pytest.mark.parametrize(
@@ -188,6 +177,6 @@ def test_a_bed_that_sinks_off_its_lead_screw_gets_its_joints_exchanged(coupling:
         <geom type="cylinder" size="0.004 0.2" density="7800"/></body>
       </worldbody><equality><joint name="nut" {coupling}/></equality>
       <actuator><position joint="screw" kp="2" kv="0.01"/></actuator></mujoco>"""
-    found = examine(NativeEngine(), {"model.xml": text}, select=["soft-equality"]).hints
+    found = hints(text, "soft-equality")
     wanted = {"joint1": "screw", "joint2": "bed", "polycoef": "0 800 0 0 0"}
     assert [{edit.attribute: edit.value for edit in each.edit} for each in found] == [wanted] * told

@@ -14,7 +14,7 @@ import pytest
 from clinic.diagnosis import process
 from clinic.diagnosis.finding import DIES, FAILS, KILLED, LATE
 from clinic.diagnosis.process import DiagnosisError, Request, diagnose
-from clinic.diagnosis.simulation import Start
+from clinic.diagnosis.start import Start
 from folders import CORNER, FOLDERS, write_model
 
 TALL = """<mujoco>

@@ -6,8 +6,7 @@ import math
 from collections.abc import Callable
 
 import pytest
-from clinic.diagnosis.diagnose import examine
-from clinic.diagnosis.native import NativeEngine
+from diagnosed import diagnosed, hints
 
 
 def drone(
@@ -34,7 +33,7 @@ def drone(
 
 
 def told(text: str) -> list[str]:
-    found = examine(NativeEngine(), {"model.xml": text})
+    found = diagnosed(text)
     assert not found.error
     return [each.attribute for each in (*found.causes, *found.hints) if each.rule == "rotors-unbalanced"]
 
@@ -89,5 +88,4 @@ def test_a_rotor_that_turns_loosely_keeps_its_drag_to_itself(hinge: str | None, 
     text = f"""<mujoco><worldbody><body pos="0 0 1"><freejoint/><geom type="box" size="0.1 0.1 0.02" mass="0.5"/>
       {rotor}</body></worldbody>
       <actuator><motor site="top" gear="0 0 1 0 0 0.02" ctrlrange="0 10"/></actuator></mujoco>"""
-    found = examine(NativeEngine(), {"model.xml": text}, select=["rotors-not-independent"]).hints
-    assert [each.value for each in found] == ["0.0004"] * told
+    assert [each.value for each in hints(text, "rotors-not-independent")] == ["0.0004"] * told

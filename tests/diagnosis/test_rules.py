@@ -6,28 +6,29 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from clinic.diagnosis.diagnose import Diagnosis, examine
-from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import rules
 from clinic.engine.variant import variants
 from clinic.record.case import Case, load_case
 from clinic.record.checkout import project_root
 from clinic.record.families import families
+from diagnosed import diagnosed, findings
 
 CASES = [load_case(folder) for folder in sorted((project_root() / "cases").iterdir())]
 MODELS = [case for case in CASES if case.record.run is not None]
 
 
-def diagnosed(text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Diagnosis:
+@pytest.fixture(autouse=True)
+def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No file of this project is in the current folder."""
     monkeypatch.chdir(tmp_path)
-    return examine(NativeEngine(), {"model.xml": text})
 
 
 @pytest.mark.parametrize("rule", rules().values(), ids=rules().keys())
-def test_its_bad_example_is_found_and_its_good_one_is_not(rule, tmp_path, monkeypatch):
-    bad = diagnosed(rule.example("Bad"), tmp_path, monkeypatch)
+def test_its_bad_example_is_found_and_its_good_one_is_not(rule):
+    bad = diagnosed(rule.example("Bad"))
     assert rule.id in {each.rule for each in (*bad.causes, *bad.hints)}
-    good = diagnosed(rule.example("Good"), tmp_path, monkeypatch)
+    assert findings(rule.example("Bad"), rule.id)
+    good = diagnosed(rule.example("Good"))
     assert not good.causes, good.text()
     assert rule.id not in {each.rule for each in good.hints}
 
@@ -42,17 +43,17 @@ def test_a_diff_that_does_not_fit_its_bad_example_is_told(taken):
 
 
 @pytest.mark.parametrize("case", MODELS, ids=lambda case: case.slug)
-def test_no_repaired_model_of_a_case_has_a_cause(case: Case, tmp_path, monkeypatch):
+def test_no_repaired_model_of_a_case_has_a_cause(case: Case):
     for variant in variants(case):
         if variant.kind == "fix":
-            found = diagnosed(variant.text, tmp_path, monkeypatch)
+            found = diagnosed(variant.text)
             assert not found.causes, f"{variant.id}:\n{found.text()}"
 
 
 @pytest.mark.parametrize("rule", [rule for rule in rules().values() if rule.case], ids=lambda rule: rule.id)
-def test_it_names_the_cause_in_the_broken_model_of_its_case(rule, tmp_path, monkeypatch):
+def test_it_names_the_cause_in_the_broken_model_of_its_case(rule):
     (case,) = (case for case in CASES if case.slug == rule.case)
-    found = diagnosed(case.text, tmp_path, monkeypatch)
+    found = diagnosed(case.text)
     named = found.hints if rule.level == "hint" else found.causes
     assert rule.id in {each.rule for each in named[:3]}, found.text()
 

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import pytest
-from clinic.diagnosis.diagnose import examine
 from clinic.diagnosis.finding import Finding
-from clinic.diagnosis.native import NativeEngine
+from diagnosed import diagnosed, findings, hints
+from scenery import FLOOR
 
 
 def told(rule: str, inside: str, sensors: str) -> list[Finding]:
-    floor = '<geom type="plane" size="5 5 0.1"/>'
-    text = f"<mujoco><worldbody>{floor}{inside}</worldbody><sensor>{sensors}</sensor></mujoco>"
-    found = examine(NativeEngine(), {"model.xml": text}, select=[rule])
-    return [*found.causes, *found.hints]
+    text = f"<mujoco><worldbody>{FLOOR}{inside}</worldbody><sensor>{sensors}</sensor></mujoco>"
+    return findings(text, rule)
 
 
 @pytest.mark.parametrize(
@@ -114,6 +112,37 @@ def test_a_cutoff_far_below_what_is_read_is_told(sensor: str, values: list[str])
     arm = '<body pos="0 0 9"><joint name="elbow" axis="0 0 1" range="-114.591559 20"/><geom size="0.1"/></body>'
     motors = '<motor name="elbow" joint="elbow" forcerange="-60 60"/><motor name="free" joint="elbow"/>'
     text = f"<mujoco><worldbody>{arm}</worldbody><actuator>{motors}</actuator><sensor>{sensor}</sensor></mujoco>"
-    found = examine(NativeEngine(), {"model.xml": text}, select=["cutoff-reached"])
+    found = diagnosed(text, "cutoff-reached")
     assert not found.causes
     assert [each.value for each in found.hints] == values
+
+
+@pytest.mark.parametrize(("size", "told"), [("0.002", True), ("0.06 0.06 0.06", False)])
+def test_several_touch_sensors_that_all_miss_are_told(size, told):
+    sites = "".join(
+        f'<site name="s{index}" type="box" pos="{place}" size="{size} 0.002 0.002"/>'
+        if told
+        else f'<site name="s{index}" type="box" pos="{place}" size="{size}"/>'
+        for index, place in enumerate(("0.05 0 0", "-0.05 0 0", "0 0 0.05"))
+    )
+    sensors = "".join(f'<touch name="t{index}" site="s{index}"/>' for index in range(3))
+    body = f'<body name="box" pos="0 0 0.05"><freejoint/><geom type="box" size="0.05 0.05 0.05"/>{sites}</body>'
+    text = f"<mujoco><worldbody>{FLOOR}{body}</worldbody><sensor>{sensors}</sensor></mujoco>"
+    assert [len(each.elements) for each in hints(text, "touch-site-too-small")] == [4] * told
+
+
+@pytest.mark.parametrize(
+    ("place", "size", "told"),
+    [
+        pytest.param("0 0 -0.2", 0.04, [("pos", "0 0 -0.32")], id="the site of a foot higher up the shin"),
+        pytest.param("0 0 -0.32", 0.04, [], id="around the foot"),
+        pytest.param("0 0 -0.32", 0.01, [("size", "0.0385 0.0385 0.0385")], id="in the foot, and small"),
+        pytest.param("0 0 -0.2", 0.02, [("size", "0.17 0.17 0.17")], id="too small for the foot as well"),
+    ],
+)
+def test_a_touch_site_that_would_hold_the_foot_elsewhere_gets_its_place(place, size, told):
+    foot = '<geom size="0.035" pos="0 0 -0.32"/><geom size="0.15" contype="0" conaffinity="0"/>'
+    shin = f'<joint type="slide" axis="0 0 1"/>{foot}<site name="s" pos="{place}" size="{size}"/>'
+    body = f'<body pos="0 0 0.355">{shin}</body>'
+    text = f'<mujoco><worldbody>{FLOOR}{body}</worldbody><sensor><touch site="s"/></sensor></mujoco>'
+    assert [(each.attribute, each.value) for each in hints(text, "touch-site-too-small")] == told

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import pytest
-from clinic.diagnosis.diagnose import Diagnosis, examine
+from clinic.diagnosis.diagnose import Diagnosis
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.probes.servo import servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import rules
 from clinic.diagnosis.rules.servo.control_range_too_narrow import ungeared
-from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import read_source
+from clinic.diagnosis.start import Start
+from diagnosed import causes, diagnosed, findings, hints
 
 ARM = """
 <mujoco>
@@ -29,16 +30,8 @@ ARM = """
 """
 
 
-def diagnosed(text: str) -> Diagnosis:
-    return examine(NativeEngine(), {"model.xml": text})
-
-
 def arm(actuator: str, joint: str = "", above: str = "") -> Diagnosis:
     return diagnosed(ARM.format(actuator=actuator, joint=joint, above=above))
-
-
-def causes(found: Diagnosis) -> list[str]:
-    return [each.rule for each in found.causes]
 
 
 @pytest.mark.parametrize(
@@ -57,7 +50,7 @@ def causes(found: Diagnosis) -> list[str]:
     ],
 )
 def test_a_model_that_only_looks_ill_has_no_cause(actuator, joint):
-    assert causes(arm(actuator, joint)) == []
+    assert not arm(actuator, joint).causes
 
 
 @pytest.mark.parametrize(
@@ -107,32 +100,16 @@ def test_a_fault_is_named_however_the_actuator_is_written(rule, actuator, joint)
 )
 def test_what_explains_the_symptom_that_is_named_is_told_from_smaller_numbers_on(symptom, actuator, told):
     text = ARM.format(above="", joint="", actuator=f'<position joint="shoulder" {actuator}/>')
-    found = examine(NativeEngine(), {"model.xml": text}, symptom=symptom, select=["weak-servo", "undamped-servo"])
+    found = diagnosed(text, "weak-servo", "undamped-servo", symptom=symptom)
     assert [each.rule for each in found.hints] == [told] * bool(told)
     assert not found.causes
-
-
-@pytest.mark.parametrize(("targets", "told"), [("-200 300", True), ("-1 1.5", False)])
-def test_targets_in_mm_of_a_slide_with_a_limited_force_are_told(targets, told):
-    rams = "".join(
-        f'<body pos="0 {i} 1"><joint name="ram{i}" type="slide" axis="1 0 0" range="-0.2 0.3" damping="50"/>'
-        '<geom size="0.05" mass="5"/></body>'
-        for i in range(2)
-    )
-    servos = "".join(
-        f'<position joint="ram{i}" kp="5000" kv="300" ctrlrange="{each}" forcerange="-300 300"/>'
-        for i, each in enumerate((targets, "-0.2 0.3"))
-    )
-    text = f"<mujoco><worldbody>{rams}</worldbody><actuator>{servos}</actuator></mujoco>"
-    found = examine(NativeEngine(), {"model.xml": text}, select=["control-range-too-wide"]).hints
-    assert [each.value for each in found] == ["-0.2 0.3"] * told
 
 
 def test_a_servo_in_a_default_class_is_mended_there():
     text = ARM.format(
         above='<default><position kp="200"/></default>', joint="", actuator='<position joint="shoulder"/>'
     )
-    found = next(each for each in diagnosed(text).causes if each.rule == "undamped-servo")
+    found = next(each for each in causes(text) if each.rule == "undamped-servo")
     assert found.after is not None
     assert found.after < 0.1 < found.before
 
@@ -140,39 +117,23 @@ def test_a_servo_in_a_default_class_is_mended_there():
 def test_a_gain_that_only_the_timestep_cannot_follow_is_the_timesteps_fault():
     calm = arm('<position joint="shoulder" kp="200" kv="40"/>')
     long = arm('<position joint="shoulder" kp="200" kv="40"/>', above='<option timestep="0.02"/>')
-    assert causes(calm) == []
-    assert causes(long) == ["timestep-too-long"]
+    assert not calm.causes
+    assert [each.rule for each in long.causes] == ["timestep-too-long"]
 
 
 def test_the_start_outside_of_a_range_is_a_hint_and_a_keyframes_is_a_cause():
     joint, key = 'range="30 90"', '<keyframe><key qpos="0"/></keyframe>'
     without, with_key = arm("", joint), arm("", joint, above=key)
-    assert (causes(without), [each.rule for each in without.hints]) == ([], ["start-outside-range"])
-    assert causes(with_key) == ["key-outside-range"]
-
-
-@pytest.mark.parametrize(
-    ("knee", "others", "told"),
-    [
-        pytest.param('range="30 150"', 3, False, id="a-robot-as-it-is-drawn"),
-        pytest.param('range="120 180"', 3, True, id="farther-than-any-knee"),
-        pytest.param('range="30 150" ref="10"', 3, True, id="put-there"),
-        pytest.param('range="30 150"', 1, True, id="no-robot"),
-    ],
-)
-def test_the_pose_in_which_a_robot_is_drawn_may_be_outside_of_its_ranges(knee: str, others: int, told: bool):
-    link = '<joint axis="0 1 0" range="-90 90"/><geom size="0.05"/>'
-    bodies = "".join(f'<body pos="{x} 0 1">{link}</body>' for x in range(others))
-    bodies += f'<body pos="-1 0 1"><joint name="knee" axis="0 1 0" {knee}/><geom size="0.05"/></body>'
-    found = diagnosed(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>")
-    assert ("start-outside-range" in [each.rule for each in found.hints]) == told
+    assert not without.causes
+    assert [each.rule for each in without.hints] == ["start-outside-range"]
+    assert [each.rule for each in with_key.causes] == ["key-outside-range"]
 
 
 def test_a_part_for_another_model_is_told_of_its_units_in_a_hint():
     text = ARM.format(above="", joint='range="-1.5 1.5"', actuator="")
-    part = diagnosed(text.replace('<geom type="plane" size="1 1 0.1"/>', ""))
-    assert causes(diagnosed(text)) == ["range-in-the-wrong-unit"]
-    assert (causes(part), [each.rule for each in part.hints]) == ([], ["range-in-the-wrong-unit"])
+    part = text.replace('<geom type="plane" size="1 1 0.1"/>', "")
+    assert [each.rule for each in causes(text)] == ["range-in-the-wrong-unit"]
+    assert [(each.rule, each.level) for each in findings(part)] == [("range-in-the-wrong-unit", "hint")]
 
 
 def test_ranges_in_degrees_are_mended_one_by_one_where_other_angles_are_in_radians():
@@ -180,43 +141,6 @@ def test_ranges_in_degrees_are_mended_one_by_one_where_other_angles_are_in_radia
     alone, turned = diagnosed(text), diagnosed(text.replace("<body ", '<body euler="0 0.5 0" ', 1))
     assert [(each.attribute, each.now, each.value) for each in alone.causes] == [("angle", "radian", "degree")]
     assert [(each.attribute, each.now, each.value) for each in turned.causes] == [("range", "-90 90", "-1.571 1.571")]
-
-
-def test_a_urdf_is_mended_in_its_mimic_or_in_its_limit():
-    text = """
-<robot name="gripper">
-  <link name="palm"/>
-  <link name="left"><inertial><mass value="0.1"/><inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial></link>
-  <link name="right"><inertial><mass value="0.1"/><inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial></link>
-  <joint name="leader" type="revolute">
-    <parent link="palm"/><child link="left"/><axis xyz="0 0 1"/>
-    <limit lower="0" upper="0.8" effort="1" velocity="1"/>
-  </joint>
-  <joint name="follower" type="revolute">
-    <parent link="palm"/><child link="right"/><axis xyz="0 0 1"/>
-    <limit lower="0" upper="0.8" effort="1" velocity="1"/>
-    <mimic joint="leader" multiplier="-1"/>
-  </joint>
-</robot>
-"""  # noqa: E501
-    (found,) = (each for each in diagnosed(text).causes if each.rule == "follower-out-of-range")
-    assert [(each.element, each.attribute, each.value) for each in found.edit] == [
-        ("limit", "lower", "-0.8"),
-        ("limit", "upper", "0"),
-    ]
-
-    turned = '<child link="right"/><axis xyz="0 0 -1"/>'  # with the other sign the fingers close against each other
-    against = text.replace('<child link="right"/><axis xyz="0 0 1"/>', turned)
-    (found,) = (each for each in diagnosed(against).causes if each.rule == "follower-out-of-range")
-    assert [(each.element, each.attribute, each.value) for each in found.edit] == [("mimic", "multiplier", "1")]
-
-
-@pytest.mark.parametrize(("damping", "named"), [(10000, ["weak-servo"]), (200, [])])
-def test_a_slide_that_its_damping_all_but_holds_has_too_weak_a_servo(damping, named):
-    body = f'<joint name="way" type="slide" axis="1 0 0" damping="{damping}" range="-1 1"/><geom size="0.1" mass="5"/>'
-    servo = '<actuator><position joint="way" kp="50" ctrlrange="-1 1"/></actuator>'
-    found = diagnosed(f'<mujoco><worldbody><body pos="0 0 1">{body}</body></worldbody>{servo}</mujoco>')
-    assert [each for each in causes(found) if each == "weak-servo"] == named
 
 
 @pytest.mark.parametrize(("times", "told"), [("10 40", True), ("0.01 0.04", False)])
@@ -247,30 +171,18 @@ def test_a_gear_goes_without_the_gains_that_the_others_have_as_well():
 )
 def test_a_wheel_below_its_speed_is_told_by_what_helps(wheel, told):
     actuator = f'<velocity joint="shoulder" {wheel} ctrlrange="-6 6"/>'
-    found = examine(
-        NativeEngine(),
-        {"model.xml": ARM.format(above='<option gravity="0 0 0"/>', joint='frictionloss="0.4"', actuator=actuator)},
-        select=["speed-not-reached"],
+    found = hints(
+        ARM.format(above='<option gravity="0 0 0"/>', joint='frictionloss="0.4"', actuator=actuator),
+        "speed-not-reached",
     )
-    assert [(each.attribute, each.value) for each in found.hints] == [told]
-    assert 'Told 3 rad/s, joint "shoulder" misses' in found.hints[0].says
-
-
-@pytest.mark.parametrize(
-    ("force", "told"), [pytest.param(0.5, True, id="a weak servo"), pytest.param(1.2, False, id="a strong one")]
-)
-def test_wheels_that_are_blocked_are_not_told_a_greater_force(force, told):
-    text = rules()["speed-not-reached"].example("Good").replace('kv="0.2"', f'kv="200" forcerange="-{force} {force}"')
-    text = text.replace('mass="3"', 'mass="30"').replace('ctrlrange="-20 20"', 'ctrlrange="-6 6"')
-    text = text.replace('euler="90 0 0"', 'euler="90 0 0" friction="1 0.005 0.01" condim="6"')  # rolls hard
-    found = examine(NativeEngine(), {"model.xml": text}, select=["speed-not-reached"]).hints
-    assert [each.attribute for each in found] == ["forcerange"] * told
+    assert [(each.attribute, each.value) for each in found] == [told]
+    assert 'Told 3 rad/s, joint "shoulder" misses' in found[0].says
 
 
 @pytest.mark.parametrize(("beside", "told"), [("", True), ('<motor joint="shoulder"/>', False)])
 def test_a_servo_beside_a_motor_need_not_carry_the_weight(beside, told):
     found = arm(f'<position joint="shoulder" kp="1" kv="0.1"/>{beside}', joint='damping="0.2"')
-    assert ("weak-servo" in causes(found)) == told
+    assert ("weak-servo" in [each.rule for each in found.causes]) == told
 
 
 @pytest.mark.parametrize(("armature", "told"), [("0", ["no-armature"]), ("1", [])])
@@ -288,7 +200,7 @@ def test_a_gripper_that_begins_shut_is_nudged_within_its_range(armature, told):
   </actuator>
 </mujoco>
 """
-    assert causes(diagnosed(text)) == told
+    assert [each.rule for each in causes(text)] == told
 
 
 @pytest.mark.parametrize(
@@ -322,49 +234,6 @@ def test_one_servo_without_armature_among_many_is_told(bare, told):
     assert ("armature-unlike-others" in [each.rule for each in found.hints]) is told, found.text()
 
 
-STOOL = """
-<mujoco>
-  <worldbody>
-    <geom type="plane" size="3 3 0.1"/>
-    <body name="trunk" pos="0 0 0.72">
-      <freejoint/>
-      <geom type="box" size="0.1 0.1 0.1" mass="10" pos="0.01 0 0"/>
-      {legs}
-    </body>
-  </worldbody>
-  <actuator>{servos}</actuator>
-</mujoco>
-"""
-
-
-@pytest.mark.parametrize(
-    ("kp", "symptom", "told"), [(10, "", True), (20, "", False), (20, "sags", True), (100, "sags", False)]
-)
-def test_a_robot_that_falls_after_a_while_has_too_little_stiffness(kp, symptom, told):
-    legs = "".join(
-        f'<body pos="0 {y} -0.1"><joint name="hip{y}" axis="0 1 0" damping="3"/>'
-        '<geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03" mass="1"/>'
-        f'<body pos="0 0 -0.3"><joint name="ankle{y}" axis="0 1 0" damping="3"/>'
-        '<geom type="box" size="0.08 0.03 0.02" pos="0 0 -0.3" mass="0.5"/></body></body>'
-        for y in (-0.1, 0.1)
-    )
-    names = [f"{name}{y}" for y in (-0.1, 0.1) for name in ("hip", "ankle")]
-    servos = "".join(f'<position joint="{name}" kp="{kp}" kv="2"/>' for name in names)
-    text = STOOL.format(legs=legs, servos=servos)
-    found = examine(NativeEngine(), {"model.xml": text}, symptom=symptom)
-    said = [each for each in (*found.causes, *found.hints) if "falls within 5 s" in each.says]
-    assert [each.rule for each in said] == ["weak-servo"] * told, found.text()
-
-
-@pytest.mark.parametrize(("kp", "told"), [(100, True), (200, False)])
-def test_a_finger_may_sag_by_a_tenth_of_its_way(kp: float, told: bool):
-    slide = '<body pos="0 0 1"><joint name="finger" type="slide" axis="0 0 1" range="0 0.04" damping="2"/>'
-    text = f'<mujoco><worldbody>{slide}<geom size="0.01" mass="0.05"/></body></worldbody>'
-    text += f'<actuator><position joint="finger" kp="{kp}"/></actuator></mujoco>'
-    found = examine(NativeEngine(), {"model.xml": text}, select=["weak-servo"]).hints
-    assert [each.attribute for each in found] == ["kp"] * told
-
-
 @pytest.mark.parametrize(("servo", "told"), [("", True), ('ctrlrange="-1 1"', False)])
 def test_no_servo_with_a_control_range_is_told_once(servo, told):
     found = row(4 * ['range="-60 60"'], servo)
@@ -383,7 +252,7 @@ def test_servos_that_damping_mends_are_told_without_one_that_it_does_not():
     text = (
         f'<mujoco><option integrator="implicitfast"/><worldbody>{arm}</worldbody><actuator>{servos}</actuator></mujoco>'
     )
-    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["undamped-servo"]).causes
+    (found,) = causes(text, "undamped-servo")
     assert found.elements == ('actuator "s0"', 'actuator "s1"')
 
 
@@ -403,30 +272,6 @@ def test_friction_that_takes_a_good_part_of_a_servos_force_is_told(friction, for
     assert [(each.attribute, each.value) for each in found] == [("frictionloss", value)] * (value is not None)
 
 
-@pytest.mark.parametrize(
-    ("given", "own", "mass", "written"),
-    [
-        ('kp="500" dampratio="1" forcerange="-1 1"', "", 2, {"of the class": "-22 22"}),
-        ('kp="500" dampratio="1" forcerange="-1 1"', 'forcerange="-2 2"', 2,
-         {"of the class": "-22 22", "its own": "-15 15"}),
-        ('kp="1"', "", 3, {"of the class": "368"}),
-    ],
-    ids=["the largest for the class", "one with its own", "one gain for the class"],
-)  # fmt: skip
-def test_what_servos_have_from_a_class_is_mended_there(given, own, mass, written):
-    arms = "".join(
-        f'<body pos="0 {each} 1"><joint name="{each}" axis="0 1 0"/>'
-        f'<geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.02" mass="{each}"/></body>'
-        for each in (mass, 3.0)
-    )
-    servos = f'<actuator><position joint="{mass}" {own}/><position joint="3.0"/></actuator>'
-    text = f"<mujoco><default><position {given}/></default><worldbody>{arms}</worldbody>{servos}</mujoco>"
-    (found,) = (each for each in diagnosed(text).causes if each.attribute in ("forcerange", "kp"))
-    place = text.index("<worldbody>")
-    assert {("of the class" if each.start < place else "its own"): each.value for each in found.edit} == written
-    assert len(found.edit) == len(written)
-
-
 def test_a_servo_that_rings_beside_its_twin_of_the_same_gains_moves_what_is_unlike() -> None:
     def leg(side: str, y: float, far: float) -> str:
         return f'<body pos="0 {y} 1"><joint name="{side}_hip" axis="0 1 0"/><geom size="0.05" pos="{far} 0 0"/></body>'
@@ -435,140 +280,7 @@ def test_a_servo_that_rings_beside_its_twin_of_the_same_gains_moves_what_is_unli
     driven = "".join(drive.format(f"{side}_hip") for side in ("left", "right"))
     text = "<mujoco><worldbody>{}{}</worldbody><actuator>{}</actuator></mujoco>"
     found = {
-        far: [each.level for each in (*told.causes, *told.hints)]
+        far: findings(text.format(leg("left", 0.1, 3), leg("right", -0.1, far), driven), "undamped-servo")
         for far in (0.3, 3)
-        for told in [
-            examine(
-                NativeEngine(),
-                {"model.xml": text.format(leg("left", 0.1, 3), leg("right", -0.1, far), driven)},
-                select=["undamped-servo"],
-            )
-        ]
     }
-    assert found == {0.3: ["hint"], 3: ["cause"]}
-
-
-@pytest.mark.parametrize(
-    ("force", "told"),
-    [pytest.param(0.6, [("hint", "forcerange", "3")], id="stands-on-it"), pytest.param(6, [], id="has-some-left")],
-)
-def test_motors_that_give_all_they_can_to_stand_still_are_told(force: float, told: list[tuple[str, str, str]]) -> None:
-    legs = "".join(
-        f'<body pos="{x} {y} 0" euler="0 0 {turn}"><joint name="leg{i}" axis="0 1 0" range="-60 60" damping="0.1" '
-        'armature="0.004"/><geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.05" contype="0"/>'
-        '<geom type="capsule" fromto="0.2 0 0 0.2 0 -0.08" size="0.02" mass="0.05"/></body>'
-        for i, (x, y, turn) in enumerate(((0.1, 0.1, 45), (0.1, -0.1, -45), (-0.1, 0.1, 135), (-0.1, -0.1, -135)))
-    )
-    trunk = f'<body pos="0 0 0.1"><freejoint/><geom type="box" size="0.1 0.1 0.02" mass="2" contype="0"/>{legs}</body>'
-    servos = "".join(f'<position joint="leg{i}" kp="40" kv="1" forcerange="-{force} {force}"/>' for i in range(4))
-    floor = '<geom type="plane" size="2 2 0.1"/>'
-    text = f"<mujoco><worldbody>{floor}{trunk}</worldbody><actuator>{servos}</actuator></mujoco>"
-    found = examine(NativeEngine(), {"model.xml": text}, select=["force-range-too-small"])
-    assert [(each.level, each.attribute, each.value) for each in (*found.causes, *found.hints)] == told
-
-
-@pytest.mark.parametrize(
-    ("force", "open_by", "told"),
-    [(300, 0, ["1500"]), (3000, 0, []), (300, 0.2, [])],
-    ids=["too weak", "strong", "not closed at the start"],
-)
-def test_a_ram_that_cannot_carry_what_its_loop_puts_on_it_is_told(
-    force: float, open_by: float, told: list[str]
-) -> None:
-    rod = (
-        '<body pos="0 0 0.3"><joint name="ram" type="slide" axis="0 0 1" range="-0.1 0.1" damping="100"/>'
-        '<geom type="capsule" fromto="0 0 0 0 0 0.2" size="0.01" mass="1"/>'
-        f'<site name="eye" pos="0 0 {0.2 + open_by}"/></body>'
-    )
-    text = f"""<mujoco><worldbody>
-      <body pos="0 0 1.5"><joint axis="0 1 0" range="-40 40"/><site name="lug" pos="0.3 0 0"/>
-        <geom type="capsule" fromto="0 0 0 1 0 0" size="0.03" mass="20"/></body>
-      <body pos="0.3 0 1"><joint axis="0 1 0" damping="1"/>
-        <geom type="capsule" fromto="0 0 0 0 0 0.2" size="0.02" mass="1"/>{rod}</body></worldbody>
-      <equality><connect site1="eye" site2="lug"/></equality>
-      <actuator><position joint="ram" kp="60000" kv="2000" forcerange="-{force} {force}"/></actuator></mujoco>"""
-    found = examine(NativeEngine(), {"model.xml": text}, select=["force-range-too-small"]).causes
-    assert [each.value for each in found] == told
-
-
-@pytest.mark.parametrize(("elbow", "told"), [("3", [("actuatorfrcrange", "15")]), ("20", [])])
-def test_a_motor_far_harder_pressed_than_the_one_that_carries_it_is_told(
-    elbow: str, told: list[tuple[str, str]]
-) -> None:
-    link = '<joint name="{0}" axis="0 1 0" range="-90 90" damping="1" actuatorfrcrange="-{1} {1}"/>'
-    link += '<geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="1"/>'
-    forearm = f'<body pos="0.3 0 0">{link.format("elbow", elbow)}</body>'
-    text = f"""<mujoco><worldbody><body pos="0 0 1">{link.format("shoulder", 60)}{forearm}</body></worldbody>
-      <actuator><position joint="shoulder" kp="200" kv="10"/><position joint="elbow" kp="100" kv="5"/></actuator>
-    </mujoco>"""
-    found = examine(NativeEngine(), {"model.xml": text}, select=["force-range-too-small"])
-    assert not found.causes
-    assert [(each.attribute, each.value) for each in found.hints] == told
-
-
-@pytest.mark.parametrize(
-    ("force", "ratio", "spring", "more", "told"),
-    [
-        pytest.param(0.004, 785, "", "", True, id="weak"),
-        pytest.param(0.02, 785, "", "", False, id="strong"),
-        pytest.param(0.004, 785, "", '<motor joint="bed"/>', False, id="beside a motor"),
-        pytest.param(0.004, 785, 'stiffness="100"', "", False, id="on a spring"),
-        pytest.param(1.57, 2, "", "", True, id="another ratio"),
-        pytest.param(3.14, 1, "", "", False, id="the ratio was left at 1"),
-        pytest.param(
-            1.57,
-            2,
-            "",
-            '</actuator><keyframe><key qpos="0.1 78.5 78.5"/></keyframe><actuator>',
-            False,
-            id="a keyframe has another ratio",
-        ),
-    ],
-)
-def test_servos_of_screws_that_together_do_not_hold_a_bed_are_told(force, ratio, spring, more, told):
-    screw = '<body pos="{1} 0 0"><joint name="{0}" axis="0 0 1" armature="0.00002"/><geom size="0.01"/></body>'
-    servo = '<position joint="{0}" kp="2" kv="0.01" forcerange="-{1} {1}"/>'
-    nut = '<joint joint1="{}" joint2="bed" polycoef="0 {} 0 0 0"/>'
-    sides = (("left", -1), ("right", 1))
-    text = f"""<mujoco><worldbody><body><joint name="bed" type="slide" axis="0 0 1" {spring}/>
-      <geom size="0.1" mass="1"/></body>{"".join(screw.format(*side) for side in sides)}</worldbody>
-      <equality>{"".join(nut.format(side, ratio) for side, _ in sides)}</equality>
-      <actuator>{"".join(servo.format(side, force) for side, _ in sides)}{more}</actuator></mujoco>"""
-    found = examine(NativeEngine(), {"model.xml": text}, select=["force-range-too-small"]).causes
-    assert [each.value for each in found] == [f"{14.8 / ratio:.2g}"] * told
-
-
-@pytest.mark.parametrize(
-    ("joint", "ctrl", "told"),
-    [
-        ("0 0.2356195", "0 2.356195", ("range", "0 2.3562")),
-        ("-0.1 0.23", "-1 2.3", ("ctrlrange", "-0.1 0.23")),
-        ("0 0.1745329", "0 1.745329", ("ctrlrange", "0 0.1745")),
-        ("0 0.2356195", "0 2.618", ("ctrlrange", "0 0.2356")),
-    ],
-    ids=["135 degrees", "of no whole degrees", "10 degrees too", "another factor"],
-)
-def test_a_range_that_is_a_tenth_of_whole_degrees_is_told_in_place_of_the_targets(joint, ctrl, told):
-    body = f'<body pos="0 0 1"><joint name="j" axis="0 1 0" range="{joint}" damping="1"/><geom size="0.05"/></body>'
-    servo = f'<actuator><position joint="j" kp="20" ctrlrange="{ctrl}"/></actuator>'
-    text = f'<mujoco><compiler angle="radian"/><worldbody>{body}</worldbody>{servo}</mujoco>'
-    found = examine(NativeEngine(), {"model.xml": text}, select=["control-range-too-wide"]).hints
-    assert [(each.attribute, each.value) for each in found] == [told]
-
-
-@pytest.mark.parametrize(
-    ("kv", "others", "told"),
-    [(400, 2.2, ("kv", "2.2")), (400, 400, ("kp", "8000")), (400, 40, ("kp", "8000"))],
-    ids=["one of many", "as all are", "ten times the others'"],
-)
-def test_a_servo_that_is_late_by_its_own_kv_is_told_to_have_less_of_that(kv, others, told):
-    arms = "".join(
-        f'<body pos="0 {each} 1"><joint name="j{each}" axis="0 0 1"/>'
-        '<geom type="capsule" fromto="0 0 0 0.6 0 0" size="0.06"/></body>'
-        for each in range(5)
-    )
-    servos = "".join(f'<position joint="j{each}" kp="190" kv="{others if each else kv}"/>' for each in range(5))
-    text = f"<mujoco><worldbody>{arms}</worldbody><actuator>{servos}</actuator></mujoco>"
-    (found,) = examine(NativeEngine(), {"model.xml": text}, select=["weak-servo"]).causes
-    assert (found.attribute, found.value) == told
-    assert found.after < found.before / 2
+    assert {far: [each.level for each in told] for far, told in found.items()} == {0.3: ["hint"], 3: ["cause"]}

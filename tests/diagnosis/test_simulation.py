@@ -7,11 +7,12 @@ import pytest
 from clinic.diagnosis import engine
 from clinic.diagnosis.judge import suspects_of
 from clinic.diagnosis.native import NativeEngine
-from clinic.diagnosis.probes.run import extent
+from clinic.diagnosis.probes.run import model_size
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import rules
-from clinic.diagnosis.simulation import Simulation, Start
+from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import read_source
+from clinic.diagnosis.start import Start
 
 ARM = """<mujoco>
   <worldbody>
@@ -99,7 +100,7 @@ def test_a_written_extent_makes_no_model_smaller_than_its_bodies():
     legs = "".join(f'<body pos="{x} 0 -0.4"><joint axis="0 1 0"/><geom size="0.02"/></body>' for x in (-0.3, 0.3))
     text = f'<mujoco>{{}}<worldbody><body pos="0 0 1"><freejoint/><geom size="0.05"/>{legs}</body></worldbody></mujoco>'
     small = '<statistic extent="0.1"/>'
-    sizes = [extent(Simulation(NativeEngine().compile(text.format(each), {}), Start())) for each in ("", small)]
+    sizes = [model_size(Simulation(NativeEngine().compile(text.format(each), {}), Start())) for each in ("", small)]
     assert sizes == pytest.approx([0.64, 0.6])
 
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
-from clinic.diagnosis.diagnose import Diagnosis, examine
-from clinic.diagnosis.native import NativeEngine
-from clinic.diagnosis.simulation import Start, StartError
+from clinic.diagnosis.start import Start, StartError
+from diagnosed import diagnosed, findings
 
 ARM = """<mujoco model="arm">
   <compiler angle="radian" meshdir="meshes"/>
@@ -48,19 +49,13 @@ URDF = """<robot name="arm">
 """
 
 
-@pytest.fixture
-def diagnosed(tmp_path, monkeypatch):
-    folder = tmp_path / "around" / "model"
-    (folder / "meshes").mkdir(parents=True)
-    monkeypatch.chdir(folder)
-
-    def diagnosed(text: str, **options) -> Diagnosis:
-        return examine(NativeEngine(), {"model": text}, **options)
-
-    return diagnosed
+@pytest.fixture(autouse=True)
+def meshes(folder: Path) -> None:
+    """An empty folder for them."""
+    (folder / "meshes").mkdir()
 
 
-def test_of_a_well_model_only_the_files_are_told(diagnosed):
+def test_of_a_well_model_only_the_files_are_told():
     found = diagnosed(ARM)
     assert "opening file" in found.error
     assert [each.rule for each in (*found.causes, *found.hints)] == ["missing-file"], found.text()
@@ -77,7 +72,7 @@ def test_of_a_well_model_only_the_files_are_told(diagnosed):
     ],
     ids=["servo", "joint", "URDF"],
 )
-def test_what_is_wrong_besides_is_a_hint_at_its_line(diagnosed, text, written, wrong, rule):
+def test_what_is_wrong_besides_is_a_hint_at_its_line(text, written, wrong, rule):
     assert rule not in [each.rule for each in diagnosed(text).hints]
     found = diagnosed(text.replace(written, wrong))
     assert not found.causes
@@ -86,7 +81,7 @@ def test_what_is_wrong_besides_is_a_hint_at_its_line(diagnosed, text, written, w
     assert not {"masks", "visual-mass", "overlap-at-start"} & {*found.ruled_out}, "boxes say nothing of these"
 
 
-def test_what_else_keeps_it_from_compiling_is_told_too(diagnosed):
+def test_what_else_keeps_it_from_compiling_is_told_too():
     key = '<keyframe>\n<key name="home" qpos="0 0 0"/>\n</keyframe>'
     text = ARM.replace("<asset>", f"{key}\n<asset>").replace(
         'elbow" axis="0 1 0" range="-1.5 1.5"', 'elbow" range="0 0"'
@@ -98,7 +93,7 @@ def test_what_else_keeps_it_from_compiling_is_told_too(diagnosed):
     assert found.hints[1].line == text.partition('elbow" range')[0].count("\n") + 1
 
 
-def test_behind_an_error_that_is_mended_the_rest_is_a_hint(diagnosed):
+def test_behind_an_error_that_is_mended_the_rest_is_a_hint():
     text = BOX.format(files='builtin="flat" width="8" height="48"')
     text = text.replace('name="floor"', 'name="floor"\n colour="red"')
     found = diagnosed(text)
@@ -137,12 +132,12 @@ BOX = """<mujoco>
 SIDES = ("right", "left", "up", "down", "front", "back")
 
 
-def test_nothing_is_told_that_the_size_of_a_box_decides(diagnosed):
+def test_nothing_is_told_that_the_size_of_a_box_decides():
     found = diagnosed(QUADROTOR)
     assert [each.rule for each in found.hints] == ["missing-file"], found.text()
 
 
-def test_without_its_pictures_a_model_is_diagnosed_as_with_them(diagnosed):
+def test_without_its_pictures_a_model_is_diagnosed_as_with_them():
     missing = diagnosed(BOX.format(files=" ".join(f'file{side}="{side}.png"' for side in SIDES)))
     there = diagnosed(BOX.format(files='builtin="flat" width="8" height="48"'))
     assert [each.rule for each in missing.causes] == [each.rule for each in there.causes] == ["overlap-at-start"]
@@ -152,7 +147,7 @@ def test_without_its_pictures_a_model_is_diagnosed_as_with_them(diagnosed):
     assert "mesh" not in file.says
 
 
-def test_the_file_that_is_there_is_not_the_one_of_that_name_that_is_not(diagnosed, monkeypatch):
+def test_the_file_that_is_there_is_not_the_one_of_that_name_that_is_not():
     with open("meshes/link.obj", "w") as file:
         file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n")
     meshes = '<mesh name="a" file="meshes/link.obj"/>\n<mesh name="b" file="collision/link.obj"/>'
@@ -160,20 +155,19 @@ def test_the_file_that_is_there_is_not_the_one_of_that_name_that_is_not(diagnose
     assert (cause.rule, cause.line, cause.value) == ("missing-file", 2, "meshes/link.obj")
 
 
-@pytest.mark.parametrize("options", [{"select": ["range-empty"]}, {"ignore": ["missing-file"]}])
-def test_where_the_missing_file_may_not_be_told_nothing_behind_it_is(diagnosed, options):
+@pytest.mark.parametrize(("select", "ignore"), [(["range-empty"], []), ([], ["missing-file"])])
+def test_where_the_missing_file_may_not_be_told_nothing_behind_it_is(select, ignore):
     text = ARM.replace('elbow" axis="0 1 0" range="-1.5 1.5"', 'elbow" axis="0 1 0" range="0 0"')
-    found = diagnosed(text, **options)
-    assert "range-empty" not in {each.rule for each in (*found.causes, *found.hints)}
+    assert "range-empty" not in {each.rule for each in findings(text, *select, ignore=ignore)}
 
 
-def test_a_keyframe_that_is_not_there_is_told(diagnosed):
+def test_a_keyframe_that_is_not_there_is_told():
     with pytest.raises(StartError):
         diagnosed(ARM, start=Start(keyframe="home"))
 
 
 @pytest.mark.parametrize("ending", ["stl", "obj"])
-def test_a_pointer_of_git_is_told_as_one(diagnosed, ending):
+def test_a_pointer_of_git_is_told_as_one(ending):
     with open(f"meshes/upper.{ending}", "w") as file:
         file.write("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n")
     lines = (line for line in ARM.splitlines() if "sky" not in line and "skin" not in line and "hills" not in line)

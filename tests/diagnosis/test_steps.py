@@ -6,31 +6,23 @@ import math
 from collections.abc import Sequence
 
 import pytest
-from clinic.diagnosis.diagnose import Diagnosis, examine
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import rules
-from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import read_source
+from clinic.diagnosis.start import Start
 from clinic.diagnosis.suspect import Probe
-
-
-def diagnosed(text: str) -> Diagnosis:
-    return examine(NativeEngine(), {"model.xml": text})
-
-
-def causes(found: Diagnosis) -> list[str]:
-    return [each.rule for each in found.causes]
+from diagnosed import causes, diagnosed, findings, hints
 
 
 @pytest.mark.parametrize(("damping", "named"), [(100, ["servo-held-back"]), (6, [])])
 def test_what_a_joint_has_of_damping_is_not_said_of_a_stiff_servo(damping, named):
     body = f'<joint name="way" axis="0 0 1" damping="{damping}" range="-60 60"/><geom size="0.1" mass="5"/>'
     servo = '<actuator><position joint="way" kp="50" ctrlrange="-1 1"/></actuator>'
-    found = diagnosed(f'<mujoco><worldbody><body pos="0 0 1">{body}</body></worldbody>{servo}</mujoco>')
-    assert [each.rule for each in (*found.causes, *found.hints)] == named
+    found = findings(f'<mujoco><worldbody><body pos="0 0 1">{body}</body></worldbody>{servo}</mujoco>')
+    assert [each.rule for each in found] == named
 
 
 def test_a_light_foot_without_armature_is_not_the_timesteps_fault():
@@ -52,10 +44,11 @@ def test_a_light_foot_without_armature_is_not_the_timesteps_fault():
   <actuator><motor joint="ankle"/></actuator>
 </mujoco>
 """
-    found = diagnosed(text)
-    assert "no-armature" in causes(found)
-    assert "timestep-too-long" not in causes(found)
-    assert "no-armature" not in causes(diagnosed(text.replace('range="-30 30"', 'range="-30 30" armature="0.01"')))
+    named = {each.rule for each in causes(text)}
+    assert "no-armature" in named
+    assert "timestep-too-long" not in named
+    heavier = text.replace('range="-30 30"', 'range="-30 30" armature="0.01"')
+    assert "no-armature" not in {each.rule for each in causes(heavier)}
 
 
 FOREARM = """
@@ -113,7 +106,8 @@ def test_the_damping_of_a_joint_is_explicit_beyond_what_the_joints_around_it_lea
     text += (
         link.format(0.5) + ' mass=".15"/></body></body></worldbody><actuator><motor joint="one" gear="9"/></actuator>'
     )
-    assert "damping-explicit" in causes(diagnosed(text.replace("<joint", '<joint name="one"', 1) + "</mujoco>"))
+    text = text.replace("<joint", '<joint name="one"', 1) + "</mujoco>"
+    assert "damping-explicit" in [each.rule for each in causes(text)]
 
 
 @pytest.mark.parametrize(("integrator", "told"), [("Euler", True), ("implicitfast", False)])
@@ -134,7 +128,7 @@ def test_a_gain_that_neither_its_damping_nor_the_timestep_bears_is_too_large():
         '<default><position kp="{}" kv="0.05"/></default>'
         f"<worldbody>{chain}{'</body>' * 3}</worldbody><actuator>{driven}</actuator></mujoco>"
     )
-    found = {kp: [(each.rule, each.value) for each in diagnosed(text.format(kp)).causes] for kp in ("40", "0.4")}
+    found = {kp: [(each.rule, each.value) for each in causes(text.format(kp))] for kp in ("40", "0.4")}
     assert found == {"40": [("undamped-servo", "0.4")], "0.4": []}
 
 
@@ -161,10 +155,8 @@ def test_damping_against_which_no_equality_holds_is_told_and_not_the_timestep(da
   </worldbody>
   <equality><connect site1="eye" site2="lug" solref="0.008 1" solimp="0.95 0.99 0.001"/></equality>
 </mujoco>"""
-    found = examine(NativeEngine(), {"model.xml": text}, select=["damping-explicit", "timestep-too-long"])
-    assert [(each.rule, each.elements) for each in (*found.causes, *found.hints)] == [
-        ("damping-explicit", ('joint "ram"',))
-    ] * told
+    found = findings(text, "damping-explicit", "timestep-too-long")
+    assert [(each.rule, each.elements) for each in found] == [("damping-explicit", ('joint "ram"',))] * told
 
 
 @pytest.mark.parametrize(
@@ -180,8 +172,7 @@ def test_a_spring_of_which_a_period_has_few_steps_is_told(step: float, stiffness
     slide = f'<joint type="slide" axis="0 0 1" range="-0.02 0.02" stiffness="{stiffness}" springref="0.01"/>'
     text = f"""<mujoco><option timestep="{step}" integrator="implicitfast"/><worldbody>
       <body pos="0 0 1">{slide}<geom size="0.02" mass="0.1"/></body></worldbody></mujoco>"""
-    found = examine(NativeEngine(), {"model.xml": text}, select=["timestep-too-long"]).hints
-    assert [each.value for each in found] == told
+    assert [each.value for each in hints(text, "timestep-too-long")] == told
 
 
 @pytest.mark.parametrize(("links", "told"), [(3, True), (14, False)], ids=["whole", "cut short"])

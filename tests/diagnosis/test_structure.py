@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from clinic.diagnosis.diagnose import Diagnosis, examine
-from clinic.diagnosis.edit import apply
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import rules
+from diagnosed import findings, hints, with_edits
 
 DOOR = """
 <mujoco>
@@ -20,77 +19,25 @@ DOOR = """
 """
 
 
-def found(text: str, rule: str) -> list[str]:
-    """What a rule says of a model, and that its edits unsay it."""
-    told: Diagnosis = examine(NativeEngine(), {"model.xml": text}, select=[rule])
-    return [each.says for each in (*told.causes, *told.hints)]
-
-
 @pytest.mark.parametrize(
     ("resists", "told"),
     [('damping="1000"', 1), ('frictionloss="200"', 1), ('damping="20"', 0), ('frictionloss="20"', 0), ("", 0)],
 )
 def test_a_door_that_a_push_does_not_open_is_told(resists, told):
-    assert len(found(DOOR.format(resists=resists), "joint-frozen")) == told
-
-
-PLANAR = """
-<mujoco>
-  <worldbody>
-    <geom name="floor" type="plane" size="5 5 1"/>
-    <body name="torso" pos="0 0 1">
-      <joint name="forth" type="slide" axis="1 0 0"/><joint name="up" type="slide" axis="0 0 1"/>
-      <joint name="pitch" axis="0 1 0"/>
-      <geom type="capsule" size="0.05" fromto="0 0 0 0 0 -0.4"/>
-      <body name="thigh" pos="0 0 -0.4">
-        <joint name="hip" axis="0 1 0" range="-45 45" stiffness="1" springref="{hip}"/>
-        <geom type="capsule" size="0.04" fromto="0 0 0 0 0 -0.25"/>
-        <body name="shin" pos="0 0 -0.25">
-          <joint name="knee" axis="0 1 0" range="-45 45" stiffness="1"/>
-          <geom type="capsule" size="0.04" fromto="0 0 0 0 0 -0.25"/>
-          <body name="foot" pos="0 0 -0.25">
-            <joint name="ankle" axis="0 1 0" range="-45 45" stiffness="1" springref="{ankle}"/>
-            <geom type="capsule" size="0.05" fromto="-0.05 0 -0.05 0.15 0 -0.05"/>
-          </body>
-        </body>
-      </body>
-    </body>
-  </worldbody>
-  <contact><exclude body1="{one}" body2="{other}"/></contact>
-</mujoco>
-"""
+    assert len(findings(DOOR.format(resists=resists), "joint-frozen")) == told
 
 
 @pytest.mark.parametrize(
-    ("one", "other", "told"), [("world", "foot", True), ("foot", "world", True), ("world", "shin", False)]
-)
-def test_the_foot_of_a_planar_robot_must_touch_the_floor(one, other, told):
-    assert bool(found(PLANAR.format(hip=0, ankle=0, one=one, other=other), "excluded-pair")) is told
-
-
-@pytest.mark.parametrize(("hip", "ankle", "told"), [(0, 90, True), (90, 90, False), (0, 60, False)])
-def test_the_one_spring_that_rests_beyond_its_range_is_told(hip, ankle, told):
-    text = PLANAR.format(hip=hip, ankle=ankle, one="thigh", other="torso")
-    assert bool(found(text, "spring-far-off")) is told
-
-
-@pytest.mark.parametrize(
-    ("axis", "shin", "told"),
+    ("shin", "told"),
     [
-        pytest.param("0 1 0", "0 0 -0.4", True, id="across"),
-        pytest.param("1 0 0", "0 0 -0.4", False, id="as it should"),
-        pytest.param("0 1 0", "0 0.4 -0.1", False, id="a thigh that stands off, as a spider's"),
+        pytest.param("0 0 -0.4", True, id="across"),
+        pytest.param("0 0.4 -0.1", False, id="a thigh that stands off, as a spider's"),
     ],
 )
-def test_a_knee_that_swings_its_shin_sideways_is_told(axis: str, shin: str, told: bool) -> None:
-    bad = rules()["knee-turns-sideways"].example("Bad")
-    text = bad.replace('_knee" axis="0 1 0"', f'_knee" axis="{axis}"').replace('pos="0 0 -0.4"', f'pos="{shin}"')
-    found = examine(NativeEngine(), {"model.xml": text}).hints
-    knees = [each for each in found if each.rule == "knee-turns-sideways"]
-    assert bool(knees) is told
-    if knees:
-        assert knees[0].elements == ('joint "left_knee"', 'joint "right_knee"')
-        assert knees[0].value == "1 0 0"
+def test_a_knee_that_swings_its_shin_sideways_is_told(shin: str, told: bool) -> None:
+    text = rules()["knee-turns-sideways"].example("Bad").replace('pos="0 0 -0.4"', f'pos="{shin}"')
+    knees = [(each.elements, each.value) for each in hints(text) if each.rule == "knee-turns-sideways"]
+    assert knees == [(('joint "left_knee"', 'joint "right_knee"'), "1 0 0")] * told
 
 
 @pytest.mark.parametrize(
@@ -111,10 +58,10 @@ def test_an_object_that_lies_on_something_and_has_no_joint_is_told(
         <geom type="box" size="0.02 0.02 0.02" {attributes}/></body>
       <body name="{tool}" pos="0.3 0 0.3"><joint type="slide" damping="1"/><geom size="0.02"/></body></worldbody>
     <keyframe><key qpos="1 0 0.1 1 0 0 0 0.05" qvel="0 0 0 0 0 0 0.1"/></keyframe></mujoco>"""
-    found = examine(NativeEngine(), {"model.xml": text}, select=["object-without-joint"]).hints
+    found = hints(text, "object-without-joint")
     assert [each.elements for each in found] == [(f'body "{name}"',)] * told
     for each in found:
-        mended = apply({"model.xml": text}, each.edit)["model.xml"]
+        mended = with_edits(text, each)
         pose = "0.3 0 0.02 0.707107 0 0 0.707107"
         assert f'<key qpos="1 0 0.1 1 0 0 0 {pose} 0.05" qvel="{"0 " * 12}0.1"/>' in mended
         assert NativeEngine().compile(mended, {})
@@ -135,8 +82,7 @@ def test_what_has_a_mass_is_what_a_gripper_is_to_hold_where_nothing_is_free(geom
     arm = f'<body name="{tool}" pos="0 0 0.3"><joint type="slide" damping="1"/><geom size="0.02"/></body>'
     floor = '<geom type="plane" size="2 2 0.1"/>'
     text = f"<mujoco><worldbody>{floor}{chip}{arm}{beside}</worldbody></mujoco>"
-    found = examine(NativeEngine(), {"model.xml": text}, select=["object-without-joint"]).hints
-    assert [each.elements for each in found] == [('body "chip"',)] * told
+    assert [each.elements for each in hints(text, "object-without-joint")] == [('body "chip"',)] * told
 
 
 @pytest.mark.parametrize(
@@ -152,10 +98,8 @@ def test_a_ball_that_its_hinge_moves_nowhere_is_set_free(geom: str, height: floa
     joint = '<joint name="root" range="-360 360" limited="true"/>'
     ball = f'<body name="ball" pos="0 0 {height}">{joint}<geom {geom}/></body>'
     text = f'<mujoco><worldbody><geom type="plane" size="2 2 0.1"/>{ball}</worldbody></mujoco>'
-    found = examine(NativeEngine(), {"model.xml": text}, select=["object-without-joint"]).hints
+    found = hints(text, "object-without-joint")
     assert [(each.elements, each.value) for each in found] == [(('joint "root"',), "free")] * told
-    for each in found:
-        assert not examine(NativeEngine(), apply({"model.xml": text}, each.edit), select=["object-without-joint"]).hints
 
 
 @pytest.mark.parametrize(
@@ -172,32 +116,7 @@ def test_a_hinge_that_is_called_a_slide_is_told(joint: str, actuator: str, told:
     cart = f'<body name="cart"><joint {joint} axis="1 0 0"/><geom size="0.1"/></body>'
     motor = f'<motor name="{actuator}" joint="{joint.split(chr(34))[1]}"/>'
     text = f"<mujoco><worldbody>{cart}</worldbody><actuator>{motor}</actuator></mujoco>"
-    found = examine(NativeEngine(), {"model.xml": text}, select=["hinge-for-slide"]).hints
-    assert [(each.attribute, each.value) for each in found] == [("type", "slide")] * told
-
-
-@pytest.mark.parametrize(
-    ("ends", "told"),
-    [("ram ram ram", [("class", "ram")]), ("ram ram pin", []), ("1 2 3", [("type", "slide")])],
-    ids=["of-its-name", "of-another-name", "left-out"],
-)
-def test_the_one_hinge_among_slides_of_its_name_gets_their_class(ends: str, told: list[tuple[str, str]]) -> None:
-    joints = [f"{part}_{end}" for part, end in zip(("boom", "stick", "bucket"), ends.split(), strict=True)]
-    kinds = ["pin" if "ram" in ends else "free", "ram", "ram"]
-    bodies = "".join(
-        f'<body pos="{i} 0 0"><joint name="{name}" class="{kind}" range="-0.04 0.05"/><geom size="0.1"/></body>'
-        for i, (name, kind) in enumerate(zip(joints, kinds, strict=True))
-    ).replace(' class="free"', "")
-    classes = (
-        '<default class="pin"><joint type="hinge" axis="0 1 0"/></default><default class="ram"><joint type="slide"/>'
-    )
-    driven = "".join(f'<position joint="{name}" kp="10" kv="1"/>' for name in joints)
-    text = (
-        f'<mujoco><compiler angle="radian"/><default>{classes}</default></default><worldbody>{bodies}</worldbody>'
-        f"<actuator>{driven}</actuator></mujoco>"
-    )
-    found = examine(NativeEngine(), {"model.xml": text}, select=["hinge-for-slide", "range-in-the-wrong-unit"])
-    assert [(each.attribute, each.value) for each in found.hints] == told
+    assert [(each.attribute, each.value) for each in hints(text, "hinge-for-slide")] == [("type", "slide")] * told
 
 
 @pytest.mark.parametrize(
@@ -209,7 +128,7 @@ def test_a_soft_body_that_goes_flat_is_told(young: str, value: str | None) -> No
         <contact solref="0.01 1" selfcollide="none"/></flexcomp>"""
     floor = '<geom type="plane" size="1 1 0.1"/>'
     text = f'<mujoco><option timestep="0.002"/><worldbody>{floor}{foam}</worldbody></mujoco>'
-    found = examine(NativeEngine(), {"model.xml": text}, select=["flex-falls-apart"]).hints
+    found = hints(text, "flex-falls-apart")
     assert [(each.attribute, each.value) for each in found] == [("young", value)] * (value is not None)
 
 
@@ -228,10 +147,10 @@ def test_a_chain_whose_hinges_are_on_one_line_is_told(axis: str, links: int, att
         shape = '<geom type="capsule" fromto="0 0 0 0 0 -0.1" size="0.01"/>'
         text = f'<body name="b{each}" pos="0 0 -0.1"><joint name="j{each}" {axis}/>{shape}{text}</body>'
     text = f"<mujoco><worldbody>{text}</worldbody></mujoco>"
-    found = examine(NativeEngine(), {"model.xml": text}, select=["joints-on-one-line"]).hints
+    found = hints(text, "joints-on-one-line")
     assert [each.attribute for each in found] == [attribute] * (attribute is not None)
     if attribute == "type":
-        assert 'type="ball"' in apply({"model.xml": text}, found[0].edit)["model.xml"]
+        assert 'type="ball"' in with_edits(text, found[0])
 
 
 @pytest.mark.parametrize(
@@ -250,21 +169,7 @@ def test_two_rings_whose_names_say_two_turns_do_not_turn_about_one_line(names, a
         f'<joint name="{name}" axis="{axis}"/><geom size="0.1"/>' for name, axis in zip(names, axes, strict=True)
     )
     text = f"<mujoco><worldbody><body pos='0 0 1'>{outer}<body>{inner}</body></body></worldbody></mujoco>"
-    found = examine(NativeEngine(), {"model.xml": text}, select=["joints-on-one-line"]).hints
-    assert [(each.elements[0], each.value) for each in found] == ([told] if told else [])
-    for each in found:
-        assert not examine(NativeEngine(), apply({"model.xml": text}, each.edit), select=["joints-on-one-line"]).hints
-
-
-@pytest.mark.parametrize(
-    ("rest", "told"), [("-0.02", "0.02"), ("0.02", None), ("0", None)], ids=["towards the load", "against it", "none"]
-)
-def test_a_spring_that_rests_on_the_side_of_its_load_gets_the_other_sign(rest: str, told: str | None) -> None:
-    slide = f'<joint type="slide" axis="0 0 1" range="-0.05 0.05" stiffness="2000" damping="180" springref="{rest}"/>'
-    load = f'<body name="load" pos="0 0 1">{slide}<geom size="0.1" mass="4"/></body>'
-    text = f"<mujoco><worldbody>{load}</worldbody></mujoco>"
-    found = examine(NativeEngine(), {"model.xml": text}, select=["spring-at-its-stop"]).hints
-    assert [(each.attribute, each.value) for each in found] == ([("springref", told)] if told else [])
+    assert [(each.elements[0], each.value) for each in hints(text, "joints-on-one-line")] == ([told] if told else [])
 
 
 @pytest.mark.parametrize(
@@ -283,11 +188,9 @@ def test_a_pendulum_that_nothing_can_swing_is_told(name: str, base: str, axis: s
     cart = (
         f'<joint {base}/><geom type="box" size=".1 .05 .02" pos=".1 0 0"/><body name="{name}" pos=".2 0 0">{rod}</body>'
     )
-    text = {"model.xml": f'<mujoco><worldbody><body pos="0 0 1">{cart}</body></worldbody></mujoco>'}
-    found = examine(NativeEngine(), text, select=["axis-unlike-name"]).hints
+    text = f'<mujoco><worldbody><body pos="0 0 1">{cart}</body></worldbody></mujoco>'
+    found = hints(text, "axis-unlike-name")
     assert [(each.elements[0], each.value) for each in found] == ([('joint "hinge"', told)] if told else [])
-    for each in found:
-        assert not examine(NativeEngine(), apply(text, each.edit), select=["axis-unlike-name"]).hints
 
 
 @pytest.mark.parametrize(
@@ -307,56 +210,4 @@ def test_a_pallet_that_carries_something_free_and_has_no_joint_is_told(name, mas
     text = (
         f'<mujoco><worldbody>{floor}<body name="{name}" pos="0 0 .05">{boards}</body>{crate}{car}</worldbody></mujoco>'
     )
-    found = examine(NativeEngine(), {"model.xml": text}, select=["object-without-joint"]).hints
-    assert [each.elements for each in found] == [('body "pallet"',)] * told
-
-
-@pytest.mark.parametrize(("outer", "told"), [("", "arm"), ('childclass="arm"', None)], ids=["lost", "there"])
-def test_the_class_that_all_used_ones_stand_in_is_the_one_that_was_lost(outer: str, told: str | None) -> None:
-    inner = '<default class="small"><joint damping="0.4"/></default><default class="big"><geom size=".02"/></default>'
-    classes = f'<default><default class="arm"><joint damping="1.5" armature="0.1"/>{inner}</default></default>'
-    links = ("", ""), ('childclass="small"', ""), ("", "")
-    chain = ""
-    for number, (child, _) in enumerate(links[::-1]):
-        name = f"j{len(links) - number}"
-        chain = f'<body pos="0 0 .2" {child}><joint name="{name}" axis="0 1 0"/><geom size=".02"/>{chain}</body>'
-    servos = "".join(f'<position joint="j{number}" kp="9"/>' for number in (1, 2, 3))
-    world = f"<worldbody><body {outer}><geom size='.02'/>{chain}</body></worldbody>"
-    text = f"<mujoco>{classes}{world}<actuator>{servos}</actuator></mujoco>"
-    found = examine(NativeEngine(), {"m.xml": text}, select=["class-not-reached"]).hints
-    assert [each.value for each in found if each.attribute == "class"] == ([told] if told else [])
-
-
-@pytest.mark.parametrize(
-    ("spring", "drive", "weight", "told"),
-    [
-        ('stiffness="0.9"', "motor", 3, ("stiffness", "900")),
-        ('stiffness="20"', "motor", 3, ("stiffness", "550")),
-        ('stiffness="900" springref="-0.18"', "motor", 3, ("springref", "0")),
-        ('stiffness="900" springref="-0.18"', "motor", 0, None),
-        ('stiffness="900"', "motor", 3, None),
-        ('stiffness="0.9"', 'position kp="2000"', 3, None),
-    ],
-    ids=["N/mm", "weak", "rests at its stop", "a plunger without a load", "right", "a servo holds it"],
-)
-def test_a_leg_with_a_spring_beside_its_motor_is_told_at_its_stop(spring, drive, weight, told):
-    slide = f'<joint name="leg" type="slide" axis="0 0 1" range="-0.18 0.02" damping="40" {spring}/>'
-    text = f"""<mujoco><option gravity="0 0 {-3.27 * weight}"/><worldbody><body>{slide}<geom size="1" mass="3"/></body>
-      </worldbody><actuator><{drive} joint="leg"/></actuator></mujoco>"""
-    found = examine(NativeEngine(), {"model.xml": text}, select=["spring-at-its-stop"]).hints
-    assert [(each.attribute, each.value) for each in found] == ([told] if told else [])
-
-
-@pytest.mark.parametrize(
-    ("stiffness", "values"),
-    [("120", {"0.02"}), ("20", {"0.02"}), ("0.12", set())],
-    ids=["far too stiff", "too stiff", "right"],
-)
-def test_the_springs_of_a_chain_that_have_one_stiffness_get_one_again(stiffness: str, values: set[str]) -> None:
-    link = ""
-    for _ in range(5):
-        shape = f'<joint axis="0 1 0" damping="0.004" stiffness="{stiffness}"/><geom size="0.01" pos="0 0 -0.01"/>'
-        link = f'<body pos="0 0 -0.024">{shape}{link}</body>'
-    text = f'<mujoco><option timestep="0.001"/><worldbody>{link}</worldbody></mujoco>'
-    found = examine(NativeEngine(), {"model.xml": text}, select=["spring-too-stiff"])
-    assert {edit.value for each in [*found.causes, *found.hints] for edit in each.edit} == values
+    assert [each.elements for each in hints(text, "object-without-joint")] == [('body "pallet"',)] * told

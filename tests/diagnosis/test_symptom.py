@@ -8,7 +8,7 @@ import pytest
 from clinic.diagnosis.bench.healthy import survey
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.process import diagnose
-from clinic.diagnosis.simulation import Start
+from clinic.diagnosis.start import Start
 from clinic.diagnosis.symptom import code_of, measure
 from clinic.diagnosis.texts import read_file, read_texts
 from clinic.record.case import load_case

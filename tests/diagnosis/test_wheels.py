@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from clinic.diagnosis.diagnose import examine
-from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.rules import rules
+from diagnosed import findings, hints
 
 
 @pytest.mark.parametrize(
@@ -25,7 +24,7 @@ def test_a_wheel_whose_middle_is_beside_its_hinge_is_told(shape: str, told: bool
     )
     car = f'<body pos="0 0 0.05"><freejoint/><geom type="box" size="0.1 0.05 0.02"/>{wheels}</body>'
     text = f'<mujoco><worldbody><geom type="plane" size="5 5 0.1"/>{car}</worldbody></mujoco>'
-    assert bool(examine(NativeEngine(), {"model.xml": text}, select=["wheel-not-round"]).hints) is told
+    assert bool(hints(text, "wheel-not-round")) is told
 
 
 AXLE = rules()["axle-against-itself"].example("Bad")
@@ -50,8 +49,7 @@ def test_a_tendon_that_drives_two_wheels_of_an_axle_apart_is_told(
     for old, new in changes:
         assert old in text
         text = text.replace(old, new)
-    found = examine(NativeEngine(), {"model.xml": text}, select=["axle-against-itself"]).hints
-    assert [each.value for each in found] == values
+    assert [each.value for each in hints(text, "axle-against-itself")] == values
 
 
 @pytest.mark.parametrize(
@@ -76,8 +74,7 @@ def test_a_coupling_that_steers_two_wheels_of_an_axle_apart_is_told(
     text = (
         f'<mujoco><worldbody><body pos="0 0 1"><freejoint/><geom size="0.1"/>{forks}</body></worldbody>{tie}</mujoco>'
     )
-    found = examine(NativeEngine(), {"model.xml": text}, select=["axle-against-itself"]).hints
-    assert [each.value for each in found] == [f"0 {-factor} 0.1 0 0"] * told
+    assert [each.value for each in hints(text, "axle-against-itself")] == [f"0 {-factor} 0.1 0 0"] * told
 
 
 @pytest.mark.parametrize(
@@ -94,6 +91,46 @@ def test_of_hinge_and_cylinder_the_one_that_is_not_along_the_axle_is_turned(axis
         f'<geom type="cylinder" size="0.1 0.02" mass="0.3" {cylinder}/></body>'
     )
     car = f'<freejoint/><geom type="box" size="0.2 0.1 0.03"/>{wheel.format("l", 0.2)}{wheel.format("r", -0.2)}'
-    text = {"m.xml": f'<mujoco><worldbody><body pos="0 0 0.1">{car}</body></worldbody></mujoco>'}
-    found = examine(NativeEngine(), text, select=["wheel-not-round"]).hints
-    assert [(each.attribute, each.value) for each in found[:1]] == ([told] if told else [])
+    text = f'<mujoco><worldbody><body pos="0 0 0.1">{car}</body></worldbody></mujoco>'
+    assert [(each.attribute, each.value) for each in hints(text, "wheel-not-round")[:1]] == ([told] if told else [])
+
+
+def test_a_wheel_that_has_no_direction_is_not_told_to_vary_by_nan():
+    text = rules()["wheel-not-round"].example("Bad").replace('mass="0.3"/>', 'mass="0.3" zaxis="0 1 nan"/>', 1)
+    assert not findings(text, "wheel-not-round")
+
+
+@pytest.mark.parametrize(
+    ("kv", "force", "told"),
+    [
+        pytest.param(0.02, 'forcerange="-8 8"', True, id="a-weak-gain-of-a-strong-servo"),
+        pytest.param(0.02, 'forcerange="-1 1"', False, id="of-a-weak-one"),
+        pytest.param(0.02, "", False, id="of-one-without-limits"),
+        pytest.param(0.2, 'forcerange="-8 8"', False, id="a-gain-that-is-strong-enough"),
+    ],
+)
+def test_a_wheel_that_needs_seconds_to_its_speed_is_told(kv, force, told):
+    text = rules()["speed-not-reached"].example("Good").replace('kv="0.2"', f'kv="{kv}" {force}')
+    text = text.replace('damping="0.01"', 'damping="0.001"').replace('mass="3"', 'mass="12"')
+    assert [(each.attribute, each.value) for each in hints(text, "speed-not-reached")] == [("kv", "0.4")] * told
+
+
+@pytest.mark.parametrize(
+    ("throttle", "told"),
+    [
+        pytest.param('position kp="0.05"', ["wheel-held"], id="angle"),
+        pytest.param('velocity kv="0.05"', [], id="speed"),
+        pytest.param("motor", [], id="torque"),
+    ],
+)
+def test_a_servo_that_holds_two_wheels_by_a_tendon_is_told(throttle: str, told: list[str]) -> None:
+    wheels = "".join(
+        f'<body name="{side}_wheel" pos="0 {y} 0"><joint name="{side}_spin" axis="0 1 0"/><geom size="0.05"/></body>'
+        for side, y in (("left", 0.1), ("right", -0.1))
+    )
+    car = f'<body pos="0 0 0.05"><freejoint/><geom type="box" size="0.1 0.05 0.02"/>{wheels}</body>'
+    ends = "".join(f'<joint joint="{side}_spin" coef="0.5"/>' for side in ("left", "right"))
+    text = f"""<mujoco><worldbody><geom type="plane" size="1 1 0.1"/>{car}</worldbody>
+      <tendon><fixed name="axle">{ends}</fixed></tendon>
+      <actuator><{throttle} tendon="axle" ctrlrange="-60 60"/></actuator></mujoco>"""
+    assert [each.rule for each in hints(text, "wheel-held")] == told

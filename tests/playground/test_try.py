@@ -14,7 +14,7 @@ from clinic.diagnosis.diagnose import examine
 from clinic.diagnosis.edit import apply
 from clinic.diagnosis.finding import Diagnosis
 from clinic.diagnosis.native import NativeEngine
-from clinic.diagnosis.simulation import Start
+from clinic.diagnosis.start import Start
 from clinic.engine.node import executable as node
 
 pytestmark = pytest.mark.xdist_group("parity")

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from clinic.diagnosis.ignores import unknown
 from clinic.diagnosis.rules import Rule, rules
-from clinic.diagnosis.simulation import Start
+from clinic.diagnosis.start import Start
 from clinic.diagnosis.texts import decoded
 from clinic.record.families import families, family_shares, likely_families
 

@@ -15,9 +15,9 @@ from clinic.diagnosis.ignores import Ignores
 from clinic.diagnosis.judge import Judged, grouped, judge, order, suspects_of, without_consequences, without_rivals
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import Rule, rules
-from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import read_source
 from clinic.diagnosis.stand_ins import StandIns
+from clinic.diagnosis.start import Start
 from clinic.diagnosis.suspect import Suspect
 
 LIMIT = 20.0  # s for a start, after which no further rule is tried

@@ -11,9 +11,9 @@ from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.judge import Judged, suspects_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import Rule
-from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import Element, read_source
 from clinic.diagnosis.stand_ins import StandIns
+from clinic.diagnosis.start import Start
 from clinic.diagnosis.suspect import Suspect
 
 MOST, LIMIT = 60, 15.0  # messages, s

@@ -15,7 +15,7 @@ from typing import Any
 
 from clinic.diagnosis.diagnose import examine
 from clinic.diagnosis.finding import KILLED, LATE, Diagnosis, ending
-from clinic.diagnosis.simulation import Start, StartError
+from clinic.diagnosis.start import Start, StartError
 from clinic.diagnosis.texts import decoded, read_file, read_texts
 
 LIMIT = 60.0  # s, for one process

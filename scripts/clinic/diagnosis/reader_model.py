@@ -8,8 +8,9 @@ from collections.abc import Mapping, Sequence
 from clinic.diagnosis.edit import Edit, apply, insert, remove_attribute, set_attribute
 from clinic.diagnosis.engine import CompileError, Engine
 from clinic.diagnosis.probes.vector import written
-from clinic.diagnosis.simulation import Simulation, Start
+from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import REPEATING, Element, Source
+from clinic.diagnosis.start import Start
 from clinic.diagnosis.suspect import Probe
 
 OF_ROBOT = {"body": "link", "joint": "joint"}
@@ -103,7 +104,7 @@ class ReaderModel:
         MuJoCo makes the root link of a URDF the world, and fuses the links without a joint: what is written of their
         mass does not show in the compiled model. It does once the robot is put on a free joint.
         """
-        if self.source is None or not self.source.urdf:
+        if self.source is None or not self.urdf:
             return self
         children = {each.get("link") for each in self.source.elements("child")}
         roots = [name for each in self.source.root.children if each.tag == "link" and (name := each.get("name"))]
@@ -131,7 +132,7 @@ class ReaderModel:
     @property
     def angle_unit(self) -> float:
         """The unit in which the text has angles, in rad: 1, or pi/180 where MJCF does not say otherwise."""
-        if self.source is None or self.source.urdf:
+        if self.source is None or self.urdf:
             return 1.0
         written = [each.get("angle") for each in self.source.elements("compiler") if each.get("angle")]
         return 1.0 if written and written[-1] == "radian" else math.pi / 180
@@ -147,7 +148,7 @@ class ReaderModel:
         names = self.simulation.names(kind)
         if self.source is None:  # the engine reads XML that is not quite well-formed
             return [None] * len(names)
-        if self.source.urdf and kind in OF_ROBOT:  # a transmission names its joints by <joint> too
+        if self.urdf and kind in OF_ROBOT:  # a transmission names its joints by <joint> too
             written = [each for each in self.source.root.children if each.tag == OF_ROBOT[kind]]
         elif kind == "body":
             written = list(self.source.bodies())
@@ -158,7 +159,7 @@ class ReaderModel:
         if kind in ("pair", "exclude"):
             written = [each for each in self.source.section("contact") if each.tag == kind]
         by_name = {element.get("name"): element for element in written if element.get("name")}
-        whole = not self.source.urdf and not any(True for _ in self.source.elements(*REPEATING))
+        whole = not self.urdf and not any(True for _ in self.source.elements(*REPEATING))
         if whole and len(written) == len(names):
             fits = all(element.get("name") in ("", name) for element, name in zip(written, names, strict=True))
             if fits or kind == "body":
@@ -191,7 +192,7 @@ class ReaderModel:
         if self.source is None or not found or any(each is None for each in found):
             return ()
         elements = [each for each in found if each is not None]
-        if self.source.urdf:
+        if self.urdf:
             return self._set_urdf(elements, attribute, value)
         made: dict[Edit, None] = {}
         for element in elements:
@@ -242,7 +243,7 @@ class ReaderModel:
 
     def placed(self, body: int, place: Sequence[float]) -> tuple[Edit, ...]:
         """Edits that put a body elsewhere in its parent; in URDF its joint's `<origin>` does."""
-        if self.source is None or not self.source.urdf:
+        if not self.urdf:
             return self.set("body", [body], "pos", written(place))
         return self.set("joint", self.simulation.joints_of(body)[:1], "origin", written(place))
 
@@ -253,7 +254,7 @@ class ReaderModel:
 
     def option(self, attribute: str, value: str, tag: str = "option") -> tuple[Edit, ...]:
         """The edit that gives `<option>`, or another element below the root, an attribute."""
-        if self.source is None or self.source.urdf:
+        if self.source is None or self.urdf:
             return ()
         there = [child for child in self.source.root.children if child.tag == tag]
         holder = next((child for child in there if attribute in child.attributes), there[-1] if there else None)
@@ -263,7 +264,7 @@ class ReaderModel:
 
     def add(self, section: str, xml: str) -> tuple[Edit, ...]:
         """The edit that adds an element to a section such as `contact`."""
-        if self.source is None or self.source.urdf:
+        if self.source is None or self.urdf:
             return ()
         there = self.source.root.first(section)
         return (insert(there, xml) if there else insert(self.source.root, f"<{section}>{xml}</{section}>"),)

@@ -4,42 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from functools import cached_property, wraps
 from typing import TypeVar, TypeVarTuple
 
 from clinic.diagnosis.engine import BALL, FREE, HINGE, SLIDE, TRN_IN_PARENT, Compiled
+from clinic.diagnosis.start import Start
 
 WIDTH = {FREE: (7, 6), BALL: (4, 3), SLIDE: (1, 1), HINGE: (1, 1)}  # of a joint in qpos and qvel
-REFERENCES = {"body": "body_parentid", "joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid"}
+BODIES = {"joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid", "camera": "cam_bodyid"}
+ENDLESS = (-math.inf, math.inf)  # in place of the range of a joint without one
 UNSTABLE = ("BADQPOS", "BADQVEL", "BADQACC")
 Made = TypeVar("Made")
 Of = TypeVarTuple("Of")
-
-
-@dataclass(frozen=True)
-class Start:
-    """How a run begins and is driven.
-
-    Attributes:
-        key: A keyframe; -1 for the model's own start.
-        ctrl: Controls by actuator, in place of the keyframe's.
-        series: Controls by time in s, increasing, each from its time on.
-        duration: How long the model is let go, in s.
-        seed: Of the poses in which loads are measured.
-        keyframe: A keyframe by its name, or its number, in place of `key`.
-    """
-
-    key: int = -1
-    ctrl: Mapping[str, float] = field(default_factory=dict)
-    series: Sequence[tuple[float, Mapping[str, float]]] = ()
-    duration: float = 2.0
-    seed: int = 0
-    keyframe: str = ""
-
-
-class StartError(ValueError):
-    """A start that a model does not have, in a sentence."""
 
 
 class Simulation:
@@ -72,8 +48,8 @@ class Simulation:
             return "the world"
         if name := self.engine.name(kind, index):
             return f'{kind} "{name}"'
-        if kind in REFERENCES and kind != "body":
-            owners = self.model(REFERENCES[kind])
+        if kind in BODIES and kind != "camera":
+            owners = self.model(BODIES[kind])
             alike = [each for each, owner in enumerate(owners) if owner == owners[index]]
             which = f" {alike.index(index) + 1} of {len(alike)}" if len(alike) > 1 else ""
             return f"{kind}{which} of {self.name('body', int(owners[index]))}"
@@ -117,6 +93,16 @@ class Simulation:
         """In s."""
         return self.model("opt.timestep")[0]
 
+    @property
+    def gravity(self) -> float:
+        """Its strength in m/s2, whatever the flags say."""
+        return math.hypot(*self.model("opt.gravity"))
+
+    @property
+    def extent(self) -> float:
+        """What MuJoCo takes for the size of the model, or somebody wrote, in m."""
+        return self.model("stat.extent")[0]
+
     def begin(self, *, forward: bool = True) -> None:
         """Back to the start that the reader chose; controls are the keyframe's and the reader's."""
         self.engine.reset(self.begin_with.key)
@@ -146,26 +132,12 @@ class Simulation:
             yield done * self.timestep
 
     def begin_from(self, start: Start) -> Start:
-        """Takes a start whose names and numbers the model has, and gives it with its keyframe's number.
+        """Takes a start that the model has, and gives it with its keyframe's number.
 
         Raises:
-            StartError: If the model lacks one of them.
+            StartError: If the model lacks what the start names.
         """
-        names, named, key = self.names("key"), start.keyframe, start.key
-        if named:
-            key = names.index(named) if named in names else int(named) if named.isdecimal() else len(names)
-        if key >= len(names):
-            having = ", ".join(name or str(number) for number, name in enumerate(names)) or "no keyframe"
-            raise StartError(f"keyframe {named or key}: the model has {having}")
-        driven = dict.fromkeys(
-            name for controls in (start.ctrl, *(row for _, row in start.series)) for name in controls
-        )
-        actuators = self.names("actuator")
-        for name in driven:
-            if not name or name not in actuators:
-                having = ", ".join(filter(None, actuators)) or "no actuator with a name"
-                raise StartError(f"control {name}: the model has {having}")
-        self.begin_with = replace(start, key=key, keyframe="")
+        self.begin_with = start.resolved(self.names("key"), self.names("actuator"))
         return self.begin_with
 
     def _drive(self, controls: Mapping[str, float]) -> None:
@@ -184,6 +156,17 @@ class Simulation:
     def dof_joints(self) -> list[int]:
         """The joint of each degree of freedom."""
         return [int(joint) for joint in self.model("dof_jntid")]
+
+    @cached_property
+    def scalar_joints(self) -> list[int]:
+        """The hinges and slides."""
+        return [joint for joint, kind in enumerate(self.model("jnt_type")) if int(kind) in (HINGE, SLIDE)]
+
+    @cached_property
+    def ranges(self) -> dict[int, tuple[float, float]]:
+        """The ranges of those hinges and slides that have one, in rad or m."""
+        ends = {joint: self.row("jnt_range", joint, 2) for joint in self.scalar_joints}
+        return {joint: (low, high) for joint, (low, high) in ends.items() if self.model("jnt_limited")[joint]}
 
     @cached_property
     def moving_bodies(self) -> list[int]:
@@ -210,8 +193,12 @@ class Simulation:
         """The bodies that hang on each body, the world too, that has some."""
         made: dict[int, list[int]] = {}
         for body in range(1, self.count("body")):
-            made.setdefault(int(self.model("body_parentid")[body]), []).append(body)
+            made.setdefault(self.parent(body), []).append(body)
         return made
+
+    def parent(self, body: int) -> int:
+        """The body that a body hangs on."""
+        return int(self.model("body_parentid")[body])
 
     def below(self, body: int) -> list[int]:
         """A body and all that hangs on it."""
@@ -221,7 +208,7 @@ class Simulation:
         """A body, the one that it hangs on, and so on up to the world."""
         made = [body]
         while made[-1]:
-            made.append(int(self.model("body_parentid")[made[-1]]))
+            made.append(self.parent(made[-1]))
         return made
 
     def joints_of(self, body: int) -> list[int]:
@@ -242,13 +229,29 @@ class Simulation:
         """Of a joint's position."""
         return "m" if self.joint_type(joint) == SLIDE else "rad"
 
+    def continuous(self, joint: int) -> bool:
+        """Whether a joint is a hinge without limits, as a wheel's."""
+        return self.joint_type(joint) == HINGE and not self.model("jnt_limited")[joint]
+
+    def axis(self, joint: int) -> tuple[float, ...]:
+        """The direction of a hinge or slide in the world, as it is now."""
+        return self.data_row("xaxis", joint, 3)
+
     def body_of(self, kind: str, index: int) -> int:
-        """The body that a joint, geom or site is of."""
-        return int(self.model(REFERENCES[kind])[index])
+        """The body that a joint, geom, site or camera is of; of a body its parent."""
+        return self.parent(index) if kind == "body" else int(self.model(BODIES[kind])[index])
 
     def gear(self, actuator: int) -> float:
         """The first number of an actuator's gear: for a joint or tendon all of it."""
         return self.model("actuator_gear")[6 * actuator]
+
+    def actuator_types(self, actuator: int) -> tuple[int, ...]:
+        """Of an actuator's gain, bias and dynamics: mjtGain, mjtBias and mjtDyn."""
+        return tuple(int(self.model(f"actuator_{of}type")[actuator]) for of in ("gain", "bias", "dyn"))
+
+    def is_motor(self, actuator: int) -> bool:
+        """Whether an actuator's control is its force, but for a factor."""
+        return not any(self.actuator_types(actuator))
 
     def place(self, joint: int) -> int:
         """Where a joint begins in qpos."""
@@ -271,7 +274,7 @@ class Simulation:
         if int(self.model("actuator_trntype")[actuator]) > TRN_IN_PARENT:
             return None
         joint = int(self.model("actuator_trnid")[2 * actuator])
-        return joint if self.joint_type(joint) in (HINGE, SLIDE) else None
+        return joint if joint in self.scalar_joints else None
 
     @cached_property
     def drivers(self) -> dict[int, list[int]]:

@@ -14,7 +14,8 @@ import numpy as np
 
 from clinic.diagnosis.finding import Measured
 from clinic.diagnosis.native import NativeEngine
-from clinic.diagnosis.simulation import Simulation, Start
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.start import Start
 from clinic.proof.procedure import measured, measurement, members, read
 from clinic.record.case import read_cases
 from clinic.record.checkout import cases_root

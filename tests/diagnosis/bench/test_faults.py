@@ -12,8 +12,8 @@ from clinic.diagnosis.bench.harm import HARMS
 from clinic.diagnosis.edit import apply
 from clinic.diagnosis.native import NativeEngine
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import Source
+from clinic.diagnosis.start import Start
 from subjects import LEGS
 
 ELSEWHERE = {  # the model names no file, has no mesh, and one `<inertial>` and three servos

@@ -26,8 +26,8 @@ from clinic.diagnosis.finding import Finding
 from clinic.diagnosis.native import NativeEngine, NativeModel
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import rules
-from clinic.diagnosis.simulation import Start
 from clinic.diagnosis.source import Source
+from clinic.diagnosis.start import Start
 from clinic.diagnosis.texts import read_file, read_texts
 
 ATTEMPTS = 8  # models tried for a plant that does harm

@@ -134,7 +134,7 @@ def measured(of: Simulation, joints: tuple[int, ...]) -> Measured:
     """The numbers of hinges in a row."""
     of.as_written()
     places = [of.data_row("xanchor", joint, 3) for joint in joints]
-    axes = [of.data_row("xaxis", joint, 3) for joint in joints]
+    axes = [of.axis(joint) for joint in joints]
     lengths, offsets, foot, shoulder = [], [], places[0], places[0]
     for one, (axis, after) in enumerate(pairwise(axes)):
         normal, between = cross(axis, after), sub(places[one + 1], places[one])

@@ -11,7 +11,7 @@ from clinic.diagnosis.engine import BALL, FREE, HINGE, MESH, SLIDE
 from clinic.diagnosis.probes.attached import attached
 from clinic.diagnosis.probes.couplings import couplings
 from clinic.diagnosis.probes.pairs import FITS, Pairs
-from clinic.diagnosis.probes.vector import Vector, add, apart, diagonal, dot, norm, sub, times, turned
+from clinic.diagnosis.probes.vector import Vector, across, add, apart, diagonal, dot, norm, sub, times, turned
 
 LITTLE = math.radians(3)
 
@@ -78,7 +78,7 @@ class Comparisons(Pairs):
                 unlike = self._offset(body, "site_xpos", left, right, self.of.body_of("site", right))
                 yield Comparison("site", left, right, "pos", unlike, FITS * self.size[body], "m")
         for left, right in self.pairs["camera"]:
-            if (body := int(self.of.model("cam_bodyid")[left])) in self.images:
+            if (body := self.of.body_of("camera", left)) in self.images:
                 yield from self._cameras(body, left, right)
         yield from self._signs()
         for left, right in self.pairs["actuator"]:
@@ -101,7 +101,7 @@ class Comparisons(Pairs):
     def _bodies(self, left: int, right: int) -> Iterator[Comparison]:
         of, pair = self.of, partial(Comparison, "body", left, right)
         image, size = self.images[left], self.size[left]
-        slid = self._slid(left, right) or self._slid(*(int(of.model("body_parentid")[each]) for each in (left, right)))
+        slid = self._slid(left, right) or self._slid(of.parent(left), of.parent(right))
         yield pair("pos", 0.0 if slid else norm(self._shift(left, right)), FITS * size, "m")
         masses = of.model("body_mass")[left], of.model("body_mass")[right]
         yield pair("mass", apart(*masses), 10)
@@ -116,7 +116,7 @@ class Comparisons(Pairs):
 
     def _shift(self, left: int, right: int) -> Vector:
         """From the right body to the image of its twin, seen from the bodies that they hang on."""
-        above, image = [int(self.of.model("body_parentid")[each]) for each in (left, right)], self.images[left]
+        above, image = [self.of.parent(each) for each in (left, right)], self.images[left]
         if above[0] == above[1]:
             return sub(image.of(self.at("xpos", left)), self.at("xpos", right))
         here, there = (sub(self.at("xpos", b), self.at("xpos", p)) for b, p in zip((left, right), above, strict=True))
@@ -127,7 +127,7 @@ class Comparisons(Pairs):
         if (left, right) not in self.pairs["body"] or left not in self.images:
             return False
         shift, near, joints = self._shift(left, right), FITS * self.size[left], self.of.joints_of(right)
-        lines = [add(shift, axis, -dot(shift, axis)) for axis in (self.at("xaxis", j) for j in joints)]
+        lines = [across(shift, self.at("xaxis", joint)) for joint in joints]
         held = [pair for pair in self.pairs["body"] if pair[0] in self.of.children.get(left, [])]
         back = [add(shift, self._shift(*pair)) for pair in held if pair[0] in self.images]
         return bool(joints and back) and all(norm(each) <= near for each in (*lines, *back))
@@ -151,15 +151,14 @@ class Comparisons(Pairs):
             yield pair(quantity, apart(field[of.dof(left)], field[of.dof(right)]), 30)
         other = of.body_of("joint", right)
         yield pair("pos", self._offset(body, "xanchor", left, right, other), FITS * self.size[body], "m")
-        limited = [bool(of.model("jnt_limited")[each]) for each in (left, right)]
         if of.joint_type(left) == BALL:
             return
         sign, angle = self.joint_sign(left, right)
         yield pair("axis", angle, 5, "degrees")
         if angle < 30:
-            yield pair("limited", 100 * (limited[0] != limited[1]), 1)
-            if all(limited):
-                ranges = of.row("jnt_range", left, 2), of.row("jnt_range", right, 2)
+            yield pair("limited", 100 * ((left in of.ranges) != (right in of.ranges)), 1)
+            if left in of.ranges and right in of.ranges:
+                ranges = of.ranges[left], of.ranges[right]
                 little = of.joint_type(left) == HINGE and _apart(*ranges, sign) < LITTLE
                 yield pair("range", 0.0 if little else _intervals(*ranges, sign), 10)
 
@@ -224,7 +223,7 @@ class Comparisons(Pairs):
 
     def _cameras(self, body: int, left: int, right: int) -> Iterator[Comparison]:
         of, pair = self.of, partial(Comparison, "camera", left, right)
-        other = int(of.model("cam_bodyid")[right])
+        other = of.body_of("camera", right)
         yield pair("pos", self._offset(body, "cam_xpos", left, right, other), FITS * self.size[body], "m")
         views = [tuple(self.at("cam_xmat", each, 9)[2::3]) for each in (left, right)]
         cosine = dot(times(self.images[body].matrix, views[0]), views[1])
@@ -255,9 +254,8 @@ class Comparisons(Pairs):
             if all(limited):
                 same = pair(f"{quantity}range", 0.0, 10)
                 ranges = [of.row(f"actuator_{quantity}range", each, 2) for each in (left, right)]
-                bounded = all(of.model("jnt_limited")[joint] for joint in (joints[0], joints[1]))
-                own = (of.row("jnt_range", joint, 2) for joint in (joints[0], joints[1]))
-                inherited = bounded and all(_apart(*each, 1) < 1e-9 for each in zip(ranges, own, strict=True))
+                own = [of.ranges[joint] for joint in (joints[0], joints[1]) if joint in of.ranges]
+                inherited = len(own) == 2 and all(_apart(*each, 1) < 1e-9 for each in zip(ranges, own, strict=True))
                 unlike = _intervals(ranges[0], ranges[1], self.interval_sign(same))
                 yield replace(same, unlike=0.0 if inherited else unlike)  # of the joints it is told
 

@@ -34,8 +34,8 @@ def lost(simulation: Simulation, found: tuple[Coupling, ...]) -> float:
     """The largest share of a leader's range that leads its follower out of its own."""
     most = 0.0
     for coupling in found:
-        if all(simulation.model("jnt_limited")[joint] for joint in coupling[:2]):
-            low, high = simulation.row("jnt_range", coupling[0], 2)
+        if all(joint in simulation.ranges for joint in coupling[:2]):
+            low, high = simulation.ranges[coupling[0]]
             slack = SLACK * (high - low)
             outside = [not low - slack <= place <= high + slack for place in led_over(simulation, coupling)]
             most = max(most, sum(outside) / POINTS)

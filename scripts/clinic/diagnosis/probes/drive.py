@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from clinic.diagnosis.engine import HINGE, SLIDE, TRN_IN_PARENT, TRN_SITE
-from clinic.diagnosis.probes.run import extent
+from clinic.diagnosis.engine import HINGE, TRN_IN_PARENT, TRN_SITE
+from clinic.diagnosis.probes.run import model_size
 from clinic.diagnosis.probes.servo import alone, command, hold, servos
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
@@ -29,8 +29,8 @@ def _driven(simulation: Simulation, joint: int) -> float:
     begin = simulation.position(joint)
     way = 1.0 if simulation.joint_type(joint) == HINGE else 0.1
     side = 1.0
-    if simulation.model("jnt_limited")[joint]:
-        low, high = simulation.row("jnt_range", joint, 2)
+    if joint in simulation.ranges:
+        low, high = simulation.ranges[joint]
         side = 1.0 if high - begin >= begin - low else -1.0
         way = min(way, max(high - begin, begin - low))
     own = {each.actuator: each for each in servos(simulation) if each.joint == joint}
@@ -61,14 +61,14 @@ def pulls(simulation: Simulation) -> dict[int, dict[int, float]]:
     if any(kind > TRN_IN_PARENT and each not in sites for each, kind in enumerate(kinds)):
         return {}
     for actuator in sites:
-        if any(int(of.model(f"actuator_{kind}type")[actuator]) for kind in ("gain", "bias", "dyn")):
+        if not of.is_motor(actuator):
             return {}
         of.begin(forward=False)
         of.engine.write("ctrl", [float(each == actuator) for each in range(len(kinds))])
         of.engine.forward()
         forces = of.data("qfrc_actuator")
-        for joint in range(of.count("joint")):
-            if joint not in of.drivers and of.joint_type(joint) in (HINGE, SLIDE) and forces[of.dof(joint)]:
+        for joint in of.scalar_joints:
+            if joint not in of.drivers and forces[of.dof(joint)]:
                 made.setdefault(joint, {})[actuator] = forces[of.dof(joint)]
     return made
 
@@ -121,7 +121,7 @@ def _to_and_fro(simulation: Simulation) -> float:
         if simulation.unstable():
             return math.inf
         deepest = max([deepest, *(-contact.distance for contact in simulation.engine.contacts())])
-    return deepest / extent(simulation)
+    return deepest / model_size(simulation)
 
 
 def pressed_in() -> Probe:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import BOX, HFIELD, PLANE
-from clinic.diagnosis.probes.run import State, let_go
+from clinic.diagnosis.probes.run import State, beginning, let_go
 from clinic.diagnosis.probes.shape import box, falling, root_of, size, solid
 from clinic.diagnosis.probes.vector import at, dot, sub
 from clinic.diagnosis.simulation import Simulation, kept
@@ -31,8 +31,8 @@ def fallen(simulation: Simulation) -> list[tuple[int, int]]:
 
 
 def _fallen(simulation: Simulation) -> Iterator[tuple[int, int]]:
-    run = let_go(simulation)
-    if run.end is None:
+    start, end = beginning(simulation), let_go(simulation).end
+    if end is None:
         return
     kinds, bodies, owner = simulation.model("geom_type"), simulation.model("geom_bodyid"), root_of(simulation)
     for root in [*falling(simulation), *bare(simulation)]:
@@ -44,11 +44,11 @@ def _fallen(simulation: Simulation) -> Iterator[tuple[int, int]]:
                 or not (solid(simulation, geom) or kind in (PLANE, BOX))
             ):
                 continue
-            before = _above(simulation, run.start, root, geom)
-            after = _above(simulation, run.end, root, geom)
+            before = _above(simulation, start, root, geom)
+            after = _above(simulation, end, root, geom)
             if before is None or after is None or not before > 0 > after + limit(simulation, root):
                 continue
-            if solid(simulation, geom) or not _pictured(simulation, run.start, root, before):
+            if solid(simulation, geom) or not _pictured(simulation, start, root, before):
                 yield root, geom
 
 

@@ -12,7 +12,7 @@ from clinic.diagnosis.probes.servo import hold
 from clinic.diagnosis.probes.shape import size, solid
 from clinic.diagnosis.probes.tendons import joints_of, pulled
 from clinic.diagnosis.probes.touch import Deciding, deciding
-from clinic.diagnosis.probes.vector import Vector, at, cross, dot, norm, sub, times, transpose, unit
+from clinic.diagnosis.probes.vector import Vector, across, at, cross, dot, norm, sub, times, transpose, unit
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
@@ -60,7 +60,7 @@ class _Moment(NamedTuple):
 def grasps(simulation: Simulation) -> list[Grasp]:
     """What jaws hold of the free things that fit between them: for each pair of jaws the first."""
     of = simulation
-    if not any(of.model("opt.gravity")):
+    if not of.gravity:
         return []
     things = [body for body in of.free_bodies if len(of.below(body)) == 1 and _solids(of, body)]
     tries = ((_carried(of, jaws, body) for body in things) for jaws in (_jaws(of) if things else ()))
@@ -76,7 +76,7 @@ def _jaws(of: Simulation) -> Iterator[Jaws]:
     for body in jointed:
         kinds = [of.joint_type(joint) for joint in of.joints_of(body)]
         if body not in carriers and len(kinds) == 1 and FREE not in kinds:
-            palms.setdefault(int(of.model("body_parentid")[body]), []).append(body)
+            palms.setdefault(of.parent(body), []).append(body)
     single = sum(len(found) == 1 for found in palms.values())
     for palm, found in palms.items():
         sides = (found[0], found[1]) if len(found) == 2 else (palm, found[0])
@@ -124,7 +124,7 @@ def _carried(of: Simulation, jaws: Jaws, body: int) -> Grasp | None:
 
 def _across(gravity: list[float], normal: Vector) -> Vector:
     """Gravity turned until it is at right angles to the direction in which the jaws press."""
-    down = sub(gravity, tuple(dot(gravity, normal) * x for x in normal))
+    down = across(gravity, normal)
     if norm(down) < norm(gravity) / 2:
         down = cross(normal, (1.0, 0.0, 0.0) if abs(normal[0]) < 0.9 else (0.0, 1.0, 0.0))
     return tuple(norm(gravity) * x for x in unit(down))
@@ -210,7 +210,7 @@ def pressing(of: Simulation, contacts: Iterable[Contact], body: int) -> list[tup
 
 def _sides(of: Simulation, contact: Contact) -> list[int]:
     """The bodies of a contact's two geoms; the world for a flex, which has no geom."""
-    return [int(of.model("geom_bodyid")[geom]) if geom >= 0 else 0 for geom in contact.geoms]
+    return [of.body_of("geom", geom) if geom >= 0 else 0 for geom in contact.geoms]
 
 
 def _slides(of: Simulation, jaws: Jaws, body: int, weight: Vector) -> float:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from clinic.diagnosis.engine import CAPSULE, CYLINDER, MESH, SDF, SPHERE, Contact
-from clinic.diagnosis.probes.overlap import beginning
+from clinic.diagnosis.probes.run import beginning
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.surface import Triangle, jointed_roots, nearest, triangles
 from clinic.diagnosis.probes.vector import Vector, add, at, cross, dot, sub, times

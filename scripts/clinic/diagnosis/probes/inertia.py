@@ -36,7 +36,7 @@ def set_inertial(model: ReaderModel, body: int, mass: float, centre: Vector, abo
     if element is None or model.source is None:
         return ()
     xx, xy, xz, _, yy, yz, _, _, zz = about
-    if model.source.urdf:
+    if model.urdf:
         moments = {"ixx": xx, "ixy": xy, "ixz": xz, "iyy": yy, "iyz": yz, "izz": zz}
         inner = f'<origin xyz="{written(centre)}" rpy="0 0 0"/><mass value="{mass:.6g}"/>'
         inner += "<inertia " + " ".join(f'{name}="{value:.6g}"' for name, value in moments.items()) + "/>"

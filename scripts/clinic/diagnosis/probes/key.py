@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator, Sequence
 from itertools import combinations, permutations
 
 from clinic.diagnosis.edit import Edit, insert, remove_attribute, set_attribute
-from clinic.diagnosis.engine import BALL, FREE, HINGE, PLANE, SLIDE
+from clinic.diagnosis.engine import BALL, FREE, PLANE, SLIDE
 from clinic.diagnosis.probes import servo
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
@@ -83,12 +83,10 @@ def beyond(simulation: Simulation, key: int) -> dict[int, float]:
     """Of hinges and slides outside of their ranges at a keyframe: how far, in rad or m, negative below."""
     start_at(simulation, key)
     made = {}
-    for joint in range(simulation.count("joint")):
-        if simulation.joint_type(joint) in (SLIDE, HINGE) and simulation.model("jnt_limited")[joint]:
-            low, high = simulation.row("jnt_range", joint, 2)
-            off = min(0.0, simulation.position(joint) - low) + max(0.0, simulation.position(joint) - high)
-            if off:
-                made[joint] = off
+    for joint, (low, high) in simulation.ranges.items():
+        off = min(0.0, simulation.position(joint) - low) + max(0.0, simulation.position(joint) - high)
+        if off:
+            made[joint] = off
     return made
 
 
@@ -188,12 +186,8 @@ def _quaternions(of: Simulation) -> Iterator[int]:
 
 def _beyond_ranges(of: Simulation, qpos: Sequence[float]) -> int:
     """How many hinges and slides would be outside of their ranges."""
-    made = 0
-    for joint in range(of.count("joint")):
-        if of.joint_type(joint) in (SLIDE, HINGE) and of.model("jnt_limited")[joint]:
-            low, high = of.row("jnt_range", joint, 2)
-            made += not low - 0.01 <= qpos[of.place(joint)] <= high + 0.01
-    return made
+    ranges = of.ranges.items()
+    return sum(not low - 0.01 <= qpos[of.place(joint)] <= high + 0.01 for joint, (low, high) in ranges)
 
 
 def freed(model: ReaderModel, bodies: Collection[int]) -> tuple[Edit, ...]:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
-from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.equalities import CONNECT, gap, kind_of
 from clinic.diagnosis.probes.servo import Servo, alone, hold, servos
 from clinic.diagnosis.probes.shape import root_of
@@ -29,12 +28,10 @@ def poses(simulation: Simulation) -> list[list[float]]:
         pose = list(begin)
         for joint in range(simulation.count("joint")):
             seed = (1103515245 * seed + 12345) % 2**31
-            if simulation.joint_type(joint) not in (HINGE, SLIDE):
+            if joint not in simulation.scalar_joints:
                 continue
             place = simulation.place(joint)
-            low, high = begin[place] - SPREAD, begin[place] + SPREAD
-            if simulation.model("jnt_limited")[joint]:
-                low, high = simulation.row("jnt_range", joint, 2)
+            low, high = simulation.ranges.get(joint, (begin[place] - SPREAD, begin[place] + SPREAD))
             pose[place] = low + (high - low) * seed / 2**31
         drawn.append(pose)
     return drawn
@@ -61,8 +58,8 @@ def _loads(simulation: Simulation) -> list[float]:
     return most
 
 
-def _sag(simulation: Simulation, actuators: Sequence[int]) -> float:
-    found = sags(simulation)
+def _worst(simulation: Simulation, find: Callable[[Simulation], dict[int, float]], actuators: Sequence[int]) -> float:
+    found = find(simulation)
     return max((found[each] for each in actuators if each in found), default=0.0)
 
 
@@ -80,12 +77,7 @@ def sags(simulation: Simulation) -> dict[int, float]:
 def sag(actuators: Sequence[int]) -> Probe:
     """How far servos sag under the model's own weight."""
     title = f"farthest that the model's own weight moves the joint off its target, over {POSES + 1} poses"
-    return Probe(title, "rad", _sag, (tuple(actuators),), dynamic=False)
-
-
-def _strain(simulation: Simulation, actuators: Sequence[int]) -> float:
-    found = strains(simulation)
-    return max((found[each] for each in actuators if each in found), default=0.0)
+    return Probe(title, "rad", _worst, (sags, tuple(actuators)), dynamic=False)
 
 
 def strains(simulation: Simulation) -> dict[int, float]:
@@ -100,7 +92,7 @@ def strains(simulation: Simulation) -> dict[int, float]:
 def strain(actuators: Sequence[int]) -> Probe:
     """The share of its greatest force that a servo needs to hold the model's own weight."""
     title = f"the model's own weight at the joint over the greatest force of its servo, over {POSES + 1} poses"
-    return Probe(title, "", _strain, (tuple(actuators),), dynamic=False)
+    return Probe(title, "", _worst, (strains, tuple(actuators)), dynamic=False)
 
 
 @kept
@@ -138,8 +130,8 @@ def yielded(simulation: Simulation) -> dict[Servo, float]:
     of, owner = simulation, root_of(simulation)
     of.begin()
     loops = [each for each, on in enumerate(of.model("eq_active0")) if on and kind_of(of, each) == CONNECT]
-    least = CLOSED * of.model("stat.extent")[0]
-    if not loops or any((gap(of, each) or 0.0) > least for each in loops) or not any(of.model("opt.gravity")):
+    least = CLOSED * of.extent
+    if not loops or any((gap(of, each) or 0.0) > least for each in loops) or not of.gravity:
         return {}
     begun = {
         each: of.position(each.joint)

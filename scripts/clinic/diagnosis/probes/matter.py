@@ -194,7 +194,7 @@ def turns(simulation: Simulation, joint: int) -> list[tuple[int, Vector]]:
     """The degrees of freedom in which a joint turns, and their axes in the world, as the state is now."""
     kind, dof = simulation.joint_type(joint), simulation.dof(joint)
     if kind == HINGE:
-        return [(dof, simulation.data_row("xaxis", joint, 3))]
+        return [(dof, simulation.axis(joint))]
     frame, first = simulation.data_row("xmat", simulation.body_of("joint", joint), 9), dof + (3 if kind == FREE else 0)
     return [(first + i, frame[i::3]) for i in range(3)] if kind in (FREE, BALL) else []
 
@@ -207,7 +207,7 @@ def _heavier(simulation: Simulation, body: int) -> float:
     joint_body = body
     kinds = simulation.model("jnt_type")
     while joint_body and not any(int(kinds[joint]) != SLIDE for joint in simulation.joints_of(joint_body)):
-        joint_body = int(simulation.model("body_parentid")[joint_body])
+        joint_body = simulation.parent(joint_body)
     diagonal_of = simulation.mass_diagonal
     turn = simulation.data_row("xmat", body, 9)
     excess = turned(turn, sub(found.about, found.solid))

@@ -6,10 +6,10 @@ import math
 from collections import Counter
 from collections.abc import Collection, Iterator
 
-from clinic.diagnosis.engine import BOX, CYLINDER, HINGE, PLANE, SLIDE, Contact
+from clinic.diagnosis.engine import BOX, CYLINDER, HINGE, PLANE, Contact
 from clinic.diagnosis.probes.equalities import tied
 from clinic.diagnosis.probes.load import poses
-from clinic.diagnosis.probes.run import State, state
+from clinic.diagnosis.probes.run import State, beginning, state
 from clinic.diagnosis.probes.shape import falling, geoms_of_tree, root_of, roots, solid, thickness
 from clinic.diagnosis.probes.vector import at
 from clinic.diagnosis.reader_model import ReaderModel
@@ -24,21 +24,11 @@ FALLS = 0.003  # m that what may fall is put above what it stands on
 
 
 @kept
-def beginning(simulation: Simulation) -> State:
-    """The start that the reader chose."""
-    simulation.begin()
-    return state(simulation)
-
-
-@kept
 def _within(simulation: Simulation) -> State:
     """The start with each hinge and slide inside of its range."""
     simulation.begin()
-    for joint in range(simulation.count("joint")):
-        if simulation.joint_type(joint) in (HINGE, SLIDE) and simulation.model("jnt_limited")[joint]:
-            low, high = simulation.row("jnt_range", joint, 2)
-            place = simulation.place(joint)
-            simulation.engine.write("qpos", [min(max(simulation.data("qpos")[place], low), high)], place)
+    for joint, (low, high) in simulation.ranges.items():
+        simulation.put(joint, min(max(simulation.position(joint), low), high))
     simulation.engine.forward()
     return state(simulation)
 
@@ -116,7 +106,7 @@ def of_relatives() -> Probe:
     return Probe("deepest overlap of relatives at the start", "of the geom's thickness", _share, dynamic=False)
 
 
-def extent(simulation: Simulation, root: int) -> float:
+def tree_extent(simulation: Simulation, root: int) -> float:
     """How far a tree reaches from its root's place at the start in m."""
     now = beginning(simulation)
     place, radii = at(now.xpos, root), simulation.model("geom_rbound")
@@ -138,7 +128,7 @@ def buried(simulation: Simulation, holes: Collection[tuple[int, int]] = ()) -> d
             continue
         trees = {owner[int(bodies[geom])] for geom in contact.geoms}
         for root in trees & set(falls) if len(trees) > 1 else ():
-            share = -contact.distance / max(extent(simulation, root), 1e-9)
+            share = -contact.distance / max(tree_extent(simulation, root), 1e-9)
             if contact.force > 0 and share > made.get(root, (0.0, contact))[0]:
                 made[root] = (share, contact)
     return made

@@ -103,7 +103,7 @@ class Pairs:
         """
         of, made, beside = self.of, set[int](), dict[tuple[int, int], list[tuple[int, int]]]()
         for left, right in self.pairs["body"]:
-            hands = int(of.model("body_parentid")[left]), int(of.model("body_parentid")[right])
+            hands = of.parent(left), of.parent(right)
             if hands[0] != hands[1]:
                 beside.setdefault(hands, []).append((left, right))
         for fingers in beside.values():
@@ -195,9 +195,9 @@ class Pairs:
 
         Each is seen from the body it hangs on, so that what hangs on the odd one is not odd, too.
         """
-        made, parents = [], self.of.model("body_parentid")
+        made = []
         for left, right in pairs:
-            above = int(parents[left]), int(parents[right])
+            above = self.of.parent(left), self.of.parent(right)
             whole = image.of(self.at("xpos", left)), self.at("xpos", right)
             seen = [sub(self.at("xpos", b), self.at("xpos", p)) for b, p in zip((left, right), above, strict=True)]
             made.append(whole if above[0] == above[1] else (times(image.matrix, seen[0]), seen[1]))
@@ -226,8 +226,8 @@ class Pairs:
 
         A shift or an oblique mirror fits all, that pair as well, where what hangs on it is flat.
         """
-        frame, parents = self.at("xmat", common, 9), self.of.model("body_parentid")
-        tops = [pair for pair in pairs if {int(parents[each]) for each in pair} == {common}]
+        frame = self.at("xmat", common, 9)
+        tops = [pair for pair in pairs if {self.of.parent(each) for each in pair} == {common}]
         if len(tops) != 1:
             return None
         left, right = (times(transpose(frame), sub(self.at("xpos", each), self.at("xpos", common))) for each in tops[0])
@@ -242,8 +242,8 @@ class Pairs:
 
     def _copied(self, pairs: list[tuple[int, int]]) -> Image | None:
         """The turn of one side into the other, where it is the same chain set up in another direction; else None."""
-        of, lefts, parents = self.of, {left for left, _ in pairs}, self.of.model("body_parentid")
-        inner = [(left, right) for left, right in pairs if int(parents[left]) in lefts]
+        of, lefts = self.of, {left for left, _ in pairs}
+        inner = [(left, right) for left, right in pairs if self.of.parent(left) in lefts]
         tops = [pair for pair in pairs if pair not in inner]
         joints = [pair for pair in self.pairs["joint"] if of.body_of("joint", pair[0]) in lefts]
         fields = [("body_pos", 3, inner), ("body_quat", 4, inner), ("body_ipos", 3, pairs), ("jnt_axis", 3, joints)]

@@ -25,7 +25,7 @@ def _slides_on(simulation: Simulation) -> float:
 
 
 def _pushed(simulation: Simulation, rest: State, pushed: list[int], along: int) -> float:
-    gravity = math.hypot(*simulation.model("opt.gravity")) or GRAVITY
+    gravity = simulation.gravity or GRAVITY
     simulation.begin()
     simulation.engine.write("qpos", rest.qpos)
     velocities = [0.0] * len(rest.qvel)

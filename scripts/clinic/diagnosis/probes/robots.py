@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.arms import is_called
 from clinic.diagnosis.simulation import Simulation, kept
 
@@ -74,7 +74,7 @@ def _lines(of: Simulation, robot: Robot) -> dict[int, list[Joint]]:
     for joint, name in enumerate(of.names("joint")):
         hinge = of.joint_type(joint) == HINGE
         lines = [line for line in robot.joints if line.pattern.search(name.lower()) and hinge == line.turns]
-        if lines and of.joint_type(joint) in (HINGE, SLIDE):
+        if lines and joint in of.scalar_joints:
             unit = math.pi / 180 if hinge else 1.0
             made[joint] = [line._replace(low=unit * line.low, high=unit * line.high) for line in lines]
     return made

@@ -35,6 +35,13 @@ def state(simulation: Simulation) -> State:
     )
 
 
+@kept
+def beginning(simulation: Simulation) -> State:
+    """The start that the reader chose."""
+    simulation.begin()
+    return state(simulation)
+
+
 @dataclass
 class LetGo:
     """What was seen: the number of resets, the fastest hinge or slide in rad/s or m/s, the deepest contact in m.
@@ -47,7 +54,6 @@ class LetGo:
     fastest: float
     deepest: float
     warnings: dict[str, int]
-    start: State
     end: State | None = None
     rise: float = 0.0
     late: tuple[Contact, ...] = ()
@@ -56,8 +62,8 @@ class LetGo:
 @kept
 def let_go(simulation: Simulation) -> LetGo:
     """Runs the model from its start with the controls of the start."""
+    made, start = LetGo(0, 0.0, 0.0, {}), beginning(simulation)
     simulation.begin()
-    made = LetGo(0, 0.0, 0.0, {}, state(simulation))
     late: dict[tuple[int, int], Contact] = {}
     half = simulation.steps(simulation.begin_with.duration) * simulation.timestep / 2
     for time in simulation.run(simulation.begin_with.duration):
@@ -74,7 +80,7 @@ def let_go(simulation: Simulation) -> LetGo:
             if contact.force > 0 and min(contact.geoms) >= 0 and there.distance <= contact.distance:
                 late[contact.geoms] = contact
         made.deepest = max(made.deepest, -min(distances, default=0.0))
-        heights = zip(simulation.data("xipos")[5::3], made.start.xipos[5::3], strict=True)
+        heights = zip(simulation.data("xipos")[5::3], start.xipos[5::3], strict=True)
         made.rise = max(made.rise, max((now - then for now, then in heights), default=0.0))
     else:
         made.late = tuple(late.values())
@@ -101,18 +107,18 @@ def fastest() -> Probe:
 
 
 @kept
-def extent(simulation: Simulation) -> float:
+def model_size(simulation: Simulation) -> float:
     """How large the model is in m: its extent, or its largest tree of bodies where somebody wrote a smaller extent."""
     owner, trees = root_of(simulation), dict[int, list[Sequence[float]]]()
-    places = let_go(simulation).start.xipos
+    places = beginning(simulation).xipos
     for body in simulation.moving_bodies:
         trees.setdefault(owner[body], []).append(places[3 * body : 3 * body + 3])
     spreads: list[float] = [max(axis) - min(axis) for tree in trees.values() for axis in zip(*tree, strict=True)]
-    return max([simulation.model("stat.extent")[0], *spreads, 1e-9])
+    return max([simulation.extent, *spreads, 1e-9])
 
 
 def _sunk(simulation: Simulation) -> float:
-    return let_go(simulation).deepest / extent(simulation)
+    return let_go(simulation).deepest / model_size(simulation)
 
 
 def sunk() -> Probe:

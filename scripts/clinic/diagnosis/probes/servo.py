@@ -140,7 +140,7 @@ def explicit_damping(simulation: Simulation) -> list[float]:
 
 def affine(simulation: Simulation, actuator: int) -> bool:
     """Whether a force is a fixed gain times the control, be it filtered, and an affine function of place and speed."""
-    gain, bias, dyn = (int(simulation.model(f"actuator_{kind}type")[actuator]) for kind in ("gain", "bias", "dyn"))
+    gain, bias, dyn = simulation.actuator_types(actuator)
     return gain == GAIN_FIXED and bias == BIAS_AFFINE and dyn not in (DYN_INTEGRATOR, DYN_MUSCLE)
 
 
@@ -160,7 +160,6 @@ def _servo(simulation: Simulation, actuator: int) -> Servo | None:
     if simulation.model("jnt_actfrclimited")[joint]:
         limits.append(max(map(abs, simulation.row("jnt_actfrcrange", joint, 2))))
     limited = simulation.model("actuator_ctrllimited")[actuator]
-    ranged = simulation.model("jnt_limited")[joint]
     return Servo(
         actuator,
         joint,
@@ -173,7 +172,7 @@ def _servo(simulation: Simulation, actuator: int) -> Servo | None:
         min(limits),
         max(simulation.mass_diagonal[dof], 1e-12),
         simulation.row("actuator_ctrlrange", actuator, 2) if limited else None,  # type: ignore[arg-type]
-        simulation.row("jnt_range", joint, 2) if ranged else None,  # type: ignore[arg-type]
+        simulation.ranges.get(joint),
     )
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.engine import SLIDE
 from clinic.diagnosis.probes.servo import alone, hold
-from clinic.diagnosis.simulation import Simulation, kept
+from clinic.diagnosis.simulation import ENDLESS, Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 NUDGE = 0.01  # rad or m
@@ -24,15 +24,12 @@ def _shake(simulation: Simulation) -> float:
 
 def _shaken(simulation: Simulation) -> float:
     simulation.begin()
-    joints = [joint for joint in range(simulation.count("joint")) if simulation.joint_type(joint) in (HINGE, SLIDE)]
-    for joint in joints:
+    for joint in simulation.scalar_joints:
         simulation.put(joint, _off_the_limits(simulation, joint))
     hold(simulation)
-    for joint in joints:
-        low, high = simulation.row("jnt_range", joint, 2)
-        begin = simulation.position(joint)
-        free = not simulation.model("jnt_limited")[joint] or begin + NUDGE < high
-        simulation.put(joint, begin + NUDGE if free else max(low, begin - NUDGE))
+    for joint in simulation.scalar_joints:
+        begin, (low, high) = simulation.position(joint), simulation.ranges.get(joint, ENDLESS)
+        simulation.put(joint, begin + NUDGE if begin + NUDGE < high else max(low, begin - NUDGE))
     scale = [SLIDES if simulation.joint_type(joint) == SLIDE else 1.0 for joint in simulation.dof_joints]
     for _ in simulation.run(SECONDS, samples=20):
         if simulation.unstable():
@@ -55,8 +52,8 @@ def _shaken(simulation: Simulation) -> float:
 
 def _off_the_limits(simulation: Simulation, joint: int) -> float:
     """Where a joint stands, or so far from its limit that this does not hold it: at most the middle of its range."""
-    begin, (low, high) = simulation.position(joint), simulation.row("jnt_range", joint, 2)
-    if not simulation.model("jnt_limited")[joint] or not low <= begin <= high:
+    begin, (low, high) = simulation.position(joint), simulation.ranges.get(joint, ENDLESS)
+    if not low <= begin <= high:
         return begin
     away = min(2 * NUDGE, (high - low) / 2)
     return min(max(begin, low + away), high - away)

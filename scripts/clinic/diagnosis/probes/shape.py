@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from itertools import product
 
 from clinic.diagnosis.engine import FREE, HFIELD, MESH, PLANE, SLIDE
-from clinic.diagnosis.probes.vector import Vector, add, at, dot, norm, sub, times, transpose
+from clinic.diagnosis.probes.vector import Vector, across, add, at, norm, sub, times, transpose
 from clinic.diagnosis.simulation import Simulation, kept
 
 CLEAR = 0.05  # of the opacity
@@ -17,8 +17,8 @@ LIQUID = 100.0  # kg/m3
 
 def roots(simulation: Simulation) -> list[int]:
     """The moving bodies that hang on nothing that moves."""
-    moving, parents = set(simulation.moving_bodies), simulation.model("body_parentid")
-    return [body for body in simulation.moving_bodies if int(parents[body]) not in moving]
+    moving = set(simulation.moving_bodies)
+    return [body for body in simulation.moving_bodies if simulation.parent(body) not in moving]
 
 
 def limbs(simulation: Simulation) -> list[list[int]]:
@@ -30,10 +30,10 @@ def limbs(simulation: Simulation) -> list[list[int]]:
 @kept
 def root_of(simulation: Simulation) -> list[int]:
     """For each body the root of its tree; 0 for what does not move."""
-    parents, tops = simulation.model("body_parentid"), set(roots(simulation))
+    tops = set(roots(simulation))
     made = [0] * simulation.count("body")
     for body in range(1, len(made)):
-        made[body] = body if body in tops else made[int(parents[body])]
+        made[body] = body if body in tops else made[simulation.parent(body)]
     return made
 
 
@@ -120,11 +120,11 @@ def thickness(simulation: Simulation, geom: int) -> float:
 def round_about(simulation: Simulation, joint: int) -> bool:
     """Whether a geom of a hinge's body has its middle on the hinge, to a tenth of the geom's radius."""
     of = simulation
-    anchor, axis = of.data_row("xanchor", joint, 3), of.data_row("xaxis", joint, 3)
+    anchor, axis = of.data_row("xanchor", joint, 3), of.axis(joint)
     for geom in of.geoms_of(of.body_of("joint", joint)):
         middle = times(of.data_row("geom_xmat", geom, 9), of.row("geom_aabb", geom, 6)[:3])
         off = sub(add(of.data_row("geom_xpos", geom, 3), middle), anchor)
-        if norm(add(off, axis, -dot(off, axis))) < 0.1 * of.model("geom_rbound")[geom]:
+        if norm(across(off, axis)) < 0.1 * of.model("geom_rbound")[geom]:
             return True
     return False
 
@@ -171,9 +171,5 @@ def box(
     simulation: Simulation, positions: tuple[float, ...], axes: tuple[float, ...], geom: int
 ) -> tuple[Vector, Vector]:
     """The box around a geom along the world's axes: its centre and half sizes in m."""
-    cx, cy, cz, hx, hy, hz = simulation.row("geom_aabb", geom, 6)
-    matrix, place = axes[9 * geom : 9 * geom + 9], at(positions, geom)
-    rows = [matrix[3 * i : 3 * i + 3] for i in range(3)]
-    centre = [place[i] + sum(a * b for a, b in zip(rows[i], (cx, cy, cz), strict=True)) for i in range(3)]
-    half = [sum(abs(a) * b for a, b in zip(rows[i], (hx, hy, hz), strict=True)) for i in range(3)]
-    return (centre[0], centre[1], centre[2]), (half[0], half[1], half[2])
+    own, matrix = simulation.row("geom_aabb", geom, 6), axes[9 * geom : 9 * geom + 9]
+    return add(at(positions, geom), times(matrix, own[:3])), times([abs(x) for x in matrix], own[3:])

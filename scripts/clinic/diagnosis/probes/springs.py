@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
@@ -18,7 +17,7 @@ def coarse(simulation: Simulation) -> dict[int, float]:
     """The hinges and slides whose springs swing within few steps, and how many steps a period has."""
     of, made = simulation, dict[int, float]()
     for joint, stiffness in enumerate(of.model("jnt_stiffness")):
-        if stiffness > 0 and of.joint_type(joint) in (HINGE, SLIDE):
+        if stiffness > 0 and joint in of.scalar_joints:
             turned = of.timestep * math.sqrt(stiffness * of.model("dof_invweight0")[of.dof(joint)])
             if turned > COARSE:
                 made[joint] = 2 * math.pi / turned
@@ -45,7 +44,7 @@ def _strays(simulation: Simulation) -> float:
     if not coarse(of) or FINER * SECONDS / step > STEPS:
         return 0.0
     mine, finer = _way(of, step), _way(of, step / FINER)
-    ranges = [of.row("jnt_range", joint, 2) if of.model("jnt_limited")[joint] else (0.0, 1.0) for joint in coarse(of)]
+    ranges = [of.ranges.get(joint, (0.0, 1.0)) for joint in coarse(of)]
     apart = (
         abs(one - other) / (high - low)
         for there, here in zip(mine, finer, strict=True)

@@ -46,7 +46,7 @@ def stance_after(simulation: Simulation, seconds: float) -> Stance:
         if servo.hinge:
             by_root.setdefault(owner[int(bodies[servo.joint])], []).append(servo)
     root, own = max(by_root.items(), key=lambda each: len(each[1]), default=(0, []))
-    if root not in simulation.free_bodies or len(own) < LEAST or not any(simulation.model("opt.gravity")):
+    if root not in simulation.free_bodies or len(own) < LEAST or not simulation.gravity:
         return none
     simulation.begin()
     hold(simulation)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from clinic.diagnosis.engine import HINGE, SLIDE, TRN_TENDON, WRAP_JOINT
+from clinic.diagnosis.engine import TRN_TENDON, WRAP_JOINT
 from clinic.diagnosis.probes.equalities import COUPLED
 from clinic.diagnosis.probes.servo import affine
 from clinic.diagnosis.simulation import Simulation, kept
@@ -44,9 +44,9 @@ def reach(of: Simulation, tendon: int) -> tuple[float, float] | None:
     if not fixed:
         lengths = sampled(of)
         return (min(each[tendon] for each in lengths), max(each[tendon] for each in lengths)) if lengths else None
-    if not all(of.model("jnt_limited")[joint] for joint, _ in fixed):
+    if not all(joint in of.ranges for joint, _ in fixed):
         return None
-    ends = [[coefficient * x for x in of.row("jnt_range", joint, 2)] for joint, coefficient in fixed]
+    ends = [[coefficient * x for x in of.ranges[joint]] for joint, coefficient in fixed]
     return sum(map(min, ends)), sum(map(max, ends))
 
 
@@ -56,16 +56,13 @@ def sampled(of: Simulation) -> list[tuple[float, ...]]:
 
     No pose where a hinge or slide has no range, or a joint follows another one.
     """
-    kinds = [of.joint_type(joint) for joint in range(of.count("joint"))]
-    joints = [joint for joint, kind in enumerate(kinds) if kind in (HINGE, SLIDE)]
-    free = all(of.model("jnt_limited")[joint] for joint in joints) and COUPLED not in map(int, of.model("eq_type"))
+    free = len(of.ranges) == len(of.scalar_joints) and COUPLED not in map(int, of.model("eq_type"))
     made = []
-    for pose in range(POSES if free and joints else 0):
+    for pose in range(POSES if free and of.ranges else 0):
         of.begin(forward=False)
-        for place, joint in enumerate(joints):
+        for place, (joint, (low, high)) in enumerate(of.ranges.items()):
             share = (0.5 + pose * (place + 1) * GOLDEN) % 1.0
             share = (pose >> place % 6) % 2 if pose % 3 == 0 else share
-            low, high = of.row("jnt_range", joint, 2)
             of.put(joint, low + share * (high - low))
         of.engine.forward()
         made.append(tuple(of.data("ten_length")))

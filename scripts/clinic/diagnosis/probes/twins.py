@@ -12,7 +12,6 @@ from clinic.diagnosis.simulation import Simulation, kept
 
 EXACT, EXACT_MASS, PAIRS = 1.0, 4.0, 5  # %, %, and how many pairs there must be
 PLACED = {"pos", "center of mass", "inertia", "axis", "axis sign", "range", "ctrlrange", "quat", "direction"}
-OWNERS = {"joint": "jnt_bodyid", "geom": "geom_bodyid", "site": "site_bodyid", "camera": "cam_bodyid"}
 
 
 class Twins(Comparisons):
@@ -35,7 +34,7 @@ class Twins(Comparisons):
         """The body that both sides of a comparison hang on; -1 for actuators and sensors."""
         if each.kind in ("actuator", "sensor"):
             return -1
-        return self.common[each.left if each.kind == "body" else int(self.of.model(OWNERS[each.kind])[each.left])]
+        return self.common[each.left if each.kind == "body" else self.of.body_of(each.kind, each.left)]
 
     def bodies(self, each: Comparison) -> tuple[int, int]:
         """The bodies that a comparison is of; those of the joints that actuators drive."""
@@ -45,8 +44,8 @@ class Twins(Comparisons):
             pair = (-1 if left is None else left, -1 if right is None else right)
         if each.kind in ("body", "sensor") or -1 in pair:
             return pair
-        field = self.of.model(OWNERS.get(each.kind, "jnt_bodyid"))
-        return int(field[pair[0]]), int(field[pair[1]])
+        kind = "joint" if each.kind == "actuator" else each.kind
+        return self.of.body_of(kind, pair[0]), self.of.body_of(kind, pair[1])
 
     def _used_twice(self, each: Comparison, odd: set[int]) -> bool:
         """Whether a pair is one part used twice, or of a chain that is a copy, as two odd bodies of it show."""

@@ -34,6 +34,11 @@ def cross(a: Sequence[float], b: Sequence[float]) -> Vector:
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
+def across(a: Sequence[float], axis: Sequence[float]) -> Vector:
+    """A vector without its part along an axis of length 1."""
+    return add(a, axis, -dot(a, axis))
+
+
 def at(flat: Sequence[float], index: int) -> Vector:
     """Row `index` of a flat array of three columns."""
     return tuple(flat[3 * index : 3 * index + 3])

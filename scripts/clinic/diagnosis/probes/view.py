@@ -10,7 +10,7 @@ from itertools import product
 from clinic.diagnosis.edit import Edit, orient
 from clinic.diagnosis.engine import CAM_FIXED, CAM_TRACK, CAM_TRACKCOM, HFIELD, PLANE
 from clinic.diagnosis.probes.shape import root_of
-from clinic.diagnosis.probes.vector import IDENTITY, Vector, add, at, cross, dot, sub, times, transpose
+from clinic.diagnosis.probes.vector import IDENTITY, Vector, add, at, cross, dot, norm, sub, times, transpose, unit
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 
@@ -123,7 +123,7 @@ def turned(model: ReaderModel, camera: int, right: Sequence[float], up: Sequence
         return ()
     simulation = model.simulation
     simulation.begin()
-    body = int(simulation.model("cam_bodyid")[camera])
+    body = simulation.body_of("camera", camera)
     m = simulation.data_row("xmat", body, 9)
     if int(simulation.model("cam_mode")[camera]) in (CAM_TRACK, CAM_TRACKCOM):
         m = m if any(m) else IDENTITY
@@ -138,11 +138,8 @@ def aimed(model: ReaderModel, camera: int) -> tuple[Edit, ...]:
     if target is None:
         return ()
     way = sub(target, simulation.data_row("cam_xpos", camera, 3))
-    far = math.hypot(*way)
-    if far < 1e-6:
+    if norm(way) < 1e-6:
         return ()
-    forward = (way[0] / far, way[1] / far, way[2] / far)
-    right = cross(forward, (0.0, 0.0, 1.0) if abs(forward[2]) < 0.99 else (0.0, 1.0, 0.0))
-    size = math.hypot(*right)
-    right = (right[0] / size, right[1] / size, right[2] / size)
+    forward = unit(way)
+    right = unit(cross(forward, (0.0, 0.0, 1.0) if abs(forward[2]) < 0.99 else (0.0, 1.0, 0.0)))
     return turned(model, camera, right, cross(right, forward))

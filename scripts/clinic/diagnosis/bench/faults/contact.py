@@ -102,7 +102,7 @@ def contacts_weak(model: ReaderModel, random: Random) -> Fault | None:
 @kind("margin", harms=MOVES)
 def margin_large(model: ReaderModel, random: Random) -> Fault | None:
     """Contacts push before anything touches: a margin of a part of the model's size."""
-    value = model.simulation.model("stat.extent")[0] * between(random, 0.005, 0.3)
+    value = model.simulation.extent * between(random, 0.005, 0.3)
     return _of_all(model, _colliding(model), value, margin=text_of(value))
 
 
@@ -114,7 +114,7 @@ def start_in_the_floor(model: ReaderModel, random: Random) -> Fault | None:
         return None
     body = random.choice(free)
     x, y, z = model.simulation.row("body_pos", body, 3)
-    depth = model.simulation.model("stat.extent")[0] * between(random, 0.01, 1)
+    depth = model.simulation.extent * between(random, 0.01, 1)
     place = model.element("body", body)
     assert place is not None
     edit = set_attribute(place, "pos", text_of(x, y, z - depth))

@@ -9,7 +9,7 @@ from random import Random
 from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, text_of, written
 from clinic.diagnosis.edit import replace as replace_element
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.engine import FREE, HINGE, SLIDE
+from clinic.diagnosis.engine import FREE, HINGE
 from clinic.diagnosis.reader_model import ReaderModel
 
 ENDS = ("reaches", "jumps", "strays")
@@ -19,7 +19,7 @@ BY_TIME = ("the integrator", "the timestep")
 
 def _single(model: ReaderModel, attribute: str = "") -> list[int]:
     """Hinges and slides that have a place, and a value for the attribute."""
-    return [i for i in written(model, "joint", attribute) if model.simulation.joint_type(i) in (HINGE, SLIDE)]
+    return [i for i in written(model, "joint", attribute) if i in model.simulation.scalar_joints]
 
 
 def _set(model: ReaderModel, joint: int, attribute: str, value: str, strength: float) -> Fault:

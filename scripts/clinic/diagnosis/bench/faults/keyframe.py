@@ -37,7 +37,7 @@ def key_in_the_floor(model: ReaderModel, random: Random) -> Fault | None:
     free = [j for j in range(model.simulation.count("joint")) if model.simulation.joint_type(j) == 0]
     if not free or not _keyless(model):
         return None
-    depth = model.simulation.model("stat.extent")[0] * between(random, 0.05, 1)
+    depth = model.simulation.extent * between(random, 0.05, 1)
     positions = list(model.simulation.model("qpos0"))
     positions[model.simulation.place(random.choice(free)) + 2] -= depth
     xml = f'<key name="planted" qpos="{text_of(*positions)}"/>'

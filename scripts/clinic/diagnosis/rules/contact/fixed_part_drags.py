@@ -43,10 +43,8 @@ When it is wrong: a foot that a robot is meant to drag.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.shape import root_of, round_about
 from clinic.diagnosis.probes.touch import Deciding, resting
 from clinic.diagnosis.reader_model import ReaderModel
@@ -78,8 +76,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _share(of: Simulation) -> float:
     """What friction of the dragged geoms takes of the weight of all that rolls."""
-    gravity = math.hypot(*of.model("opt.gravity"))
-    weight = gravity * sum(of.model("body_subtreemass")[root] for root in _rollers(of))
+    weight = of.gravity * sum(of.model("body_subtreemass")[root] for root in _rollers(of))
     return sum(force * each.friction for force, each in _dragged(of).values()) / weight if weight > 0 else 0.0
 
 
@@ -111,8 +108,7 @@ def _wheels(of: Simulation) -> set[int]:
     owner, made = root_of(of), set()
     for joint in of.drivers:
         body = of.body_of("joint", joint)
-        endless = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
-        level = abs(of.data_row("xaxis", joint, 3)[2]) < LEVEL_ENOUGH
-        if endless and level and owner[body] in free and round_about(of, joint):
+        level = abs(of.axis(joint)[2]) < LEVEL_ENOUGH
+        if of.continuous(joint) and level and owner[body] in free and round_about(of, joint):
             made.add(body)
     return made

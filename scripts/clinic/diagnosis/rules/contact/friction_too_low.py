@@ -110,9 +110,9 @@ def _none(model: ReaderModel) -> Iterator[Suspect]:
 
 def _may_touch(of: Simulation, one: int, other: int) -> bool:
     """Whether nothing but the masks decides, and the two are not of one body, or of a body and its parent."""
-    welds, bodies, parents = of.model("body_weldid"), of.model("geom_bodyid"), of.model("body_parentid")
+    welds, bodies = of.model("body_weldid"), of.model("geom_bodyid")
     mine, theirs = (int(welds[int(bodies[geom])]) for geom in (one, other))
-    related = mine == theirs or mine == welds[int(parents[theirs])] or theirs == welds[int(parents[mine])]
+    related = mine == theirs or mine == welds[of.parent(theirs)] or theirs == welds[of.parent(mine)]
     low, high = sorted((int(bodies[one]), int(bodies[other])))
     excluded = (low << 16) + high in of.model("exclude_signature")
     return not related and not excluded and pair_of(of, one, other) is None

@@ -72,7 +72,7 @@ FIRM = 3.0  # times the weight, that friction carries
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The solver's options, where a free body hangs on moving parts alone, or slides in jaws that hold it firmly."""
     of = model.simulation
-    if not any(of.model("opt.gravity")):
+    if not of.gravity:
         return
     passes = of.model("opt.noslip_iterations")[0] > 0
     hung = None if passes else next(_hung(of), None)

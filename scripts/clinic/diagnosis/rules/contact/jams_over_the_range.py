@@ -42,7 +42,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.load import poses
 from clinic.diagnosis.probes.shape import thickness
 from clinic.diagnosis.probes.vector import written
@@ -62,14 +61,9 @@ MOST = 60  # joints
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The pair of links that jams most, and the joint that brings them together."""
     of = model.simulation
-    limited = [
-        joint
-        for joint in range(of.count("joint"))
-        if of.joint_type(joint) in (HINGE, SLIDE) and of.model("jnt_limited")[joint]
-    ]
-    if not limited or len(limited) > MOST:
+    if not of.ranges or len(of.ranges) > MOST:
         return
-    shares = {joint: found for joint in limited if (found := _jams(of, joint))}
+    shares = {joint: found for joint in of.ranges if (found := _jams(of, joint))}
     jammed: list[tuple[float, int, int, int]] = []
     for joint, pairs in shares.items():
         (one, other), share = max(pairs.items(), key=lambda each: each[1])
@@ -124,9 +118,7 @@ def _jams(simulation: Simulation, joint: int, others: Sequence[list[float]] = ()
             if min(contact.geoms) < 0:
                 continue
             one, other = sorted((int(bodies[geom]) for geom in contact.geoms), reverse=True)
-            base = other == int(
-                simulation.model("body_parentid")[one]
-            )  # a contact of these two: the parent stands still
+            base = other == simulation.parent(one)  # a contact of these two: the parent stands still
             thin = min(thickness(simulation, geom) for geom in contact.geoms)
             if -contact.distance > (TOUCHES if base else DEEP * thin) and _between(simulation, body, one, other):
                 deep.add((one, other))
@@ -137,7 +129,7 @@ def _jams(simulation: Simulation, joint: int, others: Sequence[list[float]] = ()
 
 def _between(simulation: Simulation, body: int, one: int, other: int) -> bool:
     """Whether a joint's body carries one of two bodies that are at most LINKS apart in one line, and not the other."""
-    parents, line = simulation.model("body_parentid"), [one]
+    line = [one]
     while line[-1] and line[-1] != other:
-        line.append(int(parents[line[-1]]))
+        line.append(simulation.parent(line[-1]))
     return line[-1] == other != 0 and len(line) <= LINKS + 1 and body in line[:-1]

@@ -80,7 +80,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _bare(of: Simulation) -> list[int]:
     """The links that touch nothing, of robots of which nearly all do."""
-    owner, welds, parents = root_of(of), of.model("body_weldid"), of.model("body_parentid")
+    owner, welds = root_of(of), of.model("body_weldid")
     links, hard = _links(of)
     size = {link: max(of.model("geom_rbound")[geom] for geom in geoms) for link, geoms in links.items()}
     robots: dict[int, list[int]] = {}
@@ -92,7 +92,7 @@ def _bare(of: Simulation) -> list[int]:
             continue
         bare = [link for link in robot if link not in hard]
         middle = sorted(size[link] for link in robot)[len(robot) // 2]
-        above = {link: int(welds[int(parents[link])]) for link in bare}
+        above = {link: int(welds[of.parent(link)]) for link in bare}
         limb = [each for each in bare if above[each] in hard]
         if len(robot) >= MANY and 0 < len(bare) <= FEW:
             large = [each for each in limb if size[each] > SMALL * middle and not _light(of, each)]
@@ -131,8 +131,8 @@ def _light(of: Simulation, link: int) -> bool:
 
 def _enclosed(of: Simulation, link: int, links: Mapping[int, Sequence[int]]) -> bool:
     """Whether nearly all of a link is in the boxes around what collides of the links beside it, at the start."""
-    welds, parents = of.model("body_weldid"), of.model("body_parentid")
-    above = {each: int(welds[int(parents[each])]) for each in links}
+    welds = of.model("body_weldid")
+    above = {each: int(welds[of.parent(each)]) for each in links}
     beside = [geom for each in links if above[each] == link or each == above[link] for geom in links[each]]
     of.begin()
     seen = [point for geom in links[link] for point in in_world(of, geom, MOST_POINTS)]

@@ -33,7 +33,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import Contact
-from clinic.diagnosis.probes.overlap import extent
+from clinic.diagnosis.probes.overlap import tree_extent
 from clinic.diagnosis.probes.run import let_go
 from clinic.diagnosis.probes.shape import falling, root_of, roots, solid, thickness
 from clinic.diagnosis.probes.touch import resting
@@ -62,7 +62,7 @@ def _reach(simulation: Simulation, contact: Contact) -> float:
     """How far the smaller thing of a contact that can fall reaches, in m."""
     owner, bodies = root_of(simulation), simulation.model("geom_bodyid")
     trees = {owner[int(bodies[geom])] for geom in contact.geoms} & set(falling(simulation))
-    return min((extent(simulation, root) for root in trees), default=0.0)
+    return min((tree_extent(simulation, root) for root in trees), default=0.0)
 
 
 def _floating(simulation: Simulation) -> list[Contact]:
@@ -77,7 +77,7 @@ def _thick(model: ReaderModel) -> Iterator[Suspect]:
     of, margins = model.simulation, model.simulation.model("geom_margin")
     if max(margins, default=0.0) <= THICK:
         return
-    reach = max((extent(of, root) for root in roots(of)), default=0.0)
+    reach = max((tree_extent(of, root) for root in roots(of)), default=0.0)
     wide = [geom for geom, margin in enumerate(margins) if margin > max(THICK, PART * reach) and solid(of, geom)]
     if wide and reach > 0:
         most, names = max(margins[geom] for geom in wide), tuple(of.name("geom", geom) for geom in wide)

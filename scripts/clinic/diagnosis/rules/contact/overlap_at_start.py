@@ -39,13 +39,15 @@ import math
 from collections.abc import Collection, Iterable, Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
-from clinic.diagnosis.engine import BOX, CAPSULE, CYLINDER, FREE, HINGE, PLANE, SLIDE, SPHERE, Contact
+from clinic.diagnosis.engine import BOX, CAPSULE, CYLINDER, FREE, PLANE, SPHERE, Contact
 from clinic.diagnosis.probes.hulls import closed_holes
-from clinic.diagnosis.probes.overlap import at_start, beginning, buried, sunk_by_half
+from clinic.diagnosis.probes.overlap import at_start, buried, sunk_by_half
+from clinic.diagnosis.probes.run import beginning
 from clinic.diagnosis.probes.shape import box, boxes, falling, geoms_of_tree, root_of, thickness
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation, Start
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.start import Start
 from clinic.diagnosis.suspect import Level, Probe, Suspect
 
 TITLE = "Something begins inside of something else"
@@ -116,7 +118,7 @@ def _in_floor(of: Simulation) -> dict[int, tuple[float, float, int]]:
     bodies, owner, kinds = of.model("geom_bodyid"), root_of(of), of.model("geom_type")
     made: dict[int, tuple[float, float, int]] = {}
     slides = [root for root in falling(of) if root not in of.free_bodies]
-    for contact in (each for each in beginning(of).contacts if min(each.geoms) >= 0):
+    for contact in beginning(of).contacts:
         plane, geom = sorted(contact.geoms, key=lambda each: int(kinds[each]) != PLANE)
         root = owner[int(bodies[geom])]
         if int(kinds[plane]) == PLANE and not owner[int(bodies[plane])] and root in slides and contact.force > 0:
@@ -198,13 +200,12 @@ def _trees(simulation: Simulation, found: dict[int, tuple[float, Contact]]) -> s
 
 def _posed(simulation: Simulation, root: int) -> bool:
     """Whether code must have another start for a mechanism: it hangs on the world, or begins outside of a range."""
-    owner, limited = root_of(simulation), simulation.model("jnt_limited")
-    joints = [joint for joint, body in enumerate(simulation.model("jnt_bodyid")) if owner[int(body)] == root]
-    turning = [joint for joint in joints if simulation.joint_type(joint) in (HINGE, SLIDE)]
+    owner = root_of(simulation)
+    turning = [joint for joint in simulation.scalar_joints if owner[simulation.body_of("joint", joint)] == root]
     if not root or not turning or simulation.begin_with.key >= 0:
         return False
     simulation.begin()
-    ranges = {joint: simulation.row("jnt_range", joint, 2) for joint in turning if limited[joint]}
+    ranges = {joint: ends for joint, ends in simulation.ranges.items() if joint in turning}
     outside = (not low - 1e-6 <= simulation.position(joint) <= high + 1e-6 for joint, (low, high) in ranges.items())
     return root not in simulation.free_bodies or any(outside)
 

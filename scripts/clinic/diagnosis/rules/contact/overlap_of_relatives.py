@@ -118,7 +118,7 @@ def _unlike(of: Simulation) -> list[tuple[int, int]]:
         joints = [of.joint_type(joint) for body in (one, other) for joint in of.joints_of(body)]
         places = of.row("body_pos", one, 3), of.row("body_pos", other, 3)
         apart = [(a, b) for a, b in zip(*places, strict=True) if abs(a - b) > SAME]
-        parents = {of.model("body_parentid")[body] for body in (one, other)}
+        parents = {of.parent(body) for body in (one, other)}
         if frozenset((one, other)) not in pairs or joints != [SLIDE, SLIDE] or len(parents) > 1 or len(apart) != 1:
             continue
         a, b = apart[0]
@@ -134,10 +134,9 @@ def _depth(of: Simulation, *pair: int) -> float:
 def _out_of_row(model: ReaderModel, deep: Iterable[tuple[int, int]]) -> Suspect | None:
     """The link of a row of like ones that overlaps for its place, put as far from the last as these are apart."""
     of, names = model.simulation, model.simulation.names("body")
-    parents = of.model("body_parentid")
     for body in {each for pair in deep for each in pair if each}:
         stem = NUMBER.sub("", names[body])
-        row = [each for each in of.children.get(int(parents[body]), []) if NUMBER.sub("", names[each]) == stem]
+        row = [each for each in of.children.get(of.parent(body), []) if NUMBER.sub("", names[each]) == stem]
         if not stem or len(row) < ROW or stem == names[body] or body not in (row[0], row[-1]):
             continue
         inner = row[1:] if body == row[0] else row[-2::-1]

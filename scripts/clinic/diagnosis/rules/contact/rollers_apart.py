@@ -38,7 +38,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import CAPSULE, HINGE, SPHERE
+from clinic.diagnosis.engine import CAPSULE, SPHERE
 from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.probes.vector import Vector, around, at, dot, sub
 from clinic.diagnosis.reader_model import ReaderModel
@@ -74,7 +74,7 @@ def _worst(of: Simulation) -> float:
 def _rollers(of: Simulation, joint: int) -> list[int]:
     """The only solid geoms of the bodies with joints that a hinge's body carries; none where one is of another type."""
     hub = of.body_of("joint", joint)
-    if of.joint_type(joint) != HINGE or of.model("jnt_limited")[joint]:
+    if not of.continuous(joint):
         return []
     carried = [body for body in of.children.get(hub, []) if of.joints_of(body)]
     geoms = [[geom for geom in of.geoms_of(body) if solid(of, geom)] for body in carried]
@@ -89,7 +89,7 @@ def _varies(of: Simulation, joint: int) -> float:
     if not rollers:
         return 0.0
     of.begin()
-    axis, anchor = of.data_row("xaxis", joint, 3), of.data_row("xanchor", joint, 3)
+    axis, anchor = of.axis(joint), of.data_row("xanchor", joint, 3)
     radii = [max(_support(of, geom, anchor, way) for geom in rollers) for way in around(axis, ANGLES)]
     return (max(radii) - min(radii)) * len(radii) / sum(radii) if min(radii) > 0 else 0.0
 

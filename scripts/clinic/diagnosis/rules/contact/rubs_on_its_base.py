@@ -37,7 +37,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HINGE, PLANE, SLIDE
+from clinic.diagnosis.engine import PLANE, SLIDE
 from clinic.diagnosis.probes.overlap import legged, of_relatives
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -54,11 +54,11 @@ FLUSH, PRESSED = 1e-4, 5e-4  # m: with the least sag it touches; deep in what is
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each hinge of a body on a fixed one that touches it at every angle."""
     of = model.simulation
-    for joint in range(of.count("joint")):
+    for joint in of.scalar_joints:
         body = of.body_of("joint", joint)
-        base = int(of.model("body_parentid")[body])
+        base = of.parent(body)
         fixed = not of.model("body_weldid")[base] and (base or of.joint_type(joint) == SLIDE)
-        if of.joint_type(joint) not in (HINGE, SLIDE) or not fixed or _share(of, joint, body, base) < ALWAYS:
+        if not fixed or _share(of, joint, body, base) < ALWAYS:
             continue
         told_elsewhere = model.measured(of_relatives()) > DEEP or legged(model)  # as an overlap, or by its free joint
         if told_elsewhere:
@@ -76,7 +76,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _share(of: Simulation, joint: int, body: int, base: int) -> float:
     """The share of poses of a joint in which its body and the one below are no further apart than FLUSH."""
     slides, kinds = of.joint_type(joint) == SLIDE, of.model("geom_type")
-    low, high = of.row("jnt_range", joint, 2) if of.model("jnt_limited")[joint] else (-math.pi, math.pi)
+    low, high = of.ranges.get(joint, (-math.pi, math.pi))
     least = -PRESSED if slides else FLUSH  # what slides is not carried by what it touches
     owners, place, margins = of.model("geom_bodyid"), of.place(joint), list(of.model("geom_margin"))
     touched, condims = 0, of.model("geom_condim")

@@ -49,7 +49,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The height fields with a shallow base, where a body that falls goes through one."""
     of, source = model.simulation, model.source
     fields = [geom for geom, kind in enumerate(of.model("geom_type")) if int(kind) == HFIELD]
-    if source is None or source.urdf or len(fields) != 1 or not of.free_bodies or not any(of.model("opt.gravity")):
+    if source is None or source.urdf or len(fields) != 1 or not of.free_bodies or not of.gravity:
         return
     written = [each for each in source.elements("hfield") if len(each.get("size").split()) == 4]
     shallow = [each for each in written if float(each.get("size").split()[3]) < float(DEEP)]

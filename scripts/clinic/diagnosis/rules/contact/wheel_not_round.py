@@ -43,11 +43,12 @@ import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
-from clinic.diagnosis.engine import BOX, CYLINDER, ELLIPSOID, HINGE, MESH, SPHERE
+from clinic.diagnosis.engine import BOX, CYLINDER, ELLIPSOID, MESH, SPHERE
 from clinic.diagnosis.probes.shape import points, solid
 from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.probes.vector import (
     Vector,
+    across,
     add,
     around,
     dot,
@@ -105,10 +106,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _wheels(simulation: Simulation) -> Iterator[tuple[int, int]]:
-    parents = {int(body) for body in simulation.model("body_parentid")[1:]}
     for joint in range(simulation.count("joint")):
         body = simulation.body_of("joint", joint)
-        if simulation.joint_type(joint) != HINGE or simulation.model("jnt_limited")[joint] or body in parents:
+        if not simulation.continuous(joint) or body in simulation.children:
             continue
         geoms = [geom for geom in simulation.geoms_of(body) if solid(simulation, geom)]
         kinds = [int(simulation.model("geom_type")[geom]) for geom in geoms]
@@ -118,7 +118,7 @@ def _wheels(simulation: Simulation) -> Iterator[tuple[int, int]]:
         if single and len(geoms) == 1 and kinds[0] in shapes:
             off = sub(simulation.row("geom_pos", geoms[0], 3), simulation.row("jnt_pos", joint, 3))
             axis = simulation.row("jnt_axis", joint, 3)
-            aside = norm(sub(off, tuple(dot(off, axis) * x for x in axis)))
+            aside = norm(across(off, axis))
             level = _level(simulation, joint) or (kinds[0] == CYLINDER and _lies(simulation, geoms[0]))
             if aside < CENTRED * simulation.model("geom_rbound")[geoms[0]] and level:
                 yield joint, geoms[0]
@@ -127,7 +127,7 @@ def _wheels(simulation: Simulation) -> Iterator[tuple[int, int]]:
 def _level(simulation: Simulation, joint: int) -> bool:
     """Whether the hinge lies level at the start."""
     simulation.begin()
-    return abs(simulation.data_row("xaxis", joint, 3)[2]) < 0.3
+    return abs(simulation.axis(joint)[2]) < 0.3
 
 
 def _lies(simulation: Simulation, geom: int) -> bool:
@@ -169,7 +169,7 @@ def _points(simulation: Simulation, geom: int) -> list[Vector]:
 
 def _edits(model: ReaderModel, joint: int, geom: int) -> tuple[Edit, ...]:
     element = model.element("geom", geom)
-    if element is None or model.value("geom", geom, "fromto") or model.source is None or model.source.urdf:
+    if element is None or model.value("geom", geom, "fromto") or model.source is None or model.urdf:
         return ()
     if any(name not in element.attributes and model.value("geom", geom, name) for name in ORIENTATIONS):
         return ()

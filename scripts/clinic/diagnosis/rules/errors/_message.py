@@ -52,7 +52,7 @@ def _of_kind(model: ReaderModel, said: str) -> list[Element]:
     for word in words:
         if word in SECTIONS:
             return list(model.source.section(word))
-        if word in ("geom", "joint", "site", "camera", "light") and not model.source.urdf:
+        if word in ("geom", "joint", "site", "camera", "light") and not model.urdf:
             return model.source.of_bodies(word, *(("freejoint",) if word == "joint" else ()))
         if word in (
             "mesh",

@@ -58,7 +58,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         inertial = element if element.tag == "inertial" else element.first("inertial") or element
         if "mjMINVAL" in said and "-" not in inertial.get("diaginertia").replace("e-", ""):
             continue  # too little of it, which another rule tells
-        if model.source.urdf:
+        if model.urdf:
             yield from _in_urdf(inertial, said)
         elif "fullinertia" in inertial.attributes:
             for attribute in ("diaginertia", *ORIENTATIONS):

@@ -101,12 +101,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             now = element.get("integrator")
             yield mends(element, edits, f"{said}.", attribute="integrator", now=now, value="discrete")
             return
-    if model.source.urdf and "must be positive" in said and (small := _not_positive(model)):
+    if model.urdf and "must be positive" in said and (small := _not_positive(model)):
         element, attribute, now = small[0]
         edits = tuple(set_attribute(each, name, _positive(value)) for each, name, value in small)
         says = f"{said}: <{element.tag}> has {attribute} {now}. Lengths of a URDF are in m; 1 mm stands for zero."
         yield mends(element, edits, says, attribute=attribute, now=now, value=_positive(now))
-    if model.source.urdf and "axis too small" in said:
+    if model.urdf and "axis too small" in said:
         for axis in [
             each for each in model.source.elements("axis") if not any(map(float, each.get("xyz", "1").split()))
         ]:
@@ -132,8 +132,8 @@ def _of_its_joint(model: ReaderModel, said: str) -> Iterator[Suspect]:
     compiled = model.with_edits([set_attribute(each, "ctrlrange", "-1 1") for each in lacking])
     for element in [each for each in meant(model) if each in lacking]:
         joint = compiled.driven_joint(written.index(element)) if isinstance(compiled, Simulation) else None
-        if joint is not None and isinstance(compiled, Simulation) and compiled.model("jnt_limited")[joint]:
-            value = " ".join(f"{each:.4g}" for each in compiled.row("jnt_range", joint, 2))
+        if joint is not None and isinstance(compiled, Simulation) and joint in compiled.ranges:
+            value = " ".join(f"{each:.4g}" for each in compiled.ranges[joint])
             says = f"{said.rstrip('.')}. The range of {compiled.name('joint', joint)}, in rad or m, is put in."
             yield mends(
                 element,

@@ -69,19 +69,19 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             yield mends(element, edits, says, attribute="boundinertia", now="0", value=LEAST)
         elif inertial is None or mass <= 0:
             says = f"{named} moves and has no mass: {said}."
-            own = inertial.first("mass") if inertial and model.source.urdf else inertial
+            own = inertial.first("mass") if inertial and model.urdf else inertial
             if inertial and own and (value := mass_of_a_ball(inertial)) != UNKNOWN:
-                own_mass, shape = mass_of_its_shape(inertial) if inertial and model.source.urdf else ("", "")
+                own_mass, shape = mass_of_its_shape(inertial) if inertial and model.urdf else ("", "")
                 value, shape = own_mass or value, f"its {shape}" if shape else "a ball of 50 mm radius"
                 says += f" With {value} kg {shape} has its inertia."
-                edits = (set_attribute(own, "value" if model.source.urdf else "mass", value),)
+                edits = (set_attribute(own, "value" if model.urdf else "mass", value),)
                 yield mends(element, edits, says, attribute="mass", now="0", value=value)
                 return
-            edits = (*((delete(inertial),) if inertial else ()), insert(element, _inertial(0.01, model.source.urdf)))
+            edits = (*((delete(inertial),) if inertial else ()), insert(element, _inertial(0.01, model.urdf)))
             yield mends(element, edits, says, attribute="mass", now="0", value="0.01")
         else:
             says = f"{named} moves and has a mass of {mass:g} kg without inertia: {said}."
-            edits = (replace(inertial, _inertial(mass, model.source.urdf, inertial)),)
+            edits = (replace(inertial, _inertial(mass, model.urdf, inertial)),)
             yield mends(element, edits, says, attribute="inertia", now="0", value=f"{_ball(mass):.2g}")
 
 
@@ -123,7 +123,7 @@ def _bounds(root: Element) -> tuple[Edit, ...]:
 
 def _matter(model: ReaderModel, body: Element) -> bool:
     """Whether a body of MJCF has a geom that nobody made massless."""
-    if model.source is None or model.source.urdf:
+    if model.source is None or model.urdf:
         return False
     geoms = [each for each in body.children if each.tag == "geom"]
     written = [(model.source.value(geom, "mass"), model.source.value(geom, "density")) for geom in geoms]

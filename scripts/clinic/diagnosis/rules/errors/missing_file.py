@@ -103,7 +103,7 @@ def _folder_of_all(model: ReaderModel, element: Element) -> Suspect | None:
         folder = posixpath.dirname(min(there, key=len)) or "."
         edits = (set_attribute(compiler, "meshdir", folder),)
         now = compiler.get("meshdir")
-        if folder != now and (model.measured(COMPILES, edits) == 0 or not model.source.urdf):
+        if folder != now and (model.measured(COMPILES, edits) == 0 or not model.urdf):
             says = f"strippath drops the folders of {_file(element)}, and the meshes are in {folder!r}."
             return mends(compiler, edits, says, attribute="meshdir", now=now or "left out", value=folder)
     return None

@@ -65,7 +65,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             yield advised(None, says)
         return
     root = model.source.root
-    if model.source.urdf or root.tag == "mujoco":
+    if model.urdf or root.tag == "mujoco":
         if "xacro" in root.attributes.get("xmlns:xacro", "") or _unexpanded(text):
             says = (
                 "This is xacro that is not expanded: `xacro model.urdf.xacro > model.urdf` of ROS makes the URDF of it."

@@ -60,7 +60,7 @@ OPTIONAL = {"class", "childclass", "material", "texture"}  # without them the el
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The reference with the nearest name; a class or material also without it; an element without its target gone."""
     said = sentence(model)
-    if model.source is not None and model.source.urdf and "parent or child missing" in said:
+    if model.source is not None and model.urdf and "parent or child missing" in said:
         yield from _links(model, model.source)
         return
     if not SAID.search(said) or model.source is None or OTHER.search(said):

@@ -166,7 +166,7 @@ def _without_volume(model: ReaderModel, said: str) -> Iterator[Suspect]:
         for element in meant(model, "mesh")[:1]:
             says = f"{said}. Meshes that are in metres need no scale."
             yield mends(element, back[0], says, attribute="scale", now=back[1], value=back[2])
-    if model.source.urdf:
+    if model.urdf:
         yield from _in_urdf(model, said)
         return
     for mesh in meant(model, "mesh")[:1]:

@@ -51,7 +51,7 @@ MOVES = ("revolute", "continuous", "prismatic")
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The joints without an axis, all together, where others have one."""
-    if model.source is None or not model.source.urdf:
+    if model.source is None or not model.urdf:
         return
     joints = [each for each in model.source.root.children if each.tag == "joint" and each.get("type") in MOVES]
     bare = [each for each in joints if each.first("axis") is None]

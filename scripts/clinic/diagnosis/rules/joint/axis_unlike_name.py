@@ -130,9 +130,9 @@ def _still(of: Simulation) -> dict[int, str]:
         held = joint in of.drivers or of.model("jnt_stiffness")[joint]
         if not called or held or of.joint_type(joint) != HINGE or len(of.joints_of(body)) > 1:
             continue
-        axis, rod = of.data_row("xaxis", joint, 3), _rod(of, joint)
-        above = _joints_up_from(of, int(of.model("body_parentid")[body]))
-        slides = [of.data_row("xaxis", each, 3) for each in above if of.joint_type(each) == SLIDE]
+        axis, rod = of.axis(joint), _rod(of, joint)
+        above = _joints_up_from(of, of.parent(body))
+        slides = [of.axis(each) for each in above if of.joint_type(each) == SLIDE]
         if norm(rod) > FLAT and norm(cross(axis, rod)) < OFF * norm(rod):
             made[joint] = "turns it about its own length, through its centre of mass: it spins and does not swing"
         elif slides and len(slides) == len(above) and all(norm(cross(axis, each)) < OFF for each in slides):
@@ -149,10 +149,10 @@ def _across(of: Simulation, joint: int) -> str:
     """The axis across a rod along which what carries it swings it; empty where nothing carries it."""
     of.as_written()
     body, rod = of.body_of("joint", joint), _rod(of, joint)
-    above = _joints_up_from(of, int(of.model("body_parentid")[body]))
+    above = _joints_up_from(of, of.parent(body))
     if not above:
         return ""
-    axis = cross(of.data_row("xaxis", above[0], 3), rod)
+    axis = cross(of.axis(above[0]), rod)
     if of.joint_type(above[0]) == HINGE:  # an arm that carries it round: its radius
         way = sub(of.data_row("xanchor", joint, 3), of.data_row("xanchor", above[0], 3))
         axis = sub(way, [dot(way, rod) / dot(rod, rod) * x for x in rod])
@@ -169,7 +169,7 @@ def _joints_up_from(of: Simulation, body: int) -> list[int]:
 def _tilt(of: Simulation, joint: int) -> float:
     """The angle of a joint's axis to the vertical in degrees, at the zero pose."""
     of.as_written()
-    return math.degrees(math.acos(min(1.0, abs(of.data_row("xaxis", joint, 3)[2]))))
+    return math.degrees(math.acos(min(1.0, abs(of.axis(joint)[2]))))
 
 
 def _said(name: str) -> int | None:
@@ -183,7 +183,7 @@ def _said(name: str) -> int | None:
 
 def _off(of: Simulation, joint: int, axis: int) -> float:
     """The angle in degrees between a slide and an axis, of the world or of its own frame, whichever is less."""
-    most = max(abs(of.data_row("xaxis", joint, 3)[axis]), abs(of.row("jnt_axis", joint, 3)[axis]))
+    most = max(abs(of.axis(joint)[axis]), abs(of.row("jnt_axis", joint, 3)[axis]))
     return math.degrees(math.acos(min(1.0, most)))
 
 

@@ -94,11 +94,11 @@ def _driven_apart(of: Simulation) -> list[int]:
         pairs = joints_of(of, tendon)
         joints = {joint for joint, _ in pairs}
         others = {joint for each in driven if each != tendon for joint, _ in joints_of(of, each)} | set(of.drivers)
-        if len(joints) == 2 == len(pairs) and not joints & others and all(_spins(of, joint) for joint in joints):
+        if len(joints) == 2 == len(pairs) and not joints & others and all(map(of.continuous, joints)):
             (one, first), (other, second) = pairs
             of.begin()
-            same = dot(_axis(of, one), _axis(of, other))
-            if _side_by_side(of, one, other, _axis(of, one)) and abs(same) > ALONG and first * second * same < 0:
+            same = dot(of.axis(one), of.axis(other))
+            if _side_by_side(of, one, other, of.axis(one)) and abs(same) > ALONG and first * second * same < 0:
                 made.append(tendon)
     return made
 
@@ -111,8 +111,8 @@ def _steered_apart(of: Simulation) -> list[int]:
         if None in wheels or wheels[0] == wheels[1]:
             continue
         of.begin()
-        axes = [_axis(of, joint) for joint in (follower, leader)]
-        spins = [_axis(of, wheel) for wheel in wheels if wheel is not None]
+        axes = [of.axis(joint) for joint in (follower, leader)]
+        spins = [of.axis(wheel) for wheel in wheels if wheel is not None]
         same = dot(*axes)
         across = abs(dot(axes[0], spins[0])) < 1 - ALONG and abs(dot(*spins)) > ALONG and abs(same) > ALONG
         if across and _side_by_side(of, follower, leader, spins[0]) and factors[1] * same < 0:
@@ -125,15 +125,7 @@ def _wheel(of: Simulation, joint: int) -> int | None:
     if of.joint_type(joint) != HINGE:
         return None
     below = [each for body in of.below(of.body_of("joint", joint)) for each in of.joints_of(body) if each != joint]
-    return below[0] if len(below) == 1 and _spins(of, below[0]) else None
-
-
-def _spins(of: Simulation, joint: int) -> bool:
-    return of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
-
-
-def _axis(of: Simulation, joint: int) -> Vector:
-    return of.data_row("xaxis", joint, 3)
+    return below[0] if len(below) == 1 and of.continuous(below[0]) else None
 
 
 def _side_by_side(of: Simulation, one: int, other: int, axis: Vector) -> bool:

@@ -101,7 +101,6 @@ def _odd(of: Simulation) -> int | None:
 def _relations(of: Simulation) -> dict[int, int | None]:
     """By coupling of two joints: how many joints the second is above the first; 0 beside it, None elsewhere."""
     made: dict[int, int | None] = {}
-    parents, owners = of.model("body_parentid"), of.model("jnt_bodyid")
     for each in range(of.count("equality")):
         joints = held(of, each)
         if kind_of(of, each) != COUPLED or min(joints) < 0:
@@ -112,7 +111,7 @@ def _relations(of: Simulation) -> dict[int, int | None]:
         elif joints[0] in lines[1]:
             made[each] = -lines[1].index(joints[0])
         else:
-            beside = len({int(parents[int(owners[joint])]) for joint in joints}) == 1
+            beside = len({of.parent(of.body_of("joint", joint)) for joint in joints}) == 1
             made[each] = 0 if beside else None
     return made
 

@@ -89,7 +89,7 @@ def _across(of: Simulation, joint: int) -> bool | None:
     panel = _panel(of, joint)
     if panel is None:
         return None
-    return abs(dot(_column(of, panel[0], panel[1][0]), of.data_row("xaxis", joint, 3))) > ACROSS
+    return abs(dot(_column(of, panel[0], panel[1][0]), of.axis(joint))) > ACROSS
 
 
 def _off(of: Simulation, joint: int) -> float:
@@ -97,7 +97,7 @@ def _off(of: Simulation, joint: int) -> float:
     panel = _panel(of, joint)
     if panel is None or _across(of, joint):
         return 0.0 if panel is not None else 1.0
-    side = cross(_column(of, panel[0], panel[1][0]), of.data_row("xaxis", joint, 3))
+    side = cross(_column(of, panel[0], panel[1][0]), of.axis(joint))
     ends = []
     for geom in of.geoms_of(of.body_of("joint", joint)):
         box = of.row("geom_aabb", geom, 6)

@@ -73,8 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _fins(of: Simulation) -> list[int]:
     """The hinges with a range that alone move bodies whose wet geoms all are flat along their axes."""
-    kinds, limited = of.model("jnt_type"), of.model("jnt_limited")
-    hinges = [joint for joint, kind in enumerate(kinds) if int(kind) == HINGE and limited[joint]]
+    hinges = [joint for joint in of.ranges if of.joint_type(joint) == HINGE]
     alone = [joint for joint in hinges if of.joints_of(of.body_of("joint", joint)) == [joint]]
     medium = any(of.model(f"opt.{what}")[0] for what in ("density", "viscosity"))
     return [joint for joint in alone if medium and _flat(of, joint)]
@@ -112,6 +111,6 @@ def _across(of: Simulation, joint: int, geom: int) -> Vector:
 def _as_before(of: Simulation, joint: int) -> bool:
     """Whether the body that a fin hangs on turns about the same axis."""
     of.as_written()
-    axis, above = of.data_row("xaxis", joint, 3), int(of.model("body_parentid")[of.body_of("joint", joint)])
+    axis, above = of.axis(joint), of.parent(of.body_of("joint", joint))
     others = [each for each in of.joints_of(above) if of.joint_type(each) == HINGE]
-    return any(abs(dot(axis, of.data_row("xaxis", each, 3))) > ALONG for each in others)
+    return any(abs(dot(axis, of.axis(each))) > ALONG for each in others)

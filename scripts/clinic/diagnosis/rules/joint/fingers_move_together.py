@@ -63,10 +63,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Slides of one body that do not change their distance: coupled ones, and fingers that nothing couples."""
     of = model.simulation
     yield from _uncoupled(model)
-    parents, bodies = of.model("body_parentid"), of.model("jnt_bodyid")
     for each, coupling in couplings(of):
         follower, leader, factors = coupling
-        hang = {parents[int(bodies[joint])] for joint in (follower, leader)}
+        hang = {of.parent(of.body_of("joint", joint)) for joint in (follower, leader)}
         kinds = {of.joint_type(joint) for joint in (follower, leader)}
         if len(hang) > 1 or kinds != {SLIDE} or _together(of, each) <= MOST:
             continue
@@ -112,14 +111,13 @@ def _uncoupled(model: ReaderModel) -> Iterator[Suspect]:
     """Pairs of fingers without a coupling that equal ways carry to the same side."""
     of = model.simulation
     hands: dict[int, list[int]] = {}
-    parents, bodies = of.model("body_parentid"), of.model("jnt_bodyid")
     bound = {joint for _, (follower, leader, _) in couplings(of) for joint in (follower, leader)}
     for each, kind in enumerate(of.model("wrap_type")):
         if int(kind) == WRAP_JOINT:
             bound.add(int(of.model("wrap_objid")[each]))
     for joint, kind in enumerate(of.model("jnt_type")):
         if int(kind) == SLIDE and joint not in bound:
-            hands.setdefault(int(parents[int(bodies[joint])]), []).append(joint)
+            hands.setdefault(of.parent(of.body_of("joint", joint)), []).append(joint)
     for hand, joints in hands.items():
         if len(joints) != 2 or not _fingers(of, hand, joints) or _aside(of, *joints) <= MOST:
             continue
@@ -159,7 +157,7 @@ def _driven(of: Simulation, joints: Sequence[int]) -> bool:
 def _aside(of: Simulation, one: int, other: int) -> float:
     """The share of their way that two slides go together, where they stand beside each other along it; else 0."""
     of.begin()
-    axes = [of.data_row("xaxis", joint, 3) for joint in (one, other)]
+    axes = [of.axis(joint) for joint in (one, other)]
     bodies = [of.body_of("joint", joint) for joint in (one, other)]
     apart = sub(of.data_row("subtree_com", bodies[0], 3), of.data_row("subtree_com", bodies[1], 3))
     if abs(dot(axes[0], apart)) <= BESIDE * norm(apart):
@@ -176,7 +174,7 @@ def _crossing(of: Simulation, one: int, other: int) -> int:
     for joint, (own, there) in ((one, places), (other, places[::-1])):
         way = max((end - of.model("qpos0")[of.place(joint)] for end in of.row("jnt_range", joint, 2)), key=abs)
         between = sub(there, own)
-        if way * dot(of.data_row("xaxis", joint, 3), between) > dot(between, between) / 2:
+        if way * dot(of.axis(joint), between) > dot(between, between) / 2:
             found.append(joint)
     return found[0] if len(found) == 1 else one
 
@@ -184,6 +182,6 @@ def _crossing(of: Simulation, one: int, other: int) -> int:
 def _together(simulation: Simulation, equality: int) -> float:
     follower, leader, factors = next(found for each, found in couplings(simulation) if each == equality)
     simulation.begin()
-    ways = [simulation.data_row("xaxis", joint, 3) for joint in (follower, leader)]
+    ways = [simulation.axis(joint) for joint in (follower, leader)]
     own = tuple(factors[1] * x for x in ways[0])
     return norm(add(own, ways[1])) / max(norm(add(own, ways[1])) + norm(sub(own, ways[1])), 1e-9)

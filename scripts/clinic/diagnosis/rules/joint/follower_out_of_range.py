@@ -112,7 +112,7 @@ def _of_leader(model: ReaderModel, found: list[Coupling]) -> Suspect | None:
     times = {round(_times(of, each) / OTHER_UNITS[of.joint_type(each[1])], UNIT_DIGITS) for each in found}
     leader = leaders.pop()
     low, high = of.row("jnt_range", leader, 2)
-    wide = high - low > (TURN if of.joint_type(leader) == HINGE else of.model("stat.extent")[0])
+    wide = high - low > (TURN if of.joint_type(leader) == HINGE else of.extent)
     if leaders or times != {1.0} or not wide:
         return None
     scale = 1 / model.angle_unit if of.joint_type(leader) == HINGE else 1.0
@@ -150,10 +150,10 @@ def _turned(of: Simulation, coupling: Coupling) -> tuple[float, ...]:
     own, (_, twin) = of.row("jnt_range", follower, 2), sided(of, "joint").get(follower, ("", leader))
     turned = tuple(-each for each in factors)
     bodies = [of.body_of("joint", joint) for joint in (follower, leader)]
-    parents = [of.model("body_parentid")[body] for body in bodies]
+    parents = [of.parent(body) for body in bodies]
     if bodies[0] != bodies[1] and parents[0] == parents[1]:
         of.begin()
-        axes = [of.data_row("xaxis", joint, 3) for joint in (follower, leader)]
+        axes = [of.axis(joint) for joint in (follower, leader)]
         alike = _alike(own, of.row("jnt_range", leader, 2)) and turned[1] * dot(*axes) < 0
     else:
         alike = any(_alike(own, of.row("jnt_range", other, 2)) for other in (leader, twin))

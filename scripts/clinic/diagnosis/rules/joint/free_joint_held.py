@@ -73,7 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def held(of: Simulation) -> dict[int, dict[str, float]]:
     """The free joints that hold what hangs on them, and what they take of its weight by attribute."""
-    if not any(of.model("opt.gravity")):
+    if not of.gravity:
         return {}
     every = ((joint, _taken(of, joint)) for joint in range(of.count("joint")))
     return {joint: parts for joint, parts in every if sum(parts.values()) > MOST}
@@ -88,7 +88,7 @@ def _taken(simulation: Simulation, joint: int) -> dict[str, float]:
     if simulation.joint_type(joint) != FREE:
         return dict.fromkeys(FIELDS, 0.0)
     body, dof = simulation.body_of("joint", joint), simulation.dof(joint)
-    mass, g = simulation.model("body_subtreemass")[body], math.hypot(*simulation.model("opt.gravity"))
+    mass, g = simulation.model("body_subtreemass")[body], simulation.gravity
     weight, far = max(mass * g, 1e-12), max(size(simulation, body), 1e-3)
     damping, friction, armature = (simulation.model(f"dof_{name}")[dof] for name in ("damping", *FIELDS[1::2]))
     stiffness = simulation.model("jnt_stiffness")[joint]

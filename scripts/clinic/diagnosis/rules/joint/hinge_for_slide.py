@@ -137,9 +137,5 @@ def _hinges(of: Simulation, *joints: int) -> list[int]:
 def _ranges(of: Simulation) -> dict[int, float]:
     """The width in rad of the range of each hinge that is driven or has a spring."""
     driven = set(of.drivers) | {joint for joint, stiffness in enumerate(of.model("jnt_stiffness")) if stiffness}
-    made = {}
-    for joint in range(of.count("joint")):
-        if joint in driven and of.joint_type(joint) == HINGE and of.model("jnt_limited")[joint]:
-            low, high = of.row("jnt_range", joint, 2)
-            made[joint] = high - low
-    return {joint: wide for joint, wide in made.items() if wide > 0}
+    wide = {joint: high - low for joint, (low, high) in of.ranges.items() if joint in driven and high > low}
+    return {joint: width for joint, width in wide.items() if of.joint_type(joint) == HINGE}

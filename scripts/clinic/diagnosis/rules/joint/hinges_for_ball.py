@@ -82,7 +82,7 @@ def _suspect(model: ReaderModel, found: list[int], sliding: bool) -> Suspect:
 def _slides_too(of: Simulation, body: int) -> bool:
     """Whether a body of the world has three slides as well, and so could have a free joint."""
     slides = sum(of.joint_type(joint) == SLIDE for joint in of.joints_of(body))
-    return slides == 3 and not of.model("body_parentid")[body]
+    return slides == 3 and not of.parent(body)
 
 
 def _hinges(of: Simulation, body: int) -> list[int]:
@@ -111,4 +111,4 @@ def _lost(of: Simulation, body: int) -> float:
     of.begin(forward=False)
     of.put(second, math.pi / 2)
     of.engine.forward()
-    return 1.0 - norm(cross(of.data_row("xaxis", first, 3), of.data_row("xaxis", third, 3)))
+    return 1.0 - norm(cross(of.axis(first), of.axis(third)))

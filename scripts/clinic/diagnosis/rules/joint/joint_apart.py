@@ -61,7 +61,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     body = of.body_of("joint", worst)
     gaps, link = found[worst], of.name("body", body)
     if gaps[1] > gaps[0]:
-        link = of.name("body", int(of.model("body_parentid")[body]))
+        link = of.name("body", of.parent(body))
     edits = tuple(edit for joint in away for edit in model.set("joint", [joint], "pos", "0 0 0"))
     now = " ".join(f"{x:.4g}" for x in of.row("jnt_pos", worst, 3))
     says = f"Its axis passes {link} at {max(gaps):.3g} sizes of {of.name('body', body)}."
@@ -79,7 +79,7 @@ def _gaps(of: Simulation) -> dict[int, tuple[float, float]]:
     if of.count("joint") > LARGE:
         return {}
     of.as_written()
-    parents, welds, kinds = of.model("body_parentid"), of.model("body_weldid"), of.model("geom_type")
+    welds, kinds = of.model("body_weldid"), of.model("geom_type")
     links: dict[int, list[int]] = {}
     for geom, body in enumerate(of.model("geom_bodyid")):
         if int(kinds[geom]) not in (PLANE, HFIELD):
@@ -88,15 +88,15 @@ def _gaps(of: Simulation) -> dict[int, tuple[float, float]]:
     places, turns = tuple(of.data("geom_xpos")), tuple(of.data("geom_xmat"))
     for joint in range(of.count("joint")):
         body = of.body_of("joint", joint)
-        own, above = links.get(int(welds[body]), []), links.get(int(welds[int(parents[body])]), [])
+        own, above = links.get(int(welds[body]), []), links.get(int(welds[of.parent(body)]), [])
         size = 2 * max((of.model("geom_rbound")[geom] for geom in own), default=0.0)
         planar = any(of.joint_type(other) == SLIDE for other in of.joints_of(body))
-        in_world = not parents[body] and not _as_in_world(of, joint)
+        in_world = not of.parent(body) and not _as_in_world(of, joint)
         moved = any(of.row("jnt_pos", joint, 3))
         if of.joint_type(joint) == HINGE and size > 0 and moved and not planar and not in_world:
-            axis = of.data_row("xanchor", joint, 3), of.data_row("xaxis", joint, 3)
+            axis = of.data_row("xanchor", joint, 3), of.axis(joint)
             boxes = [[(of.row("geom_aabb", geom, 6), at(places, geom), turns[9 * geom : 9 * geom + 9]) for geom in some]
-                     for some in (own, above if parents[body] else [])]  # fmt: skip
+                     for some in (own, above if of.parent(body) else [])]  # fmt: skip
             bob = all(int(kinds[geom]) == SPHERE for geom in own)  # on a rod that is not drawn
             made[joint] = (0.0 if bob else _gap(axis, boxes[0], size), _gap(axis, boxes[1], size))
     return made

@@ -41,13 +41,13 @@ import math
 from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import HINGE, SLIDE, TRN_IN_PARENT
+from clinic.diagnosis.engine import HINGE, TRN_IN_PARENT
 from clinic.diagnosis.probes.drive import pull, pulls, way_left
 from clinic.diagnosis.probes.load import loads
 from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.probes.shape import size
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import ENDLESS, Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
 
 TITLE = "Damping or friction holds a joint"
@@ -126,9 +126,9 @@ def _crawls(model: ReaderModel, told: Collection[int]) -> Iterator[Suspect]:
 
 def _crosses(of: Simulation, joint: int) -> float:
     """How long in s all that a joint's actuators give takes for its range; 0 of a joint without one."""
-    low, high = of.row("jnt_range", joint, 2)
-    limited, force = of.model("jnt_limited")[joint] and math.isfinite(high - low), _forces(of).get(joint, 0.0)
-    return (high - low) * of.model("dof_damping")[of.dof(joint)] / force if limited and force > 0 else 0.0
+    low, high = of.ranges.get(joint, ENDLESS)
+    force = _forces(of).get(joint, 0.0) if math.isfinite(high - low) else 0.0
+    return (high - low) * of.model("dof_damping")[of.dof(joint)] / force if force > 0 else 0.0
 
 
 def _slowest(of: Simulation, *joints: int) -> float:
@@ -207,7 +207,7 @@ def _shut(model: ReaderModel) -> Iterator[Suspect]:
 def _push_held(of: Simulation, joint: int) -> float:
     """What holds a joint that nothing moves over what a strong push at its far end gives."""
     told = joint in _held(of) or bool(of.model("jnt_actfrclimited")[joint])  # an effort of a URDF drives it
-    if of.joint_type(joint) not in (HINGE, SLIDE) or joint in _moved(of) or told:
+    if joint not in of.scalar_joints or joint in _moved(of) or told:
         return 0.0
     damping, friction = (of.model(f"dof_{name}")[of.dof(joint)] for name in FIELDS)
     most = _push(of, joint) * _reach(of, joint)
@@ -230,7 +230,7 @@ def _cranked(of: Simulation) -> bool:
 
 def _push(of: Simulation, joint: int) -> float:
     body = of.body_of("joint", joint)
-    return PUSH + WEIGHTS * of.model("body_subtreemass")[body] * math.hypot(*of.model("opt.gravity"))
+    return PUSH + WEIGHTS * of.model("body_subtreemass")[body] * of.gravity
 
 
 def _reach(of: Simulation, joint: int) -> float:
@@ -258,7 +258,7 @@ def _beyond_effort(model: ReaderModel) -> Iterator[Suspect]:
 
 def _beyond(of: Simulation, attribute: str, joint: int) -> float:
     effort = of.row("jnt_actfrcrange", joint, 2)[1]
-    if of.joint_type(joint) not in (HINGE, SLIDE) or not of.model("jnt_actfrclimited")[joint] or effort <= 0:
+    if joint not in of.scalar_joints or not of.model("jnt_actfrclimited")[joint] or effort <= 0:
         return 0.0
     return of.model(f"dof_{attribute}")[of.dof(joint)] / effort
 
@@ -273,15 +273,14 @@ def _held(simulation: Simulation) -> dict[int, float]:
         return {}
     if _cranked(simulation):
         return {}
-    gravity, springs = math.hypot(*simulation.model("opt.gravity")), simulation.model("jnt_stiffness")
-    made = {}
-    for joint in range(simulation.count("joint")):
-        if joint in simulation.drivers or springs[joint] or simulation.joint_type(joint) not in (HINGE, SLIDE):
+    springs, made = simulation.model("jnt_stiffness"), {}
+    for joint in simulation.scalar_joints:
+        if joint in simulation.drivers or springs[joint]:
             continue
         dof, body = simulation.dof(joint), simulation.body_of("joint", joint)
         lever = size(simulation, body) if simulation.joint_type(joint) == HINGE else 1.0
         load = loads(simulation)[dof]
-        if load > HEAVY * gravity * simulation.model("body_subtreemass")[body] * lever > 0:
+        if load > HEAVY * simulation.gravity * simulation.model("body_subtreemass")[body] * lever > 0:
             damping, friction = (simulation.model(f"dof_{name}")[dof] for name in FIELDS)
             made[joint] = max(STILL * damping, friction) / load
     return made

@@ -31,7 +31,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.servo import alone
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -84,7 +83,7 @@ def _wide(of: Simulation, kind: str) -> dict[int, float]:
             continue
         if kind == "tendon":
             made[each] = margins[each] / max(high - low, 1e-9)
-        elif of.joint_type(each) in (HINGE, SLIDE):
+        elif each in of.scalar_joints:
             made[each] = _pushed(of, each, low, high)
     return made
 

@@ -111,10 +111,10 @@ def _said(of: Simulation, *joints: int) -> dict[int, int]:
 def _gimbals(of: Simulation) -> list[tuple[int, int]]:
     """The hinges that are called after another turn than the one that they hang on, and lie on its line; with it."""
     of.begin()
-    near, made = NEAR * of.model("stat.extent")[0], []
+    near, made = NEAR * of.extent, []
     for joint in range(of.count("joint")):
         body = of.body_of("joint", joint)
-        above = of.joints_of(int(of.model("body_parentid")[body]))
+        above = of.joints_of(of.parent(body))
         if len(above) == len(of.joints_of(body)) == 1:
             pair = joint, above[0]
             hinges = all(of.joint_type(each) == HINGE for each in pair)
@@ -128,7 +128,7 @@ def _in_line(of: Simulation) -> list[int]:
     of.begin()
     chains: dict[int, list[int]] = {}
     for body in of.moving_bodies:
-        joints, above = of.joints_of(body), chains.get(int(of.model("body_parentid")[body]), [])
+        joints, above = of.joints_of(body), chains.get(of.parent(body), [])
         if len(joints) == 1 and of.joint_type(joints[0]) == HINGE:
             on_line = above and _same_line(of, joints[0], above[-1], NEAR * norm(_apart(of, joints[0], above[-1])))
             chains[body] = [*(above if on_line else []), joints[0]]
@@ -137,8 +137,8 @@ def _in_line(of: Simulation) -> list[int]:
 
 def _same_line(of: Simulation, joint: int, other: int, near: float) -> bool:
     """Whether a joint has the axis of another one, and is nearer to it than `near`, in m; a slide wherever it is."""
-    axis = of.data_row("xaxis", joint, 3)
-    parallel = norm(cross(axis, of.data_row("xaxis", other, 3))) < PARALLEL
+    axis = of.axis(joint)
+    parallel = norm(cross(axis, of.axis(other))) < PARALLEL
     return parallel and (of.joint_type(joint) == SLIDE or norm(cross(axis, _apart(of, joint, other))) < near)
 
 
@@ -149,9 +149,9 @@ def _apart(of: Simulation, joint: int, other: int) -> Vector:
 def _again(of: Simulation) -> dict[int, int]:
     """The joints that move their bodies as one before them, with that."""
     of.begin()
-    near, made = NEAR * of.model("stat.extent")[0], dict[int, int]()
+    near, made = NEAR * of.extent, dict[int, int]()
     for body in of.moving_bodies:
-        joints = [joint for joint in of.joints_of(body) if of.joint_type(joint) in (HINGE, SLIDE)]
+        joints = [joint for joint in of.joints_of(body) if joint in of.scalar_joints]
         for place, joint in enumerate(joints):
             for other in joints[:place]:
                 if of.joint_type(joint) == of.joint_type(other) and _same_line(of, joint, other, near):

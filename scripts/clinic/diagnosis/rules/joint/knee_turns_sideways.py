@@ -111,7 +111,7 @@ def _turned(of: Simulation, left: int, right: int) -> dict[int, str]:
             return {}
         hip = hinges[1:] if len(hinges) == 2 else []
         for each in (joint, *hip):
-            if abs(dot(of.data_row("xaxis", each, 3), of.data_row("xaxis", joint, 3))) > HANGS:
+            if abs(dot(of.axis(each), of.axis(joint))) > HANGS:
                 frame = transpose(of.data_row("xmat", of.body_of("joint", each), 9))
                 made[each] = written([round(x, 6) for x in times(frame, _across(of, left, right))])
     return made
@@ -133,5 +133,5 @@ def _angle(of: Simulation, joint: int, other: int) -> float:
     """The angle in degrees of a hinge's axis to the line to its twin, in the pose of the file; 0 in one place."""
     of.as_written()
     way = sub(of.data_row("xanchor", other, 3), of.data_row("xanchor", joint, 3))
-    cosine = dot(way, of.data_row("xaxis", joint, 3)) / (norm(way) or 1e-12)
+    cosine = dot(way, of.axis(joint)) / (norm(way) or 1e-12)
     return math.degrees(math.acos(min(1.0, abs(cosine)))) if norm(way) > 1e-6 else 0.0

@@ -32,7 +32,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
-from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.limits import unstopped
 from clinic.diagnosis.probes.servo import servos
 from clinic.diagnosis.probes.twins import twins
@@ -50,11 +50,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Hinges and slides with a written range that ends before it begins."""
     yield from _urdf(model)
     simulation = model.simulation
-    for joint in range(simulation.count("joint")):
+    for joint in simulation.scalar_joints:
         text = (model.value("joint", joint, "range") or "").split()
-        if simulation.joint_type(joint) not in (HINGE, SLIDE) or simulation.model("jnt_limited")[joint]:
+        if joint in simulation.ranges or len(text) != 2:
             continue
-        if len(text) != 2 or float(text[0]) < float(text[1]) or model.value("joint", joint, "limited") == "false":
+        if float(text[0]) < float(text[1]) or model.value("joint", joint, "limited") == "false":
             continue
         edits = _edits(model, joint, text)
         what = "a point" if float(text[0]) == float(text[1]) else "written from its upper end to its lower"
@@ -74,7 +74,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _urdf(model: ReaderModel) -> Iterator[Suspect]:
     """Revolute and prismatic joints of a URDF without an upper limit above the lower one, by what is wrong."""
     found: dict[str, list[Element]] = {}
-    root = model.source.root if model.source is not None and model.source.urdf else None
+    root = model.source.root if model.source is not None and model.urdf else None
     for joint in root.children if root is not None else ():
         if joint.tag != "joint" or joint.get("type") not in ("revolute", "prismatic"):
             continue
@@ -115,8 +115,8 @@ def _edits(model: ReaderModel, joint: int, text: list[str]) -> tuple[Edit, ...]:
     scale = 1 / model.angle_unit if simulation.joint_type(joint) == HINGE else 1.0
     twin = twins(simulation).partner("joint", joint)
     targets = [each.targets for each in servos(simulation) if each.joint == joint and each.targets]
-    if twin is not None and simulation.model("jnt_limited")[twin]:
-        low, high = simulation.row("jnt_range", twin, 2)
+    if twin is not None and twin in simulation.ranges:
+        low, high = simulation.ranges[twin]
         left = min(joint, twin) if (min(joint, twin), max(joint, twin)) in twins(simulation).pairs["joint"] else None
         if left is not None and twins(simulation).joint_sign(left, joint + twin - left)[0] < 0:
             low, high = -high, -low

@@ -53,12 +53,9 @@ DEGREE = math.pi / 180
 
 def _spans(simulation: Simulation) -> dict[int, float]:
     """The widths of the ranges of the hinges that have one, in rad."""
-    made = {}
-    for joint, limited in enumerate(simulation.model("jnt_limited")):
-        low, high = simulation.row("jnt_range", joint, 2)
-        if limited and high > low and simulation.joint_type(joint) == HINGE and joint not in unlike_slides(simulation):
-            made[joint] = high - low
-    return made
+    ranged = {joint: high - low for joint, (low, high) in simulation.ranges.items() if high > low}
+    hinges = [joint for joint in ranged if simulation.joint_type(joint) == HINGE]
+    return {joint: ranged[joint] for joint in hinges if joint not in unlike_slides(simulation)}
 
 
 def _off(simulation: Simulation, joints: tuple[int, ...]) -> float:

@@ -45,18 +45,18 @@ ROOM = 10.0  # times the model's extent
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Hinges and slides with a range and without a limit, all together."""
     simulation = model.simulation
-    found, bodies, extent = [], simulation.model("jnt_bodyid"), simulation.model("stat.extent")[0]
+    found, bodies = [], simulation.model("jnt_bodyid")
     roaming = set()  # the whole robot goes about by a slide that is far longer than it
     for joint, limited in enumerate(simulation.model("jnt_limited")):
         low, high = simulation.row("jnt_range", joint, 2)
         kind = simulation.joint_type(joint)
-        if kind == SLIDE and not limited and high - low > ROOM * extent:
+        if kind == SLIDE and not limited and high - low > ROOM * simulation.extent:
             roaming.add(bodies[joint])
         span = (high - low) * (
             model.angle_unit if kind == HINGE else 0.0
         )  # of an unused range the numbers stay as written
         turns = TURN <= high - low <= 2.1 * TURN  # one or two, in rad whatever the unit
-        if not limited and low < high and span < TURN and not turns and kind in (HINGE, SLIDE):
+        if not limited and low < high and span < TURN and not turns and joint in simulation.scalar_joints:
             found.append(joint)
     found = [joint for joint in found if bodies[joint] not in roaming]
     if not found:

@@ -35,7 +35,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HFIELD, PLANE, SLIDE
 from clinic.diagnosis.probes.shape import boxes
-from clinic.diagnosis.probes.vector import written
+from clinic.diagnosis.probes.vector import dot, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -52,11 +52,11 @@ GUIDED = re.compile(r"drawer|tray|(?<![a-z])door|shelf|lid(?![a-z])", re.IGNOREC
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The slides that leave the body which carries them, each."""
     of = model.simulation
-    parents, bodies, names = of.model("body_parentid"), of.model("jnt_bodyid"), of.names("body")
+    names = of.names("body")
     urdf = model.urdf  # which does not say what drives a joint
     for joint in range(of.count("joint")):
-        body = int(bodies[joint])
-        if of.joint_type(joint) != SLIDE or not parents[body] or joint in of.drivers or len(of.joints_of(body)) > 1:
+        body = of.body_of("joint", joint)
+        if of.joint_type(joint) != SLIDE or not of.parent(body) or joint in of.drivers or len(of.joints_of(body)) > 1:
             continue
         if of.model("jnt_stiffness")[joint] > 0:
             continue
@@ -68,15 +68,15 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         named = bool(GUIDED.search(called))
         if urdf and not named and _gap(of, joint) < MILLIMETRES:
             continue
-        if not of.model("jnt_limited")[joint]:
+        if joint not in of.ranges:
             if named:
                 says = "It has no range: nothing stops it at either end."
                 probe = Probe("1 where no range stops it", "", _unlimited, (joint,), dynamic=False)
                 told = (of.name("joint", joint), of.name("body", body))
                 yield Suspect(told, "range", "left out", "", (), probe, 0.5, says, "a range within its guide")
         elif (gap := _gap(of, joint)) > 0:
-            low, high = of.row("jnt_range", joint, 2)
-            guide = of.name("body", int(parents[body]))
+            low, high = of.ranges[joint]
+            guide = of.name("body", of.parent(body))
             says = f"Where its range ends it is {gap:.3g} times its own length out of {guide}."
             probe = Probe("gap to what carries it at the end of its range", "lengths", _gap, (joint,), dynamic=False)
             told = (of.name("joint", joint), of.name("body", body))
@@ -87,15 +87,15 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _unlimited(of: Simulation, joint: int) -> float:
-    return float(not of.model("jnt_limited")[joint])
+    return float(joint not in of.ranges)
 
 
 def _gap(of: Simulation, joint: int, *, at_start: bool = False) -> float:
     """How far what slides is from the body that carries it at the worse end of its range, in its own lengths."""
     of.begin()
     body = of.body_of("joint", joint)
-    parent = int(of.model("body_parentid")[body])
-    axis, now = of.data_row("xaxis", joint, 3), of.position(joint)
+    parent = of.parent(body)
+    axis, now = of.axis(joint), of.position(joint)
     mine, guide = _extent(of, of.below(body), axis), _extent(of, [parent], axis)
     if mine is None or guide is None:
         return -1.0
@@ -111,7 +111,6 @@ def _extent(of: Simulation, bodies: list[int], axis: tuple[float, ...]) -> tuple
     kinds, ends = of.model("geom_type"), list[float]()
     geoms = (geom for body in bodies for geom in of.geoms_of(body) if int(kinds[geom]) not in (PLANE, HFIELD))
     for place, half in boxes(of, geoms).values():
-        middle = sum(a * b for a, b in zip(place, axis, strict=True))
-        reach = sum(abs(a) * b for a, b in zip(axis, half, strict=True))
+        middle, reach = dot(place, axis), dot([abs(x) for x in axis], half)
         ends += [middle - reach, middle + reach]
     return (min(ends), max(ends)) if ends else None

@@ -76,10 +76,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _candidates(of: Simulation) -> list[int]:
     """Limited hinges and slides whose limits are softer than MuJoCo's own."""
     made = []
-    for joint, limited in enumerate(of.model("jnt_limited")):
+    for joint in of.ranges:
         time, ratio = of.row("jnt_solref", joint, 2)
-        soft = time * ratio > 0.03 or -1000 < time <= 0
-        if limited and of.joint_type(joint) in SPEED and (soft or of.row("jnt_solimp", joint, 5)[0] < 0.5):
+        if time * ratio > 0.03 or -1000 < time <= 0 or of.row("jnt_solimp", joint, 5)[0] < 0.5:
             made.append(joint)
     return made
 

@@ -125,12 +125,8 @@ def _leaves(of: Simulation, *joints: int) -> float:
 
 def _springs(of: Simulation) -> list[int]:
     """The slides that have a spring and a range and no actuator that acts by itself."""
-    stiffness, limited = of.model("jnt_stiffness"), of.model("jnt_limited")
-    return [
-        joint
-        for joint in range(of.count("joint"))
-        if of.joint_type(joint) == SLIDE and stiffness[joint] > 0 and limited[joint] and not _held(of, joint)
-    ]
+    slides = [joint for joint in of.ranges if of.joint_type(joint) == SLIDE]
+    return [joint for joint in slides if of.model("jnt_stiffness")[joint] > 0 and not _held(of, joint)]
 
 
 def _held(of: Simulation, joint: int) -> bool:

@@ -77,9 +77,7 @@ def _off(simulation: Simulation) -> dict[int, float]:
     for joint, stiffness in enumerate(simulation.model("jnt_stiffness")):
         if stiffness > 0 and simulation.joint_type(joint) == HINGE:
             rest, begin = (simulation.model(field)[simulation.place(joint)] for field in ("qpos_spring", "qpos0"))
-            low, high = begin - TURN + FAR, begin + TURN - FAR
-            if simulation.model("jnt_limited")[joint]:
-                low, high = simulation.row("jnt_range", joint, 2)
+            low, high = simulation.ranges.get(joint, (begin - TURN + FAR, begin + TURN - FAR))
             shut = rest < low >= begin - NEAR or rest > high <= begin + NEAR  # a door that its spring holds shut
             made[joint] = 0.0 if shut and abs(rest - begin) < FAR else max(low - rest, rest - high, 0.0)
     return made

@@ -30,7 +30,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import DEFAULT_TIMESTEP, HINGE, SLIDE
+from clinic.diagnosis.engine import DEFAULT_TIMESTEP
 from clinic.diagnosis.probes.run import FAST, fastest
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
@@ -47,7 +47,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     step, stiffness, mass = simulation.timestep, simulation.model("jnt_stiffness"), simulation.mass_diagonal
     found: dict[int, float] = {}
     for joint, each in enumerate(stiffness):
-        if each > 0 and simulation.joint_type(joint) in (HINGE, SLIDE):
+        if each > 0 and joint in simulation.scalar_joints:
             rate = (each / max(mass[simulation.dof(joint)], 1e-12)) ** 0.5
             if min(step, DEFAULT_TIMESTEP) * rate > 0.6:  # a chain's fastest mode is up to three times as fast
                 found[joint] = rate

@@ -34,7 +34,7 @@ import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import HINGE, SLIDE
+from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.servo import alone, hold
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -90,20 +90,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _unposed(simulation: Simulation) -> bool:
     """Whether no joint of a robot was put anywhere: the zero pose, in which no program leaves it."""
-    joints = [each for each in range(simulation.count("joint")) if simulation.joint_type(each) in (HINGE, SLIDE)]
-    posed = simulation.begin_with.key >= 0 or any(simulation.position(each) for each in joints)
-    return len(joints) >= ROBOT and not posed
+    posed = simulation.begin_with.key >= 0 or any(map(simulation.position, simulation.scalar_joints))
+    return len(simulation.scalar_joints) >= ROBOT and not posed
 
 
 def _limited(simulation: Simulation) -> dict[int, tuple[float, float, float]]:
     """The range and the start of each hinge and slide that has a range."""
     simulation.begin()
-    made = {}
-    for joint, limited in enumerate(simulation.model("jnt_limited")):
-        if limited and simulation.joint_type(joint) in (HINGE, SLIDE):
-            low, high = simulation.row("jnt_range", joint, 2)
-            made[joint] = (low, high, simulation.position(joint))
-    return made
+    return {joint: (*ends, simulation.position(joint)) for joint, ends in simulation.ranges.items()}
 
 
 def _kick(simulation: Simulation, joints: tuple[int, ...]) -> float:

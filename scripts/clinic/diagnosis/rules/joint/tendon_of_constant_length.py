@@ -53,7 +53,7 @@ from clinic.diagnosis.engine import OBJ_TENDON
 from clinic.diagnosis.probes.couplings import couplings
 from clinic.diagnosis.probes.tendons import joints_of, path, pulled
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import REFERENCES, Simulation
+from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A tendon whose length never changes"
@@ -98,7 +98,7 @@ def _used(of: Simulation, tendon: int) -> float:
 def _constant(of: Simulation, tendon: int) -> bool:
     if fixed := joints_of(of, tendon):
         return _cancelled(of, fixed)
-    bodies = {int(of.model(REFERENCES[kind])[index]) for kind, index in path(of, tendon)}
+    bodies = {of.body_of(kind, index) for kind, index in path(of, tendon)}
     return len({int(of.model("body_weldid")[body]) for body in bodies}) == 1
 
 

@@ -139,7 +139,7 @@ def _adds(of: Simulation, part: Sequence[tuple[int, float]]) -> float:
     """Above 0 where two parallel joints of one kind are added, below where one is taken from the other; else 0."""
     of.as_written()
     (one, first), (other, second) = part
-    along = dot(*(of.data_row("xaxis", joint, 3) for joint in (one, other)))
+    along = dot(*(of.axis(joint) for joint in (one, other)))
     same = of.joint_type(one) == of.joint_type(other) and abs(along) > PARALLEL
     return first * second * along if same else 0.0
 

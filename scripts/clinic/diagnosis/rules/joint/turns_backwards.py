@@ -92,4 +92,4 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _least(of: Simulation, joints: tuple[int, ...], against: Vector) -> float:
     """How far all of some axes point along a direction."""
     of.begin()
-    return min(dot(of.data_row("xaxis", joint, 3), against) for joint in joints)
+    return min(dot(of.axis(joint), against) for joint in joints)

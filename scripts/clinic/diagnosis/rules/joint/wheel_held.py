@@ -45,7 +45,6 @@ When it is wrong: wheels that are blocked on purpose, or turned to an angle that
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, HINGE, MESH, SPHERE
@@ -112,7 +111,7 @@ def _friction(of: Simulation, body: int) -> float:
 def _traction(of: Simulation, body: int) -> float:
     """The torque in N m with which the ground turns a wheel that bears its whole robot, at a friction of 1."""
     radius = max(of.model("geom_rbound")[geom] for geom in of.geoms_of(body))
-    return radius * of.model("body_subtreemass")[root_of(of)[body]] * math.hypot(*of.model("opt.gravity"))
+    return radius * of.model("body_subtreemass")[root_of(of)[body]] * of.gravity
 
 
 def _wheels(of: Simulation) -> list[int]:
@@ -130,12 +129,12 @@ def _wheels(of: Simulation) -> list[int]:
 def _carried(of: Simulation, body: int) -> bool:
     """Whether a body without a joint is fixed to one that a hinge without limits turns, as a tyre to its rim."""
     joints = of.joints_of(int(of.model("body_weldid")[body])) if not of.joints_of(body) else []
-    return any(of.joint_type(each) == HINGE and not of.model("jnt_limited")[each] for each in joints)
+    return any(map(of.continuous, joints))
 
 
 def _hinges(of: Simulation, body: int) -> list[int]:
     """The hinges of a body that lie across the vertical at the zero pose, or its other joints that turn it."""
     of.as_written()
     hinges = [joint for joint in of.joints_of(body) if of.joint_type(joint) == HINGE]
-    across = [joint for joint in hinges if abs(of.data_row("xaxis", joint, 3)[2]) < ACROSS]
+    across = [joint for joint in hinges if abs(of.axis(joint)[2]) < ACROSS]
     return across or of.joints_of(body)

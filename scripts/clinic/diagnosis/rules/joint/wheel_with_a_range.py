@@ -42,7 +42,7 @@ from clinic.diagnosis.probes.servo import speed_gain
 from clinic.diagnosis.probes.shape import round_about
 from clinic.diagnosis.probes.wheels import is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import ENDLESS, Simulation
 from clinic.diagnosis.suspect import Suspect, counted
 
 TITLE = "A wheel with a range"
@@ -83,9 +83,9 @@ def _sped(of: Simulation) -> set[int]:
             continue
         fastest = max(map(abs, of.row("actuator_ctrlrange", actuator, 2)))
         fastest /= abs(of.gear(actuator)) or 1.0
-        low, high = of.row("jnt_range", joint, 2)
-        hinge = of.joint_type(joint) == HINGE and of.model("jnt_limited")[joint]
-        if hinge and TURNED.search(of.names("joint")[joint]) and high - low < min(SHORT, AT_ONCE * fastest):
+        low, high = of.ranges.get(joint, ENDLESS)
+        short = of.joint_type(joint) == HINGE and high - low < min(SHORT, AT_ONCE * fastest)
+        if short and TURNED.search(of.names("joint")[joint]):
             made.add(joint)
     return made
 
@@ -93,8 +93,8 @@ def _sped(of: Simulation) -> set[int]:
 def _wheel(of: Simulation, joint: int) -> bool:
     body = of.body_of("joint", joint)
     name = f"{of.names('joint')[joint]} {of.names('body')[body]}"
-    if of.joint_type(joint) != HINGE or not of.model("jnt_limited")[joint] or not is_wheel(name):
+    if of.joint_type(joint) != HINGE or not is_wheel(name):
         return False
-    low, high = of.row("jnt_range", joint, 2)
-    level = abs(of.data_row("xaxis", joint, 3)[2]) < LEVEL_ENOUGH
+    low, high = of.ranges.get(joint, ENDLESS)
+    level = abs(of.axis(joint)[2]) < LEVEL_ENOUGH
     return high - low < TURNS * 2 * math.pi and level and round_about(of, joint)

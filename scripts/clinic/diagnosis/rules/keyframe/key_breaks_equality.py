@@ -47,13 +47,12 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import product
 
 from clinic.diagnosis.edit import Edit, set_attribute
-from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.couplings import Coupling, couplings
 from clinic.diagnosis.probes.equalities import CONNECT, WELD, by_mocap, gap, held, kind_of, sited
 from clinic.diagnosis.probes.key import servos, start_at
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation, kept
+from clinic.diagnosis.simulation import ENDLESS, Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A keyframe that breaks an equality"
@@ -137,13 +136,13 @@ def _off(of: Simulation, each: int, key: int) -> float:
     """How far a keyframe, or the model's own start, is from what an equality holds."""
     if kind_of(of, each) in (CONNECT, WELD):
         start_at(of, key)
-        return (gap(of, each) or 0.0) / of.model("stat.extent")[0]
+        return (gap(of, each) or 0.0) / of.extent
     if (coupling := dict(couplings(of)).get(each)) is None:
         return 0.0
     follower, leader, factors = coupling
     own, leading = _ways(of, key, follower, leader)
     led = _led(factors, leading)
-    low, high = of.row("jnt_range", follower, 2) if of.model("jnt_limited")[follower] else (0.0, 0.0)
+    low, high = of.ranges.get(follower, (0.0, 0.0))
     return abs(own - led) / max(high - low, abs(own), abs(led)) if abs(own - led) > LEAST else 0.0
 
 
@@ -177,7 +176,7 @@ def _other_leader(model: ReaderModel, each: int, coupling: Coupling, keys: Seque
         return ()
     every = range(of.count("key"))
     led = {follower for _, (follower, _, _) in couplings(of)}
-    free = [joint for joint in range(of.count("joint")) if of.joint_type(joint) in (HINGE, SLIDE) and joint not in led]
+    free = [joint for joint in of.scalar_joints if joint not in led]
     found = [joint for joint in free if joint != leader and _keeps(of, (follower, joint, factors), every)]
     return model.set("equality", [each], "joint2", of.names("joint")[found[0]]) if len(found) == 1 else ()
 
@@ -233,17 +232,17 @@ def _other_factor(model: ReaderModel, each: int, coupling: Coupling, keys: Seque
 def _away(of: Simulation, joint: int, way: float) -> bool:
     """Whether a joint is so far from its start that the keyframe means it: by a tenth of its range."""
     low, high = of.row("jnt_range", joint, 2)
-    return abs(way) > (COUPLING * (high - low) if of.model("jnt_limited")[joint] else LEAST)
+    return abs(way) > (COUPLING * (high - low) if joint in of.ranges else LEAST)
 
 
 def _put(model: ReaderModel, joint: int, places: dict[int, float]) -> tuple[Edit, ...]:
     """Edits that put a joint elsewhere in keyframes; none where its range leaves that out."""
     of, made = model.simulation, list[Edit]()
-    low, high = of.row("jnt_range", joint, 2)
+    low, high = of.ranges.get(joint, ENDLESS)
     for key, place in places.items():
         element = model.element("key", key)
         numbers = element.get("qpos").split() if element is not None else []
-        inside = not of.model("jnt_limited")[joint] or low - LEAST <= place <= high + LEAST
+        inside = low - LEAST <= place <= high + LEAST
         if element is None or not inside or len(numbers) != len(of.model("qpos0")):
             return ()
         numbers[of.place(joint)] = written([place])

@@ -49,7 +49,6 @@ UNPLANTED = "no healthy model has a keyframe with controls of motors"
 
 OFF, BALANCED = 0.5, 0.25  # of the motor's force
 INSIDE, RUBS = 0.01, 2.0  # of the range, from its ends; times the dry friction, which the motor's force is at least
-KINDS = ("gain", "bias", "dyn")
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -76,11 +75,10 @@ def _held(of: Simulation, key: int) -> dict[int, int]:
         return {}
     made = {}
     for joint, driving in of.drivers.items():
-        low, high = of.row("jnt_range", joint, 2) if of.model("jnt_limited")[joint] else (-1e9, 1e9)
+        low, high = of.ranges.get(joint, (-1e9, 1e9))
         free = low + INSIDE * (high - low) < of.position(joint) < high - INSIDE * (high - low)
-        motor = not any(int(of.model(f"actuator_{kind}type")[driving[0]]) for kind in KINDS)
         force, dof = abs(of.data("qfrc_actuator")[of.dof(joint)]), of.dof(joint)
-        if len(driving) == 1 and motor and free and force > RUBS * of.model("dof_frictionloss")[dof]:
+        if len(driving) == 1 and of.is_motor(driving[0]) and free and force > RUBS * of.model("dof_frictionloss")[dof]:
             made[driving[0]] = joint
     return made
 

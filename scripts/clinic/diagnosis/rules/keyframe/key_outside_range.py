@@ -175,7 +175,7 @@ def _whole(of: Simulation, key: int) -> list[int]:
     """The hinges without a range that stand at a multiple of 15 in one keyframe, and at no angle beyond a turn else."""
     made, others = [], [qpos for each, qpos in _poses(of).items() if each != key]
     for joint in range(of.count("joint")):
-        if of.joint_type(joint) != HINGE or of.model("jnt_limited")[joint]:
+        if not of.continuous(joint):
             continue
         place = of.place(joint)
         at = abs(_poses(of)[key][place])

@@ -103,5 +103,5 @@ def _tilt(now: Sequence[float], start: Sequence[float]) -> float:
 def _angle(simulation: Simulation, key: int, at: int) -> float:
     start_at(simulation, key)
     now, start = simulation.data("qpos")[at : at + 4], simulation.model("qpos0")[at : at + 4]
-    turned = math.degrees(2 * math.acos(min(1.0, abs(sum(a * b for a, b in zip(now, start, strict=True))))))
+    turned = math.degrees(2 * math.acos(min(1.0, abs(dot(now, start)))))
     return max(_tilt(now, start), turned if _back(now) else 0.0)

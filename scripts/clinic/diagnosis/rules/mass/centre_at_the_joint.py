@@ -47,7 +47,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.inertia import set_inertial
 from clinic.diagnosis.probes.matter import explicit, matter
-from clinic.diagnosis.probes.vector import add, cross, dot, norm, sub, written
+from clinic.diagnosis.probes.vector import across, cross, norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -102,8 +102,8 @@ def _crowded(of: Simulation, body: int) -> float:
         return 0.0
     axis, off = of.row("jnt_axis", joints[0], 3), sub(found.centre, of.row("jnt_pos", joints[0], 3))
     apart = sub(found.solid_centre, found.centre)
-    across = [abs(x) for x in add(apart, axis, -dot(apart, axis))]
-    side = across.index(max(across))
+    aside = [abs(x) for x in across(apart, axis)]
+    side = aside.index(max(aside))
     low, high = (found.middle[side] + sign * found.half[side] for sign in (-1, 1))
     spread = (sum(found.about[::4]) / 2 - found.about[4 * side]) / found.mass
     room, own = ((high - at[side]) * (at[side] - low) for at in (found.centre, found.solid_centre))

@@ -119,7 +119,7 @@ def _of_the_plane(of: Simulation, common: int, normal: Vector) -> Iterator[int]:
     for body in of.ancestors(common)[:-1]:
         yield body
         for joint in of.joints_of(body):
-            along = abs(dot(of.data_row("xaxis", joint, 3), normal))
+            along = abs(dot(of.axis(joint), normal))
             if not (along > ALONG if of.joint_type(joint) == HINGE else along < 1 - ALONG):
                 return
 

@@ -116,7 +116,7 @@ def _hangs(model: ReaderModel, tree: list[int]) -> Iterator[Suspect]:
     lines = {joint for body in of.ancestors(light[0]) for joint in of.joints_of(body)}
     drivers = {*of.drivers} | {joint for joint in lines if of.model("jnt_stiffness")[joint]}
     hinges = {joint for joint in lines if of.joint_type(joint) != FREE}
-    if not hinges or hinges & drivers or not any(of.model("opt.gravity")):
+    if not hinges or hinges & drivers or not of.gravity:
         return
     name, now = of.name("body", light[0]), f"{compensated[light[0]]:g}"
     says = f"Of {len(tree)} links it alone has gravcomp, and it hangs on joints that nothing drives: it has no weight."

@@ -48,11 +48,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     if model.source is None or any(each.get("settotalmass") for each in model.source.elements("compiler")):
         return
-    parents, masses = of.model("body_parentid"), of.model("body_mass")
+    masses = of.model("body_mass")
     alone = [
         body
         for body in of.free_bodies
-        if body not in parents and model.element("body", body) is not None and _by_default(model, body)
+        if body not in of.children and model.element("body", body) is not None and _by_default(model, body)
     ]
     others = [body for body in of.moving_bodies if body not in alone]
     robot = sum(masses[body] for body in others)

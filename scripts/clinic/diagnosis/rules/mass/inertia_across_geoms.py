@@ -42,6 +42,7 @@ from clinic.diagnosis.probes.inertia import inertial, set_inertial
 from clinic.diagnosis.probes.matter import Matter, across, explicit, flat
 from clinic.diagnosis.probes.vector import dot, norm
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.simulation import ENDLESS
 from clinic.diagnosis.source import ORIENTATIONS
 from clinic.diagnosis.suspect import Suspect
 
@@ -115,7 +116,7 @@ def _rolls(model: ReaderModel, body: int, found: Matter) -> bool:
     of = model.simulation
     return any(
         of.joint_type(joint) == HINGE
-        and (not of.model("jnt_limited")[joint] or _way(of.row("jnt_range", joint, 2)) > math.tau)
+        and _way(of.ranges.get(joint, ENDLESS)) > math.tau
         and abs(dot(of.row("jnt_axis", joint, 3), found.short)) > ALONG
         for joint in of.joints_of(body)
     )

@@ -51,7 +51,7 @@ USUAL = 0.1  # of the model's size, which the edit gives
 
 
 def _over(simulation: Simulation, *bodies: int) -> float:
-    masses, size = simulation.model("body_mass"), max(simulation.model("stat.extent")[0], 1e-6)
+    masses, size = simulation.model("body_mass"), max(simulation.extent, 1e-6)
     spread = (max(simulation.row("body_inertia", body, 3)) / max(masses[body], 1e-12) for body in bodies)
     return math.sqrt(max(spread, default=0.0)) / size
 
@@ -74,7 +74,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = [body for body in of.moving_bodies if _over(of, body) > MOST and inertial(model, body) is not None]
     if not found or _felt(of, found) < FELT:
         return
-    size, edits = of.model("stat.extent")[0], []
+    size, edits = of.extent, []
     for body in found:
         element = inertial(model, body)
         if element is not None and "diaginertia" in element.attributes:

@@ -101,7 +101,7 @@ def _next_of_kin(model: ReaderModel) -> tuple[int, int] | None:
     if len(alike) != 1 or len(alike[0][1]) != 2 or len(groups) <= OTHERS:
         return None
     numbers, (above, below) = alike[0]
-    hangs, placeholder = of.model("body_parentid")[below] == above, not any(numbers[:3]) or len(set(numbers[3:6])) == 1
+    hangs, placeholder = of.parent(below) == above, not any(numbers[:3]) or len(set(numbers[3:6])) == 1
     return (above, below) if hangs and not placeholder and not _one_part(of, above, below) else None
 
 

@@ -91,7 +91,7 @@ def _jointed(model: ReaderModel) -> Iterator[Suspect]:
             weighed = any((each.get(name) or "0") != "0" for each in placed for name in ("mass", "density"))
             idle = {text for each in jointed if inertial(model, each) is not None for text in _by_class(model, each)}
             weighed |= bool(_by_class(model, body) - idle)
-            if weighed or not (placed or (model.source and model.source.urdf and of.geoms_of(body))):
+            if weighed or not (placed or (model.urdf and of.geoms_of(body))):
                 continue
             mass = of.model("body_mass")[body]
             says = f"{others} others have an <inertial>; its {mass:.3g} kg are those of its geoms."
@@ -109,15 +109,15 @@ def _fixed(model: ReaderModel) -> Iterator[Suspect]:
     if model.source is None:
         return
     of = model.simulation
-    parents, masses = of.model("body_parentid"), of.model("body_mass")
+    masses = of.model("body_mass")
     found: dict[int, int] = {}
     for body in of.moving_bodies:
-        link, geoms = int(parents[body]), of.geoms_of(body)
+        link, geoms = of.parent(body), of.geoms_of(body)
         while link and not (of.joints_of(link) or of.geoms_of(link) or inertial(model, link)):
-            link = int(parents[link])  # a frame between the two
+            link = of.parent(link)  # a frame between the two
         if of.joints_of(body) or not geoms or inertial(model, body) is not None or inertial(model, link) is None:
             continue
-        if not model.source.urdf and any(model.element("geom", geom) is None for geom in geoms):
+        if not model.urdf and any(model.element("geom", geom) is None for geom in geoms):
             continue
         written = any(model.value("geom", geom, name) for geom in geoms for name in ("mass", "density"))
         if not written and masses[body] > MORE * masses[link]:

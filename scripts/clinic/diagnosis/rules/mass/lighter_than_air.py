@@ -34,7 +34,6 @@ When it is wrong: a balloon. Where all of the model is so, it may be written in 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
@@ -59,10 +58,10 @@ METRES, CENTIMETRES = (5.0, 20.0), 500.0  # m/s2
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Trees of moving bodies that collide and weigh next to nothing."""
     of = model.simulation
-    if unit_of_lengths(of) or math.hypot(*of.model("opt.gravity")) > CENTIMETRES:
+    if unit_of_lengths(of) or of.gravity > CENTIMETRES:
         return
     masses = of.model("body_mass")
-    in_metres = METRES[0] < math.hypot(*of.model("opt.gravity")) < METRES[1]
+    in_metres = METRES[0] < of.gravity < METRES[1]
     most = LIGHT if in_metres and not of.model("opt.density")[0] else LIMIT  # in a fluid it may float
     yield from _links(model, most)
     yield from _for_mass(model, most)

@@ -130,7 +130,7 @@ def _away(of: Simulation, camera: int) -> float:
 
 def _along_fingers(of: Simulation, camera: int) -> float:
     """The cosine of a camera's view and the way from its hand to the middle of the fingers on it; 0 without two."""
-    body = int(of.model("cam_bodyid")[camera])
+    body = of.body_of("camera", camera)
     names = of.names("body")
     fingers = [each for each in of.children.get(body, []) if FINGER.search(names[each]) and of.joints_of(each)]
     if not body or len(fingers) < 2 or int(of.model("cam_mode")[camera]) != CAM_FIXED:
@@ -145,7 +145,7 @@ def _copied(of: Simulation) -> list[tuple[int, int]]:
     of.begin()
     made = []
     for pair in by_name(of, "camera"):
-        bodies = {int(of.model("cam_bodyid")[each]) for each in pair}
+        bodies = {of.body_of("camera", each) for each in pair}
         turns = [of.row("cam_quat", each, 4) for each in pair]
         if len(bodies) == 2 or 0 in bodies or max(map(abs, sub(*turns))) > SAME:
             continue
@@ -159,7 +159,7 @@ def _copied(of: Simulation) -> list[tuple[int, int]]:
 def _depth(of: Simulation, camera: int) -> float:
     """How deep a camera is below a floor that what carries it is above; for one of the world, what there is to see."""
     of.begin()
-    kinds, here, body = of.model("geom_type"), of.data_row("cam_xpos", camera, 3), int(of.model("cam_bodyid")[camera])
+    kinds, here, body = of.model("geom_type"), of.data_row("cam_xpos", camera, 3), of.body_of("camera", camera)
     others = [of.data_row("geom_xpos", geom, 3) for geom in things(of)]
     if body:
         others = [of.data_row("xpos", body, 3)]
@@ -179,7 +179,7 @@ def _depth(of: Simulation, camera: int) -> float:
 
 def _blocked(of: Simulation, camera: int) -> float:
     of.begin()
-    kinds, bodies, body = of.model("geom_type"), of.model("geom_bodyid"), int(of.model("cam_bodyid")[camera])
+    kinds, bodies, body = of.model("geom_type"), of.model("geom_bodyid"), of.body_of("camera", camera)
     part_of = of.model("body_rootid" if HEAD.search(of.name("body", body)) else "body_weldid")
     geoms = [geom for geom in things(of) if part_of[int(bodies[geom])] == part_of[body] and kinds[geom] != MESH]
     here, (right, up, forward) = of.data_row("cam_xpos", camera, 3), axes(of, camera)
@@ -188,5 +188,5 @@ def _blocked(of: Simulation, camera: int) -> float:
     met = [[through(of, geom, here, ray) for geom in geoms] for ray in rays]
     around = {which for which, (near, far) in enumerate(met[0]) if near <= 0 <= far}
     met = [[each for which, each in enumerate(ray) if which not in around] for ray in met]
-    nearest = of.model("vis.map.znear")[0] * of.model("stat.extent")[0]
+    nearest = of.model("vis.map.znear")[0] * of.extent
     return float(sum(any(nearest < near <= far for near, far in each) for each in met))

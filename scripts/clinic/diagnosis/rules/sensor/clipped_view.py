@@ -47,8 +47,7 @@ MOST = 0.9
 
 
 def _clipped(simulation: Simulation, camera: int) -> float:
-    extent = simulation.model("stat.extent")[0]
-    near, far = (extent * simulation.model(f"vis.map.{name}")[0] for name in ("znear", "zfar"))
+    near, far = (simulation.extent * simulation.model(f"vis.map.{name}")[0] for name in ("znear", "zfar"))
     radii, seen = simulation.model("geom_rbound"), in_sight(simulation, camera)
     cut = [geom for geom, ahead in seen if ahead + radii[geom] < near or ahead - radii[geom] > far]
     return len(cut) / len(seen) if seen else 0.0
@@ -68,7 +67,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             names = [name for name in ("znear", "zfar") if name in maps[-1].attributes]
             now = ", ".join(f"{name} {maps[-1].get(name)}" for name in names)
             edits = tuple(remove_attribute(maps[-1], name) for name in names)
-            says = f"{now}, times the extent of {simulation.model('stat.extent')[0]:.3g} m, cut it away."
+            says = f"{now}, times the extent of {simulation.extent:.3g} m, cut it away."
             camera_name = simulation.name("camera", camera)
             yield Suspect(("<map>", camera_name), ", ".join(names), now, "0.01, 50", edits, probe, MOST, says)
             return

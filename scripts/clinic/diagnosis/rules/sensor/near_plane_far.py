@@ -55,18 +55,17 @@ IN_SIGHT = 0.9  # cosine
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The cameras on board of something before which the near plane is far, all together."""
     of = model.simulation
-    extent = of.model("stat.extent")[0]
-    plane = extent * of.model("vis.map.znear")[0]
+    plane = of.extent * of.model("vis.map.znear")[0]
     ahead = {each: _ahead(of, each) for each in range(of.count("camera"))}
     found = [each for each, share in ahead.items() if share > FAR and _meets(of, each, plane)]
     if not found:
         return
     worst = max(found, key=lambda each: ahead[each])
-    value = rounded(NEAR * plane / ahead[worst] / extent)
+    value = rounded(NEAR * plane / ahead[worst] / of.extent)
     maps = list(model.source.elements("map")) if model.source else []
     edits = (set_attribute(maps[-1], "znear", value),) if maps else model.add("visual", f'<map znear="{value}"/>')
     now = f"{of.model('vis.map.znear')[0]:g}"
-    says = f"znear {now} times the extent of {extent:.3g} m is {plane:.3g} m: what is nearer to it is not drawn."
+    says = f"znear {now} times the extent of {of.extent:.3g} m is {plane:.3g} m: what is nearer to it is not drawn."
     probe = Probe("the near plane's distance", "of the robot's size", _ahead, (worst,), dynamic=False)
     names = tuple(of.name("camera", each) for each in found)
     yield Suspect(names, "znear", now, value, edits, probe, FAR, says, "below half of the robot")
@@ -74,8 +73,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _ahead(of: Simulation, camera: int) -> float:
     """How far ahead the near plane is, over the size of what the camera is on board of; 0 for one that is not."""
-    owner = root_of(of)[int(of.model("cam_bodyid")[camera])]
-    plane = of.model("stat.extent")[0] * of.model("vis.map.znear")[0]
+    owner = root_of(of)[of.body_of("camera", camera)]
+    plane = of.extent * of.model("vis.map.znear")[0]
     places, size = _mechanisms(of).get(owner, ((), 0.0))
     of.begin()
     lens, view = of.data_row("cam_xpos", camera, 3), of.data_row("cam_xmat", camera, 9)[2::3]
@@ -108,7 +107,7 @@ def _mechanisms(of: Simulation) -> dict[int, tuple[list[Vector], float]]:
 def _meets(of: Simulation, camera: int, plane: float) -> bool:
     """Whether something that the camera is not built on is at the start as near as the near plane, or nearly."""
     owners, bodies, radii = root_of(of), of.model("geom_bodyid"), of.model("geom_rbound")
-    own, lens = owners[int(of.model("cam_bodyid")[camera])], of.data_row("cam_xpos", camera, 3)
+    own, lens = owners[of.body_of("camera", camera)], of.data_row("cam_xpos", camera, 3)
     for geom, kind in enumerate(of.model("geom_type")):
         if owners[int(bodies[geom])] == own:
             continue

@@ -125,7 +125,7 @@ def _level(of: Simulation, site: int) -> bool:
     """Whether no joint but a free one tilts what carries a site."""
     joints = [joint for body in of.ancestors(of.body_of("site", site)) for joint in of.joints_of(body)]
     tilting = [each for each in joints if of.joint_type(each) not in (FREE, SLIDE)]
-    return all(of.joint_type(each) == HINGE and abs(of.data_row("xaxis", each, 3)[2]) > UP for each in tilting)
+    return all(of.joint_type(each) == HINGE and abs(of.axis(each)[2]) > UP for each in tilting)
 
 
 def _inward(of: Simulation, site: int) -> bool:

@@ -108,4 +108,4 @@ def _turned(of: Simulation, at: Mapping[int, Sequence[int]]) -> dict[int, tuple[
 def _near(of: Simulation, one: int, other: int) -> bool:
     """Whether two sites are of one body, or of a body and its parent."""
     bodies = [of.body_of("site", site) for site in (one, other)]
-    return bodies[0] == bodies[1] or any(of.model("body_parentid")[a] == b for a, b in (bodies, bodies[::-1]))
+    return bodies[0] == bodies[1] or any(of.parent(a) == b for a, b in (bodies, bodies[::-1]))

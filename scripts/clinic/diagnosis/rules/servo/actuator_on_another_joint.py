@@ -36,7 +36,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -62,7 +61,7 @@ def _meant(simulation: Simulation) -> dict[int, tuple[int, int]]:
     """
     joints: dict[tuple[str, ...], list[int]] = {}
     for joint, name in enumerate(simulation.names("joint")):
-        if name and simulation.joint_type(joint) in (HINGE, SLIDE):
+        if name and joint in simulation.scalar_joints:
             joints.setdefault(_key(name), []).append(joint)
     drives = {each: simulation.driven_joint(each) for each in range(simulation.count("actuator"))}
     owner, bodies = root_of(simulation), simulation.model("jnt_bodyid")

@@ -38,7 +38,6 @@ When it is wrong: an adhesion that adds to the grip of fingers, or holds back wh
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import TRN_BODY
@@ -104,5 +103,5 @@ def _heavy(of: Simulation) -> float:
         for each in _adhesions(of)
         if roots[_body(of, each)] not in free
     )
-    weights = [of.model("body_subtreemass")[body] * math.hypot(*of.model("opt.gravity")) for body in free]
+    weights = [of.model("body_subtreemass")[body] * of.gravity for body in free]
     return min(weights) / pulls if weights and pulls > 0 else 0.0

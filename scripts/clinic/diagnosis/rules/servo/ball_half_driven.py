@@ -35,7 +35,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import BALL, TRN_IN_PARENT
-from clinic.diagnosis.probes.vector import Vector, dot, norm, sub, unit
+from clinic.diagnosis.probes.vector import Vector, across, norm, unit
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -79,7 +79,7 @@ def _missing(of: Simulation, joint: int) -> float:
     for each in _driving(of, joint):
         left = tuple(of.row("actuator_gear", each, 6)[:3])
         for axis in spanned:
-            left = sub(left, tuple(dot(left, axis) * x for x in axis))
+            left = across(left, axis)
         if norm(left) > LEAST:
             spanned.append(unit(left))
     return float(AXES - len(spanned))

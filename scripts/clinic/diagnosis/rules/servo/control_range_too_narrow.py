@@ -178,10 +178,9 @@ def _unled(of: Simulation, servo: Servo) -> tuple[float, Coupling | None]:
     """The share of a follower's range where a servo without a range of its own cannot lead it, and the coupling."""
     for _, coupling in couplings(of):
         follower, leader, factors = coupling
-        limited = bool(of.model("jnt_limited")[follower])
-        if leader != servo.joint or servo.range or not servo.targets or not limited or any(factors[2:]):
+        if leader != servo.joint or servo.range or not servo.targets or follower not in of.ranges or any(factors[2:]):
             continue
-        low, high = of.row("jnt_range", follower, 2)
+        low, high = of.ranges[follower]
         if factors[1] and high > low:
             way = abs(factors[1]) * (servo.targets[1] - servo.targets[0])
             return 1 - min(1.0, way / (high - low)), coupling

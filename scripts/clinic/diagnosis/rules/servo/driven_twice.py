@@ -40,7 +40,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import DYN_MUSCLE, HINGE, SLIDE, TRN_SITE
+from clinic.diagnosis.engine import DYN_MUSCLE, HINGE, TRN_SITE
 from clinic.diagnosis.probes.copied import Line, misled
 from clinic.diagnosis.probes.load import poses
 from clinic.diagnosis.probes.shape import root_of
@@ -54,7 +54,6 @@ TITLE = "Two actuators on one joint"
 FAMILIES = ("stuck", "sags", "drifts")
 UNPLANTED = "an actuator on another joint is planted for actuator-on-another-joint"
 
-KINDS = ("gaintype", "biastype", "dyntype")
 SHARE, SOME = 0.1, 0.01  # of the lever of the best axis; m
 
 
@@ -105,7 +104,7 @@ def astray(of: Simulation) -> dict[int, tuple[int, int, int]]:
         if int(kind) != TRN_SITE or beside >= 0 or not one:
             continue
         above = [joint for body in of.ancestors(of.body_of("site", site)) for joint in of.joints_of(body)]
-        if any(of.joint_type(joint) not in (HINGE, SLIDE) for joint in above):
+        if any(joint not in of.scalar_joints for joint in above):
             continue
         levers = _levers(of, site, above)
         own = next(axis for axis in range(3) if gear[axis])
@@ -126,7 +125,7 @@ def _levers(of: Simulation, site: int, joints: Sequence[int]) -> dict[int, list[
         of.engine.forward()
         place, turn = at(of.data("site_xpos"), site), transpose(of.data_row("site_xmat", site, 9))
         for joint in joints:
-            way = at(of.data("xaxis"), joint)
+            way = of.axis(joint)
             if of.joint_type(joint) == HINGE:
                 way = cross(way, sub(place, at(of.data("xanchor"), joint)))
             made[joint] = [max(pair) for pair in zip(made[joint], map(abs, times(turn, way)), strict=True)]
@@ -146,8 +145,7 @@ def twice(of: Simulation) -> dict[int, list[int]]:
     driving: dict[tuple[int, ...], list[int]] = {}
     for actuator in range(of.count("actuator")):
         joint = of.driven_joint(actuator)
-        kinds = [int(of.model(f"actuator_{kind}")[actuator]) for kind in KINDS]
-        spring = of.bias(actuator)[1] != 0
+        spring, kinds = of.bias(actuator)[1] != 0, of.actuator_types(actuator)
         if joint is not None and kinds[2] != DYN_MUSCLE:
             driving.setdefault((joint, spring, *kinds), []).append(actuator)
     return {key[0]: each for key, each in driving.items() if len(each) > 1 and _idle(of, key[0])}
@@ -162,7 +160,7 @@ def _idle(of: Simulation, joint: int) -> list[int]:
         for each in range(of.count("joint"))
         if owner[int(bodies[each])] == owner[int(bodies[joint])] or row[each] == row[joint]
     )
-    return [each for each in beside if each not in of.drivers and of.joint_type(each) in (HINGE, SLIDE)]
+    return [each for each in beside if each not in of.drivers and each in of.scalar_joints]
 
 
 def _more(of: Simulation, joint: int) -> float:

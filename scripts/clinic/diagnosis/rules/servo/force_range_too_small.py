@@ -44,7 +44,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from clinic.diagnosis.edit import Edit, set_attribute
-from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.couplings import Coupling, couplings
 from clinic.diagnosis.probes.load import carriers, loads, outdone, strain, strains, travel, yielded, yields
 from clinic.diagnosis.probes.servo import Servo, servos
@@ -220,11 +219,8 @@ def _undriven(model: ReaderModel) -> Iterator[Suspect]:
     simulation = model.simulation
     if simulation.count("actuator"):
         return
-    weak = [
-        joint
-        for joint, limited in enumerate(simulation.model("jnt_actfrclimited"))
-        if limited and simulation.joint_type(joint) in (HINGE, SLIDE) and _weight_over_limit(simulation, joint) > STRAIN
-    ]
+    limited = [joint for joint in simulation.scalar_joints if simulation.model("jnt_actfrclimited")[joint]]
+    weak = [joint for joint in limited if _weight_over_limit(simulation, joint) > STRAIN]
     if weak:
         worst = max(weak, key=lambda joint: _weight_over_limit(simulation, joint))
         limit, name = simulation.row("jnt_actfrcrange", worst, 2)[1], simulation.name("joint", worst)

@@ -41,7 +41,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator, Sequence
 
-from clinic.diagnosis.engine import HINGE, SLIDE, TRN_IN_PARENT, TRN_TENDON, WRAP_JOINT
+from clinic.diagnosis.engine import TRN_IN_PARENT, TRN_TENDON, WRAP_JOINT
 from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, WELD, held, kind_of, sited
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.siblings import groups
@@ -97,10 +97,9 @@ def _only_one(of: Simulation, moved: Collection[int]) -> dict[int, int]:
     """The one hinge or slide of a robot that nothing moves, where it has a range, and one that is moved."""
     roots, made = root_of(of), {}
     for root in set(roots):
-        joints = [each for each in range(of.count("joint")) if roots[of.body_of("joint", each)] == root]
-        joints = [each for each in joints if _turns(of, each)]
+        joints = [each for each in of.scalar_joints if roots[of.body_of("joint", each)] == root]
         loose = [each for each in joints if each not in moved]
-        if root and len(joints) > MANY and len(loose) == 1 and of.model("jnt_limited")[loose[0]]:
+        if root and len(joints) > MANY and len(loose) == 1 and loose[0] in of.ranges:
             made[loose[0]] = next(each for each in joints if each in moved)
     return made
 
@@ -111,7 +110,7 @@ def _pairs(of: Simulation) -> list[list[int]]:
     for joint, name in enumerate(of.names("joint")):
         body = of.body_of("joint", joint)
         mass = round(of.model("body_subtreemass")[body], 6)
-        key = (NUMBER.sub("#", name), of.model("body_parentid")[body], mass, of.row("jnt_range", joint, 2))
+        key = (NUMBER.sub("#", name), of.parent(body), mass, of.row("jnt_range", joint, 2))
         if NUMBER.search(name) and len(of.joints_of(body)) == 1:
             made.setdefault(key, []).append(joint)
     return [each for each in made.values() if len(each) == 2]
@@ -130,7 +129,7 @@ def _depth(of: Simulation, joint: int) -> int:
 
 
 def _turns(of: Simulation, *joints: int) -> bool:
-    return all(of.joint_type(joint) in (HINGE, SLIDE) for joint in joints)
+    return all(joint in of.scalar_joints for joint in joints)
 
 
 def _moved(of: Simulation) -> set[int]:

@@ -82,7 +82,7 @@ def _apart(of: Simulation) -> dict[int, tuple[int, int]]:
         springs = [each for each in limited if of.bias(each)[1] < 0]
         dampers = [each for each in limited if of.bias(each)[1] == 0 > of.bias(each)[2]]
         if len(springs) == len(dampers) == 1 and not of.model("jnt_actfrclimited")[joint]:
-            low, high = of.row("jnt_range", joint, 2) if of.model("jnt_limited")[joint] else (-1.57, 1.57)
+            low, high = of.ranges.get(joint, (-1.57, 1.57))
             most = of.row("actuator_forcerange", springs[0], 2)[1]
             if -of.bias(springs[0])[1] * abs(of.gear(springs[0])) * (high - low) > most:
                 made[joint] = (springs[0], dampers[0])

@@ -76,9 +76,9 @@ def _told(of: Simulation) -> list[int]:
     for actuator in range(of.count("actuator")):
         joint = of.driven_joint(actuator)
         limited = of.model("actuator_ctrllimited")[actuator]
-        if actuator in positions or joint is None or not limited or not of.model("jnt_limited")[joint]:
+        if actuator in positions or joint is None or not limited or joint not in of.ranges:
             continue
-        ends, reach = of.row("actuator_ctrlrange", actuator, 2), of.row("jnt_range", joint, 2)
+        ends, reach = of.row("actuator_ctrlrange", actuator, 2), of.ranges[joint]
         near = NEAR * (reach[1] - reach[0])
         alike = all(abs(one - other) <= near for one, other in zip(ends, reach, strict=True))
         round_ = all(end == round(end) for end in ends) if not positions else {*map(abs, ends)} <= {0.0, 1.0}

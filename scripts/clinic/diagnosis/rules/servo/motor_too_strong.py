@@ -33,7 +33,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
@@ -74,9 +73,8 @@ def _speeds(of: Simulation) -> dict[int, float]:
     made = {}
     for each in range(of.count("actuator")):
         joint = of.driven_joint(each)
-        plain = not int(of.model("actuator_biastype")[each]) and not int(of.model("actuator_dyntype")[each])
-        free = joint is not None and of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
-        if joint is None or not free or not plain or not of.model("actuator_ctrllimited")[each]:
+        plain = not any(of.actuator_types(each)[1:])
+        if joint is None or not of.continuous(joint) or not plain or not of.model("actuator_ctrllimited")[each]:
             continue
         if SPINS.search(f"{of.name('joint', joint)} {of.name('actuator', each)}"):
             continue

@@ -121,8 +121,7 @@ def _slow(of: Simulation) -> dict[int, float]:
 
 def _force(of: Simulation, actuator: int) -> float:
     """The most that an actuator gives at its joint; infinite where it is no motor, or has no limit."""
-    kinds = [int(of.model(f"actuator_{kind}")[actuator]) for kind in ("gaintype", "biastype", "dyntype")]
-    if any(kinds):
+    if not of.is_motor(actuator):
         return math.inf
     gain = of.gain(actuator)[0]
     limits = [math.inf]

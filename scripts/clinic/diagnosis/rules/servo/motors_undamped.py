@@ -95,7 +95,7 @@ def _bare(of: Simulation) -> list[int]:
     hinges = [joint for joint in of.drivers if of.joint_type(joint) == HINGE]
     fields = ("dof_damping", "dof_armature", "dof_frictionloss")
     held = any(of.model(field)[of.dof(joint)] for joint in hinges for field in fields)
-    motors = all(int(of.model(f"actuator_{kind}type")[each]) == 0 for each in actuators for kind in ("gain", "bias"))
+    motors = all(of.actuator_types(each)[:2] == (0, 0) for each in actuators)
     fluid = any(of.model(f"opt.{what}")[0] for what in ("density", "viscosity"))
-    ranged = [joint for joint in hinges if of.model("jnt_limited")[joint]]  # a rotor turns round, as a wheel does
+    ranged = [joint for joint in hinges if joint in of.ranges]  # a rotor turns round, as a wheel does
     return [] if held or not motors or fluid or len(ranged) < len(hinges) else hinges

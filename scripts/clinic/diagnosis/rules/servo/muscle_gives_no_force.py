@@ -41,7 +41,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import GAIN_MUSCLE, HINGE, SLIDE
+from clinic.diagnosis.engine import GAIN_MUSCLE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -117,9 +117,8 @@ def _given(of: Simulation, actuator: int, share: float | None) -> float:
     """What full excitation adds to the force in N, in a pose between the ends of all ranges; at the start for None."""
     state = int(of.model("actuator_actadr")[actuator])
     of.begin(forward=False)
-    for joint, limited in enumerate(of.model("jnt_limited")):
-        if share is not None and limited and of.joint_type(joint) in (HINGE, SLIDE):
-            low, high = of.row("jnt_range", joint, 2)
+    if share is not None:
+        for joint, (low, high) in of.ranges.items():
             of.put(joint, low + share * (high - low))
     of.engine.write("qvel", [0.0] * of.count("dof"))
     forces = []

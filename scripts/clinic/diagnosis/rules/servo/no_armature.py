@@ -110,7 +110,7 @@ def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
     probe = _symptom(model)
     bounded = probe == commanded() and math.isfinite(model.measured(probe))
     if bounded:  # so fast may a wheel be, and a propeller
-        light = [joint for joint in light if of.model("jnt_limited")[joint]]
+        light = [joint for joint in light if joint in of.ranges]
     if not light or probe is None or of.timestep > 5 * DEFAULT_TIMESTEP:
         return
     least = min(light, key=lambda joint: inertia[of.dof(joint)])

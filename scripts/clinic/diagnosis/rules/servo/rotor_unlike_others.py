@@ -45,7 +45,7 @@ from clinic.diagnosis.probes.rotors import Rotor, rotors
 from clinic.diagnosis.probes.vector import dot, norm, sub, unit
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A rotor unlike the others"
 FAMILIES = ("drifts", "stuck")
@@ -59,10 +59,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     for body in of.free_bodies:
         found = rotors(of, body)
-        for one, other in _together(found):
+        for one, other in _together(of, body):
             names, site = tuple(of.name("actuator", each.actuator) for each in (one, other)), _site(of, other)
             says = f"{names[1]} pushes where {names[0]} does."
-            probe = Probe("rotors in the place of another one", "", _count, (body,), dynamic=False)
+            probe = how_many("rotors in the place of another one", _together, body)
             attribute = "site" if site == _site(of, one) else "pos"
             free = _unused(of, found) if attribute == "site" else ""
             edits: tuple[Edit, ...] = model.set("actuator", [other.actuator], "site", free) if free else ()
@@ -97,10 +97,9 @@ def _unused(of: Simulation, found: list[Rotor]) -> str:
     return left[0] if len(left) == 1 else ""
 
 
-def _together(found: list[Rotor]) -> list[tuple[Rotor, Rotor]]:
-    if len(found) < ENOUGH:
-        return []
-    pairs = combinations(found, 2)
+def _together(of: Simulation, body: int) -> list[tuple[Rotor, Rotor]]:
+    found = rotors(of, body)
+    pairs = combinations(found if len(found) >= ENOUGH else (), 2)
     return [(a, b) for a, b in pairs if norm(sub(a.place, b.place)) < SAME and dot(unit(a.push), unit(b.push)) > ASIDE]
 
 
@@ -111,10 +110,6 @@ def _aside(found: list[Rotor]) -> Rotor | None:
         if all(dot(others[0], each) > ASIDE for each in others) and dot(unit(odd.push), others[0]) < ASIDE:
             return odd
     return None
-
-
-def _count(of: Simulation, body: int) -> float:
-    return float(len(_together(rotors(of, body))))
 
 
 def _count_aside(of: Simulation, body: int) -> float:

@@ -48,7 +48,7 @@ from collections.abc import Iterator, Sequence
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.rotors import rotors
-from clinic.diagnosis.probes.vector import add, dot, norm, times
+from clinic.diagnosis.probes.vector import across, dot, norm, times
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, how_many, rounded
@@ -131,7 +131,7 @@ def _spanned(of: Simulation, body: int) -> float:
     for k, row in enumerate(rows):  # what is left of each once the earlier ones are taken out
         left: Sequence[float] = [x / norm(row) for x in row] if norm(row) else row
         for other in rows[:k]:
-            left = add(left, other, -dot(left, other))
+            left = across(left, other)
         volume *= norm(left)
         rows[k] = [x / norm(left) for x in left] if norm(left) else list(left)
     return volume

@@ -66,7 +66,7 @@ from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import FREE
 from clinic.diagnosis.probes.rotors import Rotor, forces, rotors
 from clinic.diagnosis.probes.shape import root_of
-from clinic.diagnosis.probes.vector import add, dot, norm, sub, times, transpose
+from clinic.diagnosis.probes.vector import across, add, dot, norm, sub, times, transpose
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, rounded
@@ -97,7 +97,7 @@ class Drone:
     @property
     def arm(self) -> float:
         """The mean distance of the rotors from the axis through the centre of mass, in m."""
-        beside = [norm(add(each.place, self.up, -dot(each.place, self.up))) for each in self.rotors]
+        beside = [norm(across(each.place, self.up)) for each in self.rotors]
         return max(sum(beside) / len(beside), 1e-9)
 
 
@@ -130,7 +130,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _drones(of: Simulation) -> Iterator[Drone]:
-    g, owner = norm(of.model("opt.gravity")), root_of(of)
+    g, owner = of.gravity, root_of(of)
     if not g or of.model("opt.density")[0] > WATER:
         return
     for body in of.free_bodies:
@@ -156,8 +156,7 @@ def _drone(of: Simulation, body: int, weight: float) -> Drone | None:
 
 def _against(of: Simulation, body: int) -> tuple[float, ...]:
     """The direction against gravity in a body's axes, as it is now."""
-    g = of.model("opt.gravity")
-    return times(transpose(of.data_row("xmat", body, 9)), [-x / norm(g) for x in g])
+    return times(transpose(of.data_row("xmat", body, 9)), [-x / of.gravity for x in of.model("opt.gravity")])
 
 
 def _found(of: Simulation, body: int) -> Drone | None:

@@ -52,7 +52,6 @@ UNPLANTED = "whether a joint needs both sides, only its maker knows"
 LITTLE, END, BEYOND = 0.05, 0.001, 0.2
 WEIGHT, AT_ITS_END = 0.1, 0.01  # of the motor's force; of the range
 NO_LOAD = 0.01  # of the motor's force
-KINDS = ("gain", "bias", "dyn")
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -86,20 +85,24 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield Suspect(names, attribute, now, value, edits, probe, 0, says, "both sides", level="hint")
 
 
+def _pushers(of: Simulation) -> Iterator[tuple[int, int, float]]:
+    """The joints without a spring that one motor of one side drives, with that and the most that it gives, signed."""
+    for joint, (actuator, *others) in of.drivers.items():
+        low, high = of.row("actuator_ctrlrange", actuator, 2)
+        one_sided = of.model("actuator_ctrllimited")[actuator] and low * high == 0 and low < high
+        if one_sided and not others and of.is_motor(actuator) and not of.model("jnt_stiffness")[joint]:
+            yield joint, actuator, of.gain(actuator)[0] * of.gear(actuator) * (low + high)
+
+
 def sinking(of: Simulation) -> list[int]:
     """The motors of one side that could hold their joint's weight at the start, and push the way that it goes."""
     of.begin()
     bias, made = of.data("qfrc_bias"), list[int]()
     if of.model("opt.gravity")[2] >= 0:
         return made  # what is wrong is which way things fall
-    for joint, (actuator, *others) in of.drivers.items():
-        low, high = of.row("actuator_ctrlrange", actuator, 2)
-        motor = not any(int(of.model(f"actuator_{kind}type")[actuator]) for kind in KINDS)
-        one_sided = of.model("actuator_ctrllimited")[actuator] and low * high == 0 and low < high
-        if others or not motor or not one_sided or of.model("jnt_stiffness")[joint]:
-            continue
-        force, weight = of.gain(actuator)[0] * of.gear(actuator) * (low + high), -bias[of.dof(joint)]
-        least, most = of.row("jnt_range", joint, 2) if of.model("jnt_limited")[joint] else (-1e9, 1e9)
+    for joint, actuator, force in _pushers(of):
+        weight = -bias[of.dof(joint)]
+        least, most = of.ranges.get(joint, (-1e9, 1e9))
         left = most - of.position(joint) if force > 0 else of.position(joint) - least
         if force * weight > 0 and WEIGHT * abs(force) < abs(weight) < abs(force) and left > AT_ITS_END * (most - least):
             made.append(actuator)
@@ -110,17 +113,13 @@ def stranding(of: Simulation) -> list[int]:
     """The motors of one side on joints with a range to both sides that nothing takes to the other one."""
     made = list[int]()
     tied = of.count("tendon") or of.count("equality") or any(of.model("opt.wind"))
-    for joint, (actuator, *others) in of.drivers.items() if not tied else ():
-        low, high = of.row("actuator_ctrlrange", actuator, 2)
-        motor = not any(int(of.model(f"actuator_{kind}type")[actuator]) for kind in KINDS)
-        one_sided = of.model("actuator_ctrllimited")[actuator] and low * high == 0 and low < high
-        if others or not motor or not one_sided or of.model("jnt_stiffness")[joint]:
+    for joint, actuator, force in _pushers(of) if not tied else ():
+        if joint not in of.ranges:
             continue
-        force, (least, most) = of.gain(actuator)[0] * of.gear(actuator) * (low + high), of.row("jnt_range", joint, 2)
+        least, most = of.ranges[joint]
         of.begin()
         behind = of.position(joint) - least if force > 0 else most - of.position(joint)
-        left = of.model("jnt_limited")[joint] and behind > BEYOND * (most - least)
-        if left and loads(of)[of.dof(joint)] <= NO_LOAD * abs(force):
+        if behind > BEYOND * (most - least) and loads(of)[of.dof(joint)] <= NO_LOAD * abs(force):
             made.append(actuator)
     return made
 

@@ -51,7 +51,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import BIAS_AFFINE, HINGE
+from clinic.diagnosis.engine import BIAS_AFFINE
 from clinic.diagnosis.probes.load import loads
 from clinic.diagnosis.probes.servo import speed_gain
 from clinic.diagnosis.probes.shape import size
@@ -131,9 +131,8 @@ def _wheels(of: Simulation) -> list[Wheel]:
             continue
         gain = speed_gain(of, actuator)
         gear = of.gear(actuator)
-        turns = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
         fastest = of.row("actuator_ctrlrange", actuator, 2)[1]
-        if turns and gain and gear and fastest > 0:
+        if of.continuous(joint) and gain and gear and fastest > 0:
             made.append(Wheel(actuator, joint, gain * gear**2, fastest / abs(gear)))
     return made
 

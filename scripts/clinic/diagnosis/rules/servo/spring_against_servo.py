@@ -93,7 +93,7 @@ def _pulled(model: ReaderModel) -> Iterator[Suspect]:
 
 def _unpulled(of: Simulation, joint: int) -> float:
     """The share of the way from the spring's rest to the farther end that all motors at sites leave."""
-    low, high = of.row("jnt_range", joint, 2) if of.model("jnt_limited")[joint] else (0.0, 0.0)
+    low, high = of.ranges.get(joint, (0.0, 0.0))
     rest, spring = of.model("qpos_spring")[of.place(joint)], of.model("jnt_stiffness")[joint]
     way = max(abs(low - rest), abs(high - rest))
     return 1 - pull(of, joint) / (spring * way) if spring * way > 0 else 0.0

@@ -44,7 +44,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes import tendons
 from clinic.diagnosis.probes.servo import alone, hold
 from clinic.diagnosis.reader_model import ReaderModel
@@ -103,6 +102,5 @@ def _past(of: Simulation, actuator: int) -> float:
 
 def _outside(of: Simulation) -> list[float]:
     """How far each hinge and slide with a range is beyond it, as a share of it."""
-    joints = [joint for joint in range(of.count("joint")) if of.joint_type(joint) in (HINGE, SLIDE)]
-    places = [(of.position(each), *of.row("jnt_range", each, 2)) for each in joints if of.model("jnt_limited")[each]]
+    places = [(of.position(joint), *ends) for joint, ends in of.ranges.items()]
     return [max(low - place, place - high, 0.0) / (high - low) for place, low, high in places]

@@ -107,8 +107,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _alone(of: Simulation) -> list[Servo]:
     """The servos of joints that no motor drives as well, through which code may carry the weight."""
-    kinds = zip(*(of.model(f"actuator_{kind}type") for kind in ("gain", "bias", "dyn")), strict=True)
-    motors = {of.driven_joint(each) for each, kind in enumerate(kinds) if not any(kind)}
+    motors = {of.driven_joint(each) for each in range(of.count("actuator")) if of.is_motor(each)}
     return [each for each in servos(of) if each.joint not in motors]
 
 

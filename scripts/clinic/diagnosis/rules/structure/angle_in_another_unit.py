@@ -50,7 +50,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if model.source is None:
         return
     radians = model.angle_unit == 1.0
-    turned = ("origin",) if model.source.urdf else TURNED
+    turned = ("origin",) if model.urdf else TURNED
     found = {each: angles for each in model.source.elements(*turned) if (angles := _angles(each, radians))}
     if not found:
         return

@@ -78,7 +78,7 @@ from clinic.diagnosis.probes.arms import (
 )
 from clinic.diagnosis.probes.vector import Vector, add, cross, dot, norm, sub, times, transpose, written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import ENDLESS, Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An arm unlike the data sheet of its name"
@@ -184,11 +184,10 @@ def _base(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     """An arm whose shoulder is not where its base carries it."""
     of, height = model.simulation, arm.height
     body = of.body_of("joint", row.joints[0])
-    parent = int(of.model("body_parentid")[body])
+    parent = of.parent(body)
     urdf = model.urdf  # looked at afloat
-    carries = [each for each in range(1, of.count("body")) if of.model("body_parentid")[each] == parent]
     own = not of.model("body_weldid")[parent] or (
-        urdf and not any(of.joints_of(each) for each in carries if each != body)
+        urdf and not any(of.joints_of(each) for each in of.children[parent] if each != body)
     )
     if height is None or not own or not BASE.search(of.names("body")[parent]):
         return
@@ -208,7 +207,7 @@ def _away(of: Simulation, joints: tuple[int, ...], height: float) -> Vector:
     """From where the shoulder is to where the base has it, in m."""
     row = measured(of, joints)
     of.as_written()
-    parent = int(of.model("body_parentid")[of.body_of("joint", joints[0])])
+    parent = of.parent(of.body_of("joint", joints[0]))
     return sub(add(of.data_row("xpos", parent, 3), row.axes[0], height), row.shoulder)
 
 
@@ -227,7 +226,7 @@ def _hand(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
     if arm.grip is None or len(fingers) != 2 or _aside(of, row.joints, fingers[0], arm.grip) <= TURNED:
         return
     off = math.degrees(_aside(of, row.joints, fingers[0], arm.grip))
-    hand = of.name("body", int(of.model("body_parentid")[of.body_of("joint", fingers[0])]))
+    hand = of.name("body", of.parent(of.body_of("joint", fingers[0])))
     says = f"Its fingers slide {off:.0f} degrees aside from where those of {arm.names[0]} do: it is mounted so."
     names, value = (hand, *(of.name("joint", joint) for joint in fingers)), f"turned by {off:.0f} degrees"
     probe = Probe("way of the fingers off", "rad", _aside, (row.joints, fingers[0], arm.grip), dynamic=False)
@@ -237,7 +236,7 @@ def _hand(model: ReaderModel, arm: Arm, row: Measured) -> Iterator[Suspect]:
 def _aside(of: Simulation, joints: tuple[int, ...], finger: int, grip: float) -> float:
     """By which angle a finger slides aside from the data sheet's way, in rad; to and fro are one way."""
     of.as_written()
-    across, along, way = (of.data_row("xaxis", joint, 3) for joint in (*joints[-2:], finger))
+    across, along, way = (of.axis(joint) for joint in (*joints[-2:], finger))
     side, front = dot(way, across), dot(way, cross(across, along))
     if math.hypot(side, front) < ACROSS:
         return 0.0
@@ -314,8 +313,8 @@ def _farther(model: ReaderModel, arm: Arm, row: Measured) -> dict[int, tuple[flo
 
 def _beyond(of: Simulation, joint: int, right: tuple[float, float]) -> float:
     """How much farther a joint turns, in rad; 0 for one that turns round, or has another zero."""
-    low, high = of.row("jnt_range", joint, 2)
-    if not of.model("jnt_limited")[joint] or high - low > ROUND:
+    low, high = of.ranges.get(joint, ENDLESS)
+    if high - low > ROUND:
         return 0.0
     over = right[0] - low, high - right[1]
     return max(over) if max(map(abs, over)) < ANOTHER else 0.0

@@ -44,7 +44,7 @@ FLAT = 0.7  # of its height
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Flexcomps of loose points, each."""
-    if model.source is None or not any(model.simulation.model("opt.gravity")):
+    if model.source is None or not model.simulation.gravity:
         return
     yield from _soft(model)
     for flex in model.source.elements("flexcomp"):

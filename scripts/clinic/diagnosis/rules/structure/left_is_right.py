@@ -34,10 +34,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.sides import right_of
-from clinic.diagnosis.probes.vector import Vector, at, dot, norm, sub
+from clinic.diagnosis.probes.vector import Vector, dot, norm, sub
 from clinic.diagnosis.probes.view import axes
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -79,13 +78,11 @@ def _pairs(of: Simulation, kind: str) -> Iterator[tuple[int, int]]:
 def _wheels(of: Simulation) -> set[int]:
     """The bodies that turn without limits about an axis across the way forward."""
     of.begin()
-    axes_of_joints, bodies, limited = of.data("xaxis"), of.model("jnt_bodyid"), of.model("jnt_limited")
     return {
         int(body)
-        for joint, body in enumerate(bodies)
-        if of.joint_type(joint) == HINGE
-        and not limited[joint]
-        and abs(dot(at(axes_of_joints, joint), _y(of, int(body)))) > ALIKE
+        for joint, body in enumerate(of.model("jnt_bodyid"))
+        if of.continuous(joint)
+        and abs(dot(of.axis(joint), _y(of, int(body)))) > ALIKE
         and of.model("body_jntnum")[int(body)] == 1
     }
 

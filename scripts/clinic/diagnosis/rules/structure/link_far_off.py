@@ -69,13 +69,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _hung(model: ReaderModel) -> list[int]:
     """The bodies with joints that hang on another body; in a URDF, whose root is the world, all."""
     of, urdf = model.simulation, model.urdf
-    return [body for body in of.moving_bodies if of.joints_of(body) and (urdf or of.model("body_parentid")[body])]
+    return [body for body in of.moving_bodies if of.joints_of(body) and (urdf or of.parent(body))]
 
 
 def _apart(of: Simulation, body: int) -> float:
     """How far a body is from its parent, in sizes of its mechanism or of the two bodies."""
     owner, bodies, kinds = root_of(of), of.model("geom_bodyid"), of.model("geom_type")
-    whole, parent, pair = [0.0], int(of.model("body_parentid")[body]), dict[int, float]()
+    whole, parent, pair = [0.0], of.parent(body), dict[int, float]()
     for geom, radius in enumerate(of.model("geom_rbound")):
         on = int(bodies[geom])
         if int(kinds[geom]) in (PLANE, HFIELD):

@@ -60,7 +60,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if (alone := _alone(of)) is not None:
         yield from _slipped(model, alone)
     for body in of.moving_bodies:
-        parent, share = int(of.model("body_parentid")[body]), _share(of, body)
+        parent, share = of.parent(body), _share(of, body)
         if not parent or not of.joints_of(body) or share == 1:
             continue
         geom, rod = _rods(of, parent)[-1]
@@ -91,7 +91,7 @@ def _slipped(model: ReaderModel, body: int) -> Iterator[Suspect]:
     meets = [each for each in _slips(place) if model.measured(probe, model.placed(body, each)) <= TOUCHES]
     if not meets:
         return
-    value, above = max(meets, key=norm), of.name("body", int(of.model("body_parentid")[body]))
+    value, above = max(meets, key=norm), of.name("body", of.parent(body))
     names = (of.name("body", body), above)
     says = f"It begins {_gap(of, body):.2g} times its own size away from {above}; all other links touch theirs."
     edits = model.placed(body, value)
@@ -137,7 +137,7 @@ def _gaps(of: Simulation) -> dict[int, float]:
             links.setdefault(int(welds[on]), []).append(geom)
     made = {}
     for body in of.moving_bodies:
-        joints, parent = of.joints_of(body), int(of.model("body_parentid")[body])
+        joints, parent = of.joints_of(body), of.parent(body)
         own, above = links.get(int(welds[body]), []), links.get(int(welds[parent]), [])
         hinged = bool(joints) and all(of.joint_type(joint) == HINGE for joint in joints)
         if hinged and parent and own and above:
@@ -165,13 +165,13 @@ def _off(of: Simulation, body: int) -> float:
     """How far a link begins from the end of the rod before it, in lengths of the rod; 0 where that is no mistake's."""
     if _share(of, body) == 1:
         return 0.0
-    rod = _rods(of, int(of.model("body_parentid")[body]))[-1][1]
+    rod = _rods(of, of.parent(body))[-1][1]
     return norm(sub(of.row("body_pos", body, 3), rod)) / norm(rod)
 
 
 def _share(of: Simulation, body: int) -> float:
     """Where a link is along the rod before it, where that is a mistake's number: 0 or a power of ten; else 1."""
-    parent, place = int(of.model("body_parentid")[body]), of.row("body_pos", body, 3)
+    parent, place = of.parent(body), of.row("body_pos", body, 3)
     rods = _rods(of, parent)
     if not rods:
         return 1.0

@@ -62,7 +62,7 @@ from clinic.diagnosis.probes.equalities import (
     off_course,
     sited,
 )
-from clinic.diagnosis.probes.vector import dot, sub, times, transpose, written
+from clinic.diagnosis.probes.vector import across, dot, sub, times, transpose, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import WIDTH, Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -125,7 +125,7 @@ def _across(model: ReaderModel) -> int | None:
     of = model.simulation
     of.begin()
     hinges = [joint for joint in range(of.count("joint")) if of.joint_type(joint) == HINGE]
-    axes = {joint: of.data_row("xaxis", joint, 3) for joint in hinges}
+    axes = {joint: of.axis(joint) for joint in hinges}
     for odd in hinges:
         others = [axes[joint] for joint in hinges if joint != odd]
         if len(others) > 1 and all(abs(dot(others[0], each)) > PARALLEL for each in others):
@@ -138,7 +138,7 @@ def _others_axis(of: Simulation, odd: int) -> Column:
     of.begin()
     other = next(each for each in range(of.count("joint")) if each != odd and of.joint_type(each) == HINGE)
     body = of.body_of("joint", odd)
-    axis = times(transpose(of.data_row("xmat", body, 9)), of.data_row("xaxis", other, 3))
+    axis = times(transpose(of.data_row("xmat", body, 9)), of.axis(other))
     return tuple(round(x, 6) + 0.0 for x in axis)
 
 
@@ -175,8 +175,7 @@ def _held(of: Simulation, joint: int) -> float:
 def _without(column: Column, directions: Sequence[Column]) -> Column:
     """A column without its parts along directions of length 1; twice, for what rounding leaves."""
     for direction in (*directions, *directions):
-        along = sum(x * y for x, y in zip(column, direction, strict=True))
-        column = tuple(x - along * y for x, y in zip(column, direction, strict=True))
+        column = across(column, direction)
     return column
 
 
@@ -231,6 +230,6 @@ def _apart(of: Simulation, each: int) -> Sequence[float]:
 def _turned(of: Simulation, each: int) -> list[float]:
     """The cosines between the axes of both; a turn weighs as much as the way that it moves the far end."""
     one, other = (transpose(axes) for _, axes in frames(of, each))
-    size = max(of.model("stat.extent")[0], 1e-6)
+    size = max(of.extent, 1e-6)
     columns = [(one[3 * i : 3 * i + 3], other[3 * j : 3 * j + 3]) for i in range(3) for j in range(3)]
     return [size * 0.5 * dot(a, b) for a, b in columns]

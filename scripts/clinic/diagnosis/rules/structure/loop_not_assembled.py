@@ -47,7 +47,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.equalities import CONNECT, WELD, by_mocap, ends, gap, held, kind_of, sited
-from clinic.diagnosis.probes.vector import Vector, add, cross, dot, flipped, sub, times, transpose, unit, written
+from clinic.diagnosis.probes.vector import Vector, across, cross, dot, flipped, sub, times, transpose, unit, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.structure.equality_copied import copied_ends
 from clinic.diagnosis.simulation import Simulation
@@ -78,7 +78,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         edits = _edits(model, each) if of.begin_with.key < 0 else ()
         kind, attribute, now = ("site", "pos", "") if sited(of, each) else ("body", "relpose", "")
         names = tuple(of.name(kind, it) for it in held(of, each))
-        far = 1000 * apart * of.model("stat.extent")[0]
+        far = 1000 * apart * of.extent
         says = f"They are {far:.3g} mm apart at the start, and are to be in one place."
         if edits and sited(of, each) and (slip := _slip(model, each)) is not None:
             odd, attribute, now, edits = slip
@@ -130,10 +130,10 @@ def _turn(of: Simulation, each: int, body: int) -> Vector:
     if len(joints) != 1 or of.joint_type(joints[0]) != HINGE:
         return ()
     of.begin()
-    axis, anchor = (of.data_row(name, joints[0], 3) for name in ("xaxis", "xanchor"))
+    axis, anchor = of.axis(joints[0]), of.data_row("xanchor", joints[0], 3)
     mine = next(i for i, it in enumerate(held(of, each)) if body in of.ancestors(of.body_of("site", it)))
     ways = [sub(end, anchor) for end in ends(of, each)]
-    own, other = (unit(add(way, axis, -dot(way, axis))) for way in (ways[mine], ways[1 - mine]))
+    own, other = (unit(across(way, axis)) for way in (ways[mine], ways[1 - mine]))
     angle = math.atan2(dot(axis, cross(own, other)), dot(own, other))
     return (math.cos(angle / 2), *(math.sin(angle / 2) * x for x in of.row("jnt_axis", joints[0], 3)))
 
@@ -147,7 +147,7 @@ def _extent() -> Probe:
 
 
 def _size(of: Simulation) -> float:
-    return of.model("stat.extent")[0]
+    return of.extent
 
 
 def _gaps(of: Simulation) -> float:
@@ -162,7 +162,7 @@ def _gap(simulation: Simulation, each: int) -> float:
     simulation.begin()
     if kind_of(simulation, each) not in (CONNECT, WELD) or not simulation.model("eq_active0")[each]:
         return 0.0
-    return (gap(simulation, each) or 0.0) / simulation.model("stat.extent")[0]
+    return (gap(simulation, each) or 0.0) / simulation.extent
 
 
 def _edits(model: ReaderModel, each: int) -> tuple[Edit, ...]:

@@ -86,7 +86,7 @@ def _drawn_there(of: Simulation, body: int, site: int) -> bool:
 
 def _sites(of: Simulation, body: int) -> list[int]:
     """The sites of a body's parent that are for tools; none of the world's."""
-    parent, names = int(of.model("body_parentid")[body]), of.names("site")
+    parent, names = of.parent(body), of.names("site")
     owners = of.model("site_bodyid") if parent else ()
     return [site for site, owner in enumerate(owners) if int(owner) == parent and PLACE.search(names[site])]
 

@@ -49,18 +49,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Everything that stands in the world, where the model has no degree of freedom."""
     of = model.simulation
     planes = [geom for geom in of.geoms_of(0) if int(of.model("geom_type")[geom]) == PLANE]
-    if (
-        of.count("dof")
-        or of.count("camera")
-        or not planes
-        or model.source is None
-        or model.source.urdf
-        or not any(of.model("opt.gravity"))
-    ):
+    if of.count("dof") or of.count("camera") or not planes or model.source is None or model.urdf or not of.gravity:
         return
-    parents, counts = of.model("body_parentid"), of.model("body_geomnum")
+    counts = of.model("body_geomnum")
     in_air = _in_air(of)
-    bodies = [body for body in range(1, of.count("body")) if parents[body] == 0 and counts[body] and body in in_air]
+    bodies = [body for body in range(1, of.count("body")) if of.parent(body) == 0 and counts[body] and body in in_air]
     geoms = [geom for geom in of.geoms_of(0) if int(of.model("geom_type")[geom]) == MESH]
     if bodies:
         edits = tuple(insert(element, FREE_JOINT) for body in bodies if (element := model.element("body", body)))

@@ -63,7 +63,7 @@ GRIPPER = re.compile(r"finger|grip|jaw|claw|suction|vacuum", re.IGNORECASE)
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Bodies of the world that are meant to move and have no joint, all together."""
     of = model.simulation
-    if not of.count("dof") or model.source is None or model.source.urdf or not any(of.model("opt.gravity")):
+    if not of.count("dof") or model.source is None or model.urdf or not of.gravity:
         return
     alike = _like_free(of)
     found = [body for body in (*_weighed(model), *alike) if model.element("body", body) is not None]
@@ -96,12 +96,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _weighed(model: ReaderModel) -> Iterator[int]:
     """The bodies without a joint that have a mass, or the name of an object: in the air, or before a gripper."""
-    of, parents = model.simulation, model.simulation.model("body_parentid")
-    carries = {int(parent) for parent in parents} | {int(body) for body in of.model("cam_bodyid")}
+    of = model.simulation
+    carries = of.children.keys() | {int(body) for body in of.model("cam_bodyid")}
     names = (name for kind in ("body", "joint", "actuator", "geom") for name in of.names(kind))
     gripper = any(map(GRIPPER.search, names))
     for body in range(1, of.count("body")):
-        if parents[body] or body in carries or of.joints_of(body) or of.model("body_mocapid")[body] >= 0:
+        if of.parent(body) or body in carries or of.joints_of(body) or of.model("body_mocapid")[body] >= 0:
             continue
         geoms = [geom for geom in of.geoms_of(body) if of.model("geom_contype")[geom]]
         weighed = any((model.value("geom", geom, "mass") or "0") != "0" for geom in geoms)
@@ -128,13 +128,12 @@ def _carried(of: Simulation, body: int) -> bool:
 
 def _spinning(of: Simulation) -> list[int]:
     """The hinges of the world's balls in the air, with which nothing but the ball turns, about its middle."""
-    carries = {int(parent) for parent in of.model("body_parentid")}
     made = []
     for joint in range(of.count("joint")):
         body = of.body_of("joint", joint)
-        geoms, alone = of.geoms_of(body), not of.model("body_parentid")[body] and len(of.joints_of(body)) == 1
+        geoms, alone = of.geoms_of(body), not of.parent(body) and len(of.joints_of(body)) == 1
         round_ones = [geom for geom in geoms if int(of.model("geom_type")[geom]) == SPHERE]
-        if of.joint_type(joint) != HINGE or not alone or body in carries or len(geoms) != 1 or geoms != round_ones:
+        if of.joint_type(joint) != HINGE or not alone or body in of.children or len(geoms) != 1 or geoms != round_ones:
             continue
         of.begin()
         off = sub(of.data_row("geom_xpos", geoms[0], 3), of.data_row("xanchor", joint, 3))
@@ -149,17 +148,15 @@ def _still(of: Simulation, *bodies: int) -> list[int]:
 
 def _like_free(of: Simulation) -> list[int]:
     """The bodies of the world with one geom that collides and no joint, beside a free one of the same geom and mass."""
-    parents, carries = of.model("body_parentid"), {int(parent) for parent in of.model("body_parentid")}
 
     def looks(body: int) -> tuple[float, ...]:
         (geom,) = of.geoms_of(body)
         return (of.model("geom_type")[geom], *of.row("geom_size", geom, 3), of.model("body_mass")[body])
 
-    single = [body for body in range(1, of.count("body")) if len(of.geoms_of(body)) == 1 and body not in carries]
+    single = [body for body in range(1, of.count("body")) if len(of.geoms_of(body)) == 1 and body not in of.children]
     free = {looks(body) for body in single if body in of.free_bodies}
-    still = [
-        body for body in single if not parents[body] and not of.joints_of(body) and of.model("body_mocapid")[body] < 0
-    ]
+    placed = [body for body in single if not of.parent(body) and of.model("body_mocapid")[body] < 0]
+    still = _still(of, *placed)
     solids = [body for body in still if of.model("geom_contype")[of.geoms_of(body)[0]]]
     return [body for body in solids if looks(body) in free]
 

@@ -97,7 +97,7 @@ def _one_side(of: Simulation) -> list[tuple[int, int]]:
     """The pairs in one place aside of their parent's middle, that body first whose geoms go to the other side."""
     made = []
     for pair in by_name(of, "body"):
-        side, above = _mirrored(of, *pair), {int(of.model("body_parentid")[each]) for each in pair}
+        side, above = _mirrored(of, *pair), {of.parent(each) for each in pair}
         places = [(*of.row("body_pos", each, 3), *of.row("body_quat", each, 4)) for each in pair]
         if side < 0 or len(above) > 1 or norm(sub(*places)) > NEAR or abs(places[0][side]) < NEAR:
             continue
@@ -142,11 +142,11 @@ def _one_place(of: Simulation, one: int, other: int) -> bool:
 def _turned_back(model: ReaderModel, bodies: Sequence[int]) -> tuple[Edit, ...]:
     """The edit that lets a link go on as its parent does, where it goes back by as much and most others do not."""
     of = model.simulation
-    parent = int(of.model("body_parentid")[bodies[1]])
+    parent = of.parent(bodies[1])
     places = [of.row("body_pos", body, 3) for body in range(of.count("body"))]
     back, own = places[parent], places[bodies[1]]
     beyond = norm([a + b for a, b in zip(back, own, strict=True)]) > NEAR
-    if int(of.model("body_parentid")[parent]) != bodies[0] or beyond or places.count(back) <= places.count(own):
+    if of.parent(parent) != bodies[0] or beyond or places.count(back) <= places.count(own):
         return ()
     return model.placed(bodies[1], back)
 

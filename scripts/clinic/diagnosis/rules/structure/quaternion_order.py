@@ -55,7 +55,7 @@ LEAST, HALF = 2, 0.5  # quaternions; of the length
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """All quaternions of the text, where each has its real part last."""
-    if model.source is None or model.source.urdf:
+    if model.source is None or model.urdf:
         return
     found: list[tuple[Element, tuple[str, ...]]] = []
     for element in model.source.elements("body", "geom", "site", "camera", "frame"):

@@ -182,11 +182,7 @@ def _ranges(model: ReaderModel, robot: Robot, ranges: dict[int, tuple[float, flo
 
 def _ranged(of: Simulation, joints: dict[int, list[Joint]]) -> dict[int, tuple[float, float]]:
     """The data sheet's range of each joint that has one."""
-    return {
-        joint: nearest_range(lines, *of.row("jnt_range", joint, 2))
-        for joint, lines in joints.items()
-        if of.model("jnt_limited")[joint]
-    }
+    return {joint: nearest_range(lines, *of.ranges[joint]) for joint, lines in joints.items() if joint in of.ranges}
 
 
 def _elsewhere(of: Simulation, joint: int, right: tuple[float, float]) -> float:

@@ -40,13 +40,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, HINGE, SPHERE
+from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, SPHERE
 from clinic.diagnosis.probes.key import freed
 from clinic.diagnosis.probes.shape import plane_heights, root_of
-from clinic.diagnosis.probes.vector import dot, norm, sub
+from clinic.diagnosis.probes.vector import across, norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "The robot is fixed to the world"
 FAMILIES = ("stuck",)
@@ -59,21 +59,21 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The body without a joint that carries wheels on the floor, or legs."""
     urdf = model.urdf  # each has a fixed root: MuJoCo makes it the world
     of = model.simulation
-    wheels = _limbs(of, by_name=not urdf)
+    wheels = _limbs(of, not urdf)
     roots = {of.ancestors(body)[-2] for body in wheels}
     if len(roots) != 1:
         return
     root = roots.pop()
     edits = () if urdf else freed(model, [root])
     says = f"{len(wheels)} wheels or legs hang on it, and no joint lets it move."
-    probe = Probe("wheels and legs of a fixed body", "", _count, (not urdf,), dynamic=False)
+    probe = how_many("wheels and legs of a fixed body", _limbs, not urdf)
     yield Suspect((of.name("body", root),), "freejoint", "left out", "<freejoint/>", edits, probe, 1.5, says, "none")
 
 
 def _feet(of: Simulation) -> list[int]:
     """Bodies that are the first to move on their way from the world, of limbs that reach down to the floor."""
     of.begin()
-    parents, owner, heights, floors = of.model("body_parentid"), root_of(of), of.data("xpos")[2::3], plane_heights(of)
+    owner, heights, floors = root_of(of), of.data("xpos")[2::3], plane_heights(of)
     lowest: dict[int, float] = {}
     for body in of.moving_bodies if len(floors) == 1 else ():
         first = owner[body]
@@ -81,16 +81,16 @@ def _feet(of: Simulation) -> list[int]:
         lowest[first] = min(low, lowest.get(first, float("inf")))
     made = []
     for first, low in lowest.items():
-        root = int(parents[first])
+        root = of.parent(first)
         height = heights[root] - max(floors)
         own = [of.data("geom_xpos")[3 * geom + 2] for geom in of.geoms_of(root) if of.model("geom_contype")[geom]]
         in_air = bool(own) and root > 0 and min(own) - max(floors) > 0.4 * height
-        if in_air and parents[root] == 0 and 0 <= low - max(floors) < 0.15 * height:
+        if in_air and of.parent(root) == 0 and 0 <= low - max(floors) < 0.15 * height:
             made.append(first)
     return made
 
 
-def _limbs(of: Simulation, *, by_name: bool) -> list[int]:
+def _limbs(of: Simulation, by_name: bool) -> list[int]:
     found = (find(of) for find in (_wheels, _feet, *([_called_legs] if by_name else [])))
     return next((limbs for limbs in found if len(limbs) > 1), [])
 
@@ -120,10 +120,6 @@ def _called_legs(of: Simulation) -> list[int]:
     return sorted(found[0]) if found else []
 
 
-def _count(simulation: Simulation, by_name: bool) -> float:
-    return float(len(_limbs(simulation, by_name=by_name)))
-
-
 def _wheels(of: Simulation) -> list[int]:
     """Bodies of wheels that are the first to move on their way from the world, and reach the floor."""
     of.begin()
@@ -131,15 +127,13 @@ def _wheels(of: Simulation) -> list[int]:
     made = []
     for joint in range(of.count("joint")) if floors else ():
         body = of.body_of("joint", joint)
-        if of.joint_type(joint) != HINGE or of.model("jnt_limited")[joint]:
+        if not of.continuous(joint) or of.parent(body) in moving or len(of.joints_of(body)) > 1:
             continue
-        if int(of.model("body_parentid")[body]) in moving or len(of.joints_of(body)) > 1:
-            continue
-        axis, anchor = of.data_row("xaxis", joint, 3), of.data_row("xanchor", joint, 3)
+        axis, anchor = of.axis(joint), of.data_row("xanchor", joint, 3)
         for geom in of.geoms_of(body):
             off = sub(of.data_row("geom_xpos", geom, 3), anchor)
             radius = of.row("geom_size", geom, 3)[0]
-            beside = norm(tuple(x - dot(off, axis) * a for x, a in zip(off, axis, strict=True)))
+            beside = norm(across(off, axis))
             low = of.data_row("geom_xpos", geom, 3)[2] - radius - max(floors)
             round_ = int(kinds[geom]) in (SPHERE, CYLINDER, ELLIPSOID)
             if round_ and abs(axis[2]) < 0.3 and beside < 0.05 * radius and -0.3 * radius < low < 0.1 * radius:

@@ -66,12 +66,12 @@ DAMPED = (1e3, 1e5)  # N s/m
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Bodies of the world that are scenery and have joints, all together."""
     of = model.simulation
-    if model.source is None or model.source.urdf:
+    if model.source is None or model.urdf:
         return
     found = {}
     for body in range(1, of.count("body")):
         joints = list(of.joints_of(body))
-        if not joints or of.model("body_parentid")[body] or of.drivers.keys() & set(joints):
+        if not joints or of.parent(body) or of.drivers.keys() & set(joints):
             continue
         if (_called(of, body) and _anywhere(of, joints)) or _creeps(of, joints):
             found[body] = joints

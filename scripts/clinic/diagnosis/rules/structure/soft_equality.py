@@ -45,7 +45,7 @@ from clinic.diagnosis.probes.equalities import CONNECT, COUPLED, WELD, by_mocap,
 from clinic.diagnosis.probes.run import let_go
 from clinic.diagnosis.probes.vector import norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation, kept
+from clinic.diagnosis.simulation import ENDLESS, Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An equality that gives way"
@@ -141,8 +141,8 @@ def _off(of: Simulation, *found: tuple[int, int, float]) -> float:
         if end is None:
             return math.inf
         own, leading = (end.qpos[of.place(each)] - of.model("qpos0")[of.place(each)] for each in (follower, leader))
-        low, high = of.row("jnt_range", follower, 2)
-        most = max(most, abs(own - factor * leading) / (high - low) if of.model("jnt_limited")[follower] else 0.0)
+        low, high = of.ranges.get(follower, ENDLESS)
+        most = max(most, abs(own - factor * leading) / (high - low))
     return most
 
 

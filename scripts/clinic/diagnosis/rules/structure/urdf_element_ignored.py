@@ -54,7 +54,7 @@ MEANT = {"pose": "origin", "limits": "limit", "dynamic": "dynamics", "axes": "ax
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """What stands in joints and parts of links and is none of URDF's elements, by its tag."""
-    if model.source is None or not model.source.urdf:
+    if model.source is None or not model.urdf:
         return
     yield from _mimics(model.source)
     found: dict[str, list[str]] = {}

@@ -54,7 +54,7 @@ SLIDES = re.compile("(?i)slid|prism|lift|finger")
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The joint of a URDF that is alone so, and wheels that are all so."""
-    if model.source is None or not model.source.urdf:
+    if model.source is None or not model.urdf:
         return
     yield from _called_fixed(model.source)
     all_joints = [each for each in model.source.root.children if each.tag == "joint"]

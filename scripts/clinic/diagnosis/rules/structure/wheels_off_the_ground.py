@@ -45,7 +45,7 @@ import math
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import CYLINDER, HINGE, SPHERE
+from clinic.diagnosis.engine import CYLINDER, SPHERE
 from clinic.diagnosis.probes.shape import in_world, root_of, solid
 from clinic.diagnosis.probes.wheels import is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
@@ -111,9 +111,9 @@ def _wheels(of: Simulation) -> dict[int, list[int]]:
     made: dict[int, list[int]] = {}
     for joint in range(of.count("joint")):
         body = of.body_of("joint", joint)
-        if of.joint_type(joint) != HINGE or of.model("jnt_limited")[joint] or body in of.model("body_parentid"):
+        if not of.continuous(joint) or body in of.children:
             continue
-        if abs(of.data_row("xaxis", joint, 3)[2]) < LEVEL_ENOUGH:
+        if abs(of.axis(joint)[2]) < LEVEL_ENOUGH:
             made.setdefault(root_of(of)[body], []).extend(geom for geom in of.geoms_of(body) if _round(of, geom))
     bodies = of.model("geom_bodyid")
     return {root: geoms for root, geoms in made.items() if len({bodies[geom] for geom in geoms}) > 1}

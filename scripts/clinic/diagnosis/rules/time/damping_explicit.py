@@ -36,7 +36,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.probes.run import FAST, fastest
 from clinic.diagnosis.probes.servo import BEARS, COEFFICIENTS, damped_beyond, damping_is_implicit, explicit_damping
@@ -94,7 +93,7 @@ def overdamped(model: ReaderModel) -> Suspect | None:
     """Damping of joints that equalities tie, which stops them within a small part of a step, where less keeps calm."""
     of = model.simulation
     damping, masses = of.model("dof_damping"), of.mass_diagonal
-    dofs = {joint: of.dof(joint) for joint in range(of.count("joint")) if of.joint_type(joint) in (HINGE, SLIDE)}
+    dofs = {joint: of.dof(joint) for joint in of.scalar_joints}
     shares = {joint: of.timestep * damping[dof] / max(masses[dof], 1e-12) for joint, dof in dofs.items()}
     found = sorted((joint for joint, share in shares.items() if share > STOPS), key=lambda joint: -shares[joint])
     shown = [(probe, limit) for probe, limit in SYMPTOMS if found and model.measured(probe) > limit]

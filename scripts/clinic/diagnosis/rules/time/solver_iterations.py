@@ -45,7 +45,7 @@ FAST, DEEP, HALF = 20.0, 0.005, 0.5  # rad/s; of the extent; of the symptom that
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The solver's options, where its usual ones calm the model."""
-    if model.source is None or model.source.urdf:
+    if model.source is None or model.urdf:
         return
     now, edits = early(model), patient(model)
     if not edits:

@@ -10,7 +10,7 @@ from clinic.diagnosis.probes.attached import attached
 from clinic.diagnosis.probes.comparison import Comparison
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
 from clinic.diagnosis.probes.twins import Twins, twins
-from clinic.diagnosis.probes.vector import sub, times, transpose, turned, written
+from clinic.diagnosis.probes.vector import dot, sub, times, transpose, turned, written
 from clinic.diagnosis.reader_model import ReaderModel
 
 COPIED = {  # attributes that are the same on both sides
@@ -22,13 +22,6 @@ COPIED = {  # attributes that are the same on both sides
     "gear sign": ("gear",),
     "gain": ("kp", "kv", "dampratio", "gainprm", "biasprm"),
     "bias": ("kp", "kv", "dampratio", "gainprm", "biasprm"),
-}
-FRAMES = {
-    "body": "body_parentid",
-    "geom": "geom_bodyid",
-    "site": "site_bodyid",
-    "camera": "cam_bodyid",
-    "joint": "jnt_bodyid",
 }
 PLACES = {"body": "xpos", "geom": "geom_xpos", "site": "site_xpos", "camera": "cam_xpos", "joint": "xanchor"}
 
@@ -123,9 +116,8 @@ def _place(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: 
     element, simulation = model.element(each.kind, side), model.simulation
     if element is None or "fromto" in element.attributes:
         return ()
-    owners = simulation.model(FRAMES[each.kind])
-    here, there = int(owners[side]), int(owners[twin])
-    left_body = each.left if each.kind == "body" else int(owners[each.left])
+    here, there = simulation.body_of(each.kind, side), simulation.body_of(each.kind, twin)
+    left_body = each.left if each.kind == "body" else simulation.body_of(each.kind, each.left)
     image = found.image(left_body, here if each.kind != "body" else side)
     seen = times(image.matrix, sub(found.at(PLACES[each.kind], twin), found.at("xpos", there)))
     if here == there:
@@ -140,5 +132,5 @@ def _axis(model: ReaderModel, found: Twins, each: Comparison, side: int, twin: i
     image = found.image(model.simulation.body_of("joint", each.left), body)
     axis = times(transpose(found.at("xmat", body, 9)), times(image.matrix, found.at("xaxis", twin)))
     own = model.simulation.row("jnt_axis", side, 3)
-    sign = 1.0 if sum(a * b for a, b in zip(axis, own, strict=True)) >= 0 else -1.0
+    sign = 1.0 if dot(axis, own) >= 0 else -1.0
     return (set_attribute(element, "axis", written(tuple(sign * x for x in axis))),)

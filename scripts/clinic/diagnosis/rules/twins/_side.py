@@ -98,10 +98,10 @@ def _overlapping(model: ReaderModel, each: Comparison) -> list[int]:
 
 def _beside_its_own(simulation: Simulation, each: Comparison, side: int) -> int:
     """How often a body is on the side of its parent where the others of its side are, less how often it is not."""
-    own, parents, made = simulation.row("body_pos", side, 3), simulation.model("body_parentid"), 0
+    own, made = simulation.row("body_pos", side, 3), 0
     for one in twins(simulation).comparisons:
         placed = not one.odd and (one.kind, one.quantity) == ("body", "pos")
-        if not placed or not parents[one.left] == parents[one.right] == parents[side]:
+        if not placed or not simulation.parent(one.left) == simulation.parent(one.right) == simulation.parent(side):
             continue
         mine, other = (one.left, one.right) if side == each.left else (one.right, one.left)
         places = zip(own, simulation.row("body_pos", mine, 3), simulation.row("body_pos", other, 3), strict=True)
@@ -135,10 +135,10 @@ def _same_side(simulation: Simulation, each: Comparison, side: int) -> list[int]
 def _in_reach(simulation: Simulation, actuator: int) -> float:
     """The share of an actuator's control range that is in its joint's range."""
     joint = simulation.driven_joint(actuator)
-    if joint is None or not simulation.model("jnt_limited")[joint]:
+    if joint is None or joint not in simulation.ranges:
         return 1.0
     low, high = simulation.row("actuator_ctrlrange", actuator, 2)
-    bottom, top = simulation.row("jnt_range", joint, 2)
+    bottom, top = simulation.ranges[joint]
     return max(0.0, min(high, top) - max(low, bottom)) / max(high - low, 1e-9)
 
 

@@ -102,11 +102,10 @@ def _copied(found: Twins, left: int, right: int) -> bool:
 def _mirrored(found: Twins, left: int, right: int) -> bool:
     """Whether a child, a geom or a joint's range of the two is mirrored, and no geom is copied as the mass is."""
     of, matrix = found.of, found.images[left].matrix
-    parents, owners = of.model("body_parentid"), of.model("geom_bodyid")
     pairs: list[tuple[str, Vector, Vector]] = []
-    for kind, field, holders in (("body", "xpos", parents), ("geom", "geom_xpos", owners)):
+    for kind, field in (("body", "xpos"), ("geom", "geom_xpos")):
         for pair in found.pairs[kind]:
-            if (int(holders[pair[0]]), int(holders[pair[1]])) == (left, right):
+            if tuple(of.body_of(kind, one) for one in pair) == (left, right):
                 here, there = (found.at(field, one) for one in pair)
                 pairs.append((kind, sub(here, found.at("xpos", left)), sub(there, found.at("xpos", right))))
     aside = [each for each in pairs if norm(sub(times(matrix, each[1]), each[1])) > 2 * FAR]

@@ -96,10 +96,10 @@ def _middle(of: Simulation) -> tuple[int, ...]:
     if len(mirrored) < PAIRS:
         return ()
     made = []
-    for joint in range(of.count("joint")):
+    for joint in of.ranges:
         mover = of.body_of("joint", joint)
         lefts = [left for left in mirrored if mover not in of.ancestors(found.common[left])]
-        if of.joint_type(joint) != HINGE or not of.model("jnt_limited")[joint] or not lefts:
+        if of.joint_type(joint) != HINGE or not lefts:
             continue
         largest = max(lefts, key=lambda left: found.size[left])
         image, near = found.images[largest], FITS * found.size[largest]

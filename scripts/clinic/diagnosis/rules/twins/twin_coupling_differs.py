@@ -117,7 +117,7 @@ def _unlike(of: Simulation, left: int, right: int) -> float:
     one, other = known[left], known[right]
     same_part = any(of.body_of("joint", follower) in twins(of).copies for follower, *_ in (one, other))
     image = other[2] if same_part else _image(of, other, one)
-    low, high = of.row("jnt_range", one[1], 2) if of.model("jnt_limited")[one[1]] else (-1.0, 1.0)
+    low, high = of.ranges.get(one[1], (-1.0, 1.0))
     ways = [low + (high - low) * step / STEPS for step in range(STEPS + 1)]
     went, mirrored = ([sum(c * way**k for k, c in enumerate(f)) for way in ways] for f in (one[2], image))
     most = max(*map(abs, went), *map(abs, mirrored), 1e-9)

@@ -59,7 +59,6 @@ When it is wrong: names that do not mean sides.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
@@ -87,14 +86,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def _astray(of: Simulation) -> dict[int, tuple[int, int]]:
     """The parts beside their twins on one side, with what they hang on and its twin, which carries less by two."""
-    pairs, parents = twins(of).pairs["body"], of.model("body_parentid")
-    carried = Counter(int(parent) for parent in parents[1:])
+    pairs = twins(of).pairs["body"]
+    carried = {body: len(of.children.get(body, [])) for body in range(of.count("body"))}
     beside = {body: pair for pair in pairs for body in pair}
     made = {}
     for left, right in pairs:
-        parent = int(parents[left])
+        parent = of.parent(left)
         pair = beside.get(parent)
-        if pair is None or int(parents[right]) != parent:
+        if pair is None or of.parent(right) != parent:
             continue
         meant = pair[1] if parent == pair[0] else pair[0]
         if carried[parent] - carried[meant] == 2:
@@ -104,7 +103,7 @@ def _astray(of: Simulation) -> dict[int, tuple[int, int]]:
 
 def _edits(model: ReaderModel, child: str, parent: str) -> tuple[Edit, ...]:
     """The edit of the joint's `<parent>` in a URDF; what is nested in MJCF is moved by hand."""
-    if model.source is None or not model.source.urdf:
+    if model.source is None or not model.urdf:
         return ()
     for joint in model.source.elements("joint"):
         ends = joint.first("parent"), joint.first("child")

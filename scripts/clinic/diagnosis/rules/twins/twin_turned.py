@@ -54,7 +54,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
-from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.twins import Twins, twins
 from clinic.diagnosis.probes.vector import Vector, dot, of_quaternion, sub, times, written
 from clinic.diagnosis.reader_model import ReaderModel
@@ -98,7 +97,7 @@ def _suspect(model: ReaderModel, body: int, twin: int, turn: Vector, left: int, 
     of, element = model.simulation, model.element("body", body)
     before = _astray(of, left)
     edits: tuple[Edit, ...] = ()
-    if element is not None and not either and model.source is not None and not model.source.urdf:
+    if element is not None and not either and model.source is not None and not model.urdf:
         others = [name for name in ORIENTATIONS[1:] if element.get(name)]
         edits = (set_attribute(element, "quat", written(turn)), *(remove_attribute(element, name) for name in others))
     names = of.name("body", body), of.name("body", twin)
@@ -113,12 +112,12 @@ def _suspect(model: ReaderModel, body: int, twin: int, turn: Vector, left: int, 
 
 def _inward(of: Simulation, left: int, right: int) -> int | None:
     """The one of a pair that goes on to the other side of its parent than the limbs of all other pairs; else None."""
-    found, parents = twins(of), of.model("body_parentid")
+    found = twins(of)
     outward = {}
     for body in {each for pair in found.pairs["body"] for each in pair}:
-        if (parents[body] == parents[left]) and (below := of.children.get(body)):
+        if (of.parent(body) == of.parent(left)) and (below := of.children.get(body)):
             place = found.at("xpos", body)
-            ways = sub(found.at("xpos", below[0]), place), sub(place, found.at("xpos", int(parents[body])))
+            ways = sub(found.at("xpos", below[0]), place), sub(place, found.at("xpos", of.parent(body)))
             outward[body] = dot(*ways) > 0
     others = {way for body, way in outward.items() if body not in (left, right)}
     odd = [body for body in (left, right) if body in outward and len(others) == 1 and outward[body] not in others]
@@ -144,8 +143,7 @@ def _rolled_on(of: Simulation, body: int, turn: Vector) -> bool:
     for joint in of.joints_of(body):
         turns = (of.row("body_quat", body, 4), turn)
         axles = [times(of_quaternion(each), of.row("jnt_axis", joint, 3)) for each in turns]
-        wheel = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
-        if wheel and abs(dot(*axles)) > ALONG:
+        if of.continuous(joint) and abs(dot(*axles)) > ALONG:
             return True
     return False
 

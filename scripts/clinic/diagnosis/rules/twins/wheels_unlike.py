@@ -45,9 +45,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, HINGE, SPHERE
+from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, SPHERE
 from clinic.diagnosis.probes.shape import root_of, solid
-from clinic.diagnosis.probes.vector import Vector, dot, norm, sub
+from clinic.diagnosis.probes.vector import dot, norm, sub
 from clinic.diagnosis.probes.wheels import is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -101,22 +101,17 @@ def _axles(of: Simulation) -> Iterator[tuple[int, int]]:
     for one, other in combinations(wheels, 2):
         between = sub(of.data_row("xanchor", one, 3), of.data_row("xanchor", other, 3))
         far = norm(between)
-        along = [abs(dot(between, _axis(of, joint))) for joint in (one, other)]
+        along = [abs(dot(between, of.axis(joint))) for joint in (one, other)]
         if owner[int(bodies[one])] == owner[int(bodies[other])] and far > 0 and min(along) > ALONG * far:
             yield one, other
 
 
 def _is_wheel(of: Simulation, joint: int) -> bool:
     body = of.body_of("joint", joint)
-    free = of.joint_type(joint) == HINGE and not of.model("jnt_limited")[joint]
-    drives = len(of.drivers.get(joint, []))
     called = is_wheel(of.names("joint")[joint], of.names("body")[body])
-    driven = drives == 1 or (called and not of.count("actuator"))
-    return free and driven and abs(_axis(of, joint)[2]) < LEVEL_ENOUGH and _tyre(of, joint) >= 0 and body > 0
-
-
-def _axis(of: Simulation, joint: int) -> Vector:
-    return of.data_row("xaxis", joint, 3)
+    driven = len(of.drivers.get(joint, [])) == 1 or (called and not of.count("actuator"))
+    level = abs(of.axis(joint)[2]) < LEVEL_ENOUGH
+    return of.continuous(joint) and driven and level and _tyre(of, joint) >= 0 and body > 0
 
 
 def _tyre(of: Simulation, joint: int) -> int:
@@ -144,7 +139,7 @@ def _gear(of: Simulation, joint: int) -> float:
 
 def _against(of: Simulation, one: int, other: int) -> float:
     of.begin()
-    return -dot(_axis(of, one), _axis(of, other)) * (1 if _gear(of, one) * _gear(of, other) > 0 else -1)
+    return -dot(of.axis(one), of.axis(other)) * (1 if _gear(of, one) * _gear(of, other) > 0 else -1)
 
 
 def _unlike(of: Simulation, one: int, other: int) -> float:

@@ -90,7 +90,7 @@ IDLE = {
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The attributes that have no effect, all of one kind together."""
     of = model.simulation
-    if model.source is None or model.source.urdf:
+    if model.source is None or model.urdf:
         return
     for idle in sorted(IDLE):
         found = [each for each in range(of.count(idle.kind)) if _without_effect(model, idle, each)]

@@ -98,7 +98,7 @@ def _feet(model: ReaderModel, written: list[Element]) -> Iterator[Suspect]:
 
 def _lowest(of: Simulation) -> set[int]:
     """The bodies with a solid geom about as low as the lowest of their tree, which can fall."""
-    made, parents = set[int](), {int(each) for each in of.model("body_parentid")}
+    made = set[int]()
     for key in range(-1, min(1, of.count("key"))):
         start_at(of, key)
         for root in falling(of):
@@ -109,6 +109,6 @@ def _lowest(of: Simulation) -> set[int]:
             height = max(tops, default=0.0) - lowest
             for geom, low in lows.items():
                 body = of.body_of("geom", geom)
-                if low <= lowest + (NEAR if body in parents else END) * height:
+                if low <= lowest + (NEAR if body in of.children else END) * height:
                     made.add(body)
     return made

@@ -61,7 +61,7 @@ NOTHING, SOLID = 0.02, (0.3, 20.0)  # of the medium's density; g/cm3
 
 def _held_back(simulation: Simulation) -> float:
     simulation.begin()
-    g = math.hypot(*simulation.model("opt.gravity"))
+    g = simulation.gravity
     falls = falling(simulation)
     for root, dof in falls.items():
         simulation.engine.write("qvel", [-math.sqrt(g * max(size(simulation, root), 1e-3))], dof)
@@ -78,7 +78,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         yield from _unfit(model)
         yield from _sinking(model)
         yield from _light(model)
-    if not any(simulation.model("opt.gravity")) or int(simulation.model("opt.disableflags")[0]) & GRAVITY_OFF:
+    if not simulation.gravity or int(simulation.model("opt.disableflags")[0]) & GRAVITY_OFF:
         return
     probe = Probe("drag of a fall", "of the weight", _held_back, dynamic=False)
     if shaped or model.measured(probe) <= MOST:
@@ -177,4 +177,4 @@ def _weight(of: Simulation) -> float:
         return 0.0
     bodies = [body for root in falling(of) for body in of.below(root)]
     mass = sum(of.model("body_mass")[body] * (1 - of.model("body_gravcomp")[body]) for body in bodies)
-    return math.hypot(*of.model("opt.gravity")) * mass
+    return of.gravity * mass

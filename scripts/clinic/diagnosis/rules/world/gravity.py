@@ -63,20 +63,19 @@ def _up(simulation: Simulation) -> tuple[float, float, float]:
 
 
 def _angle(simulation: Simulation) -> float:
-    g, up = simulation.row("opt.gravity", 0, 3), _up(simulation)
-    size = math.hypot(*g)
+    g, size, up = simulation.model("opt.gravity"), simulation.gravity, _up(simulation)
     return math.degrees(math.acos(max(-1.0, min(1.0, -dot(g, up) / size)))) if size else 0.0
 
 
 def _ratio(simulation: Simulation) -> float:
-    size = math.hypot(*simulation.model("opt.gravity"))
-    time = math.sqrt(2 * simulation.model("stat.extent")[0] / size) if size else 0.0
+    size = simulation.gravity
+    time = math.sqrt(2 * simulation.extent / size) if size else 0.0
     return max(time / LONG, SHORT / time) if time else 0.0
 
 
 def _pull(simulation: Simulation) -> float:
     """By how much gravity is more or less than the earth's, as a share of it."""
-    return abs(math.hypot(*simulation.model("opt.gravity")) / 9.81 - 1)
+    return abs(simulation.gravity / 9.81 - 1)
 
 
 def _metres(of: Simulation, size: float) -> bool:
@@ -99,17 +98,15 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not any(g) or off:
         yield from _none(model, now, off)
         return
-    up = _up(simulation)
-    size = math.hypot(*g)
+    up, size = _up(simulation), simulation.gravity
     kept = size if EARTH[0] < size < EARTH[1] or not _metres(simulation, size) else 9.81
     value = " ".join(f"{-kept * each + 0.0:.4g}" for each in up).replace("-0 ", "0 ")
     edits = model.option("gravity", value)
     angle = Probe("angle between gravity and down", "degrees", _angle, dynamic=False)
     says = f"Gravity is {now} m/s2."
     yield Suspect(name, "gravity", now, value, edits, angle, ANGLE, says, USUAL, share=0.1)
-    extent = simulation.model("stat.extent")[0]
-    took = math.sqrt(2 * extent / size)
-    says = f"With {size:.3g} m/s2 a fall of {extent:.2g} m, the model's extent, takes {took:.2g} s."
+    took = math.sqrt(2 * simulation.extent / size)
+    says = f"With {size:.3g} m/s2 a fall of {simulation.extent:.2g} m, the model's extent, takes {took:.2g} s."
     ratio = Probe("time of a fall over the model's extent, beyond 0.025 to 5 s by", "times", _ratio, dynamic=False)
     scaled = " ".join(f"{9.81 * each / size + 0.0:.4g}" for each in g)
     yield Suspect(name, "gravity", now, scaled, model.option("gravity", scaled), ratio, 1.0, says, USUAL)

@@ -41,7 +41,7 @@ import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.matter import matter
-from clinic.diagnosis.probes.vector import norm, written
+from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -58,7 +58,7 @@ EARTH = (5.0, 15.0)  # m/s2
 
 def unit_of_lengths(simulation: Simulation) -> str:
     """The unit in which all that moves would be of ordinary matter; empty where metres do, or none."""
-    if not EARTH[0] < norm(simulation.model("opt.gravity")) < EARTH[1]:
+    if not EARTH[0] < simulation.gravity < EARTH[1]:
         return ""
     found = [each for body in simulation.moving_bodies if (each := matter(simulation, body)) is not None]
     volume = sum(each.volume for each in found)

@@ -96,8 +96,8 @@ def mesh_sizes(of: Simulation) -> dict[int, float]:
 
 def _usual(of: Simulation) -> float:
     """The median of the lengths of all that is no mesh, in m; 0 where there is nothing."""
-    kinds, bodies, parents = of.model("geom_type"), of.model("geom_bodyid"), of.model("body_parentid")
-    lengths = [norm(of.row("body_pos", body, 3)) for body in range(1, of.count("body")) if parents[body]]
+    kinds, bodies = of.model("geom_type"), of.model("geom_bodyid")
+    lengths = [norm(of.row("body_pos", body, 3)) for body in range(1, of.count("body")) if of.parent(body)]
     for geom, kind in enumerate(kinds):
         if int(kind) not in (PLANE, HFIELD, MESH) and bodies[geom]:
             lengths.append(of.model("geom_rbound")[geom])

@@ -58,7 +58,7 @@ FITS = 1e-3  # m, rad
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Flags in force for which the model has something to switch off."""
-    if model.source is None or model.source.urdf:
+    if model.source is None or model.urdf:
         return
     of = model.simulation
     for flag, (usual, number, what) in _flags(of).items():
@@ -129,9 +129,8 @@ def _flags(of: Simulation) -> dict[str, tuple[str, int, str]]:
 
 def _parents(of: Simulation) -> int:
     """How many bodies have geoms that may collide with those of their parent."""
-    parents = of.model("body_parentid")
     return sum(
-        any(collides(of, one, other) for one in of.geoms_of(body) for other in of.geoms_of(int(parents[body])))
+        any(collides(of, one, other) for one in of.geoms_of(body) for other in of.geoms_of(of.parent(body)))
         for body in of.moving_bodies
-        if int(parents[body]) in of.moving_bodies
+        if of.parent(body) in of.moving_bodies
     )

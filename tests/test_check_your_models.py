@@ -50,7 +50,7 @@ def test_the_workflow_installs_the_clinic_and_uploads_what_it_wrote(fences, root
     workflow = yaml.safe_load(fences["yaml"][1])
     (job,) = workflow["jobs"].values()
     install, *steps = [step["run"] for step in job["steps"] if "run" in step]
-    assert install == "pip install git+<address of this repository>"
+    assert install == "pip install git+<address of the clinic's repository>"
     for step in steps:
         assert shell(root, repository, step).returncode == 1
     upload = job["steps"][-1]

@@ -207,6 +207,15 @@ def test_pasted_messages_find_their_meaning(ask: Ask) -> None:
     check(ask, [(text, MESSAGES) for text in TEXTS] + titles, "put the text into `title`, or under `older`")
 
 
+def test_words_in_the_same_order_come_before_the_same_words_apart(ask: Ask) -> None:
+    first = {
+        "robot falls through the floor": "cases/box-falls-through-floor/index.html#answer",
+        "Nan, Inf or huge value in QACC at DOF 7": "messages.html#bad-qacc",
+        "unrecognized attribute": "messages.html#unrecognized-attribute",
+    }
+    assert [answer["links"][0] for answer in ask([*first])] == [*first.values()]
+
+
 def test_typos_and_beginnings_find_the_case_too(ask: Ask) -> None:
     wanted = {
         "griper drops the cub": "grasp-slips",

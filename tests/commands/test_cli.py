@@ -8,12 +8,14 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from clinic.commands import cli
 from clinic.commands.cli import app
 from clinic.pages.reference import reference
 from clinic.pages.schema import FILE, schema_text
+from clinic.record.families import families
 from helpers import RECORD, changed, write_case, write_script_case
 from typer.testing import CliRunner, Result
 
@@ -168,6 +170,27 @@ def test_new_without_what_it_needs_writes_nothing(project: Path, options: tuple[
     result = run("new", "it-moves", *options)
     assert result.exit_code != 0
     assert said in result.output
+    assert not (project / "cases" / "it-moves").exists()
+
+
+def test_new_refuses_a_name_before_it_asks_for_anything(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert "found:    the slug Cup Slides\n" in str(main_with(monkeypatch, "new", "Cup Slides"))
+    assert not (project / "cases" / "Cup Slides").exists()
+
+
+@pytest.mark.usefixtures("project")
+def test_new_asks_for_a_family_with_all_that_there_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("clinic.commands.cli.sys", SimpleNamespace(stdin=SimpleNamespace(isatty=lambda: True)))
+    result = CliRunner().invoke(app, ["new", "it-moves", "--title", "hello"], input="sags\n")
+    assert result.exit_code == 0, result.output
+    assert all(f"  {name:18} {family.title}\n" in result.output for name, family in families().items())
+    assert "cases/it-moves/, of the family sags, passes" in result.output
+
+
+def test_new_names_the_families_where_the_title_tells_none(project: Path) -> None:
+    result = run("new", "it-moves", "--title", "hello")
+    assert result.exit_code != 0
+    assert "name it with --family: explodes, " in " ".join(result.output.replace("\u2502", " ").split())
     assert not (project / "cases" / "it-moves").exists()
 
 

@@ -47,6 +47,22 @@ def test_what_a_script_prints_has_no_moment_of_its_own(tmp_path: Path) -> None:
         assert found.measured == said
 
 
+def test_lengths_below_a_millimetre_are_told_in_millimetres(tmp_path: Path) -> None:
+    found = brief(case := tiny_case(tmp_path), evidence := collect(case))
+    assert found is not None
+    assert found.repaired == "0.0499\u00a0m"
+    deep, flat = (evidence.variants[name] for name in ("broken", "share-a-bit"))
+    tiny = [each.model_copy(update={"measured": 1.2e-4}) for each in flat.checks["fixed"]]
+    large = [each.model_copy(update={"measured": 0.102}) for each in deep.checks["fixed"]]
+    changed = {
+        "broken": deep.model_copy(update={"checks": deep.checks | {"fixed": large}}),
+        "share-a-bit": flat.model_copy(update={"checks": flat.checks | {"fixed": tiny}}),
+    }
+    again = brief(case, evidence.model_copy(update={"variants": evidence.variants | changed}))
+    assert again is not None
+    assert again[1:] == ("102\u00a0mm", "0.120\u00a0mm")
+
+
 def test_a_tile_leads_to_the_page_of_its_symptom_and_names_its_film(tmp_path: Path) -> None:
     page = home([shown(tiny_case(tmp_path, FAMILY), *PICTURES)])
     (tile,) = re.findall(r'<a class="tile".*?</a>', page)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import mujoco
 import pytest
 from clinic.engine.signals import WARNINGS
 from clinic.pages.messages import (
@@ -51,6 +52,14 @@ def test_the_engine_still_says_it(message: Message, said: dict[str, str]) -> Non
 def test_every_warning_type_is_covered(warning: str) -> None:
     entries = [message for message in MESSAGES if message.warning == warning]
     assert len(entries) == 1, f"mjWARN_{warning}: add one entry with `warning: {warning}` to messages.yaml"
+
+
+def test_the_page_names_the_joint_of_a_degree_of_freedom(capsys: pytest.CaptureFixture[str]) -> None:
+    (code,) = re.findall(r"`(print\(.+?\))`", " ".join(MESSAGES[0].look_at.split()))
+    joints = "".join(f'<body><joint name="joint {number}"/><geom size="0.1"/></body>' for number in range(9))
+    exec(code, {"model": mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{joints}</worldbody></mujoco>")})
+    assert MESSAGES[0].id == "bad-qacc"
+    assert capsys.readouterr().out == "joint 7\n"
 
 
 def test_forty_errors_are_provoked() -> None:

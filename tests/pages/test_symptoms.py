@@ -40,13 +40,15 @@ def test_a_family_has_its_causes_the_procedure_and_what_it_prints(tmp_path: Path
     assert "(symptoms/falls-through.md) A script that measures your model.\n" in listed
     without = symptom_pages([shown], {"falls-through": None})["symptoms.md"].decode()
     assert "(symptoms/falls-through.md) What to look for in your code.\n" in without
-    assert "Contacts at the start: below 1." in page
+    named = "**Masks**, as in [1. A box falls through the floor](../cases/falling-box/index.md#answer)  \n"
+    assert f"{named}Contacts at the start: below 1.\n" in page
+    assert page.index("{ #rules }") < page.index("{ #procedure }")
     assert "rows = [  # the case" in page
     assert "falling-box = 0\nit is falling-box: masks\n" in page
     assert "after the repair `share-a-bit`. No motor." in page
     rules = page.partition("{ #rules }")[2].partition("<details markdown>")
     assert "too.\n\n- [" in rules[0]  # a blank line before it, or Markdown takes the list for more of the sentence
-    assert "](../rules/masks.md)" in rules[0]
+    assert "](../rules/masks.md)  \n  Two things that should touch" in rules[0]
     assert "](../rules/soft-contact.md)" in rules[2]  # whose first family is another
 
 

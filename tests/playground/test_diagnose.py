@@ -82,6 +82,13 @@ def test_nothing_is_loaded_before_a_model_is_given_and_a_second_needs_no_network
     assert "spring-too-stiff" in give(fresh, written(tmp_path / "again.xml", BAD))
 
 
+def test_what_was_measured_is_written_as_in_a_terminal(page: Page, served: str, tmp_path: Path) -> None:
+    opened(page, served)
+    said = give(page, written(tmp_path / "heavy.xml", rules()["denser-than-metal"].example("Bad")))
+    assert "350 kg in 0.427 litres of geoms: 819,000 kg/m3." in said
+    assert "Density: 819,000 kg/m3. With the edit: 819 kg/m3." in said
+
+
 def test_the_findings_are_copied_and_the_mended_model_is_saved(page: Page, served: str, tmp_path: Path) -> None:
     page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     opened(page, served)

@@ -55,6 +55,11 @@ def test_errors_of_the_engine_are_sentences() -> None:
         assert "XML_E" not in said
 
 
+def test_words_of_meaning_that_follow_one_another_are_pairs() -> None:
+    told = call("search/words.js", "pairs", ["The robot falls through the floor"], ["floor, through"], ["floor"], [""])
+    assert told == [["fall through", "through floor"], ["floor through"], [], []]
+
+
 @pytest.mark.parametrize(
     "splits",
     [

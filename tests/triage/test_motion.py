@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from clinic.triage.findings import Finding
 from clinic.triage.motion import chaos, conservation, halved, warnings
 from helpers import BALL, PENDULUM, RESTING
@@ -24,6 +25,23 @@ def test_an_explosion_is_warned_of_and_reset() -> None:
     assert ("warned", "BADQACC") in {(rule, element) for rule, element, _ in found}
     assert next(text for rule, _, text in found if rule == "warned").startswith("Nan, Inf or huge value in QACC")
     assert said.startswith("warnings in 100 steps")
+
+
+@pytest.mark.parametrize(
+    ("joint", "qvel", "unit"),
+    [
+        ('<joint name="j" type="slide"/>', [2000], "m/s"),
+        ('<joint name="j"/>', [2000], "rad/s"),
+        ('<joint name="j" type="ball"/>', [2000, 0, 0], "rad/s"),
+        ("<freejoint/>", [0, 0, 2000, 0, 0, 0], "m/s"),
+        ("<freejoint/>", [0, 0, 0, 2000, 0, 0], "rad/s"),
+    ],
+)
+def test_a_speed_has_the_unit_of_what_moves(joint: str, qvel: list[int], unit: str) -> None:
+    key = f'<keyframe><key name="k" qvel="{" ".join(map(str, qvel))}"/></keyframe>'
+    world = f'<worldbody><body>{joint}<geom size="0.1"/></body></worldbody>'
+    examined = subject(f'<mujoco><option gravity="0 0 0"/>{world}{key}</mujoco>', keyframe="k")
+    assert [text for rule, _, text in warnings(examined)[1] if rule == "fast"] == [f"reaches 2000\u00a0{unit}"]
 
 
 def test_a_quiet_run_says_how_long_it_was() -> None:

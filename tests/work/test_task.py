@@ -23,7 +23,7 @@ def tasks(count: int, make: Callable[[], Files] = dict) -> list[Task]:
 def test_many_parts_are_counted_while_they_are_made(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     caplog.set_level(logging.INFO, "mkdocs.clinic")
     run_tasks(tasks(2 * MANY), Cache(tmp_path))
-    assert caplog.messages[0].startswith(f"{2 * MANY} cases are run and drawn")
+    assert caplog.messages[0].startswith(f"kind of {2 * MANY} cases: ")
     assert caplog.messages[1:] == [f"{MANY} of {2 * MANY} parts are made", f"{2 * MANY} of {2 * MANY} parts are made"]
 
 

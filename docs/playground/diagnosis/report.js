@@ -127,7 +127,7 @@ function count(number, what) {
  */
 function shown(value, unit) {
   const kept = value !== null && Math.abs(value) < 1e-12 ? 0 : value; // what rounding leaves
-  return kept === null ? "beyond all bounds" : `${Number(kept.toPrecision(3))} ${unit}`.trim();
+  return kept === null ? "beyond all bounds" : `${kept.toLocaleString("en", { maximumSignificantDigits: 3, useGrouping: "min2" })} ${unit}`.trim();
 }
 
 /**

@@ -2,7 +2,7 @@
 
 import MiniSearch from "minisearch";
 import { shares } from "./families.js";
-import { stem, stems, thesaurus, words } from "./words.js";
+import { pairs, stem, stems, thesaurus, words } from "./words.js";
 
 /** @typedef {{kind: string, at: string, title: string, words: string, text: string, case?: string, family?: string, context?: string}} Document `case` is the address of a message's case */
 /** @typedef {{found: Document[], covered: boolean, families: Map<string, number>}} Answer `covered` is whether the best is about most of what was asked, `families` how likely it is about each symptom */
@@ -17,6 +17,7 @@ const OWN = 0.5; // by which the weight grows of what belongs to the symptom tha
 const SENTENCE = 6; // words from which on a query tells of a symptom more than it names things, and OWN is as many times larger
 const PASTED = 3; // the weight of a message of whose words most are asked for
 const MOST = 2 / 3;
+const TOGETHER = 1; // by which the weight grows of what has all that is asked for in the same order
 const LIKE = 0.5; // a synonym's weight
 const WORTH = 0.1; // of the best one's score, for what is shown at all
 const COVERED = 0.42; // of what the words of a query weigh
@@ -36,6 +37,7 @@ export function searcher({ documents, synonyms, families: weights }, answers = {
     const there = new Set([text.title, text.words, text.text, text.answer].flatMap(stems));
     for (const each of there) known.set(each, (known.get(each) ?? 0) + 1);
   }
+  const told = texts.map(({ title, words: lines }) => new Set([title, ...lines.split(/[;\n]/)].flatMap(pairs)));
   const titles = texts.map(({ kind, title }) => (kind === "message" ? stems(title) : []));
   const weight = (/** @type {string} */ term) => Math.log(1 + texts.length / (known.get(term) ?? 1));
   const alike = thesaurus(synonyms);
@@ -44,6 +46,8 @@ export function searcher({ documents, synonyms, families: weights }, answers = {
   return (query) => {
     const asked = stems(query);
     const families = spoken(query);
+    const together = pairs(query);
+    const share = (/** @type {number} */ id) => together.filter((pair) => told[id].has(pair)).length / Math.max(1, together.length);
     const own = OWN * (asked.length < SENTENCE ? 1 : SENTENCE);
     const last = stem(words(query).at(-1) ?? "");
     const pasted = (/** @type {number} */ id) => titles[id].length > 1 && titles[id].filter((term) => asked.includes(term)).length >= MOST * titles[id].length;
@@ -56,7 +60,7 @@ export function searcher({ documents, synonyms, families: weights }, answers = {
       prefix: (term) => term === last && term.length >= BEGINNING,
       fuzzy: (term) => (meant.get(term) === term && !known.has(term) && term.length > BEGINNING ? 1 + Number(term.length >= LONG) : false),
       boostTerm: (term) => (meant.get(term) === term ? 1 : LIKE),
-      boostDocument: (id) => KINDS[texts[id].kind] * (pasted(id) ? PASTED : 1) * (1 + own * (families.get(texts[id].family ?? "") ?? 0)),
+      boostDocument: (id) => KINDS[texts[id].kind] * (pasted(id) ? PASTED : 1) * (1 + TOGETHER * share(id)) * (1 + own * (families.get(texts[id].family ?? "") ?? 0)),
     });
     const total = asked.reduce((sum, term) => sum + weight(term), 0);
     const best = results.slice(0, 3).map(({ queryTerms }) => {

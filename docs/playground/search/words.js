@@ -27,6 +27,12 @@ export const stem = (word) => (STOP.has(word) || (word.length === 1 && !/\d/.tes
 /** @param {string} text @returns {string[]} the stems, each once */
 export const stems = (text) => [...new Set(words(text).map(stem))].filter(Boolean);
 
+/** @param {string} text @returns {string[]} each two stems that follow one another, what has no meaning left out */
+export const pairs = (text) => {
+  const there = words(text).map(stem).filter(Boolean);
+  return there.slice(1).map((each, k) => `${there[k]} ${each}`);
+};
+
 /**
  * For every phrase of a group of synonyms the stems of the others.
  *

@@ -35,19 +35,26 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print data for a program."
 @app.command()
 def new(
     slug: Annotated[str, typer.Argument(help="The folder's name: words that name the symptom, joined by hyphens.")],
-    title: Annotated[str, typer.Option(help="The symptom as a sentence, without a full stop.", prompt="The symptom")],
+    title: Annotated[str, typer.Option(help="The symptom as a sentence, without a full stop; asked for.")] = "",
     kind: Annotated[Literal["model", "python", "javascript"], typer.Option(help="Where the bug lives.")] = "model",
     family: Annotated[str, typer.Option(help="The symptom's family: sags, slips, ...; asked for when left out.")] = "",
 ) -> None:
     """Write the folder of a new case, which passes every law until you put your bug into it."""
-    from clinic.commands.scaffold import write_case
+    from clinic.commands.scaffold import check_slug, write_case
     from clinic.pages.schema import write_schema
     from clinic.record.families import families, likely_families
 
     root = project_root()
+    check_slug(root, slug)
+    title = title or typer.prompt("The symptom")
     if not family:
-        guess = [*likely_families(title), *families()][0]
-        family = typer.prompt("Its family", guess) if sys.stdin.isatty() else guess
+        guess = next(iter(likely_families(title)), None)
+        if sys.stdin.isatty():
+            print(*(f"  {name:18} {each.title}" for name, each in families().items()), sep="\n")
+            guess = typer.prompt("Its family", guess)
+        if guess is None:
+            raise typer.BadParameter(f"the title tells no family; name it with --family: {', '.join(families())}")
+        family = guess
     write_case(root, slug, title, kind, family)
     write_schema(root)
     print(

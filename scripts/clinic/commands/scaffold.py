@@ -36,12 +36,8 @@ def write_case(root: Path, slug: str, title: str, kind: str, family: str) -> Pat
     Raises:
         CaseError: If the slug, the title or the family will not do.
     """
+    check_slug(root, slug)
     place = root / "cases" / slug
-    if not SLUG.fullmatch(slug) or place.exists():
-        found = f"the slug {slug}{', which is taken' if place.exists() else ''}"
-        expected = "a name of its own: lower-case words joined by hyphens"
-        repair = "name the symptom, as in box-falls-through-floor"
-        raise CaseError([Problem(f"cases/{slug}", 1, "", found, expected, repair)])
     place.mkdir()
     for name, text in case_texts(slug, title, kind, free_number(root), family).items():
         (place / name).write_text(text, encoding="utf-8")
@@ -51,6 +47,20 @@ def write_case(root: Path, slug: str, title: str, kind: str, family: str) -> Pat
         shutil.rmtree(place)
         raise
     return place
+
+
+def check_slug(root: Path, slug: str) -> None:
+    """Refuses what can be no new case's folder.
+
+    Raises:
+        CaseError: If it is no slug, or taken.
+    """
+    place = root / "cases" / slug
+    if not SLUG.fullmatch(slug) or place.exists():
+        found = f"the slug {slug}{', which is taken' if place.exists() else ''}"
+        expected = "a name of its own: lower-case words joined by hyphens"
+        repair = "name the symptom, as in box-falls-through-floor"
+        raise CaseError([Problem(f"cases/{slug}", 1, "", found, expected, repair)])
 
 
 def case_texts(slug: str, title: str, kind: str, number: int, family: str) -> dict[str, str]:

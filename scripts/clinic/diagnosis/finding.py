@@ -14,7 +14,7 @@ from clinic.diagnosis.judge import Judged
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules import rules
 from clinic.diagnosis.source import Element
-from clinic.diagnosis.suspect import Level
+from clinic.diagnosis.suspect import Level, spoken
 
 CAUSES_SHOWN = 3
 LONG = 200  # characters of a value that a terminal shows
@@ -165,6 +165,7 @@ def finding_of(judged: Judged, model: ReaderModel) -> Finding:
     first: Edit | Element | None = next(iter(suspect.edits), suspect.at)
     if first is None and not model.error:
         first = next((place for each in suspect.elements if (place := model.named(each))), None)
+    told = str if suspect.edits else spoken  # what an edit writes is copied from here
     site = os.environ.get(SITE, "").rstrip("/")
     page = f"{site}/cases/{rule.case}/" if rule.case else f"{site}/rules/{rule.id}/"
     return Finding(
@@ -175,15 +176,15 @@ def finding_of(judged: Judged, model: ReaderModel) -> Finding:
         file=first.file if first else next(iter(model.texts)),
         line=first.line if first else None,
         attribute=suspect.attribute,
-        now=suspect.now or _written(model, first, suspect.attribute),
-        value=suspect.value,
+        now=told(suspect.now) or _written(model, first, suspect.attribute),
+        value=told(suspect.value),
         edit=suspect.edits,
         probe=suspect.probe.title,
         unit=suspect.probe.unit,
         before=judged.before,
         after=judged.after,
-        says=suspect.says,
-        healthy=suspect.healthy,
+        says=spoken(suspect.says),
+        healthy=spoken(suspect.healthy),
         page=page if site else None,
         keyframe=judged.keyframe,
         silenced=judged.silenced,
@@ -275,4 +276,4 @@ def shown(value: float, unit: str) -> str:
     """A number of three digits with its unit."""
     if not math.isfinite(value):
         return "beyond all bounds"
-    return f"{value if abs(value) > NOISE else 0:.3g} {unit}".rstrip()
+    return spoken(f"{value if abs(value) > NOISE else 0:.3g} {unit}").rstrip()

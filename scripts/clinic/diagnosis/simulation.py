@@ -225,6 +225,10 @@ class Simulation:
         """FREE, BALL, SLIDE or HINGE."""
         return int(self.model("jnt_type")[joint])
 
+    def unit(self, joint: int) -> str:
+        """Of a joint's position."""
+        return "m" if self.joint_type(joint) == SLIDE else "rad"
+
     def continuous(self, joint: int) -> bool:
         """Whether a joint is a hinge without limits, as a wheel's."""
         return self.joint_type(joint) == HINGE and not self.model("jnt_limited")[joint]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sized
 from dataclasses import dataclass
 from typing import Literal
@@ -11,11 +12,25 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
 
 Level = Literal["cause", "hint"]
+EXPONENT = re.compile(r"(?<![\"'\w.])(\d(?:\.\d+)?)e([+-]\d\d+)\b")  # no part of a name or of what is quoted
 
 
 def rounded(number: float) -> str:
     """A number of two digits, as one writes it into a model: `250`."""
     return f"{float(f'{number:.2g}'):g}"
+
+
+def spoken(text: str) -> str:
+    """A sentence whose numbers have no exponents as Python writes them: `819,000`, `0.00002`, `3 x 10^-9`."""
+    return EXPONENT.sub(_written_out, text)
+
+
+def _written_out(found: re.Match[str]) -> str:
+    digits, power = found[1], int(found[2])
+    if not -6 <= power < 12:
+        return f"{digits} x 10^{power}"
+    text = f"{float(found[0]):,.{max(0, len(digits.partition('.')[2]) - power)}f}"
+    return text if power > 3 else text.replace(",", "")
 
 
 @dataclass(frozen=True)

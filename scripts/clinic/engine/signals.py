@@ -86,7 +86,8 @@ def parse_path(text: str) -> Path:
     """
     match = PATH.fullmatch(text.strip())
     if match is None or not (match["kind"] or match["field"]):
-        raise SignalError(text, "a path such as body(box).xpos[2], ncon or sensor(force)[0]", "see *Signal paths*")
+        expected = "a path such as body(box).xpos[2], ncon or sensor(force)[0]"
+        raise SignalError(text, expected, "see *Signal paths* in what `clinic reference` prints")
     kind, name, field = ((match[part] or "").strip() for part in ("kind", "name", "field"))
     kinds = (*KINDS, "contact", "warning", "printed")
     if kind and kind not in kinds:

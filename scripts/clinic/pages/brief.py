@@ -18,7 +18,8 @@ WHEN = {
     "span": "from lowest to highest",
     "onset": "from",
 }
-NOTHING = 1e-3  # of the other number; less is told as zero
+SMALL = 1e-3  # m; what is less is told in mm, and what it is compared with too
+NOTHING = 1e-3  # of the other number, or of one; less is told as zero
 
 
 class Brief(NamedTuple):
@@ -45,8 +46,11 @@ def brief(case: Case, evidence: Evidence) -> Brief | None:
         signal = case.record.signals[was.signal]
         unit = "s" if was.take == "onset" else signal.unit
         large = max(abs(was.measured), abs(now.measured))
-        values = (quantity(v if abs(v) > NOTHING * large else 0.0, unit, 3) for v in (was.measured, now.measured))
-        return Brief(f"{signal.label or was.signal}{_when(case, was.signal, was.take)}", *values)
+        values = [v if abs(v) > NOTHING * min(large, 1.0) else 0.0 for v in (was.measured, now.measured)]
+        if unit == "m" and any(0 < abs(v) < SMALL for v in values):
+            values, unit = [1e3 * v for v in values], "mm"
+        told = (quantity(v, unit, 3) for v in values)
+        return Brief(f"{signal.label or was.signal}{_when(case, was.signal, was.take)}", *told)
     return None
 
 

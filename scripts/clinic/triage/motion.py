@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 from dataclasses import replace
 
+import mujoco
 import numpy as np
 
 from clinic.triage.findings import Finding, StepResult, format_number
@@ -25,11 +26,21 @@ def warnings(s: Subject) -> StepResult:
     if not run.finite:
         found.append(Finding("finite", "state", f"is no longer finite after {format_number(run.time, 's')}"))
     if (speed := run.fastest.max(initial=0.0)) > FAST:
-        joint = s.called("joint", s.model.dof_jntid[run.fastest.argmax()])
-        found.append(Finding("fast", joint, f"reaches {format_number(speed, 'rad/s or m/s')}"))
+        dof = int(run.fastest.argmax())
+        reached = f"reaches {_speed(s.model, dof, speed)}"
+        found.append(Finding("fast", s.called("joint", s.model.dof_jntid[dof]), reached))
     cut = "" if run.steps == run.planned else f" of {run.planned}, then the time or the numbers ended"
     said = f"{'warnings' if run.warnings else 'no warning'} in {run.steps} steps{cut}, {format_number(run.time, 's')}"
     return said, found
+
+
+def _speed(model: mujoco.MjModel, dof: int, speed: float) -> str:
+    """With its unit: a slide goes, and the first three of a free joint's degrees of freedom."""
+    joint = model.dof_jntid[dof]
+    goes = {mujoco.mjtJoint.mjJNT_SLIDE: 1, mujoco.mjtJoint.mjJNT_FREE: 3}.get(
+        mujoco.mjtJoint(model.jnt_type[joint]), 0
+    )
+    return format_number(speed, "m/s" if dof < model.jnt_dofadr[joint] + goes else "rad/s")
 
 
 def conservation(s: Subject) -> StepResult:

@@ -37,7 +37,8 @@ def run_tasks(tasks: list[Task], cache: Cache) -> tuple[dict[str, Files], list[P
     done = {task.key: files for task in tasks if (files := cache.get(task.key)) is not None}
     missing = [task for task in tasks if task.key not in done]
     if len(missing) >= MANY:
-        log.info("%d cases are run and drawn: of a whole site that takes minutes, once", len({t.slug for t in missing}))
+        kinds, cases = sorted({task.kind for task in missing}), {task.slug for task in missing}
+        log.info("%s of %d cases: of a whole site that takes minutes, once", ", ".join(kinds), len(cases))
     problems: list[Problem] = []
     for count, (key, made) in enumerate(parallel(_attempt, [(task,) for task in missing]), start=1):
         if count % MANY == 0:

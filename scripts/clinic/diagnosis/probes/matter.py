@@ -228,7 +228,7 @@ def _heaviest(simulation: Simulation, *bodies: int) -> float:
 
 def joint_inertia(bodies: tuple[int, ...]) -> Probe:
     """How many times the joints' inertia is what the geoms would give, or that in it."""
-    return Probe("inertia at the joint, times that of the geoms or its inverse", "", _heaviest, bodies, dynamic=False)
+    return Probe("inertia at the joint, unlike that of the geoms by", "times", _heaviest, bodies, dynamic=False)
 
 
 def _unlike(simulation: Simulation, *bodies: int) -> float:
@@ -238,7 +238,7 @@ def _unlike(simulation: Simulation, *bodies: int) -> float:
 
 def gyration(bodies: tuple[int, ...]) -> Probe:
     """How many times the radius of gyration is that of the geoms, or that in it."""
-    return Probe("radius of gyration, times that of the geoms or its inverse", "", _unlike, bodies, dynamic=False)
+    return Probe("radius of gyration, unlike that of the geoms by", "times", _unlike, bodies, dynamic=False)
 
 
 def _mass(simulation: Simulation, *bodies: int) -> float:

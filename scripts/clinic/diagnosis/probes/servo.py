@@ -24,6 +24,10 @@ from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
 STEP = {True: 0.1, False: 0.01}  # of a hinge in rad, of a slide in m
+COEFFICIENTS = {  # units of stiffness, damping and inertia, by that of the joint's position
+    "rad": ("N m/rad", "N m s/rad", "kg m2"),
+    "m": ("N/m", "N s/m", "kg"),
+}
 BEARS = {EULER: 2.0, RK4: 2.79}  # the largest stable h d / M of a damper; Euler's without eulerdamp
 
 

@@ -6,7 +6,7 @@ import os
 
 SITE, REPOSITORY = "SITE_URL", "REPO_URL"
 VARIABLES = (SITE, REPOSITORY)
-MARK = "<address of this repository>"  # in a page written by hand, for the repository
+MARK = "<address of the clinic's repository>"  # in a page written by hand, for the repository
 
 
 def site() -> str:

@@ -26,9 +26,11 @@ The number: driven for 2 s with all that its actuators give, without gravity and
 1 rad (0.1 m), or to the far limit, is left; motors at sites count, where nothing else drives the joint. Or the damping
 lets full force cross the joint's range in 25 s and more: of 260 healthy models none needs more than 6.7 s. A position
 servo is told, too, of which friction takes more than 0.2 of the force and 0.05 rad (m) of the way: of 38 models with
-dry friction at their servos none has more than 0.05. In a URDF, whose efforts no actuator gives yet, friction above the
-effort, or damping above it at half a rad/s (m/s), is told. So is a door or a drawer that nothing drives, its weight
-does not load, and a push of 50 N and twice its weight at its far end moves at less than 0.1 rad/s (0.1 m/s).
+dry friction at their servos none has more than 0.05.
+
+In a URDF, whose efforts no actuator gives yet, friction above the effort, or damping above it at half a rad/s (m/s), is
+told. So is a door or a drawer that nothing drives, its weight does not load, and a push of 50 N and twice its weight at
+its far end moves at less than 0.1 rad/s (0.1 m/s).
 
 When it is wrong: a brake, or a worm gear that is meant to hold.
 """

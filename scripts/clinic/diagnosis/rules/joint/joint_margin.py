@@ -31,7 +31,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.servo import alone
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -55,7 +54,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         worst = max(wide, key=lambda each: wide[each])
         low, high = of.row(f"{_short(kind)}_range", worst, 2)
         margin = of.model(f"{_short(kind)}_margin")[worst]
-        unit = "rad" if kind == "joint" and of.joint_type(worst) == HINGE else "m"
+        unit = of.unit(worst) if kind == "joint" else "m"
         says = f"{of.name(kind, worst)} is pushed back {margin:.3g} {unit} before its limit; its range is "
         says += f"{high - low:.3g} {unit} wide."
         yield Suspect(

@@ -70,6 +70,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         model.set("joint", found, "limited", "true"),
         unstopped(found),
         0.5,
-        f"The range of {simulation.name('joint', found[0])}, {low:.3g} to {high:.3g}, has no effect.",
+        f"The range of {simulation.name('joint', found[0])}, {low:.3g} to {high:.3g} {simulation.unit(found[0])}, "
+        "has no effect.",
         'limited="auto", with autolimits',
     )

@@ -69,7 +69,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         FAST if probe == fastest() else SHAKES,
         f"{simulation.name('joint', stiffest)} alone swings at {found[stiffest]:.3g} rad/s; a timestep of {step:g} s "
         f"follows less than {2 / step:.3g} rad/s, and a chain's fastest swing is faster than that of each joint.",
-        "h sqrt(k / M) < 2 (explicit integration of a spring)",
+        "timestep x sqrt(stiffness / inertia) < 2 (explicit integration of a spring)",
         share=0.1,
         excess=1 + step * found[stiffest] / 2,
     )

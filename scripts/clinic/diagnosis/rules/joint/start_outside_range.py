@@ -82,7 +82,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             (joints,),
         ),
         KICK,
-        f"{simulation.name('joint', joint)} starts at {begin:.3g}, and its range is {low:.3g} to {high:.3g}.",
+        f"{simulation.name('joint', joint)} starts at {begin:.3g}, and its range is {low:.3g} to {high:.3g} "
+        f"{simulation.unit(joint)}.",
         "inside of the range",
     )
 

@@ -29,10 +29,11 @@ Good:
 The number: how far the worst joint is outside: 0.1 rad or 4 cm, and more. Where the joint's servo is told to hold it
 there, and may be, the joint's range is what is told. What would be inside in degrees, with the controls that are equal
 to it, or far inside with the other sign, is written so, and two that would be inside in each other's place are
-exchanged; else it is put to the end of the range. A joint that every one of several keyframes puts outside is a hint
-that its range is wrong. Where no servo and no other keyframe moves it, the range may as well have the wrong sign, and
-nothing is edited. Of hinges without a range a whole multiple of 15 from 30 on is told as a hint, where no other
-keyframe turns them by more than once.
+exchanged; else it is put to the end of the range.
+
+A joint that every one of several keyframes puts outside is a hint that its range is wrong. Where no servo and no other
+keyframe moves it, the range may as well have the wrong sign, and nothing is edited. Of hinges without a range a whole
+multiple of 15 from 30 on is told as a hint, where no other keyframe turns them by more than once.
 
 When it is wrong: a limit that is soft on purpose.
 """
@@ -94,7 +95,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             qpos[of.place(joint)] = position
         worst = max(off, key=lambda joint: weighed(of, joint, off[joint]))
         low, high = of.row("jnt_range", worst, 2)
-        says = f"{of.name('joint', worst)} stands {abs(off[worst]):.3g} outside of {low:.3g} to {high:.3g}."
+        far = f"{abs(off[worst]):.3g} {of.unit(worst)}"
+        says = f"{of.name('joint', worst)} stands {far} outside of {low:.3g} to {high:.3g}."
         if len(off) == 1 and _either(of, key, worst, off[worst]):
             yield _of_either(model, key, worst, says, written(qpos))
             continue
@@ -202,7 +204,7 @@ def _ranges(model: ReaderModel, key: int, held: Mapping[int, tuple[float, float]
         unit = model.angle_unit if of.joint_type(joint) == HINGE else 1.0
         value = written([x / unit for x in wanted])
         says = f"{of.name('key', key)} puts {of.name('joint', joint)} at {at:.3g}, and its servo is to hold it there; "
-        says += f"the range ends at {low if at < low else high:.3g}."
+        says += f"the range ends at {low if at < low else high:.3g} {of.unit(joint)}."
         yield Suspect(
             (of.name("joint", joint), of.name("key", key)),
             "range",
@@ -268,8 +270,8 @@ def _limits(model: ReaderModel, always: Collection[int]) -> Iterator[Suspect]:
     for joint in always:
         low, high = of.row("jnt_range", joint, 2)
         says = f"Each of the {of.count('key')} keyframes puts {of.name('joint', joint)} outside"
-        says += f" of {low:.3g} to {high:.3g}."
-        probe = Probe("joint outside of its range at a keyframe", "rad", _beyond, (0, joint), dynamic=False)
+        says += f" of {low:.3g} to {high:.3g} {of.unit(joint)}."
+        probe = Probe("joint outside of its range at a keyframe", of.unit(joint), _beyond, (0, joint), dynamic=False)
         edits = model.set("joint", [joint], "limited", "false")
         now = model.value("joint", joint, "range") or ""
         yield Suspect((of.name("joint", joint),), "range", now, "no limit", edits, probe, LIMIT, says, level="hint")

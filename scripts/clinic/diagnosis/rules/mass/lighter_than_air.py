@@ -24,8 +24,10 @@ and for single links with a joint. More than 300 tells a cause: Gymnasium's seco
 first one of 120,000. A model in centimetres has 10. More than 1, of less than 0.1 kg, under the gravity of metres and
 without a fluid, tells a hint: a density of 1.2 in g/cm3 is taken for kg/m3, and a cube has a mass of milligrams. Three
 links and more are told so from a written density of 1.6 down, a free body from 15 down: of what is solid even foam has
-more, and 7.8 is steel in g/cm3. A geom with a density of its own of less than air has, in a mechanism whose other geoms
-have a mass, is told to have that as its mass.
+more, and 7.8 is steel in g/cm3.
+
+A geom with a density of its own of less than air has, in a mechanism whose other geoms have a mass, is told to have
+that as its mass.
 
 When it is wrong: a balloon. Where all of the model is so, it may be written in mm: another rule tells that.
 """

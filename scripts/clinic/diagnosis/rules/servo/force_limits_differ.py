@@ -51,6 +51,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     joint, actuator = max(found.items(), key=lambda pair: _times(of, pair[1], pair[0]))
     (low, high), force = of.row("jnt_actfrcrange", joint, 2), _force(of, actuator)
+    unit = "N" if of.unit(joint) == "m" else "N m"
     yield Suspect(
         tuple(of.name("joint", each) for each in found),
         "actuatorfrcrange",
@@ -59,7 +60,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         (),
         Probe("an actuator's force limit, times that of its joint", "", _most, tuple(found.items()), dynamic=False),
         TIMES,
-        f"{of.name('actuator', actuator)} may give {force:.3g}, and its joint takes {high:.3g} of it.",
+        f"{of.name('actuator', actuator)} may give {force:.3g} {unit}, and its joint takes {high:.3g} {unit} of it.",
         "at most 1.2 in 286 of 289 healthy models",
     )
 

@@ -24,10 +24,13 @@ Good:
 
 The number: the model's own weight at the joint over the greatest force of its servos, in the worst of 17 poses. Or the
 height that a robot with a free base loses within 1 s, its servos told to stay where they are, where some give all they
-can. In a closed loop, whose load only a run shows, it is how far the weight moves the joint of a servo that is told to
+can.
+
+In a closed loop, whose load only a run shows, it is how far the weight moves the joint of a servo that is told to
 hold the start and gives all it can: more than a tenth of the range. Of joints that equalities couple it is the
 weight of all over what all of their servos give, each by its factor. Where several have their limit from one class,
 the class gets what the worst of them needs.
+
 Hints tell of two servos and more that give all they can under a robot that stands, as in none of 16 healthy ones; and
 of a hinge whose weight takes more than 40 % of its servo's force, and three times the share of any servo that carries
 it: of 260 healthy models it is 1.04 times at the most, for motors are stronger the nearer they are to the base.

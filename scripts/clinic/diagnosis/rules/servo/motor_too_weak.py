@@ -34,7 +34,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import BIAS_AFFINE, HINGE
+from clinic.diagnosis.engine import BIAS_AFFINE
 from clinic.diagnosis.probes.load import loads
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -57,8 +57,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = [each for each in range(of.count("actuator")) if of.driven_joint(each) in slow]
     joint = max(slow, key=lambda each: slow[each])
     worst = next(each for each in found if of.driven_joint(each) == joint)
-    hinge = of.joint_type(joint) == HINGE
-    gear, unit = of.gear(worst), "rad" if hinge else "m"
+    gear, unit = of.gear(worst), of.unit(joint)
     yield Suspect(
         tuple(of.name("actuator", each) for each in found),
         "gear",

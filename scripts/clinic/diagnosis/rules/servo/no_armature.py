@@ -42,7 +42,7 @@ from clinic.diagnosis.engine import DEFAULT_TIMESTEP, IMPLICIT, IMPLICITFAST
 from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.probes.matter import explicit
 from clinic.diagnosis.probes.run import FAST, fastest
-from clinic.diagnosis.probes.servo import damped_beyond, feedback
+from clinic.diagnosis.probes.servo import COEFFICIENTS, damped_beyond, feedback
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -78,6 +78,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     joint, worst = max(found.items(), key=lambda each: _excess(each[1], step))
     kp, kv, inertia, _ = worst
     probe = _symptom(model) or shake()
+    stiff, damps, mass = COEFFICIENTS[simulation.unit(joint)]
     yield Suspect(
         tuple(simulation.name("joint", each) for each in found),
         "armature",
@@ -86,9 +87,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         tuple(edits),
         probe,
         SHAKES if probe == shake() else FAST,
-        f"At {simulation.name('joint', joint)}: kv {kv:.3g} and kp {kp:.3g} on an inertia of {inertia:.2g} are "
-        f"h kv / M = {step * kv / inertia:.3g} and h^2 kp / M = {step**2 * kp / inertia:.3g}.",
-        "h kv / M < 2, h^2 kp / M < 4 (explicit integration)",
+        f"At {simulation.name('joint', joint)}: kv {kv:.3g} {damps} and kp {kp:.3g} {stiff} on an inertia of "
+        f"{inertia:.2g} {mass}: timestep x kv / inertia is {step * kv / inertia:.3g}, and timestep^2 x kp / inertia "
+        f"{step**2 * kp / inertia:.3g}.",
+        "timestep x kv / inertia < 2, timestep^2 x kp / inertia < 4 (explicit integration)",
         share=0.1,
         excess=_excess(worst, step),
     )
@@ -111,7 +113,8 @@ def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
         light = [joint for joint in light if joint in of.ranges]
     if not light or probe is None or of.timestep > 5 * DEFAULT_TIMESTEP:
         return
-    least = min(inertia[of.dof(joint)] for joint in light)
+    least = min(light, key=lambda joint: inertia[of.dof(joint)])
+    few = f"{inertia[of.dof(least)]:.2g} {COEFFICIENTS[of.unit(least)][2]}"
     yield Suspect(
         tuple(of.name("joint", joint) for joint in light),
         "armature",
@@ -120,8 +123,8 @@ def _bare(model: ReaderModel, thin: Collection[int]) -> Iterator[Suspect]:
         model.set("joint", light, "armature", f"{ROTOR:g}"),
         probe,
         FAST,
-        f"{len(light)} driven joints have no armature and as little inertia as {least:.2g}: less than the rotor of a "
-        "motor behind its gear has.",
+        f"{of.name('joint', least)} is driven, has no armature and an inertia of {few}: less than the rotor of a motor "
+        "behind its gear has.",
         "0.01 kg m2 and more for the joint of a walking robot",
         share=0.1,
         excess=2.0,

@@ -36,7 +36,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.servo import Servo, remaining, servos
+from clinic.diagnosis.probes.servo import COEFFICIENTS, Servo, remaining, servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, rounded
@@ -50,12 +50,6 @@ SLOW = {True: 4.0, False: 1.5}  # rad/s
 MOST, MANY, STIFF, OTHERS = 0.75, 20.0, 10.0, 3.0
 LEFT = {"damping": 0.45, "armature": 0.2}
 PROMPT, RATIO = 20.0, 0.7  # rad/s; the natural frequency and the damping ratio that an edit leaves
-UNITS = {
-    ("damping", True): "N m s",
-    ("damping", False): "N s/m",
-    ("armature", True): "kg m2",
-    ("armature", False): "kg",
-}
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -69,7 +63,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         damping = 2 * RATIO * math.sqrt(worst.stiffness * worst.inertia)
         value = {"damping": damping, "armature": worst.stiffness / PROMPT**2}
         edits = model.set("joint", [each.joint for each in held], attribute, rounded(value[attribute]))
-        unit = UNITS[attribute, worst.hinge]
+        _, damps, mass = COEFFICIENTS[worst.unit]
+        unit = damps if attribute == "damping" else mass
         yield Suspect(
             tuple(of.name("joint", each.joint) for each in held),
             attribute,
@@ -79,7 +74,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             remaining([each.actuator for each in held]),
             LEFT[attribute],
             f"The {attribute} of {of.name('joint', worst.joint)}, {own:.3g} {unit}, stands against a servo that gives "
-            f"{worst.stiffness:.3g} for each {worst.unit}.",
+            f"{worst.stiffness:.3g} {worst.force_unit} for each {worst.unit}.",
             "below 0.45 after 1 s in 96 healthy models with servos",
         )
 

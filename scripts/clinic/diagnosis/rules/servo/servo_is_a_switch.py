@@ -67,17 +67,17 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             written = model.value("actuator", servo.actuator, "kp") is not None
             edits = model.set("actuator", [servo.actuator], "kp", value) if written else ()
             says = f"Its {servo.force:.3g} {unit} are reached {servo.force / servo.stiffness:.2g} "
-            says += f"{servo.unit} off its target, and h^2 kp / M is {stiff:.3g}."
-            well = "h^2 kp / M < 4 (explicit integration)"
+            says += f"{servo.unit} off its target, and timestep^2 x kp / inertia is {stiff:.3g}."
+            well = "timestep^2 x kp / inertia < 4 (explicit integration)"
             yield Suspect((name,), "kp", f"{kp:g}", value, edits, probe, TURNS, says, well)
             continue
         armature = of.model("dof_armature")[servo.dof]
         value = rounded(armature + of.timestep * _kv(of, servo) - servo.inertia)
         edits = model.set("joint", [servo.joint], "armature", value)
         says = f"Its {servo.force:.3g} {unit} are reached at {servo.force / _kv(of, servo):.2g} {servo.unit}/s, and "
-        says += f"h kv / M is {swift:.3g}: once it is faster, the force turns at every step."
+        says += f"timestep x kv / inertia is {swift:.3g}: once it is faster, the force turns at every step."
         names = (of.name("joint", servo.joint), name)
-        well = "h kv / M < 2 (explicit where the force is clamped)"
+        well = "timestep x kv / inertia < 2 (explicit where the force is clamped)"
         yield Suspect(names, "armature", f"{armature:g}", value, edits, probe, TURNS, says, well)
 
 

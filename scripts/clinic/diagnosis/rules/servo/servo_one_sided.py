@@ -25,6 +25,7 @@ Good:
 The number: how many position servos have a force range of which one end is less than a 20th of the other, a control
 range that ends at 0 where a fifth of the joint's range and more lies beyond, or a negative gear. Of 96 healthy models
 with servos none has such a force range or gear, and one such a control range.
+
 So is a motor whose control has one sign, on a joint without a spring that it could hold at the start against a weight
 of a tenth of its force and more, and that pushes the way that the weight goes; and one on a joint that no weight,
 spring, tendon or equality moves, of whose range a fifth and more lies on the other side of the start. Of 260 healthy
@@ -151,7 +152,7 @@ def _told(of: Simulation, servo: Servo, attribute: str) -> tuple[str, str, str]:
     if attribute == "forcerange":
         low, high = of.row("actuator_forcerange", servo.actuator, 2)
         most = max(-low, high)
-        says = f"It pushes {name} with {low:g} to {high:g}: to one side only."
+        says = f"It pushes {name} with {low:g} to {high:g} {servo.force_unit}: to one side only."
         return f"{low:g} {high:g}", f"{-most:g} {most:g}", says
     assert servo.ctrl is not None
     assert servo.targets is not None

@@ -24,11 +24,12 @@ Good:
 
 The number: a damping ratio under 0.08, and a step of 0.1 rad (0.01 m for a slide), without gravity and contacts, that
 overshoots by more than 22 % and crosses its target four times. With a damping ratio z the overshoot of one joint alone
-is exp(-pi z / sqrt(1 - z^2)), 0.78 for 0.08; neighbours take up some of it. A joint whose
-`frictionloss` holds the step is left alone. Legs of healthy robots go down to 0.1. Servos whose twins have the same
-gains and more of it are a hint: what they move is unlike. Where a model rattles from step to step too, and a tenth or a
-hundredth of `kp` mends both, that is told. With `--symptom oscillates` a damping ratio under 0.5 and an overshoot of
-more than 12 % are told too, as a hint.
+is exp(-pi z / sqrt(1 - z^2)), 0.78 for 0.08; neighbours take up some of it. A joint whose `frictionloss` holds the step
+is left alone.
+
+Legs of healthy robots go down to 0.1. Servos whose twins have the same gains and more of it are a hint: what they move
+is unlike. Where a model rattles from step to step too, and a tenth or a hundredth of `kp` mends both, that is told.
+With `--symptom oscillates` a damping ratio under 0.5 and an overshoot of more than 12 % are told too, as a hint.
 
 When it is wrong: friction that the model leaves to contacts, or a controller that adds the damping.
 """
@@ -39,7 +40,7 @@ import math
 from collections.abc import Collection, Iterator
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.probes.servo import STEP, Servo, overshoot, servos
+from clinic.diagnosis.probes.servo import COEFFICIENTS, STEP, Servo, overshoot, servos
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.reader_model import ReaderModel
@@ -67,6 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if (weaker := _weaker(model, found)) is not None:
         yield weaker
         return
+    stiff, damps, mass = COEFFICIENTS[worst.unit]
     yield Suspect(
         tuple(of.name("actuator", each.actuator) for each in found),
         "dampratio",
@@ -75,8 +77,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         tuple(edit for edits in found.values() for edit in edits),
         overshoot(tuple(each.actuator for each in found)),
         most,
-        f"Stiffness {worst.stiffness:.3g} and damping {worst.damping:.3g} on an inertia of {worst.inertia:.2g} "
-        f"are a damping ratio of {worst.ratio:.2g}.",
+        f"Stiffness {worst.stiffness:.3g} {stiff} and damping {worst.damping:.3g} {damps} on an inertia of "
+        f"{worst.inertia:.2g} {mass} are a damping ratio of {worst.ratio:.2g}.",
         WELL,
         level="hint" if keen or all(_loaded(model, each) for each in found) else "cause",
     )

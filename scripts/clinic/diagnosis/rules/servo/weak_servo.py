@@ -23,14 +23,18 @@ Good:
     +     <position joint="shoulder" kp="200" dampratio="1"/>
 
 The number: the model's own weight at the joint over the gain, in the worst of 17 poses: more than 0.3 rad (0.3 m),
-0.55 rad where the base is free: legs that a learned policy drives go up to 0.5.
+0.55 rad where the base is free: legs that a learned policy drives go up to 0.5 rad.
+
 Or a robot with a free base goes down by a quarter of its height within 1 s, its servos told to stay where they are, and
 one of them bends by more than 0.45 rad. A hint tells of one that stands for a second and has lost half of its height
 after 5 s, and that with three times the stiffness stands; where it stands with twice as much, its balance was left to a
 controller, and only `--symptom sags` tells it.
+
 Or more than 45 % of a step of 0.1 rad is left after 1 s, without gravity; a hint for what follows within 2 s and
 carries less than a twentieth of the mass, as a neck does; by a kv 20 times that of all others, over a usual kp, kv is
-told. Where the base is fixed, a hint tells of hinges that sag by more than 0.085 rad, and of slides that sag by more
+told.
+
+Where the base is fixed, a hint tells of hinges that sag by more than 0.085 rad, and of slides that sag by more
 than 10 % of their range: fingers with 40 mm that swing by 5 mm as the arm turns, where grippers and lifters that work
 well do by 6 to 7 %. With `--symptom sags` it tells from a fifth of that on.
 
@@ -92,7 +96,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             sag([each.actuator for each in weak]),
             most,
             f"The weight at {simulation.name('joint', worst.joint)} is up to {load[worst.dof]:.3g} "
-            f"{worst.force_unit}, and its servo gives {worst.stiffness:.3g} for each {worst.unit}.",
+            f"{worst.force_unit}, and its servo gives {worst.stiffness:.3g} {worst.force_unit} for each {worst.unit}.",
             f"below {most:g} {worst.unit}; of healthy models with servos 0.29 is the most, 0.5 where the base is free",
         )
     yield from _bends(model, much)

@@ -24,11 +24,12 @@ Good:
 
 The number: bodies of the world without joints and without others on them that collide, and whose mass somebody wrote
 down (the mass of what cannot move has no effect), or that are called a cube, a ball, a bottle and the like: those that
-hang in the air, and reach neither a plane nor another thing that stands still. What lies on something is told where it
-is called so, is smaller than 30 cm, and has a mass that is written, or the model a gripper; or, whatever it is called,
-where it has a mass, and the model a gripper and nothing free to hold. And so is what looks like another that can move;
-a pallet or a crate that has a mass and carries something free; and a ball in the air whose one joint, a hinge through
-its middle, moves it nowhere.
+hang in the air, and reach neither a plane nor another thing that stands still.
+
+What lies on something is told where it is called so, is smaller than 30 cm, and has a mass that is written, or the
+model a gripper; or, whatever it is called, where it has a mass, and the model a gripper and nothing free to hold. And
+so is what looks like another that can move; a pallet or a crate that has a mass and carries something free; and a ball
+in the air whose one joint, a hinge through its middle, moves it nowhere.
 
 When it is wrong: a lamp, or an obstacle that is meant to stay where it is.
 """

@@ -116,7 +116,7 @@ def _mass(model: ReaderModel, robot: Robot, joints: dict[int, list[Joint]]) -> I
         return
     now, value = f"{_weight(of, tops[0]):.3g} kg", f"{robot.mass:.3g} kg"
     says = f"It weighs {now}, and {robot.names[0]} weighs {value}."
-    probe = Probe("mass over the data sheet's, or this over it", "", _heavy, (tops[0], robot.mass), dynamic=False)
+    probe = Probe("mass, unlike the data sheet's by", "times", _heavy, (tops[0], robot.mass), dynamic=False)
     yield Suspect((of.name("body", tops[0]),), "mass", now, value, (), probe, HEAVY, says, value)
 
 

@@ -22,10 +22,11 @@ Good:
     -     <connect body1="box" anchor="0 0 0.05" solref="1 1"/>
     +     <connect body1="box" anchor="0 0 0.05" solref="0.01 1"/>
 
-The number: the time constant times the damping ratio in s, whose square is the inverse of the stiffness; more than
-0.1, which is 25 times as soft as MuJoCo's own 0.02, or 0.3 where a mocap body pulls: with that a weight hangs 0.9 m
-below it. Or how far apart something is that is welded or connected, 2 s after letting go: more than 10 mm and 0.3 of
-the smaller body's radius, where a time constant of two timesteps at least halves it.
+The number: the time constant times the damping ratio in s, whose square is the inverse of the stiffness; more than 0.1,
+which is 25 times as soft as MuJoCo's own 0.02, or 0.3 where a mocap body pulls: with that a weight hangs 0.9 m below
+it. Or how far apart something is that is welded or connected, 2 s after letting go: more than 10 mm and 0.3 of the
+smaller body's radius, where a time constant of two timesteps at least halves it.
+
 A coupling is also soft where joint1 follows by a small factor, as a bed follows its lead screw by 0.00127 m/rad: MuJoCo
 takes the mobility of both joints for that of the coupling, whatever the factor is. Where that is 50 times too much, and
 2 s after letting go joint1 is 5 % of its range off, exchanged joints and the inverse of the factor are told.

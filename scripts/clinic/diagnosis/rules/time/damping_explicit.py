@@ -38,7 +38,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.drive import commanded
 from clinic.diagnosis.probes.run import FAST, fastest
-from clinic.diagnosis.probes.servo import BEARS, damped_beyond, damping_is_implicit, explicit_damping
+from clinic.diagnosis.probes.servo import BEARS, COEFFICIENTS, damped_beyond, damping_is_implicit, explicit_damping
 from clinic.diagnosis.probes.shake import SHAKES, shake
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -67,9 +67,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if before > limit and model.measured(probe, edits) <= max(limit, TENTH * before):
             name = of.name("joint", of.dof_joints[dof])
             damping, share = explicit_damping(of)[dof], shares[dof]
-            says = f"At {name}: explicit damping {damping:.3g} on an inertia of {of.timestep * damping / share:.2g}, "
-            says += f"h d / M is {share:.3g}."
-            well = f"h d / M < {BEARS[integrator]:g}"
+            _, damps, mass = COEFFICIENTS[of.unit(of.dof_joints[dof])]
+            inertia = f"{of.timestep * damping / share:.2g} {mass}"
+            says = f"At {name}: explicit damping {damping:.3g} {damps} on an inertia of {inertia}; "
+            says += f"timestep x damping / inertia is {share:.3g}."
+            well = f"timestep x damping / inertia < {BEARS[integrator]:g}"
             now = "RK4" if integrator else "Euler" if damping_is_implicit(of) else "Euler without eulerdamp"
             yield Suspect(
                 ("the integrator", name),
@@ -102,8 +104,10 @@ def overdamped(model: ReaderModel) -> Suspect | None:
         edits = model.set_each("joint", "damping", {each: f"{damping[dofs[each]] / less:.3g}" for each in found})
         if edits and model.measured(probe, edits) <= min(limit, TENTH * model.measured(probe)):
             names = tuple(of.name("joint", joint) for joint in found)
-            says = f"At {names[0]}: damping {now:.3g} on an inertia of {masses[dofs[found[0]]]:.2g}, h d / M is "
-            says += f"{shares[found[0]]:.3g}, beside equalities that cannot hold against it."
-            value, well = f"{now / less:.3g}", f"h d / M < {STOPS:g}"
+            _, damps, mass = COEFFICIENTS[of.unit(found[0])]
+            inertia = f"{masses[dofs[found[0]]]:.2g} {mass}"
+            says = f"At {names[0]}: damping {now:.3g} {damps} on an inertia of {inertia}; timestep x damping / inertia "
+            says += f"is {shares[found[0]]:.3g}, beside equalities that cannot hold against it."
+            value, well = f"{now / less:.3g}", f"timestep x damping / inertia < {STOPS:g}"
             return Suspect(names, "damping", f"{now:g}", value, edits, probe, limit, says, well, TENTH, level="hint")
     return None

@@ -23,16 +23,19 @@ Good:
     -   <option timestep="0.02"/>
     +   <option timestep="0.002"/>
 
-The number: the fastest joint within 2 s after letting go (100 rad/s are 16 turns a second), or, where that is calm, how
-much a joint's speed jumps to and fro from step to step after a nudge, how fast it is under command, and how deep
-contacts are. Of the steps that are tried (a half, a quarter, and so on) the longest that brings it to a tenth is told,
-of a depth under command to a third. One that is shorter by a twentieth must not do: a cable that whips about goes to
-infinity at one step and not at the next. Under command a run that is cut short is no proof: what it has no time for
-looks calm; and at 2 ms or less, where a gain is as likely the fault, there is only a hint. Another hint tells of a
-spring that swings within 6 steps, where a tenth of the step takes its joint elsewhere, by more than 15 % of its range;
-in 260 healthy models a period has 10 steps and more. Beyond 0.04 s the timestep is told as a hint, however calm: of 290
-healthy models none has more than 0.03 s. Nothing is told where a tendon starts far outside of its range, which another
-rule tells.
+The number: the fastest joint within 2 s after letting go, above 100 rad/s (16 turns a second). Where that is calm, how
+much a joint's speed jumps to and fro from step to step after a nudge, how fast it gets under command, and how deep
+contacts are.
+
+A half, a quarter, an eighth and a sixteenth of the step are tried. The longest that leaves a tenth of that number, or a
+third of a depth under command, is told. Where 95 % of the step is enough, nothing is told: a cable that whips about
+explodes at one step and not at the next, by chance. A run under command that does not last the 2 s proves nothing, for
+its later part is not seen.
+
+There is only a hint under command at a step of 2 ms or less, for a gain may as well be the fault; for a spring that
+swings within 6 steps, where a tenth of the step takes its joint elsewhere by more than 15 % of its range (in 260
+healthy models a period has 10 steps and more); and for a step above 0.04 s, however calm (of 290 healthy models none
+has more than 0.03 s). Nothing is told where a tendon starts far outside of its range, which another rule tells.
 
 When it is wrong: something that is meant to spin fast. A gain or a spring that shakes at 2 ms too is the fault itself.
 """

@@ -77,7 +77,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "",
             edits[0].value if edits else f"{factor:g} times as much",
             edits,
-            Probe("size of a mesh, times that of the rest or its inverse", "", _times, tuple(meshes), dynamic=False),
+            Probe("size of a mesh, unlike that of the rest by", "times", _times, tuple(meshes), dynamic=False),
             USUAL,
             f"Half its length is {worst:.3g} m, {beside}.",
             "0.07 to 43 times in 215 healthy models",

@@ -238,7 +238,7 @@ def test_rules_that_had_no_time_are_listed_and_of_a_failure_there_is_no_page(fre
     fresh.add_script_tag(content=subprocess.run(command, cwd=root, capture_output=True, text=True, check=True).stdout)
     hints = (remark(FAILS, "A rule failed", "masks failed.", "still.xml"),)
     made = Diagnosis("4.0.0", "still.xml", (), hints, (), (), untried=("tilted-ground", "visual-mass"))
-    shown = {"data": made.data(), "text": "", "diff": "", "texts": {}, "mended": {}, "edited": [], "titles": {}}
+    shown = {"data": made.data(), "text": "", "diff": "", "texts": {}, "mended": {}, "edited": [{}], "titles": {}}
 
     fresh.evaluate("(shown) => document.body.append(made.report(shown, {name: 'still.xml'}, 'rules/'))", shown)
 

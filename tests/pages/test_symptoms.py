@@ -49,6 +49,7 @@ def test_a_family_has_its_causes_the_procedure_and_what_it_prints(tmp_path: Path
     rules = page.partition("{ #rules }")[2].partition("<details markdown>")
     assert "too.\n\n- [" in rules[0]  # a blank line before it, or Markdown takes the list for more of the sentence
     assert "](../rules/masks.md)  \n  Two things that should touch" in rules[0]
+    assert rules[0].index("rules/gravity.md") < rules[0].index("rules/tendon-never-taut.md")  # a cause, and a hint
     assert "](../rules/soft-contact.md)" in rules[2]  # whose first family is another
 
 

@@ -42,7 +42,10 @@ def _page(name: str, causes: list[CasePage], told: Differentials) -> str:
         measured=measured,
         matrix=[_row(one, measured, told) for one in measured],
         printed=found.answers[measured[0].case.slug].printed if found and measured else "",
-        rules=sorted((rule for rule in rules().values() if name in rule.families), key=lambda rule: -rule.odds),
+        rules=sorted(
+            (rule for rule in rules().values() if name in rule.families),
+            key=lambda rule: (rule.level == "hint", -rule.odds),
+        ),
     )
 
 

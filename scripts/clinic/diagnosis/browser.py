@@ -117,9 +117,11 @@ def diagnose(
         died: Rules that failed before, each with the clinic's own mistake, or nothing where the engine ended.
     """
 
+    turns = {ill: in_turn(each for each in rules().values() if each.of_errors == ill) for ill in (True, False)}
+
     def trying(said: str) -> None:
         if rule := rules().get(said):
-            alike = in_turn(each for each in rules().values() if each.of_errors == rule.of_errors)
+            alike = turns[rule.of_errors]
             tell(rule.id, rule.title, alike.index(rule) / len(alike))
 
     texts = read_texts(text, name, read)

@@ -39,10 +39,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import tau
 
-from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.shape import falling, root_of, thickness
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A pendulum that hits the floor"
@@ -76,14 +75,14 @@ def _pendulums(of: Simulation) -> list[int]:
     return [
         joint
         for joint in range(of.count("joint") if of.count("joint") <= FEW else 0)
-        if of.joint_type(joint) == HINGE
-        and not of.model("jnt_limited")[joint]
+        if of.continuous(joint)
         and joint not in of.drivers
         and owner[of.body_of("joint", joint)] not in falls
-        and abs(of.data_row("xaxis", joint, 3)[2]) < VERTICAL
+        and abs(of.axis(joint)[2]) < VERTICAL
     ]
 
 
+@kept
 def _blocked(of: Simulation, joint: int) -> dict[int, set[int]]:
     """The poses of a turn in which what hangs on a hinge is inside of the world, and the world's geoms there."""
     place, moved = of.place(joint), set(of.below(of.body_of("joint", joint)))

@@ -46,11 +46,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import HINGE
-from clinic.diagnosis.probes.rotors import rotors
+from clinic.diagnosis.probes.rotors import forces, rotors
 from clinic.diagnosis.probes.vector import across, dot, norm, times
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect, how_many, rounded
 
 TITLE = "Rotors that cannot yaw alone"
@@ -101,25 +100,24 @@ def _loose(model: ReaderModel) -> Iterator[Suspect]:
     yield Suspect(names, "damping", "0", value, edits, probe, 0, says, f"{torque:.3g} N m at {SPIN:g} rad/s")
 
 
+@kept
 def _freely_turned(of: Simulation) -> dict[int, tuple[float, float]]:
     """By hinge without damping, friction and limits about which a rotor's drag is: its inertia, and the torque."""
     sites, bodies, made = of.model("actuator_trnid"), of.model("site_bodyid"), dict[int, tuple[float, float]]()
-    for each in (each for body in of.free_bodies for each in rotors(of, body) if norm(each.drag)):
+    limited = of.model("actuator_ctrllimited")
+    found = [each for body in of.free_bodies for each in rotors(of, body) if norm(each.drag)]
+    ends = [
+        max(of.row("actuator_ctrlrange", each.actuator, 2), key=abs) if limited[each.actuator] else 1.0
+        for each in found
+    ]
+    for each, force in zip(found, forces(of, found, ends) if found else (), strict=True):
         site = int(sites[2 * each.actuator])
-        drag = of.row("actuator_gear", each.actuator, 6)[3:]
+        drag = times(of.data_row("site_xmat", site, 9), of.row("actuator_gear", each.actuator, 6)[3:])
         for joint in of.joints_of(int(bodies[site])):
             dof = of.dof(joint)
-            held = of.model("jnt_limited")[joint] or of.model("dof_damping")[dof] or of.model("dof_frictionloss")[dof]
-            if of.joint_type(joint) == HINGE and not held and not of.model("jnt_stiffness")[joint]:
-                of.begin()
-                along = abs(dot(of.data_row("xaxis", joint, 3), times(of.data_row("site_xmat", site, 9), drag)))
-                ends = (
-                    of.row("actuator_ctrlrange", each.actuator, 2)
-                    if of.model("actuator_ctrllimited")[each.actuator]
-                    else (1.0,)
-                )
-                if along > ALONG * norm(drag):
-                    made[joint] = of.mass_diagonal[dof], along * max(map(abs, ends))
+            held = of.model("dof_damping")[dof] or of.model("dof_frictionloss")[dof] or of.model("jnt_stiffness")[joint]
+            if of.continuous(joint) and not held and (along := abs(dot(of.axis(joint), drag))) > ALONG * norm(drag):
+                made[joint] = of.mass_diagonal[dof], along * abs(force)
     return made
 
 

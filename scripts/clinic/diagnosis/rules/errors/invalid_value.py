@@ -26,7 +26,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
+from clinic.diagnosis.edit import Edit, delete, remove_attribute, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, nearest, sentence
 from clinic.diagnosis.rules.errors._remedy import remedied
@@ -40,7 +40,7 @@ TITLE = "A value that MuJoCo does not take"
 FAMILIES = ("will-not-compile",)
 
 WORDS = {"revolute": "hinge", "continuous": "hinge", "rotational": "hinge", "prismatic": "slide", "floating": "free"}
-WORDS |= {"cube": "box", "rectangle": "box", "ball": "sphere", "rod": "capsule", "cuboid": "box", "fixed": "hinge"}
+WORDS |= {"cube": "box", "rectangle": "box", "ball": "sphere", "rod": "capsule", "cuboid": "box"}
 WORDS |= {"yes": "true", "no": "false", "1": "true", "0": "false", "True": "true", "False": "false", "deg": "degree"}
 WORDS |= {"degrees": "degree", "radians": "radian", "rad": "radian", "euler": "Euler", "rk4": "RK4", "newton": "Newton"}
 KNOWN = (
@@ -117,7 +117,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield from remedied(model, VALUES)
     for element in meant(model):
         for edit, now in _edits(said, element):
-            value = edit.value if edit.action == "set" else "left out"
+            value = {"set": edit.value, "delete": f"<{element.tag}> removed"}.get(edit.action, "left out")
             says = f"{said.rstrip('.')}. {_advice(said, element, edit)}".strip()
             yield mends(element, (edit,), says, attribute=edit.attribute, now=now, value=value)
 
@@ -147,6 +147,8 @@ def _of_its_joint(model: ReaderModel, said: str) -> Iterator[Suspect]:
 
 def _advice(said: str, element: Element, edit: Edit) -> str:
     """What MuJoCo wants in the place of the value, in a sentence."""
+    if edit.action == "delete":
+        return "A body without a joint is fixed to its parent; one that moves freely has a <freejoint/>."
     if "keyword" in said and edit.action == "set":
         return f"{edit.attribute} of <{element.tag}> takes {edit.value!r} among others."
     if "keyword" in said:
@@ -189,6 +191,9 @@ def _words(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
 
     if found := re.match(r"invalid keyword: '([^']*)'", said):
         wrong = found.group(1)
+        if wrong == "fixed" and element.tag == "joint":
+            yield delete(element), wrong
+            return
         values = [WORDS[wrong]] if wrong in WORDS else nearest(wrong, KNOWN.split())
         if element.tag == "flag":
             off = wrong.lower() in ("false", "0", "off", "no", "none") or wrong.startswith("dis")

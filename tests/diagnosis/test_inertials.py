@@ -191,3 +191,13 @@ def test_a_centre_of_mass_in_mm_is_mended_by_its_unit(pos: str, value: str):
     body = f'<body pos="0 0 1"><joint axis="0 1 0"/>{inertial}{geom}</body>'
     text = f"<mujoco><worldbody>{body}</worldbody></mujoco>"
     assert [each.value for each in hints(text, "centre-of-mass-outside")] == [f"pos {value}"]
+
+
+@pytest.mark.parametrize(("arm", "level"), [(1, "cause"), (40, "hint")])
+def test_a_skin_of_a_part_that_is_a_hundredth_of_its_arm_is_a_hint(arm: float, level: str):
+    plate = '<geom type="box" size="0.02 0.02 0.02" contype="0" conaffinity="0"/>'
+    plate += '<geom type="box" size="0.02 0.02 0.02" group="3"/>'
+    body = f'<body name="plate" pos="0.3 0 0"><joint axis="0 1 0"/>{plate}</body>'
+    text = f'<body name="arm" pos="0 0 1"><joint axis="0 1 0"/><geom size="0.1" mass="{arm}"/>{body}</body>'
+    found = findings(f"<mujoco><worldbody>{text}</worldbody></mujoco>", "visual-mass")
+    assert [(each.level, each.elements) for each in found] == [(level, ('body "plate"',))]

@@ -23,7 +23,8 @@ Good:
 
 The number: the body's mass, and without that of geoms for which no mass and no density is written, or the very mass of
 a colliding geom of the same type, or of a mesh the density of those that collide in another group, as where the
-compiler's `inertiagrouprange` was lost. Half as much again tells a cause.
+compiler's `inertiagrouprange` was lost. Half as much again tells a cause, and less than 1 % of all that the body
+belongs to a hint.
 
 When it is wrong: where the visible geoms are meant to be the mass; a mass or density that is written says so.
 """
@@ -47,6 +48,7 @@ AFLOAT = True
 CASE = "drone-will-not-hover"
 
 MORE = 1.5
+LITTLE = 0.01  # of the mass of the mechanism that the bodies belong to
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -73,6 +75,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     bodies = tuple(body for body in of.moving_bodies if mass[body] > MORE * other[body] > 0)
     if bodies:
         now, rest = sum(mass[body] for body in bodies), sum(other[body] for body in bodies)
+        roots = {int(of.model("body_rootid")[body]) for body in bodies}
+        whole = sum(of.model("body_subtreemass")[root] for root in roots)
         yield Suspect(
             tuple(of.name("body", body) for body in bodies),
             "mass",
@@ -85,6 +89,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             'mass="0" for geoms that are only seen',
             share=0.95,
             excess=now / rest,
+            level="cause" if now - rest > LITTLE * whole else "hint",
         )
 
 

@@ -78,7 +78,7 @@ def load_messages(file: Path = FILE) -> list[Message]:
         CaseError: With all that is not as it should be.
     """
     try:
-        chapters = CHAPTERS.validate_python(yaml.safe_load(file.read_text(encoding="utf-8")))
+        chapters = CHAPTERS.validate_python(yaml.load(file.read_text(encoding="utf-8"), yaml.CSafeLoader))
     except (yaml.YAMLError, ValidationError) as error:
         expected = "entries as the head of the file describes them"
         raise CaseError([Problem(file.name, 1, "", str(error), expected, "correct it")]) from None

@@ -141,7 +141,7 @@ def _pages(pages: Files) -> Iterator[Document]:
             continue
         text = content.decode()
         head = HEAD.match(text)
-        meta = yaml.safe_load(head[1]) if head else {}
+        meta = yaml.load(head[1], yaml.CSafeLoader) if head else {}
         headings = HEADING.findall(text)
         title = meta.get("title") or next(iter(headings), path)
         kind = "rule" if path.startswith("rules/") and PurePosixPath(path).stem != "index" else "page"

@@ -47,7 +47,7 @@ def lines(files: Files) -> list[Line]:
         if path.endswith(".md"):
             text = content.decode()
             head = HEAD.match(text)
-            meta = yaml.safe_load(head[1]) if head else {}
+            meta = yaml.load(head[1], yaml.CSafeLoader) if head else {}
             title = meta.get("title") or next(iter(HEADING.findall(text)), path)
             made.append(Line(path, unescape(title), unescape(meta.get("description") or "")))
     return made

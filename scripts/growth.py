@@ -42,6 +42,7 @@ TURNS = 4
 MEMORY, SPREAD = 1.5, 0.2  # GB, share
 INDEX, QUICK = 700, 50  # KB, ms
 BEAT = 0.1  # s
+TELLING = "record.telling"  # a variation belongs to no family: what its prose says of one would have no number
 HEAD = ("cases", "warm build", "time a case", "peak memory", "home page", "search index", "search ready", "a query")
 QUERY = """async (queries) => {
   const box = document.querySelector(".search input");
@@ -73,7 +74,12 @@ def varied(case: Case, record: dict[str, object], slugs: list[str], turn: int, n
 def grow(folder: Path, cache: Cache, size: int) -> None:
     """Adds variations to the cases of a copy until there are as many as asked for, and keeps what they showed."""
     originals = read_cases(folder / "cases")[0]
-    models = [case for case in originals if case.record.run is not None]
+    models = [
+        case
+        for case in originals
+        if case.record.run is not None
+        and TELLING not in (folder / "cases" / case.slug / "case.yaml").read_text(encoding="utf-8")
+    ]
     number = max(case.record.number or 0 for case in originals)
     turn = 0
     while number < size:

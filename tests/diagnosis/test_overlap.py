@@ -58,7 +58,7 @@ def test_a_bar_in_the_opening_of_a_hook_is_no_overlap(x, of_arms, rules):
         f'<mujoco><asset><mesh name="hook" vertex="{numbers[0]}" face="{numbers[1]}"/></asset>'
         f"<worldbody>{things}</worldbody></mujoco>"
     )
-    assert [each.rule for each in causes(text, "hull-over-hole", "overlap-at-start")] == rules
+    assert [each.rule for each in findings(text, "hull-over-hole", "overlap-at-start")] == rules
 
 
 def test_a_ball_inside_a_solid_mesh_is_in_no_hole():
@@ -220,3 +220,10 @@ def test_the_last_drawer_of_a_row_that_overlaps_is_put_in_the_row(height, told):
     found = hints(text, "overlap-of-relatives")
     assert [each.value for each in found if each.attribute == "pos"] == ([told] if told else [])
     assert bool(found) is bool(told)
+
+
+@pytest.mark.parametrize(("depth", "level"), [(0.05, "hint"), (0.12, "cause")])
+def test_what_is_pushed_out_gently_is_a_hint_and_what_is_thrown_a_cause(depth: float, level: str):
+    trunk = f'<body pos="0 0 {0.5 - depth}"><freejoint/><geom type="box" size="0.5 0.5 0.5"/></body>'
+    found = findings(f"<mujoco><worldbody>{FLOOR}{trunk}</worldbody></mujoco>", "overlap-at-start")
+    assert [each.level for each in found] == [level]

@@ -188,3 +188,11 @@ def test_a_pole_that_swings_into_the_floor_is_told(height: float, hinge: str, to
       <body><joint name="pole" axis="0 1 0" {hinge}/><geom type="capsule" fromto="0 0 0.1 0 0 0.6" size="0.02"/></body>
       </body></worldbody><actuator><motor joint="way"/></actuator></mujoco>"""
     assert [each.elements for each in hints(text, "swing-blocked")] == [('joint "pole"', 'geom "floor"')] * told
+
+
+@pytest.mark.parametrize(("height", "told"), [("0.1", False), ("2", True)])
+def test_a_site_of_a_robot_whose_feet_alone_have_geoms_is_beside_its_bodies(height: str, told: bool) -> None:
+    foot = '<body pos="0 0 -1"><joint axis="0 1 0"/><geom size="0.05"/></body>'
+    inertial = '<inertial pos="0 0 0" mass="9" diaginertia="1 1 1"/>'
+    trunk = f'<body pos="0 0 1.1"><freejoint/>{inertial}<site name="imu" pos="0 0 {height}"/>{foot}</body>'
+    assert bool(hints(f"<mujoco><worldbody>{trunk}</worldbody></mujoco>", "site-far-off")) == told

@@ -22,9 +22,9 @@ Good:
     -       <site name="head" pos="0 0 1.75"/>
     +       <site name="head" pos="0 0 0.75"/>
 
-The number: how far outside of the box around all geoms of its mechanism the site is at the start, as a share of that
-box's diagonal; more than 0.3, and than 0.5 m. Sites that a tendon, an actuator or an equality uses, and those that are
-called a target, are left out.
+The number: how far outside of the box around all geoms and bodies of its mechanism the site is at the start, as a
+share of that box's diagonal; more than 0.3, and than 0.5 m. Sites that a tendon, an actuator or an equality uses, and
+those that are called a target, are left out.
 
 When it is wrong: a place that is meant to be outside, such as a target to look at.
 """
@@ -74,12 +74,13 @@ def _far(of: Simulation, site: int) -> float:
 
 @kept
 def _boxes(of: Simulation) -> dict[int, tuple[list[float], list[float]]]:
-    """The ends of the box around all geoms of each mechanism at the start, by its root."""
+    """The ends of the box around all geoms and bodies of each mechanism at the start, by its root."""
     of.begin()
     radii = of.model("geom_rbound")
     made: dict[int, tuple[list[float], list[float]]] = {}
     for root, geoms in mechanisms(of).items():
         places = [(of.data_row("geom_xpos", each, 3), radii[each]) for each in geoms]
+        places += [(of.data_row("xpos", each, 3), 0.0) for each in of.below(root)]
         low = [min(place[axis] - radius for place, radius in places) for axis in range(3)]
         made[root] = low, [max(place[axis] + radius for place, radius in places) for axis in range(3)]
     return made

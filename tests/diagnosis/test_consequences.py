@@ -28,6 +28,18 @@ def test_a_mesh_in_millimetres_explains_that_it_begins_in_the_floor(tmp_path):
     assert 'scale="0.001 0.001 0.001"' in next(iter(found.fixed.values()))
 
 
+def test_a_mesh_in_millimetres_explains_most_of_what_a_servo_cannot_hold():
+    servo = '<actuator><position joint="lift" kp="1" ctrlrange="-2 2"/></actuator>'
+    arm = '<joint name="lift" axis="0 1 0" damping="5"/><geom type="mesh" mesh="mug" pos="0.2 0 0"/>'
+    arm += '<geom size="0.05" mass="1" pos="0.2 0 0.05"/>'
+    text = ALONE.replace('<freejoint/>\n      <geom type="mesh" mesh="mug"/>', arm).replace(
+        "</mujoco>", f"{servo}</mujoco>"
+    )
+    right = text.replace('name="mug" v', 'name="mug" scale="0.001 0.001 0.001" v')
+    for each, told in ((text, "mesh-in-another-unit"), (right, "weak-servo")):
+        assert [one.rule for one in diagnosed(each, "mesh-in-another-unit", "weak-servo").causes] == [told]
+
+
 def test_a_mesh_of_a_text_that_no_parser_reads_is_told_without_an_edit():
     with_two_roots = ALONE + "<mujoco/>"
     found = hints(with_two_roots, "mesh-in-another-unit")

@@ -15,7 +15,8 @@ from clinic.diagnosis.suspect import Level, Suspect
 
 MASS, ABSURD = "mass", 2.0  # tens: a hundred times the limit
 PLACES = {"structure", "twins"}  # rules, by area, that tell of a part that is not where it belongs
-OVERLAPS = {"overlap-at-start", "overlap-of-relatives"}
+OVERLAPS = {"overlap-at-start", "overlap-of-relatives", "key-in-the-floor"}
+LITTLE = 0.01  # of a symptom: as much may be left that another edit takes away
 AS_GOOD = 1.5  # a rival whose number is within this factor helps as much
 
 
@@ -94,7 +95,9 @@ def without_consequences(found: Sequence[Judged], model_of: Callable[[Rule], Rea
 
     def ends(one: Sequence[Judged], other: Judged) -> bool:
         edits = [edit for each in one for edit in each.suspect.edits]
-        return model_of(other.rule).measured(other.suspect.probe, edits) <= other.suspect.limit
+        return model_of(other.rule).measured(other.suspect.probe, edits) <= max(
+            other.suspect.limit, LITTLE * other.before
+        )
 
     causes = [each for each in found if each.level == "cause"]
     reasons, follows = list[Judged](), list[Judged]()

@@ -282,3 +282,27 @@ def test_friction_of_a_free_body_whose_class_touches_nothing_is_told(geom: str, 
     text = f"<mujoco>{deco}<worldbody>{FLOOR}{body}</worldbody></mujoco>"
     found = hints(text, "attribute-without-effect")
     assert [(each.attribute, each.value) for each in found] == [("contype", "1")] * told
+
+
+RUNG = """<mujoco><worldbody><geom name="floor" type="plane" size="1 1 .1"/>
+  <body pos="0 0 .2"><freejoint/><geom name="box" type="box" size=".1 .1 .1" {geom}/></body>
+  <body pos="1 0 1"><joint name="arm" axis="0 1 0" range="-20 20" {joint}/><geom size=".05" pos=".3 0 0"/></body>
+</worldbody><tendon><fixed name="rope" range="0 1" {tendon}><joint joint="arm" coef="1"/></fixed></tendon></mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("where", "written", "told"),
+    [
+        ("geom", 'solref="1 0.01"', "0.01 1"),
+        ("joint", 'solreflimit="0.9 0.02"', "0.02 0.9"),
+        ("tendon", 'solreflimit="1 0.01"', "0.01 1"),
+        ("geom", 'solref="0.01 1"', None),
+        ("geom", 'solref="0.02 0.05"', None),
+        ("geom", 'solref="1 1"', None),
+        ("geom", 'solref="1 0"', None),
+        ("geom", 'solref="-1000 -1"', None),
+    ],
+)
+def test_a_time_constant_exchanged_with_its_damping_ratio_is_told(where, written, told):
+    text = RUNG.format(**{"geom": "", "joint": "", "tendon": ""} | {where: written})
+    assert [each.value for each in hints(text, "solref-exchanged")] == ([told] if told else [])

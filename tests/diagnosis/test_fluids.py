@@ -120,3 +120,75 @@ def test_a_density_of_air_in_grams_is_told_by_the_viscosity_beside_it(option: st
     )
     text = f"<mujoco><option {option}/><worldbody>{drone}</worldbody></mujoco>"
     assert [each.value for each in hints(text, "fluid") if each.attribute == "density"] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(("density", "told"), [("1", ["1000"]), ("1.025", ["1000"]), ("1000", []), ("2.5", [])])
+def test_a_density_of_water_in_g_per_cm3_is_told_by_its_viscosity(density: str, told: list[str]) -> None:
+    found = fish(f'density="{density}" viscosity="0.0009" {STILL}').hints
+    assert [each.value for each in found if (each.rule, each.attribute) == ("fluid", "density")] == told
+
+
+EEL = """<mujoco><option {option}/><worldbody>
+  <geom type="plane" size="3 3 .1" pos="0 0 -.1"/>
+  <body name="eel">
+    {root}
+    <geom type="capsule" size=".03" fromto="0 0 0 .3 0 0" contype="0" conaffinity="0"/>
+    <body><joint name="bend" axis="0 0 1"/><geom type="capsule" size=".03" fromto="0 0 0 -.3 0 0" {geom}/></body>
+  </body></worldbody><actuator><motor joint="bend"/>{motor}</actuator></mujoco>"""
+PLANAR = '<joint name="x" type="slide" axis="1 0 0" {0}/><joint type="slide" axis="0 1 0"/><joint axis="0 0 1"/>'
+GHOST = 'contype="0" conaffinity="0"'
+
+
+@pytest.mark.parametrize(
+    ("option", "root", "geom", "motor", "told"),
+    [
+        pytest.param("", PLANAR.format(""), GHOST, "", True, id="nothing"),
+        pytest.param(STILL, "<freejoint/>", GHOST, "", True, id="free"),
+        pytest.param("", "<freejoint/>", GHOST, "", False, id="falls"),
+        pytest.param('viscosity="0.1"', PLANAR.format(""), GHOST, "", False, id="honey"),
+        pytest.param("", PLANAR.format('damping="1"'), GHOST, "", False, id="damped"),
+        pytest.param("", PLANAR.format(""), "", "", False, id="touches"),
+        pytest.param("", PLANAR.format(""), GHOST, '<motor joint="x"/>', False, id="driven"),
+        pytest.param('gravity="3 0 -9"', PLANAR.format(""), GHOST, "", False, id="slope"),
+        pytest.param("", "", GHOST, "", False, id="fixed"),
+    ],
+)
+def test_a_swimmer_that_nothing_pushes_is_told(option: str, root: str, geom: str, motor: str, told: bool) -> None:
+    text = EEL.format(option=option, root=root, geom=geom, motor=motor)
+    assert [each.value for each in hints(text, "fluid")] == ["1000"] * told
+
+
+@pytest.mark.parametrize(
+    ("tail", "option", "told"),
+    [
+        ("", WATER, [("gravcomp-on-some", ('body "tail"',))]),
+        ('gravcomp="1"', WATER, []),
+        ("", f"{WATER} {STILL}", []),
+    ],
+)
+def test_the_one_segment_of_a_fish_that_sinks_is_told_alone(tail: str, option: str, told: list[object]) -> None:
+    text = FISH.format(option=option, geom=SHAPED, joint="<freejoint/>")
+    text = text.replace('name="fish"', 'name="fish" gravcomp="1"').replace(
+        'body name="tail"', f'body name="tail" {tail}'
+    )
+    assert [(each.rule, each.elements) for each in hints(text, "fluid", "gravcomp-on-some")] == told
+
+
+SWING = """<mujoco><option><flag gravity="disable"/></option><worldbody><body pos="0 0 1">
+  <joint name="swing" axis="{axis}" {joint}/><geom size=".05" pos="0 0 -.5"/></body></worldbody>{more}</mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("axis", "joint", "more", "told"),
+    [
+        pytest.param("0 1 0", "", "", True, id="swings"),
+        pytest.param("0 0 1", "", "", False, id="upright"),
+        pytest.param("0 1 0", 'stiffness="5"', "", False, id="sprung"),
+        pytest.param("0 1 0", 'damping="5"', "", False, id="creeps"),
+        pytest.param("0 1 0", 'frictionloss="2"', "", False, id="stuck"),
+        pytest.param("0 1 0", "", '<actuator><motor joint="swing"/></actuator>', False, id="driven"),
+    ],
+)
+def test_a_pendulum_whose_gravity_is_switched_off_is_told(axis: str, joint: str, more: str, told: bool) -> None:
+    text = SWING.format(axis=axis, joint=joint, more=more)
+    assert [(each.now, each.value) for each in hints(text, "gravity")] == [("disable", "enable")] * told

@@ -26,7 +26,9 @@ The number: the angle between gravity and the way down to the floor (-z where th
 where water has a density of 1 and not of 1,000. What points the wrong way keeps a size that is not told: 3.71 on Mars.
 
 When it is wrong: a slope or a wall that is made by tilting gravity. Gravity 0 where free bodies are above a floor is a
-hint, for it is often meant, but in a medium as dense as a liquid, in which things swim.
+hint, for it is often meant, but in a medium as dense as a liquid, in which things swim. So is the flag that switches it
+off, where a hinge without motor and spring would swing: its weight turns it, and its damping is below a half of the
+critical one.
 """
 
 from __future__ import annotations
@@ -34,14 +36,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.engine import GRAVITY_OFF, PLANE
+from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.engine import GRAVITY_OFF, HINGE, PLANE
+from clinic.diagnosis.probes.couplings import couplings
 from clinic.diagnosis.probes.matter import matter
 from clinic.diagnosis.probes.shape import LIQUID, falling
 from clinic.diagnosis.probes.vector import dot
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect, counted
+from clinic.diagnosis.suspect import Probe, Suspect, counted, how_many
 
 TITLE = "Gravity points the wrong way, or has the wrong size"
 FAMILIES = ("falls-through", "drifts", "stuck", "sags")
@@ -49,6 +52,8 @@ FAMILIES = ("falls-through", "drifts", "stuck", "sags")
 ANGLE, SHORT, LONG = 45.0, 0.025, 5.0  # degrees, s, s
 USUAL = "0 0 -9.81"
 EARTH = 1.0, 15.0  # m/s2
+QUARTERS = tuple(math.pi / 2 * turn for turn in range(4))
+SLIGHT, RATIO = 0.1, 0.5  # of the load, dry friction; of critical damping
 LIGHT = 50.0  # of water's density as it is in kg and m, that is 1,000
 
 
@@ -121,9 +126,12 @@ def _none(model: ReaderModel, now: str, off: bool) -> Iterator[Suspect]:
     simulation = model.simulation
     planes = any(int(kind) == PLANE for kind in simulation.model("geom_type"))
     falls = sorted(falling(simulation)) if simulation.model("opt.density")[0] < LIQUID else []
-    if not planes or not falls or model.source is None:
+    if model.source is None:
         return
     flags = tuple(set_attribute(each, "gravity", "enable") for each in model.source.elements("flag")) if off else ()
+    if not planes or not falls:
+        yield from _hanging(simulation, flags)
+        return
     edits = flags or model.option("gravity", USUAL)
     names = tuple(simulation.name("body", body) for body in falls)
     probe = counted("free bodies that nothing pulls down", len(names))
@@ -131,3 +139,50 @@ def _none(model: ReaderModel, now: str, off: bool) -> Iterator[Suspect]:
     yield Suspect(
         ("gravity", *names), "gravity", "disable" if off else now, USUAL, edits, probe, 0.0, says, level="hint"
     )
+
+
+def _hanging(of: Simulation, flags: tuple[Edit, ...]) -> Iterator[Suspect]:
+    """The flag, where it leaves pendulums without their weight."""
+    if flags and (found := _pendulums(of)):
+        names = tuple(of.name("joint", joint) for joint in found)
+        says = f"Gravity is switched off, and nothing else moves {names[0]}."
+        probe = how_many("hinges that would swing and have no weight", _pendulums)
+        yield Suspect(("gravity", *names), "gravity", "disable", "enable", flags, probe, 0, says, USUAL, level="hint")
+
+
+def _pendulums(of: Simulation) -> list[int]:
+    """The hinges without motor, spring and coupling that would swing if gravity were not switched off."""
+    flags = int(of.model("opt.disableflags")[0])
+    if not flags & GRAVITY_OFF or of.model("opt.density")[0] >= LIQUID or of.count("tendon"):
+        return []
+    coupled = {joint for _, (*two, _) in couplings(of) for joint in two}
+    masses, made = of.mass_diagonal, []
+    of.engine.write_model("opt.disableflags", [flags & ~GRAVITY_OFF])
+    try:
+        for joint in range(of.count("joint")):
+            idle = joint not in of.drivers and joint not in coupled and not of.model("jnt_stiffness")[joint]
+            if of.joint_type(joint) != HINGE or not idle:
+                continue
+            load, dof = _load(of, joint), of.dof(joint)
+            damping, loss = of.model("dof_damping")[dof], of.model("dof_frictionloss")[dof]
+            if load > 0 and loss < SLIGHT * load and damping < RATIO * 2 * math.sqrt(load * masses[dof]):
+                made.append(joint)
+    finally:
+        of.engine.write_model("opt.disableflags", [flags])
+    return made
+
+
+def _load(of: Simulation, joint: int) -> float:
+    """The most that gravity turns a hinge with from the start on, in N m; 0 where that is next to nothing."""
+    of.begin(forward=False)
+    begin, low_high = of.position(joint), of.ranges.get(joint, (-math.inf, math.inf))
+    most = 0.0
+    for turn in QUARTERS:
+        of.begin(forward=False)
+        of.put(joint, min(max(begin + turn, low_high[0]), low_high[1]))
+        of.engine.write("qvel", [0.0] * of.count("dof"))
+        of.engine.forward()
+        dof = of.dof(joint)
+        most = max(most, abs(of.data("qfrc_bias")[dof] - of.data("qfrc_gravcomp")[dof]))
+    weight = of.gravity * of.model("body_subtreemass")[of.body_of("joint", joint)]
+    return most if most > weight * of.extent / 1000 else 0.0

@@ -51,7 +51,7 @@ FAMILIES = ("sags", "drifts")
 AFLOAT = True
 LEVEL = "hint"
 
-LEFT, FLOATS = 0.02, 0.9  # of the mass, of gravity
+LEFT, FLOATS, LIGHT = 0.02, 0.9, 0.4  # of the mass; of gravity; of the mass
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -63,6 +63,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if any(of.joint_type(joint) == FREE for joint in of.joints_of(root)):
             yield from _floats(model, tree)
             yield from _hangs(model, tree)
+            yield from _sinks(model, tree)
             continue
         bare = [body for body in tree if compensated[body] == 0]
         joints = [joint for body in tree for joint in of.joints_of(body)]
@@ -123,6 +124,20 @@ def _hangs(model: ReaderModel, tree: list[int]) -> Iterator[Suspect]:
     probe = Probe("share of its gravity that is taken away", "", _least, tuple(light), dynamic=False)
     edits = model.set("body", light, "gravcomp", "0")
     yield Suspect((name,), "gravcomp", now, "0", edits, probe, FLOATS - 0.01, says, "0 for what hangs", level="hint")
+
+
+def _sinks(model: ReaderModel, tree: list[int]) -> Iterator[Suspect]:
+    """The few links of what floats freely that gravity pulls, where nothing compensates them."""
+    of, compensated = model.simulation, model.simulation.model("body_gravcomp")
+    bare = [body for body in tree if not compensated[body]]
+    probe = Probe("share of the mass that nothing compensates", "", _left, tuple(tree), dynamic=False)
+    whole = all(abs(compensated[body] - 1) < LEFT for body in tree if body not in bare)
+    if not bare or not whole or not 0 < model.measured(probe) < LIGHT or not of.gravity:
+        return
+    names, mass = tuple(of.name("body", body) for body in bare), sum(of.model("body_mass")[body] for body in bare)
+    says = f"{len(bare)} of {len(tree)} links without gravcomp pull down, with {mass:.3g} kg, what floats otherwise."
+    edits = model.set("body", bare, "gravcomp", "1")
+    yield Suspect(names, "gravcomp", "0", "1", edits, probe, 0, says, "all of what floats, or none", level="hint")
 
 
 def _least(simulation: Simulation, *bodies: int) -> float:

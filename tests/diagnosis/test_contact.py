@@ -306,3 +306,56 @@ RUNG = """<mujoco><worldbody><geom name="floor" type="plane" size="1 1 .1"/>
 def test_a_time_constant_exchanged_with_its_damping_ratio_is_told(where, written, told):
     text = RUNG.format(**{"geom": "", "joint": "", "tendon": ""} | {where: written})
     assert [each.value for each in hints(text, "solref-exchanged")] == ([told] if told else [])
+
+
+BALL = """<mujoco><worldbody><geom name="cloth" type="plane" size="2 2 .1" {cloth}/>
+  <body name="ball" pos="0 0 .03"><freejoint/><geom name="ball" size=".03" mass=".2" {ball}/></body>
+</worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("ball", "cloth", "told"),
+    [
+        pytest.param('friction=".2 .005 .0003"', "", True, id="condim 3"),
+        pytest.param('friction=".2 .005 .0003"', 'condim="6"', False, id="the cloth has 6"),
+        pytest.param('friction="1 .1 .1"', "", False, id="what people write for all"),
+        pytest.param('friction=".2 .005 .0001"', "", False, id="the default"),
+    ],
+)
+def test_a_ball_whose_rolling_friction_nothing_reads_is_told(ball, cloth, told):
+    found = hints(BALL.format(ball=ball, cloth=cloth), "rolls-for-ever")
+    assert ["nothing reads" in each.says for each in found if each.value == "6"] == [True] * told
+
+
+@pytest.mark.parametrize(
+    ("written", "told"),
+    [
+        ('condim="6" friction="0.8 0.0001 0.005"', "0.8 0.005 0.0001"),
+        ('condim="6" friction="0.8 0.005 0.008"', None),
+        ('condim="6" friction="0.8 0.01 0.01"', None),
+        ('condim="4" friction="0.8 0.0001 0.005"', None),
+    ],
+)
+def test_a_rolling_friction_in_the_place_of_the_torsional_one_is_told(written, told):
+    found = hints(BALL.format(ball=written, cloth=""), "friction-beyond-any-material")
+    assert [each.value for each in found] == ([told] if told else [])
+
+
+PADS = """<mujoco><worldbody><body name="hand" pos="0 0 1">
+  <body name="left"><joint type="slide" axis="0 1 0"/><geom name="{name}" type="box" size=".01 .01 .02" {pad}/></body>
+</body></worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("name", "pad", "told"),
+    [
+        ("l_pad", 'friction="0.012 0.02 0.0005" priority="1"', True),
+        ("l_pad", 'friction="0.012"', False),
+        ("l_pad", 'friction="0.4" priority="1"', False),
+        ("l_pad", 'friction="0.012" priority="1" condim="1"', False),
+        ("ski", 'friction="0.012" priority="1"', False),
+    ],
+)
+def test_a_pad_that_has_the_last_word_and_no_friction_is_told(name, pad, told):
+    found = hints(PADS.format(name=name, pad=pad), "friction-too-low")
+    assert [each.elements for each in found] == [('geom "l_pad"',)] * told

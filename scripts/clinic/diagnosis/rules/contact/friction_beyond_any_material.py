@@ -22,7 +22,8 @@ Good:
 
 The number: the largest coefficient of sliding friction; rubber on concrete has about 1, and none of 208 files of robots
 has more than 10. Told are those from 20 on. Where `condim` is 6, so is the third coefficient from 0.05 m on: it is the
-arm with which a contact brakes what rolls.
+arm with which a contact brakes what rolls. And so is a third one of ten times the second and more: the two are
+exchanged, for the order is sliding, torsional, rolling, and nothing that turns on the spot rolls harder than that.
 
 When it is wrong: something that stands for glue.
 """
@@ -35,14 +36,14 @@ from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "Friction beyond any material"
 FAMILIES = ("slips", "sinks", "rolls-on")
 UNPLANTED = "what it does is planted as friction-too-high"
 
 MOST = 20.0
-ARM = 0.05  # m
+ARM, TIMES = 0.05, 10  # m; of the torsional friction
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -51,6 +52,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     rough = tuple(geom for geom in range(of.count("geom")) if solid(of, geom) and _most(of, geom) > MOST)
     if not rough:
         yield from _rolling(model)
+        yield from _in_order(model)
         return
     now = " ".join(f"{x:g}" for x in of.row("geom_friction", rough[0], 3))
     probe = Probe("coefficient of friction", "", _most, rough, dynamic=False)
@@ -73,6 +75,30 @@ def _rolling(model: ReaderModel) -> Iterator[Suspect]:
         )
         names, edits = tuple(of.name("geom", geom) for geom in stuck), model.set("geom", stuck, "friction", value)
         yield Suspect(names, "friction", written(row), value, edits, probe, ARM, says, "0.0001 m, MuJoCo's default")
+
+
+def _in_order(model: ReaderModel) -> Iterator[Suspect]:
+    """The geoms whose torsional and rolling friction stand in each other's place."""
+    of = model.simulation
+    if not (found := [geom for geom in _exchanged(of) if _arm(of, geom) <= ARM]):
+        return
+    values = {geom: written([of.row("geom_friction", geom, 3)[i] for i in (0, 2, 1)]) for geom in found}
+    _, torsional, rolling = of.row("geom_friction", found[0], 3)
+    says = f"The second number is torsional, {torsional:g} m, and the third one brakes its rolling, with {rolling:g} m."
+    edits = model.set_each("geom", "friction", values)
+    names, now = tuple(of.name("geom", geom) for geom in found), written(of.row("geom_friction", found[0], 3))
+    probe = how_many("geoms that resist rolling far more than turning", _exchanged)
+    yield Suspect(names, "friction", now, values[found[0]], edits, probe, 0, says, "1 0.005 0.0001, MuJoCo's default")
+
+
+def _exchanged(of: Simulation) -> list[int]:
+    """The geoms whose contacts resist rolling far more than turning on the spot."""
+    made = []
+    for geom, condim in enumerate(of.model("geom_condim")):
+        _, torsional, rolling = of.row("geom_friction", geom, 3)
+        if condim > 4 and solid(of, geom) and rolling >= TIMES * torsional > 0:
+            made.append(geom)
+    return made
 
 
 def _arm(of: Simulation, *geoms: int) -> float:

@@ -22,28 +22,32 @@ Good:
 
 The number: a push, once at rest, at the speed of a fall over a tenth of the size of what is pushed; with friction 0.3
 it would be over when the probe looks. Below 0.5 of the push's speed, which is friction 0.15, is well. PTFE on PTFE has
-0.04, wet ice less, steel on steel 0.4 and more. Geoms without friction that can touch each other later are a hint.
+0.04, wet ice less, steel on steel 0.4 and more. Geoms without friction that can touch each other later are a hint, and
+so are the pads of fingers that decide by their priority, with less than 0.05: they touch nothing at the start.
 
 When it is wrong: ice.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from itertools import combinations
 
-from clinic.diagnosis.engine import CONTACTS_OFF
+from clinic.diagnosis.engine import CONTACTS_OFF, FREE
 from clinic.diagnosis.probes.push import slides_on
-from clinic.diagnosis.probes.shape import collides, pair_of
+from clinic.diagnosis.probes.shape import collides, pair_of, solid
 from clinic.diagnosis.probes.touch import DRY, edits_of, names_of, resting, with_like
+from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "Friction next to nothing"
 FAMILIES = ("slips", "rolls-on")
 
 LOW, MOST = 0.12, 0.5
+PAD, GRIP = re.compile(r"(?i)finger|thumb|grip|jaw|pad|(?<![a-z])tip"), 0.05  # friction
 NONE, MANY = 0.001, 60  # friction; geoms of which pairs are looked at
 
 
@@ -53,6 +57,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     low = [decides for _, decides in resting(simulation) if decides.dim > 1 and decides.friction < LOW]
     if not low or model.measured(slides_on()) <= MOST:
         yield from _none(model)
+        yield from _pads(model)
         return
     least = min(each.friction for each in low)
     frictions = simulation.model("geom_friction")
@@ -106,6 +111,33 @@ def _none(model: ReaderModel) -> Iterator[Suspect]:
             "Where they touch each other there is no friction, although condim asks for it.",
             "0.15 to 2 for dry solids",
         )
+
+
+def _pads(model: ReaderModel) -> Iterator[Suspect]:
+    """Fingers that hold nothing, for their pads have the last word on every contact."""
+    of = model.simulation
+    if found := _slick_pads(of):
+        rows = {geom: of.row("geom_friction", geom, 3) for geom in found}
+        values = {geom: written((1.0, *row[1:])) for geom, row in rows.items()}
+        names, least = tuple(of.name("geom", geom) for geom in found), min(row[0] for row in rows.values())
+        says = f"The pads of fingers have the last word by their priority, and hold nothing with friction {least:g}."
+        edits = model.set_each("geom", "friction", values)
+        probe = how_many("pads without a grip", _slick_pads)
+        healthy = "0.15 to 2 for dry solids"
+        yield Suspect(names, "friction", f"{least:g}", "1", edits, probe, 0, says, healthy, level="hint")
+
+
+def _slick_pads(of: Simulation) -> list[int]:
+    """The geoms of fingers whose priority decides, with friction next to nothing where condim asks for some."""
+    made = []
+    for geom, priority in enumerate(of.model("geom_priority")):
+        body = of.body_of("geom", geom)
+        hinged = any(of.joint_type(joint) != FREE for each in of.ancestors(body) for joint in of.joints_of(each))
+        called = PAD.search(f"{of.names('geom')[geom]} {of.names('body')[body]}")
+        low = of.model("geom_friction")[3 * geom] < GRIP and of.model("geom_condim")[geom] > 1
+        if priority > 0 and low and solid(of, geom) and hinged and called:
+            made.append(geom)
+    return made
 
 
 def _may_touch(of: Simulation, one: int, other: int) -> bool:

@@ -21,7 +21,8 @@ Good:
     +       <geom name="ball" type="sphere" size="0.095" mass="0.45" condim="6" friction="1 0.005 0.008"/>
 
 The number: of the speed of a rolling ball, what is left 1 s later; above 0.99 it never stops. A soccer ball on grass
-loses 0.6 m/s in a second.
+loses 0.6 m/s in a second. And how many balls have a rolling friction of their own, up to a tenth of their radius, in a
+model none of whose contacts has a `condim` above 4: nothing reads it.
 
 When it is wrong: it is a hint only, for a ball on a hard floor does roll on.
 """
@@ -35,18 +36,28 @@ from clinic.diagnosis.probes.push import rolls_on
 from clinic.diagnosis.probes.shape import root_of, solid
 from clinic.diagnosis.probes.touch import edits_of, names_of, resting
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A ball that never stops rolling"
 FAMILIES = ("rolls-on", "drifts")
 UNPLANTED = "no healthy model has a ball that is meant to stop"
 
 MOST = 0.99  # of the speed
+DEFAULT, ARM = 0.0001, 0.1  # m of rolling friction; of the radius
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Contacts of free balls that have no rolling friction."""
     simulation = model.simulation
+    if unread := _unread(simulation):
+        rolling = simulation.row("geom_friction", unread[0], 3)[2]
+        now = f"{int(simulation.model('geom_condim')[unread[0]])}"
+        says = f"With condim {now} nothing reads its rolling friction, {rolling:g} m."
+        names, edits = tuple(simulation.name("geom", geom) for geom in unread), model.set("geom", unread, "condim", "6")
+        probe = how_many("balls whose rolling friction nothing reads", _unread)
+        yield Suspect(names, "condim", now, "6", edits, probe, 0, says, "6, for what is to stop rolling", level="hint")
+        return
     bodies, kinds, owner = simulation.model("geom_bodyid"), simulation.model("geom_type"), root_of(simulation)
     for body in simulation.free_bodies:
         geoms = [geom for geom in simulation.geoms_of(body) if solid(simulation, geom)]
@@ -68,3 +79,21 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 rolls_on(body), MOST, says, level="hint",
             )  # fmt: skip
             return
+
+
+def _unread(of: Simulation) -> list[int]:
+    """The free balls with a rolling friction that is not MuJoCo's own, where no contact has any."""
+    if any(each > 4 for each in (*of.model("geom_condim"), *of.model("pair_dim"))):
+        return []
+    made = []
+    for body in of.free_bodies:
+        geoms = [geom for geom in of.geoms_of(body) if solid(of, geom)]
+        if len(geoms) == 1 and body not in of.children and int(of.model("geom_type")[geoms[0]]) == SPHERE:
+            rolling, radius = of.model("geom_friction")[3 * geoms[0] + 2], of.model("geom_size")[3 * geoms[0]]
+            if (
+                abs(rolling / DEFAULT - 1) > 0.01
+                and 0 < rolling < ARM * radius
+                and of.model("geom_condim")[geoms[0]] > 1
+            ):
+                made.append(geoms[0])
+    return made

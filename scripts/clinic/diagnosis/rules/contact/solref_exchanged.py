@@ -60,13 +60,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         row = of.row(field, found[0], 2)
         values = {each: written(of.row(field, each, 2)[::-1]) for each in found}
-        same = len(set(values.values())) == 1
         yield Suspect(
             tuple(of.name(kind, each) for each in found),
             attribute,
             written(row),
             values[found[0]],
-            model.set(kind, found, attribute, values[found[0]]) if same else model.set_each(kind, attribute, values),
+            model.set_each(kind, attribute, values),
             how_many("pairs of numbers that are exchanged", _exchanged, kind, field),
             0,
             f"A damping ratio of {row[1]:g} lets it ring for {row[0]:g} s, its time constant.",

@@ -359,3 +359,25 @@ PADS = """<mujoco><worldbody><body name="hand" pos="0 0 1">
 def test_a_pad_that_has_the_last_word_and_no_friction_is_told(name, pad, told):
     found = hints(PADS.format(name=name, pad=pad), "friction-too-low")
     assert [each.elements for each in found] == [('geom "l_pad"',)] * told
+
+
+FEET = """<mujoco><worldbody><geom name="floor" type="plane" size="1 1 .1"/><body pos="0 0 .1"><freejoint/>
+  <geom name="left_foot" size=".05" pos="0 .1 0"/><geom name="right_foot" size=".05" pos="0 -.1 0"/></body></worldbody>
+<contact><pair name="left_foot_floor" geom1="left_foot" geom2="floor"/>{pairs}</contact></mujoco>"""
+SECOND = '<pair name="{0}" geom1="{1}" geom2="{2}"/>'
+
+
+@pytest.mark.parametrize(
+    ("pairs", "told"),
+    [
+        ([("right_foot_floor", "left_foot", "floor")], [("geom1", "right_foot")]),
+        ([("right_foot_floor", "floor", "left_foot")], [("geom2", "right_foot")]),
+        ([("right_foot_floor", "right_foot", "floor")], []),
+        ([("again", "left_foot", "floor")], []),
+        ([("right_foot_floor", "left_foot", "floor"), ("right", "right_foot", "floor")], []),
+    ],
+    ids=["copied", "the other way round", "adapted", "called otherwise", "both there"],
+)
+def test_a_pair_that_is_called_after_a_geom_without_one_is_told(pairs, told):
+    text = FEET.format(pairs="".join(SECOND.format(*each) for each in pairs))
+    assert [(each.attribute, each.value) for each in hints(text, "pair-of-another-geom")] == told

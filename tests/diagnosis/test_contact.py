@@ -318,6 +318,7 @@ BALL = """<mujoco><worldbody><geom name="cloth" type="plane" size="2 2 .1" {clot
     [
         pytest.param('friction=".2 .005 .0003"', "", True, id="condim 3"),
         pytest.param('friction=".2 .005 .0003"', 'condim="6"', False, id="the cloth has 6"),
+        pytest.param('friction=".2 .005 .0003"', 'condim="4"', False, id="the cloth has 4"),
         pytest.param('friction="1 .1 .1"', "", False, id="what people write for all"),
         pytest.param('friction=".2 .005 .0001"', "", False, id="the default"),
     ],

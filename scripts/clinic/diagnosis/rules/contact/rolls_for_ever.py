@@ -22,7 +22,7 @@ Good:
 
 The number: of the speed of a rolling ball, what is left 1 s later; above 0.99 it never stops. A soccer ball on grass
 loses 0.6 m/s in a second. And how many balls have a rolling friction of their own, up to a tenth of their radius, in a
-model none of whose contacts has a `condim` above 4: nothing reads it.
+model none of whose contacts has a `condim` above 3: nothing reads it.
 
 When it is wrong: it is a hint only, for a ball on a hard floor does roll on.
 """
@@ -82,8 +82,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _unread(of: Simulation) -> list[int]:
-    """The free balls with a rolling friction that is not MuJoCo's own, where no contact has any."""
-    if any(each > 4 for each in (*of.model("geom_condim"), *of.model("pair_dim"))):
+    """The free balls with a rolling friction that is not MuJoCo's own, where no contact has any, nor a torsional."""
+    if any(each > 3 for each in (*of.model("geom_condim"), *of.model("pair_dim"))):
         return []
     made = []
     for body in of.free_bodies:

@@ -109,3 +109,49 @@ def test_a_camera_below_the_floor_is_told(place, camera, told):
     body = car.format("" if "euler" in camera or not camera else 'xyaxes="0 -1 0 0 0 1" ')
     text = f'<mujoco><worldbody>{FLOOR}<body pos="{place}">{body}</body></worldbody></mujoco>'
     assert [each.value for each in hints(text, "camera-blocked") if each.attribute == "pos"] == told
+
+
+ROVER = """<mujoco><worldbody><geom type="plane" size="3 3 .1"/><body name="rover" pos="0 0 .1">{joint}
+  <geom type="box" size=".2 .1 .03"/><camera name="dash" pos="{at}" xyaxes="{axes}"/></body></worldbody></mujoco>"""
+REAR, AHEAD, ASIDE = "0 1 0 0 0 1", "0 -1 0 0 0 1", "1 0 0 0 0 1"
+
+
+@pytest.mark.parametrize(
+    ("joint", "at", "axes", "told"),
+    [
+        pytest.param("<freejoint/>", ".12 0 .05", REAR, True, id="back"),
+        pytest.param("<freejoint/>", ".12 0 .05", AHEAD, False, id="ahead"),
+        pytest.param("<freejoint/>", "-.12 0 .05", REAR, False, id="at the rear"),
+        pytest.param("<freejoint/>", ".12 0 .05", ASIDE, False, id="aside"),
+        pytest.param("<freejoint/>", ".05 0 .05", REAR, False, id="in the middle"),
+        pytest.param("<freejoint/>", ".8 0 .3", REAR, False, id="from outside"),
+        pytest.param("<freejoint/>", ".12 0 .05", "0 1 0 -1 0 .3", False, id="down"),
+        pytest.param('<joint axis="0 0 1"/>', ".12 0 .05", REAR, False, id="of an arm"),
+    ],
+)
+def test_a_camera_near_the_front_that_looks_back_over_its_robot_is_told(joint, at, axes, told):
+    found = hints(ROVER.format(joint=joint, at=at, axes=axes), "camera-blocked")
+    assert any("looks back" in each.says for each in found) == told
+
+
+WRIST = """<mujoco><worldbody><body name="flange" pos="0 0 .5"><joint axis="0 0 1"/><geom size=".02"/>
+  <camera name="{name}" pos=".05 0 0" xyaxes="{axes}"/>
+  <body pos="0 0 .1"><geom size=".02"/>
+  <body pos="0 .03 .02">{joint}<geom size=".01" pos="0 0 .03"/></body>
+  <body pos="0 -.03 .02">{joint}<geom size=".01" pos="0 0 .03"/></body></body></body></worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("name", "axes", "joint", "told"),
+    [
+        ("wrist_cam", "0 -1 0 1 0 0", '<joint axis="1 0 0"/>', True),
+        ("wrist_cam", "0 -1 0 -1 0 0", '<joint axis="1 0 0"/>', False),
+        ("wrist_cam", "0 -1 0 0 0 1", '<joint axis="1 0 0"/>', False),
+        ("wrist_cam", "0 -1 0 1 0 0", "", False),
+        ("watcher", "0 -1 0 1 0 0", '<joint axis="1 0 0"/>', False),
+    ],
+    ids=["back", "ahead", "aside", "nothing beyond", "another name"],
+)
+def test_a_camera_of_a_wrist_that_looks_away_from_its_gripper_is_told(name, axes, joint, told):
+    found = hints(WRIST.format(name=name, axes=axes, joint=joint), "camera-blocked")
+    assert ["beyond" in each.says for each in found] == [True] * told

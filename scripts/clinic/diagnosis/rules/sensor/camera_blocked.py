@@ -31,7 +31,9 @@ is above.
 
 And so is the one of a left and a right camera of a body, turned alike, that looks towards the other: two eyes that look
 ahead are beside each other. So is the camera on a hand that looks the other way than the fingers on it are, to 45
-degrees.
+degrees, and one called after a wrist, a hand, a gripper or a tool, that looks away from all that moves beyond it. And a
+camera on what drives, flies or walks that is off the middle by half the way to its edge and more, and looks level and
+back over the middle.
 
 When it is wrong: a camera that watches a part of its own mount.
 """
@@ -44,6 +46,7 @@ from itertools import product
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import CAM_FIXED, MESH, PLANE
+from clinic.diagnosis.probes.shape import boxes
 from clinic.diagnosis.probes.sides import by_name
 from clinic.diagnosis.probes.vector import add, dot, flipped, sub, times, transpose, unit, written
 from clinic.diagnosis.probes.view import HEAD, axes, opening, things, through, turned
@@ -59,6 +62,8 @@ MOST = 8.5  # of nine rays
 UPRIGHT = 0.7  # cosine of a floor's slope
 FINGER = re.compile(r"(?i)finger|jaw|claw|thumb")
 ALONG = 0.7  # cosine of the angle between a view and the fingers' middle
+WRIST = re.compile(r"(?i)wrist|hand(?!le)|grip|tool|(?<![a-z])eef?(?![a-z])")
+BACK, SLOPE = 0.5, 0.5  # of half a length; sine of a view's slope
 SAME, BESIDE = 1e-6, 0.8  # of quaternions; cosine of the angle between a view and the way to the twin
 
 
@@ -68,6 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield from _buried(model)
     yield from _inwards(model)
     yield from _backwards(model)
+    yield from _across(model)
     moving = set(of.moving_bodies)
     for camera, body in enumerate(of.model("cam_bodyid")):
         if int(body) in moving and _blocked(of, camera) > MOST:
@@ -120,8 +126,41 @@ def _backwards(model: ReaderModel) -> Iterator[Suspect]:
             edits = turned(model, camera, sub((0.0, 0.0, 0.0), right), up)
             name, value = of.name("camera", camera), edits[-1].value if edits else "towards the fingers"
             probe = Probe("cosine of its view and the way from the fingers", "", _away, (camera,), dynamic=False)
-            says = f"It looks away from the fingers of {of.name('body', int(of.model('cam_bodyid')[camera]))}."
+            says = f"It looks away from the fingers or jaws beyond {of.name('body', of.body_of('camera', camera))}."
             yield Suspect((name,), "xyaxes", "", value, edits, probe, ALONG, says, "along the fingers", level="hint")
+
+
+def _across(model: ReaderModel) -> Iterator[Suspect]:
+    """Each camera near an edge of what moves about that looks back over its middle, turned by half a turn."""
+    of = model.simulation
+    for camera in range(of.count("camera")):
+        if (share := _over_itself(of, camera)) > BACK:
+            right, up, _ = axes(of, camera)
+            edits = turned(model, camera, sub((0.0, 0.0, 0.0), right), up)
+            carrier, name = of.name("body", of.body_of("camera", camera)), of.name("camera", camera)
+            probe = Probe("how far behind the middle, in half lengths", "", _over_itself, (camera,), dynamic=False)
+            says = f"It looks back over the middle of {carrier}, {share:.2g} of half its length away."
+            value = edits[-1].value if edits else "away from the middle"
+            yield Suspect((name,), "xyaxes", "", value, edits, probe, BACK, says, "away from the middle", level="hint")
+
+
+def _over_itself(of: Simulation, camera: int) -> float:
+    """How far a level camera on a free body is behind its middle along the view, in half lengths; 0 from outside."""
+    body = of.body_of("camera", camera)
+    if body not in of.free_bodies or int(of.model("cam_mode")[camera]) != CAM_FIXED:
+        return 0.0
+    of.begin()
+    view, here = axes(of, camera)[2], of.data_row("cam_xpos", camera, 3)
+    ends = list(boxes(of, of.geoms_of(body)).values())
+    if abs(view[2]) > SLOPE or not ends:
+        return 0.0
+    low, high = (
+        [pick(at[i] + sign * half[i] for at, half in ends) for i in (0, 1)] for pick, sign in ((min, -1), (max, 1))
+    )
+    within = all(low[i] <= here[i] <= high[i] for i in (0, 1))
+    length = sum(abs(view[i]) * (high[i] - low[i]) / 2 for i in (0, 1))
+    behind = sum(view[i] * ((low[i] + high[i]) / 2 - here[i]) for i in (0, 1))
+    return behind / length if within and length else 0.0
 
 
 def _away(of: Simulation, camera: int) -> float:
@@ -133,7 +172,13 @@ def _along_fingers(of: Simulation, camera: int) -> float:
     body = of.body_of("camera", camera)
     names = of.names("body")
     fingers = [each for each in of.children.get(body, []) if FINGER.search(names[each]) and of.joints_of(each)]
-    if not body or len(fingers) < 2 or int(of.model("cam_mode")[camera]) != CAM_FIXED:
+    if len(fingers) < 2 and WRIST.search(of.names("camera")[camera]):  # all that moves beyond it
+        fingers = [each for each in of.children.get(body, []) if any(map(of.joints_of, of.below(each)))]
+        joints = [joint for each in fingers for below in of.below(each) for joint in of.joints_of(below)]
+        fingers = [each for each in fingers if of.model("body_subtreemass")[each] > 0 and len(joints) > 1]
+    elif len(fingers) < 2:
+        return 0.0
+    if not body or not fingers or int(of.model("cam_mode")[camera]) != CAM_FIXED:
         return 0.0
     of.begin()
     middle = [sum(of.data_row("subtree_com", each, 3)[i] for each in fingers) / len(fingers) for i in range(3)]

@@ -121,6 +121,7 @@ REAR, AHEAD, ASIDE = "0 1 0 0 0 1", "0 -1 0 0 0 1", "1 0 0 0 0 1"
     [
         pytest.param("<freejoint/>", ".12 0 .05", REAR, True, id="back"),
         pytest.param("<freejoint/>", ".12 0 .05", AHEAD, False, id="ahead"),
+        pytest.param("<freejoint/>", ".12 0 .1", REAR, False, id="on a mast"),
         pytest.param("<freejoint/>", "-.12 0 .05", REAR, False, id="at the rear"),
         pytest.param("<freejoint/>", ".12 0 .05", ASIDE, False, id="aside"),
         pytest.param("<freejoint/>", ".05 0 .05", REAR, False, id="in the middle"),

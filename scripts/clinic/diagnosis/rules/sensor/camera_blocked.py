@@ -33,7 +33,7 @@ And so is the one of a left and a right camera of a body, turned alike, that loo
 ahead are beside each other. So is the camera on a hand that looks the other way than the fingers on it are, to 45
 degrees, and one called after a wrist, a hand, a gripper or a tool, that looks away from all that moves beyond it. And a
 camera on what drives, flies or walks that is off the middle by half the way to its edge and more, and looks level and
-back over the middle.
+back over the middle from no higher than a quarter of that above all the rest.
 
 When it is wrong: a camera that watches a part of its own mount.
 """
@@ -63,7 +63,7 @@ UPRIGHT = 0.7  # cosine of a floor's slope
 FINGER = re.compile(r"(?i)finger|jaw|claw|thumb")
 ALONG = 0.7  # cosine of the angle between a view and the fingers' middle
 WRIST = re.compile(r"(?i)wrist|hand(?!le)|grip|tool|(?<![a-z])eef?(?![a-z])")
-BACK, SLOPE = 0.5, 0.5  # of half a length; sine of a view's slope
+BACK, MAST, SLOPE = 0.5, 0.25, 0.5  # of half a length, both; sine of a view's slope
 SAME, BESIDE = 1e-6, 0.8  # of quaternions; cosine of the angle between a view and the way to the twin
 
 
@@ -155,12 +155,13 @@ def _over_itself(of: Simulation, camera: int) -> float:
     if abs(view[2]) > SLOPE or not ends:
         return 0.0
     low, high = (
-        [pick(at[i] + sign * half[i] for at, half in ends) for i in (0, 1)] for pick, sign in ((min, -1), (max, 1))
+        [pick(at[i] + sign * half[i] for at, half in ends) for i in (0, 1, 2)] for pick, sign in ((min, -1), (max, 1))
     )
     within = all(low[i] <= here[i] <= high[i] for i in (0, 1))
     length = sum(abs(view[i]) * (high[i] - low[i]) / 2 for i in (0, 1))
     behind = sum(view[i] * ((low[i] + high[i]) / 2 - here[i]) for i in (0, 1))
-    return behind / length if within and length else 0.0
+    mast = here[2] - high[2] > MAST * length  # which looks over its own front
+    return behind / length if within and length and not mast else 0.0
 
 
 def _away(of: Simulation, camera: int) -> float:

@@ -28,7 +28,8 @@ vertical. More than 60, both in the world and as it is written, where two slides
 models none has such a slide. Models whose y is up are left alone. A slide called a lift or an elevator, and the one
 hinge that yaws a rolling base, a waist, a chest or a head, are told as far from the vertical, each by itself. So is a
 pendulum or a pole that nothing drives, whose axis goes along the rod through its centre of mass, or is that of the
-slides that carry it.
+slides that carry it. And so is the one hinge of an elbow, a knee or a finger's joint, `ip`, `pip` or `dip`, whose axis
+goes through the next joint or, of a last link, through its centre of mass: it twists, and does not bend.
 
 When it is wrong: a frame whose x is not forward.
 """
@@ -55,6 +56,8 @@ FAR = 60.0  # degrees
 TRUNK = "torso|waist|chest|head|neck|pelvis"
 UPRIGHT = {HINGE: re.compile(rf"(?i)(?:{TRUNK})_?yaw"), SLIDE: re.compile("(?i)(?:lift|elevator)(?!_?door)")}
 PENDULUM = re.compile("(?i)pendul|(?<![a-z])pole(?![a-z])")
+BENDS = re.compile(r"(?i)elbow|knee|(?<![a-z])[pd]?ip(?![a-z])")
+TURNS = re.compile(r"(?i)roll|pitch|yaw|twist|turn|pron|supin|rot|(?<![a-z])[xyz](?![a-z])")
 FLAT, OFF = 1e-4, 0.05  # m; sine of an angle
 BASE = re.compile("(?i)(?:base|chassis)_?yaw")  # of what rolls: an arm's base may hang on a wall
 
@@ -65,6 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of.begin()
     yield from _lying(model)
     yield from _idle(model)
+    yield from _twisting(model)
     slides = [joint for joint in range(of.count("joint")) if of.joint_type(joint) == SLIDE]
     said = {joint: axis for joint in slides if (axis := _said(of.engine.name("joint", joint))) is not None}
     upright = abs(of.model("opt.gravity")[1]) <= abs(of.model("opt.gravity")[2])
@@ -118,6 +122,33 @@ def _idle(model: ReaderModel) -> Iterator[Suspect]:
         yield Suspect(
             names, "axis", now, value or "another one", edits, probe, 0, f"{names[0]} {why}.", "across the rod"
         )
+
+
+def _twisting(model: ReaderModel) -> Iterator[Suspect]:
+    """Elbows, knees and fingers that turn about their own length."""
+    of = model.simulation
+    if found := _twisted(of):
+        first = of.row("jnt_axis", found[0], 3)
+        names, probe = tuple(of.name("joint", each) for each in found), how_many("joints that twist", _twisted)
+        says = f"The axis of {names[0]} goes along what it moves: it twists that, and does not bend."
+        yield Suspect(names, "axis", written(first), "across the link", (), probe, 0, says, "across the link")
+
+
+def _twisted(of: Simulation) -> list[int]:
+    """The hinges called after a joint that bends, each alone on its body, whose axis goes along that."""
+    of.as_written()
+    made = []
+    for joint, name in enumerate(of.names("joint")):
+        body = of.body_of("joint", joint)
+        called = BENDS.search(name) and not TURNS.search(name)
+        if not called or of.joint_type(joint) != HINGE or len(of.joints_of(body)) > 1:
+            continue
+        next_ones = [each for child in of.children.get(body, []) for each in of.joints_of(child)]
+        ends = [of.data_row("xanchor", each, 3) for each in next_ones] or [of.data_row("xipos", body, 3)]
+        ways = [sub(end, of.data_row("xanchor", joint, 3)) for end in ends]
+        if all(norm(way) > FLAT and norm(cross(of.axis(joint), way)) < OFF * norm(way) for way in ways):
+            made.append(joint)
+    return made
 
 
 def _still(of: Simulation) -> dict[int, str]:

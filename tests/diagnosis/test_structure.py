@@ -211,3 +211,44 @@ def test_a_pallet_that_carries_something_free_and_has_no_joint_is_told(name, mas
         f'<mujoco><worldbody>{floor}<body name="{name}" pos="0 0 .05">{boards}</body>{crate}{car}</worldbody></mujoco>'
     )
     assert [each.elements for each in hints(text, "object-without-joint")] == [('body "pallet"',)] * told
+
+
+@pytest.mark.parametrize(
+    ("name", "axis", "beyond", "told"),
+    [
+        pytest.param("elbow", "0 0 1", "0 0 .3", True, id="along the forearm"),
+        pytest.param("thumb_ip", "0 0 1", "", True, id="along a last link"),
+        pytest.param("elbow", "0 1 0", "0 0 .3", False, id="across"),
+        pytest.param("elbow", "0 0 1", "0 .2 .2", False, id="at an angle"),
+        pytest.param("elbow_roll", "0 0 1", "0 0 .3", False, id="a roll"),
+        pytest.param("wrist", "0 0 1", "0 0 .3", False, id="a wrist"),
+        pytest.param("ship", "0 0 1", "0 0 .3", False, id="no finger"),
+    ],
+)
+def test_an_elbow_that_twists_is_told(name: str, axis: str, beyond: str, told: bool) -> None:
+    hand = f'<body pos="{beyond}"><joint axis="0 1 0"/><geom size=".02" pos=".01 0 0"/></body>' if beyond else ""
+    text = (
+        f'<mujoco><worldbody><body pos="0 0 1"><joint name="{name}" axis="{axis}"/>'
+        f'<geom type="capsule" fromto="0 0 0 0 0 .3" size=".02"/>{hand}</body></worldbody></mujoco>'
+    )
+    assert [each.elements for each in hints(text, "axis-unlike-name")] == [(f'joint "{name}"',)] * told
+
+
+@pytest.mark.parametrize(
+    ("rail", "reach", "told"),
+    [
+        pytest.param("-2.2 0 .6 2.2 0 .6", "-200 200", "-2 2", id="cm"),
+        pytest.param("-2.2 0 .6 2.2 0 .6", "-2000 2000", "-2 2", id="mm"),
+        pytest.param("-2.2 0 .6 2.2 0 .6", "-2 2", None, id="m"),
+        pytest.param("-2.2 0 .6 2.2 0 .6", "-1e5 1e5", None, id="endless"),
+        pytest.param("-2.2 0 0 2.2 0 0", "-200 200", None, id="no rail beside it"),
+        pytest.param("0 -2.2 .6 0 2.2 .6", "-200 200", None, id="across"),
+    ],
+)
+def test_a_slide_whose_range_is_that_of_its_rail_in_cm_or_mm_is_told(rail: str, reach: str, told: str | None) -> None:
+    text = (
+        f'<mujoco><worldbody><geom name="rail" type="capsule" fromto="{rail}" size=".02"/><body pos="0 0 .6">'
+        f'<joint name="slider" type="slide" axis="1 0 0" range="{reach}"/><geom type="box" size=".15 .1 .06"/></body>'
+        '</worldbody><actuator><motor joint="slider"/></actuator></mujoco>'
+    )
+    assert [each.value for each in hints(text, "slides-out")] == ([told] if told else [])

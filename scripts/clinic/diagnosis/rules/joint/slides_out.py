@@ -23,7 +23,8 @@ Good:
 
 The number: the gap, along the slide, between what moves and the body that carries it where the range ends, in lengths
 of what moves, told from 0 on; for a slide without a range, and for every one of a URDF below 50 lengths, whether its
-body is called a drawer, a tray or a door. A slide with a spring is left alone.
+body is called a drawer, a tray or a door. A slide with a spring is left alone. And, driven or not, a slide on a
+straight rail of what carries it, where the range is 20 times as long as the rail and more, and in cm or mm fits on it.
 
 When it is wrong: a carriage on a rail that is not drawn.
 """
@@ -45,6 +46,8 @@ FAMILIES = ("passes-limit", "drifts", "falls-through")
 UNPLANTED = "few healthy models have drawers"
 
 MILLIMETRES = 50.0  # of its own length, which no guide has
+UNITS, FITS = (("cm", 100), ("mm", 1000)), (0.3, 1.05)  # of the rail's length
+BEYOND, SLENDER, ALONG = 20.0, 5.0, 0.01  # times the rail; length over thickness; of an axis
 FINGER = re.compile(r"(?i)finger|grip|jaw|claw|hand(?!le)")
 GUIDED = re.compile(r"drawer|tray|(?<![a-z])door|shelf|lid(?![a-z])", re.IGNORECASE)
 
@@ -52,13 +55,15 @@ GUIDED = re.compile(r"drawer|tray|(?<![a-z])door|shelf|lid(?![a-z])", re.IGNOREC
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The slides that leave the body which carries them, each."""
     of = model.simulation
+    on_rails = list(_off_its_rail(model))
+    yield from on_rails
     names = of.names("body")
     urdf = model.urdf  # which does not say what drives a joint
     for joint in range(of.count("joint")):
         body = of.body_of("joint", joint)
         if of.joint_type(joint) != SLIDE or not of.parent(body) or joint in of.drivers or len(of.joints_of(body)) > 1:
             continue
-        if of.model("jnt_stiffness")[joint] > 0:
+        if of.model("jnt_stiffness")[joint] > 0 or any(of.name("joint", joint) in each.elements for each in on_rails):
             continue
         if of.count("tendon") or _gap(of, joint, at_start=True) > 0:
             continue
@@ -84,6 +89,42 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             edits = model.set("joint", [joint], "range", value) if value else ()
             healthy = "a range within its guide"
             yield Suspect(told, "range", f"{low:.3g} {high:.3g}", value, edits, probe, 0.0, says, healthy)
+
+
+def _off_its_rail(model: ReaderModel) -> Iterator[Suspect]:
+    """The slides whose ranges are those of their rails in cm or mm."""
+    of = model.simulation
+    for joint, (low, high) in of.ranges.items():
+        if of.joint_type(joint) != SLIDE or (rail := _rail(of, joint)) is None:
+            continue
+        geom, length = rail
+        unit, by = next((each for each in UNITS if FITS[0] < (high - low) / each[1] / length < FITS[1]), ("", 0))
+        if high - low > BEYOND * length and by:
+            value, now = written([low / by, high / by]), f"{low:g} {high:g}"
+            names, edits = (of.name("joint", joint), of.name("geom", geom)), model.set("joint", [joint], "range", value)
+            says = f"{names[1]}, on which it slides, is {length:.3g} m long; in {unit} its range fits on it."
+            probe = Probe("length of the range over that of the rail", "", _longer, (joint,), dynamic=False)
+            yield Suspect(names, "range", now, value, edits, probe, BEYOND, says, "as long as its rail, or less")
+
+
+def _longer(of: Simulation, joint: int) -> float:
+    rail, (low, high) = _rail(of, joint), of.ranges.get(joint, (0.0, 0.0))
+    return (high - low) / rail[1] if rail else 0.0
+
+
+def _rail(of: Simulation, joint: int) -> tuple[int, float] | None:
+    """The longest straight geom of what carries a slide, along its axis and through what slides, and its length."""
+    of.begin()
+    body, axis = of.body_of("joint", joint), of.axis(joint)
+    mine, found = boxes(of, of.geoms_of(body)).values(), list[tuple[float, int]]()
+    rails = [geom for geom in of.geoms_of(of.parent(body)) if int(of.model("geom_type")[geom]) not in (PLANE, HFIELD)]
+    for geom, (middle, half) in boxes(of, rails).items():
+        along = dot([abs(x) for x in axis], half)
+        thick = max((each for each, x in zip(half, axis, strict=True) if abs(x) < ALONG), default=along)
+        through = any(all(abs(at[i] - middle[i]) <= half[i] + size[i] for i in (0, 1, 2)) for at, size in mine)
+        if max(map(abs, axis)) > 1 - ALONG and along > SLENDER * thick and through:
+            found.append((2 * along, geom))
+    return (max(found)[1], max(found)[0]) if found else None
 
 
 def _unlimited(of: Simulation, joint: int) -> float:

@@ -243,3 +243,15 @@ def test_a_target_that_misses_the_range_of_both_twins_is_blamed():
     servos = f"{SERVO.format('left_front', '0 1.0472')}{SERVO.format('right_front', '0.2 1.0472')}"
     text = robot(left="0 60", right="-60 0").replace("</mujoco>", f"<actuator>{servos}</actuator></mujoco>")
     assert "control-range-too-narrow" in [each.rule for each in causes(text)]
+
+
+@pytest.mark.parametrize(("rest", "told"), [("-20", []), ("-0.35", ["springref"]), ("-17", [])])
+def test_a_spring_at_rest_elsewhere_than_its_twins_is_told(rest, told):
+    sprung = {
+        f'{side}_{part}:damping="0.1"': f'damping="0.1" stiffness="30" springref="{20 if side == "left" else -20}"'
+        for side in ("left", "right")
+        for part in PARTS
+    }
+    sprung['right_front:damping="0.1"'] = f'damping="0.1" stiffness="30" springref="{rest}"'
+    found = unlike(robot(sprung, right="-60 30"))
+    assert [each.attribute for each in found if each.rule == "twin-joint-differs"] == told

@@ -161,6 +161,9 @@ class Comparisons(Pairs):
                 ranges = of.ranges[left], of.ranges[right]
                 little = of.joint_type(left) == HINGE and _apart(*ranges, sign) < LITTLE
                 yield pair("range", 0.0 if little else _intervals(*ranges, sign), 10)
+            if of.joint_type(left) == HINGE and springs[left] > 0 and springs[right] > 0:
+                rests = [of.model("qpos_spring")[of.place(joint)] for joint in (left, right)]
+                yield pair("springref", math.degrees(abs(sign * rests[0] - rests[1])), 5, "degrees")
 
     def _negated(self, left: int, right: int) -> bool:
         """Whether the range is negated with the axis, so that both turn the same way, and no other."""

@@ -44,6 +44,9 @@ def edits_of(model: ReaderModel, each: Comparison, side: int) -> tuple[Edit, ...
         return _axis(model, found, each, side, twin)
     if each.quantity == "axis sign":
         return model.turned_axis(side)
+    if each.quantity == "springref":
+        rest = float(model.value("joint", twin, "springref") or 0) * found.interval_sign(each)
+        return model.set("joint", [side], "springref", f"{rest + 0.0:g}")
     return ()
 
 

@@ -1,8 +1,8 @@
 """One joint of a pair is unlike its twin, left and right.
 
 A robot that is its own mirror image has joints in pairs: mirrored axes, ranges that let both sides reach as far, the
-same damping, armature and friction. Where nearly all pairs of a model agree and one does not, it was copied without
-its sign, or typed twice. The robot then walks in a curve, or one side cannot reach what the other can.
+same damping, armature, friction and spring. Where nearly all pairs of a model agree and one does not, it was copied
+without its sign, or typed twice. The robot then walks in a curve, or one side cannot reach what the other can.
 
 Bad:
 
@@ -66,13 +66,15 @@ TITLE = "The joint of a pair is unlike its twin"
 FAMILIES = ("drifts", "stuck", "oscillates")
 LEVEL = "hint"
 
+KINEMATIC = ("type", "axis sign", "axis", "pos", "range", "limited")
+
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """What differs in a pair, a suspect for each quantity."""
     for found, clear in odd(
         model,
         ("joint",),
-        ("type", "axis sign", "axis", "pos", "range", "limited", "damping", "armature", "frictionloss", "stiffness"),
+        (*KINEMATIC, "damping", "armature", "frictionloss", "stiffness", "springref"),
     ):
         yield suspect(model, found, clear)
     yield from siblings(model, "joint")

@@ -53,17 +53,23 @@ GUIDED = re.compile(r"drawer|tray|(?<![a-z])door|shelf|lid(?![a-z])", re.IGNOREC
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
-    """The slides that leave the body which carries them, each."""
+    """The slides that leave the body which carries them, each, and those that leave their rails."""
+    told = list(_from_carrier(model))
+    yield from told
+    names = {name for each in told for name in each.elements}
+    yield from (each for each in _off_its_rail(model) if each.elements[0] not in names)
+
+
+def _from_carrier(model: ReaderModel) -> Iterator[Suspect]:
+    """The slides that nothing drives whose range ends beyond the body which carries them, or has no end."""
     of = model.simulation
-    on_rails = list(_off_its_rail(model))
-    yield from on_rails
     names = of.names("body")
     urdf = model.urdf  # which does not say what drives a joint
     for joint in range(of.count("joint")):
         body = of.body_of("joint", joint)
         if of.joint_type(joint) != SLIDE or not of.parent(body) or joint in of.drivers or len(of.joints_of(body)) > 1:
             continue
-        if of.model("jnt_stiffness")[joint] > 0 or any(of.name("joint", joint) in each.elements for each in on_rails):
+        if of.model("jnt_stiffness")[joint] > 0:
             continue
         if of.count("tendon") or _gap(of, joint, at_start=True) > 0:
             continue

@@ -125,3 +125,21 @@ def test_a_spring_that_pulls_with_the_only_rope_is_told(other: str, told: bool) 
 def test_a_spring_that_its_load_opens_is_left_alone(mass: str, rest: str, told: bool) -> None:
     text = CABLE.replace('mass="0.02"', f'mass="{mass}"').replace('springref="60"', f'springref="{rest}"')
     assert bool(hints(text, "spring-with-its-rope")) == told
+
+
+@pytest.mark.parametrize(
+    ("spring", "turn", "motor", "told"),
+    [
+        pytest.param('stiffness="1" springref="-12"', "-52 0", "motor", ["12"], id="hangs"),
+        pytest.param('stiffness="1" springref="12"', "-52 0", "motor", [], id="pressed to its stop"),
+        pytest.param('stiffness="1" springref="-12"', "-52 52", "motor", [], id="not at a stop"),
+        pytest.param('stiffness="1" springref="-12"', "-52 0", 'position kp="5"', [], id="held"),
+        pytest.param('stiffness="10" springref="-12"', "-52 0", "motor", [], id="stiff"),
+    ],
+)
+def test_a_lever_whose_spring_lets_it_hang_is_told(spring: str, turn: str, motor: str, told: list[str]) -> None:
+    joint = f'<joint name="lever" axis="0 1 0" range="{turn}" damping="0.1" armature="0.005" {spring}/>'
+    lever = f'{joint}<geom type="capsule" fromto="0 0 0 -0.12 0 0" size="0.01" mass="0.25"/>'
+    drive = f'<actuator><{motor} joint="lever"/></actuator>'
+    text = f'<mujoco><worldbody><body pos="0 0 1">{lever}</body></worldbody>{drive}</mujoco>'
+    assert [each.value for each in hints(text, "spring-at-its-stop")] == told

@@ -28,7 +28,8 @@ The number: two seconds after the model was let go, how far a slide that has a s
 from where the spring is at rest, as a share of the way to its limit; above 0.75, and where it stands still. A stiffness
 in N/mm is told where 1000 times as much lets it go 0.05 to 0.6 of the way. Or `springref` has the wrong sign, or is the
 limit itself: the load moves the slide by 0.3 of half its range, and with the other sign, or with 0 where its range
-leaves that out, by a third of that at most.
+leaves that out, by a third of that at most. A hinge that begins at its stop, such as a door's handle, is told alike
+where the load takes it 1.4 times as far as its spring: its spring is to press it to that stop, and lets it hang.
 
 When it is wrong: a button, a pedal or a landing gear that is meant to be pressed down.
 """
@@ -38,7 +39,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import SLIDE
+from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.run import let_go
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -50,6 +51,11 @@ UNPLANTED = "healthy models have few slides with springs"
 
 MOST, USUAL, LITTLE, STILL = 0.75, 0.3, 0.05, 0.05  # of the way to the limit; m/s
 LEAVES, BACK = 0.3, 0.35  # of half of the range; of that, with the other sign
+AT_STOP, FURTHER, GROUPS = (
+    0.02,
+    1.4,
+    6,
+)  # of the range; of the way to the spring's rest; of hinges with one rest, that are tried
 ROUNDS = 4  # for the load on a spring at its stop shows only once the stop does not bear it
 
 
@@ -91,25 +97,33 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _other_sign(model: ReaderModel) -> Suspect | None:
     """Springs with a rest of their own that the load moves far from the start, and with the other sign does not."""
     of = model.simulation
-    alike: dict[float, list[int]] = {}
-    for joint in _springs(of):
-        alike.setdefault(of.model("qpos_spring")[of.place(joint)], []).append(joint)
-    for rest, joints in alike.items():
+    alike: dict[tuple[int, float], list[int]] = {}
+    for joint in (*_springs(of), *_levers(of)):
+        alike.setdefault((of.joint_type(joint), of.model("qpos_spring")[of.place(joint)]), []).append(joint)
+    for (kind, rest), joints in alike.items():
         probe = Probe("share of its travel by which a spring gives way to the load", "", _leaves, tuple(joints))
-        turned = (
-            -rest if all(low <= -rest <= high for low, high in (of.row("jnt_range", x, 2) for x in joints)) else 0.0
-        )
-        edits = model.set("joint", joints, "springref", f"{turned:g}") if rest else ()
+        within = all(low <= -rest <= high for low, high in (of.ranges[each] for each in joints))
+        turned, unit = (-rest, model.angle_unit) if kind == HINGE else (-rest if within else 0.0, 1.0)
+        value = f"{turned / unit:.4g}"
+        edits = model.set("joint", joints, "springref", value) if rest else ()
         loose = model.set("joint", joints, "stiffness", "0")  # the load moves it, and not the spring
         if not edits or model.measured(probe, loose) <= LEAVES:
             continue
+        if kind == HINGE and model.measured(probe) < FURTHER * max(_rests(of, each) for each in joints):
+            continue
         if (before := model.measured(probe)) > LEAVES and model.measured(probe, edits) <= BACK * before:
             names = tuple(of.name("joint", joint) for joint in joints)
-            says = f"{names[0]} rests at {rest:g}, on the side to which the load pushes it."
-            return Suspect(
-                names, "springref", f"{rest:g}", f"{turned:g}", edits, probe, LEAVES, says, "next to nothing"
-            )
+            now = f"{rest / unit:.4g}"
+            says = f"{names[0]} rests at {now}, on the side to which the load pushes it."
+            return Suspect(names, "springref", now, value, edits, probe, LEAVES, says, "next to nothing")
     return None
+
+
+def _rests(of: Simulation, joint: int) -> float:
+    """How far from the start a spring is at rest, over half of the range."""
+    low, high = of.row("jnt_range", joint, 2)
+    rest, begin = (of.model(field)[of.place(joint)] for field in ("qpos_spring", "qpos0"))
+    return 2 * abs(rest - begin) / (high - low)
 
 
 def _leaves(of: Simulation, *joints: int) -> float:
@@ -127,6 +141,19 @@ def _springs(of: Simulation) -> list[int]:
     """The slides that have a spring and a range and no actuator that acts by itself."""
     slides = [joint for joint in of.ranges if of.joint_type(joint) == SLIDE]
     return [joint for joint in slides if of.model("jnt_stiffness")[joint] > 0 and not _held(of, joint)]
+
+
+def _levers(of: Simulation) -> list[int]:
+    """The hinges that begin at a stop, with a spring at rest within the range; none where they are many of a kind."""
+    made = []
+    for joint, (low, high) in of.ranges.items():
+        if of.joint_type(joint) != HINGE or of.model("jnt_stiffness")[joint] <= 0 or _held(of, joint):
+            continue
+        rest, begin = (of.model(field)[of.place(joint)] for field in ("qpos_spring", "qpos0"))
+        least = AT_STOP * (high - low)
+        if min(begin - low, high - begin) < least < abs(rest - begin) and low < rest < high:
+            made.append(joint)
+    return made if len({of.model("qpos_spring")[of.place(joint)] for joint in made}) <= GROUPS else []
 
 
 def _held(of: Simulation, joint: int) -> bool:

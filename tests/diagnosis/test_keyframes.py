@@ -276,3 +276,22 @@ def test_a_keyframe_with_one_servo_that_opens_a_gripper_is_meant():
     assert not causes(model.format(joints, servos, '<key qpos="1 1 0" ctrl="1 1 0.5"/>'))
     (found,) = causes(model.format(joints, servos, '<key qpos="1 0 0.5" ctrl="0 0.5 1"/>'))
     assert found.rule == "key-targets-elsewhere"
+
+
+@pytest.mark.parametrize(
+    ("qvel", "told"),
+    [
+        pytest.param("0 70 0 2 0 0", True, id="exchanged"),
+        pytest.param("2 0 0 0 70 0", False, id="rolls"),
+        pytest.param("0 0 0 0 70 0", False, id="spins"),
+        pytest.param("2 0 0 0 0 0", False, id="slides"),
+        pytest.param("0 30 0 2 0 0", False, id="with side"),
+    ],
+)
+def test_a_ball_that_would_roll_with_its_velocities_exchanged_is_told(qvel: str, told: bool) -> None:
+    text = (
+        '<mujoco><worldbody><geom type="plane" size="1 1 .1"/><body pos="0 0 .0286"><freejoint/><geom size=".0286"/>'
+        f'</body></worldbody><keyframe><key name="break" qvel="{qvel}"/></keyframe></mujoco>'
+    )
+    found = hints(text, "key-in-another-order")
+    assert [each.value for each in found] == ["2 0 0 0 70 0"] * told

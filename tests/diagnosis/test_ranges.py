@@ -120,3 +120,30 @@ def test_a_control_range_that_a_keyframe_is_outside_of_is_told(narrow: str, othe
     text = f"""<mujoco><compiler angle="radian"/><worldbody>{screws}</worldbody><actuator>{servos}</actuator>
       <keyframe><key {key}/></keyframe></mujoco>"""
     assert [each.value for each in hints(text, "control-range-too-narrow")] == told
+
+
+FOREARM = """<mujoco><worldbody><site name="front" pos=".025 0 1.39"/><site name="back" pos="-.025 0 1.34"/>
+  <geom name="wrap" type="cylinder" size=".022 .02" pos="0 0 1.1" euler="90 0 0" contype="0" conaffinity="0"/>
+  <site name="behind" pos="-.06 0 1.1"/>
+  <body pos="0 0 1.1"><joint name="elbow" axis="0 -1 0" {range}/><geom size=".02" pos="0 0 -.25"/>
+    <site name="in_front" pos=".018 0 -.05"/><site name="at_the_back" pos="-.022 0 .015"/></body></worldbody>
+<tendon><spatial name="flexor"><site site="front"/><site site="in_front"/></spatial>
+  <spatial name="extensor"><site site="back"/><geom geom="wrap" sidesite="behind"/><site site="at_the_back"/></spatial>
+</tendon><actuator>{drive}</actuator></mujoco>"""
+MUSCLES = '<muscle tendon="flexor" lengthrange=".2 .4"/><muscle tendon="extensor" lengthrange=".2 .3"/>'
+
+
+@pytest.mark.parametrize(
+    ("turn", "drive", "told"),
+    [
+        pytest.param('range="-140 0"', MUSCLES, ["0 140"], id="backwards"),
+        pytest.param('range="0 140"', MUSCLES, [], id="right"),
+        pytest.param('range="-140 140"', MUSCLES, [], id="both ways"),
+        pytest.param("", MUSCLES, [], id="without limits"),
+        pytest.param('range="-140 0"', MUSCLES.partition("/>")[0] + "/>", [], id="one muscle"),
+        pytest.param('range="-140 0"', '<motor tendon="flexor"/><motor tendon="extensor"/>', [], id="motors"),
+    ],
+)
+def test_an_elbow_that_bends_the_other_way_than_its_muscles_are_for_is_told(turn, drive, told):
+    found = hints(FOREARM.format(range=turn, drive=drive), "tendon-turns-back")
+    assert [each.value for each in found] == told

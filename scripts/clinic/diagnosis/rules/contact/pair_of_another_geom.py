@@ -26,7 +26,7 @@ Good:
     +     <pair name="right_foot_floor" geom1="right_foot" geom2="floor"/>
 
 The number: how many pairs are of the same two geoms as another one, and have a name that differs from that one's as the
-name of a geom without such a pair differs from theirs. Eleven of 548 healthy models have pairs twice, and none of those
+name of a geom without such a pair differs from theirs. Eleven of 385 healthy models have pairs twice, and none of those
 is called after another geom.
 
 When it is wrong: a name that says something else than what it pairs.

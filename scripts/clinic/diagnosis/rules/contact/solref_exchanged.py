@@ -22,7 +22,7 @@ Good:
     +       <geom name="box" type="box" size="0.1 0.1 0.1" solref="0.01 1"/>
 
 The number: the time constant, in which an oscillation dies down to a third; told from 0.3 s on, where the damping ratio
-is at most 0.1 and at least 0.001, so that both are usual ones in the other order. None of 548 healthy models has such a
+is at most 0.1 and at least 0.001, so that both are usual ones in the other order. None of 385 healthy models has such a
 pair: what is meant to bounce has a short time constant beside a small ratio, or negative numbers.
 
 When it is wrong: something that is meant to swing for seconds on its contact or its limit.

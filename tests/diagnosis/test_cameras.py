@@ -112,7 +112,7 @@ def test_a_camera_below_the_floor_is_told(place, camera, told):
 
 
 ROVER = """<mujoco><worldbody><geom type="plane" size="3 3 .1"/><body name="rover" pos="0 0 .1">{joint}
-  <geom type="box" size=".2 .1 .03"/><camera name="dash" pos="{at}" xyaxes="{axes}"/></body></worldbody></mujoco>"""
+  <geom type="box" size=".2 .1 .03"/><camera name="{name}" pos="{at}" xyaxes="{axes}"/></body></worldbody></mujoco>"""
 REAR, AHEAD, ASIDE = "0 1 0 0 0 1", "0 -1 0 0 0 1", "1 0 0 0 0 1"
 
 
@@ -131,8 +131,19 @@ REAR, AHEAD, ASIDE = "0 1 0 0 0 1", "0 -1 0 0 0 1", "1 0 0 0 0 1"
     ],
 )
 def test_a_camera_near_the_front_that_looks_back_over_its_robot_is_told(joint, at, axes, told):
-    found = hints(ROVER.format(joint=joint, at=at, axes=axes), "camera-blocked")
+    found = hints(ROVER.format(joint=joint, at=at, axes=axes, name="dash"), "camera-blocked")
     assert any("looks back" in each.says for each in found) == told
+
+
+@pytest.mark.parametrize(
+    ("name", "wide", "told"), [("eye", ".1", True), ("driver", ".1", False), ("eye", ".04", False)]
+)
+def test_a_camera_that_looks_across_a_narrow_robot_or_is_its_drivers_is_left_alone(name, wide, told):
+    text = ROVER.format(joint="<freejoint/>", at="0 .03 .05", axes=ASIDE.replace("1 0 0", "-1 0 0"), name=name)
+    text = text.replace('size=".2 .1 .03"', f'size=".11 {wide} .03"').replace(
+        "0 .03 .05", f"0 {0.8 * float(wide)} .035"
+    )
+    assert any("looks back" in each.says for each in hints(text, "camera-blocked")) == told
 
 
 WRIST = """<mujoco><worldbody><body name="flange" pos="0 0 .5"><joint axis="0 0 1"/><geom size=".02"/>

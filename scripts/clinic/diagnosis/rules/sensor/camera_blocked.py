@@ -33,7 +33,8 @@ And so is the one of a left and a right camera of a body, turned alike, that loo
 ahead are beside each other. So is the camera on a hand that looks the other way than the fingers on it are, to 45
 degrees, and one called after a wrist, a hand, a gripper or a tool, that looks away from all that moves beyond it. And a
 camera on what drives, flies or walks that is off the middle by half the way to its edge and more, and looks level and
-back over the middle from no higher than a quarter of that above all the rest.
+back over the middle, not across a narrow robot, from no higher than a quarter of that way above all the rest. A
+driver's, or one that follows, may.
 
 When it is wrong: a camera that watches a part of its own mount.
 """
@@ -63,6 +64,7 @@ UPRIGHT = 0.7  # cosine of a floor's slope
 FINGER = re.compile(r"(?i)finger|jaw|claw|thumb")
 ALONG = 0.7  # cosine of the angle between a view and the fingers' middle
 WRIST = re.compile(r"(?i)wrist|hand(?!le)|grip|tool|(?<![a-z])eef?(?![a-z])")
+WATCHES = re.compile(r"(?i)driver|pilot|follow|chase")
 BACK, MAST, SLOPE = 0.5, 0.25, 0.5  # of half a length, both; sine of a view's slope
 SAME, BESIDE = 1e-6, 0.8  # of quaternions; cosine of the angle between a view and the way to the twin
 
@@ -147,7 +149,8 @@ def _across(model: ReaderModel) -> Iterator[Suspect]:
 def _over_itself(of: Simulation, camera: int) -> float:
     """How far a level camera on a free body is behind its middle along the view, in half lengths; 0 from outside."""
     body = of.body_of("camera", camera)
-    if body not in of.free_bodies or int(of.model("cam_mode")[camera]) != CAM_FIXED:
+    watches = WATCHES.search(of.names("camera")[camera])
+    if watches or body not in of.free_bodies or int(of.model("cam_mode")[camera]) != CAM_FIXED:
         return 0.0
     of.begin()
     view, here = axes(of, camera)[2], of.data_row("cam_xpos", camera, 3)
@@ -161,7 +164,8 @@ def _over_itself(of: Simulation, camera: int) -> float:
     length = sum(abs(view[i]) * (high[i] - low[i]) / 2 for i in (0, 1))
     behind = sum(view[i] * ((low[i] + high[i]) / 2 - here[i]) for i in (0, 1))
     mast = here[2] - high[2] > MAST * length  # which looks over its own front
-    return behind / length if within and length and not mast else 0.0
+    lengthways = 2 * length > max(high[i] - low[i] for i in (0, 1)) / 2
+    return behind / length if within and lengthways and not mast else 0.0
 
 
 def _away(of: Simulation, camera: int) -> float:

@@ -146,3 +146,50 @@ def test_a_touch_site_that_would_hold_the_foot_elsewhere_gets_its_place(place, s
     body = f'<body pos="0 0 0.355">{shin}</body>'
     text = f'<mujoco><worldbody>{FLOOR}{body}</worldbody><sensor><touch site="s"/></sensor></mujoco>'
     assert [(each.attribute, each.value) for each in hints(text, "touch-site-too-small")] == told
+
+
+PAIR = (
+    '<body pos="0 0 1"><freejoint/><geom size="0.1"/><site name="imu"/>'
+    + "".join(
+        f'<body pos="0 {y} 0"><joint name="{side}_wheel" axis="0 1 0"/><geom size="0.05"/></body>'
+        for side, y in (("left", 0.2), ("right", -0.2), ("rear", 0.6))
+    )
+    + "</body>"
+)
+
+
+@pytest.mark.parametrize(
+    ("sensors", "said"),
+    [
+        pytest.param({"left_enc": "pos left", "right_enc": "vel right"}, [("left_enc", "right_enc")], id="two"),
+        pytest.param({"left_enc": "pos left", "right_enc": "pos right"}, [], id="alike"),
+        pytest.param({"left_enc": "pos left", "right_enc": "vel left"}, [], id="of-one-joint"),
+        pytest.param({"left_pos": "pos left", "right_vel": "vel right"}, [], id="called-otherwise"),
+        pytest.param(
+            {"left_enc": "pos left", "right_enc": "vel right", "rear_enc": "vel rear"},
+            [("left_enc",)],
+            id="one-of-three",
+        ),
+    ],
+)
+def test_a_sensor_of_another_kind_than_its_sisters_is_told(
+    sensors: dict[str, str], said: list[tuple[str, ...]]
+) -> None:
+    made = "".join(
+        f'<joint{kind.split()[0]} name="{name}" joint="{kind.split()[1]}_wheel"/>' for name, kind in sensors.items()
+    )
+    found = told("sensor-unlike-name", PAIR, made)
+    assert [each.elements for each in found] == [tuple(f'sensor "{name}"' for name in names) for names in said]
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "values"),
+    [
+        pytest.param("framexaxis", "upvector", ["<framezaxis>"], id="that-lies"),
+        pytest.param("framezaxis", "upvector", [], id="that-stands"),
+        pytest.param("framexaxis", "forward", [], id="another-name"),
+    ],
+)
+def test_an_upward_axis_that_lies_is_told(kind: str, name: str, values: list[str]) -> None:
+    found = told("sensor-unlike-name", PAIR, f'<{kind} name="{name}" objtype="site" objname="imu"/>')
+    assert [each.value for each in found] == values

@@ -65,3 +65,27 @@ def test_the_class_that_all_used_ones_stand_in_is_the_one_that_was_lost(outer: s
     text = f"<mujoco>{classes}{world}<actuator>{servos}</actuator></mujoco>"
     found = hints(text, "class-not-reached")
     assert [each.value for each in found if each.attribute == "class"] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("classes", "told"),
+    [
+        pytest.param(("big", "big", ""), ("left out", "big"), id="none"),
+        pytest.param(("big", "big", "small"), ("small", "big"), id="another"),
+        pytest.param(("big", "big", "big"), None, id="its-own"),
+        pytest.param(("big", "small", ""), None, id="two-of-them"),
+        pytest.param(("big", "big", '" kp="50" kv="5'), None, id="which-writes-the-same"),
+    ],
+)
+def test_the_one_actuator_of_another_class_than_its_joint_is_told(classes, told):
+    joints = "".join(f'<body pos="{i} 0 1"><joint name="j{i}" class="big"/><geom size="0.1"/></body>' for i in range(3))
+    servos = "".join(f'<position name="a{i}" class="{name}" joint="j{i}"/>' for i, name in enumerate(classes)).replace(
+        'class="" ', ""
+    )
+    made = "".join(
+        f'<default class="{name}"><joint axis="0 1 0" damping="{kv}"/><position kp="{kp}" kv="{kv}"/></default>'
+        for name, kp, kv in (("big", 50, 5), ("small", 5, 1))
+    )
+    text = f"<mujoco><default>{made}</default><worldbody>{joints}</worldbody><actuator>{servos}</actuator></mujoco>"
+    found = hints(text, "class-not-reached")
+    assert [(each.now, each.value) for each in found] == ([told] if told else [])

@@ -31,7 +31,8 @@ The number: how many driven joints have no class and none of damping, armature a
 joints some of it, which no joint uses, or more than there are such driven joints. A class that all used ones stand in
 and nothing uses itself is the one that is told. And how many elements are called as a class that nothing uses and that
 has something for their kind: a geom `bolt` of class `panel`, beside a class `bolt`. Of 1113 models one has such a geom,
-a cube without the friction of class `cube`.
+a cube without the friction of class `cube`. And the one actuator that is not of its joint's class, where that gives
+both of them something, and every other actuator of such a joint is of its joint's class.
 
 When it is wrong: a class that is meant for other joints, which are the only ones with damping.
 """
@@ -59,6 +60,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of, source = model.simulation, model.source
     if source is not None and not source.urdf:
         yield from _namesakes(source)
+        yield from _unlike_joint(model, source)
     if source is None or source.urdf or not (classes := _classes(source)):
         return
     driven = sorted(of.drivers)
@@ -97,6 +99,31 @@ def _namesakes(source: Source) -> Iterator[Suspect]:
         probe = counted("elements that are called as a class that nothing uses", len(found))
         edits = (set_attribute(each, "class", name),)
         yield Suspect((f'{each.tag} "{name}"',), "class", now or "left out", name, edits, probe, 0, says, name, at=each)
+
+
+def _unlike_joint(model: ReaderModel, source: Source) -> Iterator[Suspect]:
+    """The one actuator of another class than its joint, or of none, where the joint's class is for both."""
+    of, leaves = model.simulation, {each.get("class"): each for each in source.elements("default")}
+    agree, odd = set[str](), list[tuple[int, Element, str]]()
+    for actuator in range(of.count("actuator")):
+        element, joint = model.element("actuator", actuator), of.driven_joint(actuator)
+        driven = None if joint is None else model.element("joint", joint)
+        name = _class(driven) if driven is not None else ""
+        gives = leaves[name].first(element.tag) if element is not None and name in leaves else None
+        if element is None or gives is None or not leaves[name].first("joint"):
+            continue
+        if element.get("class") == name:
+            agree.add(name)
+        elif any(source.value(element, key) != value for key, value in gives.attributes.items()):
+            odd.append((actuator, element, name))
+    if len(odd) != 1 or odd[0][2] not in agree:
+        return
+    actuator, element, name = odd[0]
+    now = element.get("class") or "left out"
+    says = f"Its joint is of class {name}, which has something for both, and all others are of their joints' classes."
+    probe, edits = counted("actuators of another class than their joints", 1), (set_attribute(element, "class", name),)
+    said = (of.name("actuator", actuator),)
+    yield Suspect(said, "class", now, name, edits, probe, 0, says, "that of its joint", level="hint", at=element)
 
 
 def _classes(source: Source) -> list[str]:

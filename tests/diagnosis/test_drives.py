@@ -273,3 +273,19 @@ def test_a_motor_of_one_side_that_nothing_brings_back_is_told(motor: str, joint:
     cart = f'<body><joint name="rail" type="slide" damping="1" {axis} {joint}/><geom size="0.1" mass="1"/></body>'
     text = f"<mujoco><worldbody>{cart}</worldbody><actuator><motor joint='rail' gear='20' {motor}/></actuator></mujoco>"
     assert [each.value for each in hints(text, "servo-one-sided")] == told
+
+
+@pytest.mark.parametrize(
+    ("drives", "told"),
+    [
+        pytest.param("q1 q3 q2", ['actuator "v2"'], id="two-exchanged"),
+        pytest.param("q1 q2 q3", [], id="in-order"),
+        pytest.param("q2 q3 q1", [], id="all-otherwise"),
+        pytest.param("q1 q3 q4", [], id="other-numbers"),
+    ],
+)
+def test_two_numbered_actuators_on_joints_of_each_others_number_are_told(drives: str, told: list[str]) -> None:
+    joints = "".join(f'<body pos="{i} 0 1"><joint name="q{i}" axis="0 1 0"/><geom size=".1"/></body>' for i in range(5))
+    motors = "".join(f'<motor name="v{i}" joint="{joint}"/>' for i, joint in enumerate(drives.split(), 1))
+    text = f"<mujoco><worldbody>{joints}</worldbody><actuator>{motors}</actuator></mujoco>"
+    assert [each.elements[0] for each in findings(text, "actuator-on-another-joint")] == told

@@ -27,13 +27,15 @@ Good:
     -     <position name="right_hip" joint="left_hip" kp="50"/>
     +     <position name="right_hip" joint="right_hip" kp="50"/>
 
-The number: how many actuators drive another joint than the one that they are named after.
+The number: how many actuators drive another joint than the one that they are named after. Of `v1` to `v3`, which are
+called alike and drive `q1` to `q3`, two whose numbers are each other's.
 
 When it is wrong: an actuator that drives another joint than the one of its name on purpose.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 
 from clinic.diagnosis.probes.shape import root_of
@@ -45,6 +47,8 @@ TITLE = "An actuator drives another joint than its name says"
 FAMILIES = ("stuck", "drifts", "sags")
 
 LONG = 4  # letters
+NUMBERED = re.compile(r"(\D*)(\d+)(\D*)")
+LEAST = 3  # of one name and a number
 WORDS = ("actuator", "act", "motor", "servo", "joint", "ctrl", "pos", "position", "torque", "a", "m", "j", "t")
 
 
@@ -73,12 +77,32 @@ def _meant(simulation: Simulation) -> dict[int, tuple[int, int]]:
             found = [each for each in _longer(joints, key) if owner[int(bodies[each])] == owner[int(bodies[driven])]]
         if key and len(found) == 1 and driven not in (None, found[0]):
             made[actuator] = (driven, found[0])
+    made |= _by_number(simulation, drives)
     wrong = {meant: driven for driven, meant in made.values()}
     return {
         each: (driven, meant)
         for each, (driven, meant) in made.items()
         if wrong.get(driven) == meant or (meant in undriven and not _named_too(simulation, each, driven))
     }
+
+
+def _by_number(of: Simulation, drives: Mapping[int, int | None]) -> dict[int, tuple[int, int]]:
+    """Two of several numbered actuators that drive the joint of each other's number, as `_meant` has them."""
+    rows: dict[tuple[str, ...], dict[str, tuple[int, str, int]]] = {}
+    for actuator, joint in drives.items():
+        if joint is None:
+            continue
+        own = NUMBERED.fullmatch(of.names("actuator")[actuator])
+        other = NUMBERED.fullmatch(of.names("joint")[joint])
+        if own and other:
+            rows.setdefault((own[1], own[3], other[1], other[3]), {})[own[2]] = (actuator, other[2], joint)
+    made = dict[int, tuple[int, int]]()
+    for row in rows.values():
+        odd = [number for number, (_, driven, _) in row.items() if number != driven]
+        if len(row) >= LEAST and len(odd) == 2 and {row[each][1] for each in odd} == {*odd}:
+            one, two = (row[each] for each in odd)
+            made |= {one[0]: (one[2], two[2]), two[0]: (two[2], one[2])}
+    return made
 
 
 def _named_too(simulation: Simulation, actuator: int, joint: int) -> bool:

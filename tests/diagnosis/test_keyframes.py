@@ -295,3 +295,25 @@ def test_a_ball_that_would_roll_with_its_velocities_exchanged_is_told(qvel: str,
     )
     found = hints(text, "key-in-another-order")
     assert [each.value for each in found] == ["2 0 0 0 70 0"] * told
+
+
+@pytest.mark.parametrize(
+    ("qpos", "ctrl", "told"),
+    [
+        pytest.param("0.3 0.5 0.2 1", "0.3 1.2 0.4 1", ["hint"], id="of-another-key"),
+        pytest.param("0.3 0.5 0.2 1", "0.3 1.3 0.4 1", [], id="its-own"),
+        pytest.param("0.3 0.5 0.4 1", "0.3 1.2 0.4 1", [], id="one-that-moves"),
+    ],
+)
+def test_controls_of_another_keyframe_are_told_though_most_servos_stay(qpos: str, ctrl: str, told: list[str]) -> None:
+    links = "".join(
+        f'<body pos="{i} 0 1" gravcomp="1"><joint name="j{i}" axis="0 1 0" damping="2"/><geom size="0.1"/></body>'
+        for i in range(5)
+    )
+    servos = "".join(f'<position joint="j{i}" kp="100" kv="10"/>' for i in range(5))
+    home = "0.3 1.2 0.4 1 0"
+    keys = f'<key name="home" qpos="{home}" ctrl="{home}"/><key name="bent" qpos="{qpos} 0" ctrl="{ctrl} 0"/>'
+    text = f"<mujoco><worldbody>{links}</worldbody><actuator>{servos}</actuator><keyframe>{keys}</keyframe></mujoco>"
+    found = findings(text, "key-targets-elsewhere")
+    assert [each.level for each in found] == told
+    assert [each.value for each in found] == [f"{qpos} 0"] * len(told)

@@ -33,8 +33,9 @@ The number: the distance between target and joint that three quarters of the pos
 more tells a cause, for keyframes in which at least two servos and half of them are off. Where there is no `ctrl`, two
 servos that go 0.5 away are told in a hint. Two that are each told the other's place are told as such. Joints outside of
 their ranges do not count: their places are wrong, which another rule tells. A servo on a tendon, a gripper's, is told
-where it goes more than half of the tendon's way. Of five actuators with a state and more the one whose `act` is not its
-`ctrl`, as it is of all others, is told in a hint.
+where it goes more than half of the tendon's way. Where the `ctrl` is that of another keyframe, which fits its own pose,
+and not zero, two servos that go elsewhere are told in a hint. Of five actuators with a state and more the one whose
+`act` is not its `ctrl`, as it is of all others, is told in a hint.
 
 When it is wrong: a keyframe that is meant to start a motion.
 Whether `ctrl` is left out on purpose, only its author knows: all zero and no `ctrl` is a hint.
@@ -78,6 +79,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         left_out = element is not None and "ctrl" not in element.attributes
         if element is not None and len(off) == 2 and _exchanged(found, *off):
             yield _swap(model, key, element, found, off)
+            continue
+        if element is not None and len(off) > 1 and (other := _fitting(of, key)) is not None:
+            yield _borrowed(model, key, element, found, off, other)
             continue
         far = [actuator for actuator in off if abs(found[actuator][0] - found[actuator][1]) > FAR]
         if (
@@ -130,6 +134,40 @@ def _swap(
     healthy = "the targets of a pose are its joints' positions"
     now, value = element.get("ctrl"), written(ctrl)
     return Suspect((of.name("key", key), *names), "ctrl", now, value, edits, farthest_target(key), LIMIT, says, healthy)
+
+
+def _fitting(of: Simulation, key: int) -> int | None:
+    """Another keyframe that has the same `ctrl`, not all zero, and whose pose this fits in all servos."""
+    width, own = of.count("actuator"), of.row("key_ctrl", key, of.count("actuator"))
+    for other in range(of.count("key")) if any(own) else ():
+        fits = other != key and of.row("key_ctrl", other, width) == own
+        if fits and all(abs(target - at) < LIMIT for target, at in servos(of, other).values()):
+            return other
+    return None
+
+
+def _borrowed(
+    model: ReaderModel,
+    key: int,
+    element: Element,
+    found: Mapping[int, tuple[float, float]],
+    off: Sequence[int],
+    other: int,
+) -> Suspect:
+    """The targets that were taken over from another keyframe."""
+    of = model.simulation
+    start_at(of, key)
+    ctrl = list(of.data("ctrl"))
+    for actuator in off:
+        ctrl[actuator] = _holding(of, actuator, found[actuator][1])
+    edits, value = (set_attribute(element, "ctrl", written(ctrl)),), written(ctrl)
+    says = f"Its controls are those of {of.name('key', other)}, which fit the pose of that; of its own "
+    says += f"{len(off)} of {len(found)} servos go away."
+    now, healthy = element.get("ctrl"), "the targets of a pose are its joints' positions"
+    probe = farthest_target(key)
+    return Suspect(
+        (of.name("key", key),), "ctrl", now, value, edits, probe, LIMIT, says, healthy, share=0.99, level="hint"
+    )
 
 
 def _states(model: ReaderModel, key: int) -> Iterator[Suspect]:

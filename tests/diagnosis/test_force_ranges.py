@@ -102,3 +102,20 @@ def test_servos_of_screws_that_together_do_not_hold_a_bed_are_told(force, ratio,
       <equality>{"".join(nut.format(side, ratio) for side, _ in sides)}</equality>
       <actuator>{"".join(servo.format(side, force) for side, _ in sides)}{more}</actuator></mujoco>"""
     assert [each.value for each in causes(text, "force-range-too-small")] == [f"{14.8 / ratio:.2g}"] * told
+
+
+@pytest.mark.parametrize(
+    ("axis", "inside", "told"),
+    [
+        pytest.param("0 0 1", "", ["30"], id="slide-that-lifts"),
+        pytest.param("0 0 1", 'frictionloss="1"', [], id="friction-holds-it"),
+        pytest.param("0 0 1", 'stiffness="50"', [], id="spring-holds-it"),
+        pytest.param("1 0 0", "", [], id="slide-that-lies"),
+    ],
+)
+def test_a_force_a_little_below_the_weight_is_told_where_no_pose_takes_less(axis: str, inside: str, told: list[str]):
+    joint = f'<joint name="lift" type="slide" axis="{axis}" range="-0.2 0.2" damping="20" {inside}/>'
+    body = f'<body pos="0 0 1">{joint}<geom size="0.1" mass="1.02"/></body>'
+    servo = '<position joint="lift" kp="3000" kv="200" forcerange="-9.3 9.3"/>'
+    text = f"<mujoco><worldbody>{body}</worldbody><actuator>{servo}</actuator></mujoco>"
+    assert [each.value for each in causes(text, "force-range-too-small")] == told

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from clinic.diagnosis.probes.equalities import CONNECT, gap, kind_of
 from clinic.diagnosis.probes.servo import Servo, alone, hold, servos
@@ -44,18 +44,26 @@ def loads(simulation: Simulation) -> list[float]:
         return _loads(simulation)
 
 
+@kept
+def least_loads(simulation: Simulation) -> list[float]:
+    """The smallest force of gravity on each degree of freedom over the poses, in N m or N."""
+    with alone(simulation, gravity=True):
+        return list(map(min, zip(*_all_loads(simulation), strict=True)))
+
+
 def _loads(simulation: Simulation) -> list[float]:
-    most = [0.0] * simulation.count("dof")
+    return list(map(max, zip(*_all_loads(simulation), strict=True)))
+
+
+def _all_loads(simulation: Simulation) -> Iterator[list[float]]:
+    """The forces of gravity in each of the poses."""
     for pose in poses(simulation):
         simulation.begin(forward=False)
         simulation.engine.write("qpos", pose)
-        simulation.engine.write("qvel", [0.0] * len(most))
+        simulation.engine.write("qvel", [0.0] * simulation.count("dof"))
         simulation.engine.forward()
-        for dof, (bias, gravcomp) in enumerate(
-            zip(simulation.data("qfrc_bias"), simulation.data("qfrc_gravcomp"), strict=True)
-        ):
-            most[dof] = max(most[dof], abs(bias - gravcomp))
-    return most
+        forces = zip(simulation.data("qfrc_bias"), simulation.data("qfrc_gravcomp"), strict=True)
+        yield [abs(bias - gravcomp) for bias, gravcomp in forces]
 
 
 def _worst(simulation: Simulation, find: Callable[[Simulation], dict[int, float]], actuators: Sequence[int]) -> float:

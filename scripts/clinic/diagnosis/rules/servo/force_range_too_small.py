@@ -22,9 +22,10 @@ Good:
     -     <position joint="shoulder" kp="500" dampratio="1" forcerange="-1 1"/>
     +     <position joint="shoulder" kp="500" dampratio="1" forcerange="-10 10"/>
 
-The number: the model's own weight at the joint over the greatest force of its servos, in the worst of 17 poses. Or the
-height that a robot with a free base loses within 1 s, its servos told to stay where they are, where some give all they
-can.
+The number: the model's own weight at the joint over the greatest force of its servos, in the worst of 17 poses. It may
+be a little above 1 in a pose that is never taken; where it is above 1 in all of them, and nothing else carries the
+joint, it is told. Or the height that a robot with a free base loses within 1 s, its servos told to stay where they are,
+where some give all they can.
 
 In a closed loop, whose load only a run shows, it is how far the weight moves the joint of a servo that is told to
 hold the start and gives all it can: more than a tenth of the range. Of joints that equalities couple it is the
@@ -45,7 +46,8 @@ from dataclasses import replace
 
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.probes.couplings import Coupling, couplings
-from clinic.diagnosis.probes.load import carriers, loads, outdone, strain, strains, travel, yielded, yields
+from clinic.diagnosis.probes.equalities import COUPLED
+from clinic.diagnosis.probes.load import carriers, least_loads, loads, outdone, strain, strains, travel, yielded, yields
 from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.probes.stand import BENT, LOST, at_their_limit, goes_down, stance
 from clinic.diagnosis.probes.tendons import joints_of
@@ -71,9 +73,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield from _gives_way(model)
     yield from _in_loops(model)
     yield from _through_couplings(model)
-    weak = sorted(
-        (each for each in servos(simulation) if found[each.actuator] > STRAIN), key=lambda each: -found[each.actuator]
-    )
+    over = [each for each in servos(simulation) if found[each.actuator] > STRAIN]
+    weak = sorted(over or _never_held(simulation), key=lambda each: -found[each.actuator])
     if not weak:
         yield from _unlike_carriers(model)
         return
@@ -86,7 +87,22 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         strain([each.actuator for each in weak]),
         "1 and less; motors are chosen for twice the weight and more",
     )
-    yield _told(model, {each: 3 * load[each.dof] for each in weak}, probe, STRAIN, says, healthy)
+    limit = STRAIN if over else 1.0
+    yield _told(model, {each: 3 * load[each.dof] for each in weak}, probe, limit, says, healthy)
+
+
+def _never_held(of: Simulation) -> list[Servo]:
+    """The servos of joints that nothing else carries, and whose weight is above their force in all poses."""
+    found, friction = strains(of), of.model("dof_frictionloss")
+    weak = [each for each in servos(of) if found[each.actuator] > 1]
+    if any(int(kind) != COUPLED for kind in of.model("eq_type")):
+        return []
+    return [
+        each
+        for each in weak
+        if least_loads(of)[each.dof] - friction[each.dof] > each.force
+        and len(_followers(of, each.joint)) == len(_holding(of, each.joint)) == 1
+    ]
 
 
 def _told(

@@ -17,7 +17,7 @@ def test_a_slide_that_its_damping_all_but_holds_has_too_weak_a_servo(damping, na
 STOOL = """
 <mujoco>
   <worldbody>
-    <geom type="plane" size="3 3 0.1"/>
+    <geom name="floor" type="plane" size="3 3 0.1"/>
     <body name="trunk" pos="0 0 0.72">
       <freejoint/>
       <geom type="box" size="0.1 0.1 0.1" mass="10" pos="0.01 0 0"/>
@@ -32,17 +32,22 @@ STOOL = """
 @pytest.mark.parametrize(
     ("kp", "symptom", "told"), [(10, "", True), (20, "", False), (20, "sags", True), (100, "sags", False)]
 )
-def test_a_robot_that_falls_after_a_while_has_too_little_stiffness(kp, symptom, told):
+@pytest.mark.parametrize("paired", [False, True])
+def test_a_robot_that_falls_after_a_while_has_too_little_stiffness(kp, symptom, told, paired):
     legs = "".join(
         f'<body pos="0 {y} -0.1"><joint name="hip{y}" axis="0 1 0" damping="3"/>'
         '<geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03" mass="1"/>'
         f'<body pos="0 0 -0.3"><joint name="ankle{y}" axis="0 1 0" damping="3"/>'
-        '<geom type="box" size="0.08 0.03 0.02" pos="0 0 -0.3" mass="0.5"/></body></body>'
+        f'<geom name="foot{y}" type="box" size="0.08 0.03 0.02" pos="0 0 -0.3" mass="0.5"/></body></body>'
         for y in (-0.1, 0.1)
     )
     names = [f"{name}{y}" for y in (-0.1, 0.1) for name in ("hip", "ankle")]
     servos = "".join(f'<position joint="{name}" kp="{kp}" kv="2"/>' for name in names)
     text = STOOL.format(legs=legs, servos=servos)
+    if paired:  # as the models for MJX have it
+        feet = "".join(f'<pair geom1="floor" geom2="foot{y}"/>' for y in (-0.1, 0.1))
+        text = text.replace("</mujoco>", f"<contact>{feet}</contact></mujoco>")
+        text = text.replace("<geom", '<geom contype="0" conaffinity="0"')
     found = diagnosed(text, symptom=symptom)
     said = [each for each in (*found.causes, *found.hints) if "falls within 5 s" in each.says]
     assert [each.rule for each in said] == ["weak-servo"] * told, found.text()

@@ -68,8 +68,9 @@ def stance_after(simulation: Simulation, seconds: float) -> Stance:
 
 def _lowest(simulation: Simulation, root: int) -> float:
     """The lowest point of what collides of a tree, in m."""
-    collides = simulation.model("geom_contype")
-    found = boxes(simulation, [geom for geom in geoms_of_tree(simulation, root) if collides[geom]])
+    collides, sides = simulation.model("geom_contype"), (simulation.model(f"pair_geom{side}") for side in (1, 2))
+    paired = {int(geom) for side in sides for geom in side}
+    found = boxes(simulation, [each for each in geoms_of_tree(simulation, root) if collides[each] or each in paired])
     return min((centre[2] - half[2] for centre, half in found.values()), default=float("inf"))
 
 

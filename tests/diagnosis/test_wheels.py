@@ -115,6 +115,14 @@ def test_a_wheel_that_needs_seconds_to_its_speed_is_told(kv, force, told):
     assert [(each.attribute, each.value) for each in hints(text, "speed-not-reached")] == [("kv", "0.4")] * told
 
 
+@pytest.mark.parametrize(("force", "told"), [(0.01, ["0.2"]), (0.3, [])])
+def test_a_cart_that_meets_a_wall_had_its_speed_before(force: float, told: list[str]) -> None:
+    text = rules()["speed-not-reached"].example("Good").replace('kv="0.2"', f'kv="0.2" forcerange="-{force} {force}"')
+    text = text.replace('damping="0.01"', 'damping="0.001"').replace('mass="3"', 'mass="1"')
+    text = text.replace("<worldbody>", '<worldbody><geom type="box" size="0.02 2 0.5" pos="1.5 0 0.5"/>')
+    assert [each.value for each in hints(text, "speed-not-reached")] == told
+
+
 @pytest.mark.parametrize(
     ("throttle", "told"),
     [

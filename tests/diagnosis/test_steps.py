@@ -89,6 +89,19 @@ def test_a_step_beside_which_all_is_well_is_not_too_long(well_up_to: float, monk
     assert bool(list(rules()["timestep-too-long"].suspects(model))) is (well_up_to < 0.0019)
 
 
+@pytest.mark.parametrize(("calm", "told"), [(0.3, True), (30.0, False)])
+def test_a_step_beside_which_it_just_holds_is_too_long(calm: float, told: bool, monkeypatch: pytest.MonkeyPatch):
+    """At 0.95 of the step 60 rad/s are below the limit, and far above what a quarter of the step leaves."""
+
+    def measured(_: ReaderModel, __: Probe, edits: Sequence[Edit] = ()) -> float:
+        return math.inf if not edits else 60.0 if float(edits[0].value) > 0.0015 else calm
+
+    text = {"model.xml": FOREARM.format(integrator="Euler", kv=0.05, force="")}
+    monkeypatch.setattr(ReaderModel, "measured", measured)
+    model = ReaderModel(NativeEngine(), text, read_source(text), Start())
+    assert bool(list(rules()["timestep-too-long"].suspects(model))) is told
+
+
 @pytest.mark.parametrize(("step", "level"), [(0.002, "hint"), (0.004, "cause")])
 def test_what_explodes_only_under_command_at_the_usual_step_is_a_hint(step, level, monkeypatch):
     def measured(_: ReaderModel, probe: Probe, edits: Sequence[Edit] = ()) -> float:

@@ -29,8 +29,9 @@ contacts are.
 
 A half, a quarter, an eighth and a sixteenth of the step are tried. The longest that leaves a tenth of that number, or a
 third of a depth under command, is told. Where 95 % of the step is enough, nothing is told: a cable that whips about
-explodes at one step and not at the next, by chance. A run under command that does not last the 2 s proves nothing, for
-its later part is not seen.
+explodes at one step and not at the next, by chance. What goes to infinity is told all the same where a quarter of the
+step leaves less than a tenth of what 95 % of it does. A run under command that does not last the 2 s proves nothing,
+for its later part is not seen.
 
 There is only a hint under command at a step of 2 ms or less, for a gain may as well be the fault; for a spring that
 swings within 6 steps, where a tenth of the step takes its joint elsewhere by more than 15 % of its range (in 260
@@ -83,7 +84,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         before = model.measured(probe)
         if before <= limit:
             continue
-        if step <= UNUSUAL and model.measured(probe, model.option("timestep", f"{CHANCE * step:g}")) <= limit:
+        near = model.measured(probe, model.option("timestep", f"{CHANCE * step:g}")) if step <= UNUSUAL else math.inf
+        quarter = model.option("timestep", f"{step / 4:g}")
+        if near <= limit and (math.isfinite(before) or model.measured(probe, quarter) >= TENTH * near):
             continue
         edits = patient(model)
         if edits and math.isfinite(after := model.measured(probe, edits)) and after <= HALF * before:

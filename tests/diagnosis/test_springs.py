@@ -143,3 +143,35 @@ def test_a_lever_whose_spring_lets_it_hang_is_told(spring: str, turn: str, motor
     drive = f'<actuator><{motor} joint="lever"/></actuator>'
     text = f'<mujoco><worldbody><body pos="0 0 1">{lever}</body></worldbody>{drive}</mujoco>'
     assert [each.value for each in hints(text, "spring-at-its-stop")] == told
+
+
+@pytest.mark.parametrize(
+    ("joint", "extra", "told"),
+    [
+        pytest.param('stiffness="2000"', "", ["41"], id="no-damper"),
+        pytest.param('stiffness="2000" damping="1"', "", [], id="damping"),
+        pytest.param('stiffness="2000" frictionloss="1"', "", [], id="friction"),
+        pytest.param("", "", [], id="no-spring"),
+        pytest.param('stiffness="2000"', '<option density="1000"/>', [], id="in-water"),
+        pytest.param(
+            'stiffness="2000"',
+            '<actuator><position joint="left_strut"/><position joint="right_strut"/></actuator>',
+            [],
+            id="driven",
+        ),
+        pytest.param('stiffness="1"', "hinge", [], id="hinge-that-its-spring-does-not-hold"),
+        pytest.param('stiffness="100"', "hinge", ["0.78"], id="hinge-that-it-holds"),
+    ],
+)
+def test_a_spring_without_a_damper_is_told_of_what_moves_freely(joint: str, extra: str, told: list[str]) -> None:
+    text = rules()["spring-undamped"].example("Bad").replace('stiffness="2000"', joint)
+    if extra == "hinge":
+        text = text.replace('type="slide" axis="0 0 1" range="-0.05 0.05"', 'axis="0 1 0"')
+        text = text.replace(
+            '<geom type="box" size="0.2 0.02 0.1"', '<geom type="box" size="0.2 0.02 0.1" pos="0.2 0 0"'
+        )
+        extra = ""
+    text = text.replace("</mujoco>", f"{extra}</mujoco>")
+    assert [each.value for each in hints(text, "spring-undamped")] == told
+    fixed = text.replace("<freejoint/>", "")
+    assert not hints(fixed, "spring-undamped")

@@ -135,6 +135,55 @@ def test_what_a_motor_at_a_site_cannot_move_is_told(joint, told):
 
 
 @pytest.mark.parametrize(
+    ("joint", "told"),
+    [
+        pytest.param('damping="2"', [("joint-frozen", "damping")], id="damping"),
+        pytest.param('damping="0.01" stiffness="8"', [("spring-against-servo", "stiffness")], id="spring"),
+        pytest.param('damping="0.01" stiffness="0.05"', [], id="well"),
+    ],
+)
+def test_what_a_cable_cannot_bend_is_told(joint: str, told: list[tuple[str, str]]) -> None:
+    """The cable lies along the finger's axis at the start, and has a lever of 10 mm where that is bent."""
+    text = f"""<mujoco><worldbody><site name="palm" pos="0.01 0 -0.01"/><body>
+      <joint name="knuckle" axis="0 1 0" range="0 90" armature="0.0002" {joint}/>
+      <geom type="capsule" fromto="0 0 0 0 0 0.04" size="0.008" mass="0.02"/><site name="tip" pos="0.01 0 0.01"/></body>
+    </worldbody><tendon><spatial name="cable"><site site="palm"/><site site="tip"/></spatial></tendon>
+    <actuator><motor tendon="cable" gear="-1" ctrlrange="0 25"/></actuator></mujoco>"""
+    found = hints(text, "joint-frozen", "spring-against-servo")
+    assert [(each.rule, each.attribute) for each in found] == told
+
+
+@pytest.mark.parametrize(
+    ("damping", "actuator", "told"),
+    [
+        pytest.param(0.5, 'motor ctrlrange="-0.6 0.6"', ["0.095"], id="crawls"),
+        pytest.param(0.005, 'motor ctrlrange="-0.6 0.6"', [], id="turns"),
+        pytest.param(0.5, 'position kp="0.6" kv="0.1" ctrlrange="-1 1"', [], id="servo"),
+    ],
+)
+def test_a_wheel_whose_motor_needs_seconds_for_a_turn_is_told(damping: float, actuator: str, told: list[str]) -> None:
+    kind, *rest = actuator.split(" ", 1)
+    wheel = f'<joint name="wheel" axis="0 1 0" damping="{damping}" armature="0.001"/><geom size="0.06" mass="0.1"/>'
+    text = f"<mujoco><worldbody><body>{wheel}</body></worldbody><actuator><{kind} joint='wheel' {rest[0]}/></actuator>"
+    assert [each.value for each in hints(f"{text}</mujoco>", "joint-frozen")] == told
+
+
+@pytest.mark.parametrize(
+    ("damping", "limits", "told"),
+    [
+        pytest.param(0.2, "", ["0.00068"], id="creeps"),
+        pytest.param(0.02, "", [], id="swings"),
+        pytest.param(0.2, 'range="-90 90"', [], id="a-range"),
+    ],
+)
+def test_a_pendulum_that_creeps_down_is_told(damping: float, limits: str, told: list[str]) -> None:
+    rod = f'<joint axis="1 0 0" damping="{damping}" {limits}/><geom size="0.01" pos="0 0 -0.26" mass="0.06"/>'
+    arm = f'<body pos="0 0 1"><joint name="arm" axis="0 0 1"/><geom size="0.05" mass="1"/><body>{rod}</body></body>'
+    text = f"<mujoco><worldbody>{arm}</worldbody><actuator><motor joint='arm'/></actuator></mujoco>"
+    assert [each.value for each in hints(text, "joint-frozen")] == told
+
+
+@pytest.mark.parametrize(
     ("waist", "count", "told"),
     [
         pytest.param('range="-40 60"', 8, True, id="alone-among-eight"),

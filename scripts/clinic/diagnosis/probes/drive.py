@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from clinic.diagnosis.engine import HINGE, TRN_IN_PARENT, TRN_SITE
+from clinic.diagnosis.engine import HINGE, TRN_IN_PARENT, TRN_SITE, TRN_TENDON
 from clinic.diagnosis.probes.run import model_size
 from clinic.diagnosis.probes.servo import alone, command, hold, servos
 from clinic.diagnosis.simulation import Simulation, kept
@@ -54,27 +54,36 @@ def _driven(simulation: Simulation, joint: int) -> float:
 
 @kept
 def pulls(simulation: Simulation) -> dict[int, dict[int, float]]:
-    """What motors at sites give at the start, for a control of 1, at hinges and slides that nothing else drives."""
+    """What motors at sites and tendons give, for a control of 1, at hinges and slides that nothing else drives.
+
+    At the start, and of a tendon the most of that and of all joints at the ends and in the middle of their ranges, for
+    a cable that lies along a finger has no lever until that is bent.
+    """
     of, made = simulation, dict[int, dict[int, float]]()
     kinds = [int(each) for each in of.model("actuator_trntype")]
-    sites = [each for each, kind in enumerate(kinds) if kind == TRN_SITE and of.model("actuator_ctrllimited")[each]]
-    if any(kind > TRN_IN_PARENT and each not in sites for each, kind in enumerate(kinds)):
+    limited = of.model("actuator_ctrllimited")
+    found = [each for each, kind in enumerate(kinds) if kind in (TRN_SITE, TRN_TENDON) and limited[each]]
+    if any(kind > TRN_IN_PARENT and each not in found for each, kind in enumerate(kinds)):
         return {}
-    for actuator in sites:
-        if not of.is_motor(actuator):
-            return {}
-        of.begin(forward=False)
-        of.engine.write("ctrl", [float(each == actuator) for each in range(len(kinds))])
-        of.engine.forward()
-        forces = of.data("qfrc_actuator")
-        for joint in of.scalar_joints:
-            if joint not in of.drivers and forces[of.dof(joint)]:
-                made.setdefault(joint, {})[actuator] = forces[of.dof(joint)]
+    if any(not of.is_motor(actuator) for actuator in found):
+        return {}
+    for actuator in found:
+        for share in (None, 0.0, 0.5, 1.0) if kinds[actuator] == TRN_TENDON else (None,):
+            of.begin(forward=False)
+            for joint, (low, high) in of.ranges.items() if share is not None else ():
+                of.put(joint, low + (share or 0.0) * (high - low))
+            of.engine.write("ctrl", [float(each == actuator) for each in range(len(kinds))])
+            of.engine.forward()
+            forces = of.data("qfrc_actuator")
+            for joint in of.scalar_joints:
+                now = forces[of.dof(joint)]
+                if joint not in of.drivers and abs(now) > abs(made.get(joint, {}).get(actuator, 0.0)):
+                    made.setdefault(joint, {})[actuator] = now
     return made
 
 
 def pull(simulation: Simulation, joint: int) -> float:
-    """The most that motors at sites give at a joint of `pulls`, all together."""
+    """The most that such motors give at a joint of `pulls`, all together."""
     ranges = _ranges(simulation)
     found = pulls(simulation).get(joint, {})
     return sum(abs(force) * max(map(abs, ranges[actuator])) for actuator, force in found.items())

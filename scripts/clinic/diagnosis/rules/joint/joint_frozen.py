@@ -23,14 +23,17 @@ Good:
     +       <joint name="elbow" axis="0 1 0" range="-90 90" damping="0.5"/>
 
 The number: driven for 2 s with all that its actuators give, without gravity and contacts, more than 80 % of the way to
-1 rad (0.1 m), or to the far limit, is left; motors at sites count, where nothing else drives the joint. Or the damping
-lets full force cross the joint's range in 25 s and more: of 260 healthy models none needs more than 6.7 s. A position
-servo is told, too, of which friction takes more than 0.2 of the force and 0.05 rad (m) of the way: of 38 models with
-dry friction at their servos none has more than 0.05.
+1 rad (0.1 m), or to the far limit, is left; motors at sites and tendons count, where nothing else drives the joint. Or
+the damping lets full force cross the joint's range in 25 s and more: of 260 healthy models none needs more than 6.7 s.
+A hinge without a range that motors drive needs 4 s and more for a turn: of 20 healthy models none more than 1.3 s. A
+position servo is told, too, of which friction takes more than 0.2 of the force and 0.05 rad (m) of the way: of 38
+models with dry friction at their servos none has more than 0.05.
 
 In a URDF, whose efforts no actuator gives yet, friction above the effort, or damping above it at half a rad/s (m/s), is
-told. So is a door or a drawer that nothing drives, its weight does not load, and a push of 50 N and twice its weight at
-its far end moves at less than 0.1 rad/s (0.1 m/s).
+told. So is a hinge without a range that nothing drives and that its weight would swing, where damping is more than
+twice the critical, so that it creeps down; of 385 healthy models none has more than 0.2 times. And a door or a drawer
+that nothing drives, its weight does not load, and a push of 50 N and twice its weight at its far end moves at less than
+0.1 rad/s (0.1 m/s).
 
 When it is wrong: a brake, or a worm gear that is meant to hold.
 """
@@ -57,8 +60,9 @@ LEVEL = "hint"
 FIELDS = ("damping", "frictionloss")
 SLOW = 0.5  # rad/s or m/s that full force reaches
 LEFT = 0.7
-CROSSES = 25.0  # s
+CROSSES, TURNS = 25.0, 4.0  # s: for a range, for a turn of a hinge without one
 TAKEN, SHORT = 0.2, 0.05  # of a servo's force; rad or m of its way
+CRITICAL, SWINGS = 2.0, 0.02  # of a pendulum's critical damping: too much, and what is usual
 STILL = 0.03  # rad/s or m/s that its own weight gives what nothing drives
 HEAVY = 0.05  # of weight times size: a joint that is balanced has less
 LEVER = 0.1  # m: a knob is turned by what is longer than it
@@ -99,34 +103,41 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield from _crawls(model, told)
     yield from _rubbed(model, told)
     yield from _hung(model)
+    yield from _creeps(model)
     yield from _shut(model)
     yield from _beyond_effort(model)
 
 
 def _crawls(model: ReaderModel, told: Collection[int]) -> Iterator[Suspect]:
-    """Joints that move, and that need far longer than any for their range, by their damping, all together."""
+    """Joints that move, and that need far longer than any for their range or a turn, by their damping."""
     of = model.simulation
-    slow = {joint: time for joint in _forces(of) if joint not in told and (time := _crosses(of, joint)) > CROSSES}
-    if not slow:
-        return
-    worst = max(slow, key=lambda joint: slow[joint])
-    force, damping = _forces(of)[worst], of.model("dof_damping")[of.dof(worst)]
-    values = {joint: rounded(of.model("dof_damping")[of.dof(joint)] / slow[joint]) for joint in slow}
-    says = (
-        f"The actuators of {of.name('joint', worst)} give {force:.3g} N m (N), which damping lets move at "
-        f"{force / damping:.2g} rad/s (m/s): its range takes {slow[worst]:.0f} s."
-    )
-    names, edits = tuple(of.name("joint", joint) for joint in slow), model.set_each("joint", "damping", values)
-    probe = Probe(
-        "time that a joint needs for its range against its damping", "s", _slowest, tuple(slow), dynamic=False
-    )
-    healthy = "6.7 s at the most in 260 healthy models"
-    yield Suspect(names, "damping", f"{damping:.3g}", values[worst], edits, probe, CROSSES, says, healthy)
+    times = {joint: time for joint in _forces(of) if joint not in told and (time := _crosses(of, joint))}
+    for limit, way, healthy in ((CROSSES, "its range", "6.7 s"), (TURNS, "a turn", "1.3 s")):
+        slow = {
+            each: time for each, time in times.items() if time > limit and (each in of.ranges) == (limit == CROSSES)
+        }
+        if not slow:
+            continue
+        worst = max(slow, key=lambda joint: slow[joint])
+        force, damping = _forces(of)[worst], of.model("dof_damping")[of.dof(worst)]
+        values = {joint: rounded(of.model("dof_damping")[of.dof(joint)] / slow[joint]) for joint in slow}
+        says = (
+            f"The actuators of {of.name('joint', worst)} give {force:.3g} N m (N), which damping lets move at "
+            f"{force / damping:.2g} rad/s (m/s): {way} takes {slow[worst]:.2g} s."
+        )
+        names, edits = tuple(of.name("joint", joint) for joint in slow), model.set_each("joint", "damping", values)
+        probe = Probe(
+            "time that a joint needs for its range against its damping", "s", _slowest, tuple(slow), dynamic=False
+        )
+        usual = f"{healthy} at the most in healthy models"
+        yield Suspect(names, "damping", f"{damping:.3g}", values[worst], edits, probe, limit, says, usual)
 
 
 def _crosses(of: Simulation, joint: int) -> float:
-    """How long in s all that a joint's actuators give takes for its range; 0 of a joint without one."""
+    """How long in s all that a joint's actuators give takes for its range, or motors for a turn of a hinge without."""
     low, high = of.ranges.get(joint, ENDLESS)
+    if of.continuous(joint) and all(of.is_motor(actuator) for actuator in of.drivers.get(joint, ())):
+        low, high = 0.0, 2 * math.pi
     force = _forces(of).get(joint, 0.0) if math.isfinite(high - low) else 0.0
     return (high - low) * of.model("dof_damping")[of.dof(joint)] / force if force > 0 else 0.0
 
@@ -184,6 +195,30 @@ def _hung(model: ReaderModel) -> Iterator[Suspect]:
             f"{loads(simulation)[simulation.dof(joint)]:.3g} N m (N) at most, does not move it.",
             "a joint that swings where nothing drives it",
         )
+
+
+def _creeps(model: ReaderModel) -> Iterator[Suspect]:
+    """Pendulums that creep down, as nothing that swings does."""
+    of = model.simulation
+    for joint, held in _held(of).items():
+        if held > 1 or (ratio := _ratio(of, joint)) <= CRITICAL:
+            continue
+        now, name = of.model("dof_damping")[of.dof(joint)], of.name("joint", joint)
+        value = rounded(now * SWINGS / ratio)
+        says = f"Nothing drives it, and damping is {ratio:.2g} times the critical: it creeps down and does not swing."
+        edits, probe = (
+            model.set("joint", [joint], "damping", value),
+            Probe("damping ratio", "", _ratio, (joint,), False),
+        )
+        healthy = "0.2 and less in healthy models"
+        yield Suspect((name,), "damping", f"{now:.3g}", value, edits, probe, CRITICAL, says, healthy)
+
+
+def _ratio(of: Simulation, joint: int) -> float:
+    """The damping of a hinge without a range over the critical of a pendulum, from its greatest load and inertia."""
+    dof = of.dof(joint)
+    critical = 2 * math.sqrt(loads(of)[dof] * of.mass_diagonal[dof])
+    return of.model("dof_damping")[dof] / critical if of.continuous(joint) and critical > 0 else 0.0
 
 
 def _shut(model: ReaderModel) -> Iterator[Suspect]:

@@ -193,3 +193,58 @@ def test_a_sensor_of_another_kind_than_its_sisters_is_told(
 def test_an_upward_axis_that_lies_is_told(kind: str, name: str, values: list[str]) -> None:
     found = told("sensor-unlike-name", PAIR, f'<{kind} name="{name}" objtype="site" objname="imu"/>')
     assert [each.value for each in found] == values
+
+
+REELED = """<mujoco><worldbody><site name="drum" pos="0 0 2"/>
+  <body name="hand" mocap="true"><site name="palm"/></body>
+  <body><site name="bench"/></body>
+  <body name="load" pos="0 0 1"><joint name="swing" axis="0 1 0"/><joint name="turn" axis="0 0 1" range="-90 90"/>
+    <geom size="0.1"/><site name="eye"/></body></worldbody>
+  <tendon><spatial name="rope"><site site="drum"/><site site="eye"/></spatial>
+    <spatial name="cable"><site site="drum"/><site site="eye"/></spatial></tendon>
+  <actuator><motor tendon="{pulled}"/><motor joint="turn"/></actuator><sensor><{sensor}/></sensor></mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("sensor", "told"),
+    [
+        ('tendonactuatorfrc tendon="cable"', 1),
+        ('tendonactuatorfrc tendon="rope"', 0),
+        ('jointactuatorfrc joint="swing"', 0),
+        ('gyro site="drum"', 1),
+        ('gyro site="eye"', 0),
+        ('gyro site="palm"', 1),
+        ('gyro site="bench"', 0),
+        ('framelinvel objtype="site" objname="drum" reftype="body" refname="load"', 0),
+        ('framelinvel objtype="body" objname="load"', 0),
+        ('magnetometer site="eye"', 0),
+    ],
+)
+def test_a_sensor_of_what_is_not_there_is_told(sensor: str, told: int) -> None:
+    text = REELED.format(pulled="rope", sensor=sensor)
+    assert len(hints(text, "sensor-reads-nothing")) == told
+    idle = text.replace('<motor tendon="rope"/><motor joint="turn"/>', "")
+    assert len(hints(idle, "sensor-reads-nothing")) == (told or "actuator" in sensor)
+
+
+PLATE = (
+    '<body pos="0 0 1"><joint axis="0 1 0"/><geom type="box" size=".2 .2 .01"/><site name="middle"/></body>'
+    '<body name="ball" pos="0 0 1.05"><freejoint/><geom size="0.02"/></body>'
+)
+IN_PLATE = 'reftype="site" refname="middle"'
+
+
+@pytest.mark.parametrize(
+    ("place", "rate", "told"),
+    [
+        pytest.param('framepos name="ball_pos"', f'framelinvel name="ball_vel" {IN_PLATE}', ["ball_pos"], id="place"),
+        pytest.param(f'framepos name="ball_pos" {IN_PLATE}', 'framelinvel name="ball_vel"', ["ball_vel"], id="rate"),
+        pytest.param('framepos name="ball_pos"', 'framelinvel name="ball_vel"', [], id="the-world"),
+        pytest.param('framepos name="map_pos"', f'framelinvel name="ball_vel" {IN_PLATE}', [], id="called-otherwise"),
+        pytest.param('framequat name="ball_pos"', f'framelinvel name="ball_vel" {IN_PLATE}', [], id="no-rate-of-it"),
+    ],
+)
+def test_a_place_and_its_rate_in_two_frames_are_told(place: str, rate: str, told: list[str]) -> None:
+    sensors = "".join(f'<{each} objtype="body" objname="ball"/>' for each in (place, rate))
+    text = f"<mujoco><worldbody>{PLATE}</worldbody><sensor>{sensors}</sensor></mujoco>"
+    assert [each.elements[0] for each in hints(text, "sensor-frames-differ")] == [f'sensor "{name}"' for name in told]

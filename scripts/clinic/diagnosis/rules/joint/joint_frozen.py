@@ -205,7 +205,10 @@ def _creeps(model: ReaderModel) -> Iterator[Suspect]:
             continue
         now, name = of.model("dof_damping")[of.dof(joint)], of.name("joint", joint)
         value = rounded(now * SWINGS / ratio)
-        says = f"Nothing drives it, and damping is {ratio:.2g} times the critical: it creeps down and does not swing."
+        mass = of.model("body_subtreemass")[of.body_of("joint", joint)]
+        says = (
+            f"Nothing drives it, and for its {mass:.2g} kg damping is {ratio:.2g} times the critical: it creeps down."
+        )
         edits, probe = (
             model.set("joint", [joint], "damping", value),
             Probe("damping ratio", "", _ratio, (joint,), False),

@@ -255,3 +255,18 @@ def test_a_spring_at_rest_elsewhere_than_its_twins_is_told(rest, told):
     sprung['right_front:damping="0.1"'] = f'damping="0.1" stiffness="30" springref="{rest}"'
     found = unlike(robot(sprung, right="-60 30"))
     assert [each.attribute for each in found if each.rule == "twin-joint-differs"] == told
+
+
+@pytest.mark.parametrize(
+    ("foot", "told"), [("</body>{}", ["left_shin"]), ("{}</body>", []), ("<body/></body>{}", [])],
+    ids=["beside the shin", "on it", "beside a shin that carries something"],
+)  # fmt: skip
+def test_a_foot_that_hangs_a_link_higher_than_its_twin_is_told(foot: str, told: list[str]):
+    part = '<body name="{0}_{1}" pos="{2}"><joint axis="0 1 0"/><geom size="0.03"/>'
+    legs = "".join(
+        part.format(side, "thigh", f"0 {y} 0") + part.format(side, "shin", "0 0 -0.3")
+        + ends.format(part.format(side, "foot", "0 0 -0.3") + "</body>") + "</body>"
+        for side, y, ends in (("left", 0.1, foot), ("right", -0.1, "{}</body>"))
+    )  # fmt: skip
+    text = f'<mujoco><worldbody><body><freejoint/><geom size="0.1"/>{legs}</body></worldbody></mujoco>'
+    assert [each.value for each in hints(text, "twin-hangs-elsewhere")] == told

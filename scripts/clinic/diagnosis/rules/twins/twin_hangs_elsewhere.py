@@ -52,7 +52,8 @@ Good:
     +     <parent link="right_hinge"/>
 
 The number: parts of one side that hang on a part of the other, beside their own twins, where the part that they are
-named after carries nothing of the kind.
+named after carries nothing of the kind. And the one of a pair that hangs a link higher than its twin, beside the link
+that it should hang on, where that carries nothing: a closing tag that stands too early.
 
 When it is wrong: names that do not mean sides.
 """
@@ -62,6 +63,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.probes.sides import by_name
 from clinic.diagnosis.probes.twins import twins
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -82,6 +84,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         probe = how_many("parts that hang on the other side", _astray)
         edits = _edits(model, of.names("body")[body], value)
         yield Suspect(names, "parent", of.names("body")[parent], value, edits, probe, 0, says, "each on its own side")
+    for body, meant in _too_high(of).items():
+        names, value = (of.name("body", body), of.name("body", of.parent(body))), of.names("body")[meant]
+        says = f"Its twin hangs one link lower; {of.name('body', meant)}, beside it, carries nothing."
+        probe, edits = (
+            how_many("parts a link higher than their twins", _too_high),
+            _edits(model, of.names("body")[body], value),
+        )
+        yield Suspect(names, "parent", of.names("body")[of.parent(body)], value, edits, probe, 0, says, "as its twin")
 
 
 def _astray(of: Simulation) -> dict[int, tuple[int, int]]:
@@ -98,6 +108,20 @@ def _astray(of: Simulation) -> dict[int, tuple[int, int]]:
         meant = pair[1] if parent == pair[0] else pair[0]
         if carried[parent] - carried[meant] == 2:
             made[right if parent == pair[0] else left] = (parent, meant)
+    return made
+
+
+def _too_high(of: Simulation) -> dict[int, int]:
+    """The parts that hang beside the twin of what their own twin hangs on, by that, which carries nothing."""
+    pairs = by_name(of, "body")
+    twin = {one: other for pair in pairs for one, other in (pair, pair[::-1])}
+    made = {}
+    for body, other in twin.items():
+        meant = twin.get(of.parent(other))
+        if meant is None or meant == of.parent(body) or of.parent(meant) != of.parent(body) or of.children.get(meant):
+            continue
+        if of.joints_of(body) and twin.get(of.parent(body), of.parent(body)) == of.parent(of.parent(other)):
+            made[body] = meant
     return made
 
 

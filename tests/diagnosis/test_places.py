@@ -196,3 +196,20 @@ def test_a_site_of_a_robot_whose_feet_alone_have_geoms_is_beside_its_bodies(heig
     inertial = '<inertial pos="0 0 0" mass="9" diaginertia="1 1 1"/>'
     trunk = f'<body pos="0 0 1.1"><freejoint/>{inertial}<site name="imu" pos="0 0 {height}"/>{foot}</body>'
     assert bool(hints(f"<mujoco><worldbody>{trunk}</worldbody></mujoco>", "site-far-off")) == told
+
+
+@pytest.mark.parametrize(
+    ("geom", "place", "told"),
+    [
+        pytest.param('type="capsule" fromto="0 0 0 0 0 -0.5" size="0.02"', "0 0 0.5", "0 0 -0.5", id="a rod"),
+        pytest.param('type="box" size="0.03 0.03 0.22" pos="0 0 -0.22"', "0 0.06 0.4", "0 0.06 -0.4", id="a box"),
+        pytest.param('type="box" size="0.03 0.03 0.22" pos="0 0 -0.22"', "0 0 0.1", None, id="not as far"),
+        pytest.param('type="box" size="0.03 0.03 0.5"', "0 0 0.5", None, id="both ways"),
+    ],
+)
+def test_a_link_across_the_joint_from_the_end_of_the_one_before_is_told(geom: str, place: str, told: str | None):
+    lower = f'<body pos="{place}"><joint axis="0 1 0"/><geom size="0.04" pos="0 0 -0.3"/></body>'
+    text = (
+        f'<mujoco><worldbody><body pos="0 0 2"><joint axis="0 1 0"/><geom {geom}/>{lower}</body></worldbody></mujoco>'
+    )
+    assert [each.value for each in hints(text, "link-off-the-end")] == [told] * bool(told)

@@ -25,7 +25,8 @@ Good:
 
 The number: where the next link with a joint begins, in lengths of a capsule or cylinder that begins at its own body's
 origin: 10, 100 or 1000 times as far, where no other geom is; a tenth, where the rod is the one that is unlike the
-others; or at its beginning, where the next one's is a rod in the same direction.
+others; as far on the other side, where no other geom is; or at its beginning, where the next one's is a rod in the same
+direction.
 
 And, of links of any shape that hinges move, the one that is more than 0.3 of its size away from what it hangs on, where
 two and more others all touch theirs, and so does it with two digits of its `pos` exchanged, or with another sign.
@@ -38,7 +39,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import CAPSULE, CYLINDER, HFIELD, HINGE, PLANE
+from clinic.diagnosis.engine import BOX, CAPSULE, CYLINDER, HFIELD, HINGE, PLANE
 from clinic.diagnosis.probes.shape import boxes
 from clinic.diagnosis.probes.vector import Vector, add, dot, norm, of_quaternion, sub, times, unit, written
 from clinic.diagnosis.reader_model import ReaderModel
@@ -51,7 +52,7 @@ AFLOAT = True
 UNPLANTED = "where a link belongs, only a drawing tells"
 
 APART, TOUCHES, LINKS, LARGE = 0.3, 0.05, 3, 100  # sizes of the link; bodies
-WITHIN, PARALLEL, SLENDER, OFF = 0.15, 0.985, 1.5, 0.5
+WITHIN, PARALLEL, SLENDER, OFF, OPPOSITE = 0.15, 0.985, 1.5, 0.5, 0.98
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -63,21 +64,24 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         parent, share = of.parent(body), _share(of, body)
         if not parent or not of.joints_of(body) or share == 1:
             continue
-        geom, rod = _rods(of, parent)[-1]
+        geom, rod = _rods(of, parent, boxed=share < 0)[-1]
         place, above = of.row("body_pos", body, 3), of.name("body", parent)
         length = f"The rod of {above} ends {norm(rod):.3g} m from where that begins, and {of.name('body', body)}"
         says = f"{length} hangs {norm(place):.3g} m away in the same direction."
+        if share == -1:
+            says = f"{length} hangs as far away in the opposite direction."
         if share == 0:
             says = f"{length}, a rod in the same direction, begins where {above} does."
         probe = Probe("a link from the end of the rod before it", "of the rod's length", _off, (body,), dynamic=False)
         names, text = [of.name("body", body), above], model.value("geom", geom, "fromto")
-        if share and text and _odd_rod(of, geom, rod, place):
+        if share > 0 and text and _odd_rod(of, geom, rod, place):
             names, attribute, now = [of.name("geom", geom), *names], "fromto", text
             value = written([share * float(each) for each in text.split()])
             edits = model.set("geom", [geom], "fromto", value)
         else:
             attribute, now = "pos", written(place)
-            value = written(rod if share == 0 else [x / share for x in place])
+            back = add(place, unit(rod), -2 * dot(place, unit(rod)))
+            value = written(rod if share == 0 else back if share < 0 else [x / share for x in place])
             edits = model.placed(body, [float(each) for each in value.split()])
         yield Suspect(
             tuple(names), attribute, now, value, edits, probe, OFF, says, "at the end of a rod, or on its way"
@@ -165,14 +169,16 @@ def _off(of: Simulation, body: int) -> float:
     """How far a link begins from the end of the rod before it, in lengths of the rod; 0 where that is no mistake's."""
     if _share(of, body) == 1:
         return 0.0
-    rod = _rods(of, of.parent(body))[-1][1]
+    rod = _rods(of, of.parent(body), boxed=_share(of, body) < 0)[-1][1]
     return norm(sub(of.row("body_pos", body, 3), rod)) / norm(rod)
 
 
 def _share(of: Simulation, body: int) -> float:
-    """Where a link is along the rod before it, where that is a mistake's number: 0 or a power of ten; else 1."""
+    """Where a link is along the rod before it, where that is a mistake's number: 0, -1 or a power of ten; else 1."""
     parent, place = of.parent(body), of.row("body_pos", body, 3)
     rods = _rods(of, parent)
+    if _opposite(of, body):
+        return -1.0
     if not rods:
         return 1.0
     rod = rods[-1][1]
@@ -191,19 +197,37 @@ def _share(of: Simulation, body: int) -> float:
     return float(10.0**power)
 
 
+def _opposite(of: Simulation, body: int) -> bool:
+    """Whether a link is as far from its parent's joint as the end of that one's rod or box, on the other side."""
+    parent, place = of.parent(body), of.row("body_pos", body, 3)
+    for _, end in _rods(of, parent, boxed=True)[-1:] if any(place) else ():
+        as_far = abs(norm(place) / norm(end) - 1) < WITHIN
+        near = [
+            geom for geom in of.geoms_of(parent) if norm(sub(of.row("geom_pos", geom, 3), place)) < _radius(of, geom)
+        ]
+        return as_far and not near and dot(unit(place), unit(end)) < -OPPOSITE
+    return False
+
+
 def _radius(of: Simulation, geom: int) -> float:
     return of.model("geom_rbound")[geom]
 
 
-def _rods(of: Simulation, body: int) -> list[tuple[int, Vector]]:
-    """The rods of a body that begin at its origin, with where they end; the longest last."""
+def _rods(of: Simulation, body: int, *, boxed: bool = False) -> list[tuple[int, Vector]]:
+    """The rods of a body that begin at its origin, and long boxes, with where they end; the longest last."""
     made = []
     for geom in of.geoms_of(body):
-        radius, half, _ = of.row("geom_size", geom, 3)
+        sizes, kind = of.row("geom_size", geom, 3), int(of.model("geom_type")[geom])
+        along = 2
+        if boxed and kind == BOX:
+            along = sizes.index(max(sizes))
+            radius, half = sorted(sizes)[1:]
+        else:
+            radius, half, _ = sizes
         middle, turn = of.row("geom_pos", geom, 3), of_quaternion(of.row("geom_quat", geom, 4))
-        axis = times(turn, (0.0, 0.0, half))
+        axis = times(turn, tuple(half if i == along else 0.0 for i in range(3)))
         near, far = sorted((add(middle, axis), sub(middle, axis)), key=norm)
-        rod = int(of.model("geom_type")[geom]) in (CAPSULE, CYLINDER) and half > SLENDER * radius
+        rod = kind in (CAPSULE, CYLINDER, *[BOX] * boxed) and half > SLENDER * radius
         if rod and norm(near) < max(radius, 0.1 * half):
             made.append((geom, far))
     return sorted(made, key=lambda each: norm(each[1]))

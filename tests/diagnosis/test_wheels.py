@@ -142,3 +142,14 @@ def test_a_servo_that_holds_two_wheels_by_a_tendon_is_told(throttle: str, told: 
       <tendon><fixed name="axle">{ends}</fixed></tendon>
       <actuator><{throttle} tendon="axle" ctrlrange="-60 60"/></actuator></mujoco>"""
     assert [each.rule for each in hints(text, "wheel-held")] == told
+
+
+@pytest.mark.parametrize(
+    ("joint", "sensor", "told"),
+    [("", "gyro", 1), ("", "velocimeter", 1), ("", "accelerometer", 0), ("<freejoint/>", "gyro", 0)],
+)
+def test_a_fixed_body_whose_motion_is_measured_is_told(joint: str, sensor: str, told: int):
+    tail = '<body pos="-0.1 0 0"><joint axis="0 0 1"/><geom size="0.05 0.01 0.03" type="box"/></body>'
+    head = f'<body name="head">{joint}<geom size="0.05"/><site name="imu"/>{tail}</body>'
+    text = f'<mujoco><worldbody>{head}</worldbody><sensor><{sensor} name="imu" site="imu"/></sensor></mujoco>'
+    assert [each.elements for each in hints(text, "root-is-fixed")] == [('body "head"',)] * told

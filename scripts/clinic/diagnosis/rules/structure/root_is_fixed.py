@@ -29,6 +29,7 @@ Good:
 The number: wheels that touch the floor, below a body that nothing can move. A wheel is a hinge without limits whose
 round geom has its middle on the axis. Legs are two limbs and more of a body in the air whose ends are within 15 % of
 its height of the floor; in MJCF also two and more of which two parts are called so (hip and knee, thigh and shin, ...).
+And a body that carries links with joints and a gyro or a velocimeter, which read 0 on it for ever.
 
 Keyframes get the seven numbers of the place where the body stands.
 
@@ -52,6 +53,7 @@ TITLE = "The robot is fixed to the world"
 FAMILIES = ("stuck",)
 LEVEL = "hint"
 
+MOTION = (2, 3)  # mjtSensor: velocimeter, gyro
 LEG = re.compile(r"(?<![a-z])[lr]?(hip|thigh|knee|calf|shin|ankle|leg|foot|femur|tibia)(?![a-z])", re.IGNORECASE)
 
 
@@ -61,6 +63,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     wheels = _limbs(of, not urdf)
     roots = {of.ancestors(body)[-2] for body in wheels}
+    if not roots:
+        yield from _measured(model)
     if len(roots) != 1:
         return
     root = roots.pop()
@@ -68,6 +72,25 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = f"{len(wheels)} wheels or legs hang on it, and no joint lets it move."
     probe = how_many("wheels and legs of a fixed body", _limbs, not urdf)
     yield Suspect((of.name("body", root),), "freejoint", "left out", "<freejoint/>", edits, probe, 1.5, says, "none")
+
+
+def _measured(model: ReaderModel) -> Iterator[Suspect]:
+    """The one body with links on joints whose motion is measured, where nothing can move it."""
+    of = model.simulation
+    for root, sensor in _still(of).items() if len(_still(of)) == 1 else ():
+        says = f"{of.name('sensor', sensor)} measures how fast it moves, and no joint lets it move."
+        probe, edits = how_many("bodies whose motion is measured and that are fixed", _still), freed(model, [root])
+        yield Suspect((of.name("body", root),), "freejoint", "left out", "<freejoint/>", edits, probe, 0, says, "none")
+
+
+def _still(of: Simulation) -> dict[int, int]:
+    """The bodies of the world that carry what moves and a gyro or a velocimeter, by the first of these."""
+    moving, made = set(of.moving_bodies), dict[int, int]()
+    for sensor, kind in enumerate(of.model("sensor_type")):
+        body = of.body_of("site", int(of.model("sensor_objid")[sensor])) if int(kind) in MOTION else 0
+        if body and body not in moving and moving & set(of.below(root := of.ancestors(body)[-2])):
+            made.setdefault(root, sensor)
+    return made
 
 
 def _feet(of: Simulation) -> list[int]:

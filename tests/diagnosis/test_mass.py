@@ -158,8 +158,8 @@ def test_a_left_and_a_right_geom_in_one_place_are_mirrored(left: float, right: f
 
 @pytest.mark.parametrize(
     ("density", "told"),
-    [("1.21", "1210"), ("0.9", "900"), ("5", None), ("1210", None)],
-    ids=["tpu", "pp", "ant", "kg/m3"],
+    [("1.21", "1210"), ("0.9", "900"), ("2.7", "2700"), ("5", None), ("1210", None)],
+    ids=["tpu", "pp", "aluminium", "ant", "kg/m3"],
 )
 def test_links_are_told_up_to_the_density_of_plastics_in_grams(density: str, told: str | None):
     links = "".join(
@@ -197,3 +197,17 @@ def test_a_link_weighs_what_is_fixed_to_it_too(tip: float, named: list[str]) -> 
       <body name="pole"><joint axis="0 1 0"/><geom type="capsule" fromto="0 0 0.2 0 0 1" size="0.05" mass="1e-6"/>
       <body name="tip" pos="0 0 1"><geom size="0.1" mass="{tip}"/></body></body></body></worldbody></mujoco>"""
     assert [each.rule for each in causes(text, "lighter-than-air")] == named
+
+
+@pytest.mark.parametrize(
+    ("density", "walls", "told"),
+    [("0.65", 3, ["650"]), ("0.65", 1, []), ("7.85", 1, ["7850"]), ("5", 3, []), ("650", 3, [])],
+)
+def test_walls_with_the_density_of_their_class_in_grams_are_told_beside_a_knob_with_a_mass(
+    density: str, walls: int, told: list[str]
+):
+    wall = "".join(f'<geom class="wood" type="box" size="0.2 0.01 0.2" pos="0 {y} 0"/>' for y in range(walls))
+    drawer = f'<body name="drawer"><joint type="slide"/>{wall}<geom size="0.02" mass="0.1"/></body>'
+    default = f'<default><default class="wood"><geom density="{density}"/></default></default>'
+    text = f"<mujoco>{default}<worldbody>{drawer}</worldbody></mujoco>"
+    assert [each.value for each in hints(text, "lighter-than-air")] == told

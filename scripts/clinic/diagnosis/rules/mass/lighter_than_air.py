@@ -23,8 +23,8 @@ The number: the mass of the air that its geoms displace (1.2 kg/m3) over its own
 and for single links with a joint. More than 300 tells a cause: Gymnasium's second pusher pushes a puck of 120, its
 first one of 120,000. A model in centimetres has 10. More than 1, of less than 0.1 kg, under the gravity of metres and
 without a fluid, tells a hint: a density of 1.2 in g/cm3 is taken for kg/m3, and a cube has a mass of milligrams. Three
-links and more are told so from a written density of 1.6 down, a free body from 15 down: of what is solid even foam has
-more, and 7.8 is steel in g/cm3.
+geoms of links and more are told so from a written density of 1.6 down, one that is the number of a metal in g/cm3 (2.7,
+7.8, ...), and a free body from 15 down: of what is solid even foam has more.
 
 A geom with a density of its own of less than air has, in a mechanism whose other geoms have a mass, is told to have
 that as its mass.
@@ -37,7 +37,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
-from clinic.diagnosis.probes.matter import matter
+from clinic.diagnosis.probes.matter import matter, volume_of
 from clinic.diagnosis.probes.shape import root_of, solid
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.world.lengths_in_another_unit import unit_of_lengths
@@ -50,6 +50,7 @@ FAMILIES = ("falls-through", "explodes", "stuck")
 FEATHER = 0.005  # kg/m3
 AIR, LIMIT, LIGHT, FEW = 1.2, 300.0, 1.0, 3
 SHOVED = 0.1  # kg, below which a body is easily shoved away
+METALS = (2.7, 7.8, 7.85, 7.87, 7.9, 8.9, 8.96)  # g/cm3
 PLASTIC = AIR / 1.6  # of the densest: an ant of 5 kg/m3 is meant
 FOAM = AIR / 15  # of the lightest, over the air in its place
 METRES, CENTIMETRES = (5.0, 20.0), 500.0  # m/s2
@@ -113,29 +114,42 @@ def _links(model: ReaderModel, most: float) -> Iterator[Suspect]:
     of = model.simulation
     found: dict[str, list[int]] = {}
     for body in of.moving_bodies if most == LIGHT else ():
-        texts = {model.value("geom", geom, "density") or "" for geom in of.geoms_of(body)}
-        if len(texts) == 1 and of.joints_of(body) and inertial(model, body) is None and _air(of, body) > PLASTIC:
+        weighed = [geom for geom in of.geoms_of(body) if not model.value("geom", geom, "mass")]
+        texts = {model.value("geom", geom, "density") or "" for geom in weighed}
+        if len(texts) == 1 and of.joints_of(body) and inertial(model, body) is None:
             found.setdefault(texts.pop(), []).append(body)
     owner = root_of(of)
     for text, bodies in found.items():
+        every = [geom for geom in range(of.count("geom")) if model.value("geom", geom, "density") == text]
+        moved = [geom for geom in every if of.body_of("geom", geom) in bodies and volume_of(of, geom)]
+        metal = _number(text) in METALS
+        if not metal and (len(moved) < FEW or not FEATHER < _number(text) < AIR / PLASTIC):
+            continue
         roots = {owner[body] for body in bodies}
         whole = tuple(body for body in of.moving_bodies if owner[body] in roots)
-        if not text or len(bodies) < FEW or _air(of, *whole) > LIGHT:  # else it is told of the whole
-            continue
-        every = [geom for geom in range(of.count("geom")) if model.value("geom", geom, "density") == text]
-        value = f"{1000 * float(text):g}"
+        if _air(of, *whole) > LIGHT or (of.free_bodies and set(bodies) <= set(of.free_bodies)):
+            continue  # it is told of the whole, or of each
+        value, links = f"{1000 * float(text):g}", f"{len(bodies)} link{'s' * (len(bodies) > 1)}"
+        why = "less than foam; in g/cm3 it is that of a metal" if metal else "near that of air; it is one in g/cm3"
         yield Suspect(
             tuple(of.name("body", body) for body in bodies),
             "density",
             text,
             value,
             model.set("geom", every, "density", value),
-            Probe("mass of the air in its place over its own", "", _air, tuple(bodies), dynamic=False),
-            PLASTIC,
-            f"{len(bodies)} links have {text} kg/m3, hardly more than air; it is a density in g/cm3.",
+            counted("geoms that move with a density in g/cm3", len(moved)),
+            0.5,
+            f"Geoms of {links} have {text} kg/m3, {why}.",
             "wood has 500 kg/m3, air 1.2",
             level="hint",
         )
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return 0.0
 
 
 def _for_mass(model: ReaderModel, most: float) -> Iterator[Suspect]:

@@ -211,3 +211,22 @@ def test_walls_with_the_density_of_their_class_in_grams_are_told_beside_a_knob_w
     default = f'<default><default class="wood"><geom density="{density}"/></default></default>'
     text = f"<mujoco>{default}<worldbody>{drawer}</worldbody></mujoco>"
     assert [each.value for each in hints(text, "lighter-than-air")] == told
+
+
+@pytest.mark.parametrize(
+    ("names", "x", "told"),
+    [
+        (("wall_e", "wall_w"), -1, [('geom "wall_e"', "1 0 0.1")]),
+        (("west", "east"), -1, [('geom "east"', "1 0 0.1")]),
+        (("wall1", "wall2"), -1, [('geom "wall2"', "apart from each other")]),
+        (("wall_e", "wall_w"), 1, []),
+        (("", ""), -1, []),
+    ],
+)
+def test_two_walls_of_the_world_in_one_place_are_told(names: tuple[str, str], x: int, told: list[tuple[str, str]]):
+    walls = "".join(
+        f'<geom {name} type="box" size="0.1 1 0.1" pos="{place} 0 0.1"/>'
+        for name, place in zip([f'name="{name}"' * bool(name) for name in names], (x, -1), strict=True)
+    )
+    text = f'<mujoco><worldbody>{walls}<body pos="0 0 1"><freejoint/><geom size="0.1"/></body></worldbody></mujoco>'
+    assert [(each.elements[0], each.value) for each in hints(text, "geom-twice")] == told

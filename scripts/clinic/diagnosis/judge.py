@@ -90,7 +90,7 @@ def without_consequences(found: Sequence[Judged], model_of: Callable[[Rule], Rea
     """The causes but for those whose symptom goes away with another's edit, and not the other way round.
 
     A mass that is only hinted at, and beyond all measure, is a cause too where it is the reason of one. An overlap that
-    goes away with the place of a part, which is hinted at, follows from it.
+    goes away with the place of a part, which is hinted at, follows from it; where it was a cause, that place is one.
     """
 
     def ends(one: Sequence[Judged], other: Judged) -> bool:
@@ -110,6 +110,8 @@ def without_consequences(found: Sequence[Judged], model_of: Callable[[Rule], Rea
     displaced = [each for each in found if _displaced(each)]
     overlaps = [each for each in found if each.rule.id in OVERLAPS and any(ends([one], each) for one in displaced)]
     follows += overlaps
+    sunk = [each for each in overlaps if each.level == "cause"]
+    reasons += [each for each in displaced if each.after is not None and any(ends([each], one) for one in sunk)]
     lowered, raised = {id(each) for each in follows}, {id(each) for each in reasons}
 
     def level(each: Judged) -> Level:

@@ -252,3 +252,25 @@ def test_a_slide_whose_range_is_that_of_its_rail_in_cm_or_mm_is_told(rail: str, 
         '</worldbody><actuator><motor joint="slider"/></actuator></mujoco>'
     )
     assert [each.value for each in hints(text, "slides-out")] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("joints", "driven", "told"),
+    [
+        pytest.param("xz", True, 'type="hinge" axis="0 1 0"', id="no hinge"),
+        pytest.param("xt", True, 'type="slide" axis="0 0 1"', id="no slide"),
+        pytest.param("xzt", True, None, id="all three"),
+        pytest.param("zt", True, None, id="on a boom"),
+        pytest.param("xy", True, None, id="in another plane"),
+        pytest.param("xz", False, None, id="nothing drives the legs"),
+    ],
+)
+def test_a_robot_in_a_plane_that_lacks_a_joint_of_its_root_is_told(joints: str, driven: bool, told: str | None):
+    kinds = {"x": 'type="slide" axis="1 0 0"', "z": 'type="slide" axis="0 0 1"', "t": 'axis="0 1 0"'}
+    kinds["y"] = 'type="slide" axis="0 1 0"'
+    root = "".join(f"<joint {kinds[each]}/>" for each in joints)
+    legs = "".join(f'<body><joint name="{i}" axis="0 1 0"/><geom size="0.1" pos="0 0 -1"/></body>' for i in range(2))
+    motors = '<motor joint="0"/><motor joint="1"/>' * driven
+    text = f'<mujoco><worldbody><body pos="0 0 3">{root}<geom size="0.1"/>{legs}</body></worldbody>'
+    found = hints(f"{text}<actuator>{motors}</actuator></mujoco>", "planar-root-incomplete")
+    assert [each.value for each in found] == [f"<joint {told}/>"] * bool(told)

@@ -145,11 +145,17 @@ def test_a_servo_that_holds_two_wheels_by_a_tendon_is_told(throttle: str, told: 
 
 
 @pytest.mark.parametrize(
-    ("joint", "sensor", "told"),
-    [("", "gyro", 1), ("", "velocimeter", 1), ("", "accelerometer", 0), ("<freejoint/>", "gyro", 0)],
+    ("joint", "sensor", "world", "told"),
+    [
+        ("", "gyro", "<geom size='9'/>", 1),
+        ("", "velocimeter", "<geom size='9'/>", 1),
+        ("", "accelerometer", "<geom size='9'/>", 0),
+        ("<freejoint/>", "gyro", "<geom size='9'/>", 0),
+        ("", "gyro", "", 0),
+    ],
 )
-def test_a_fixed_body_whose_motion_is_measured_is_told(joint: str, sensor: str, told: int):
+def test_a_fixed_body_whose_motion_is_measured_is_told(joint: str, sensor: str, world: str, told: int):
     tail = '<body pos="-0.1 0 0"><joint axis="0 0 1"/><geom size="0.05 0.01 0.03" type="box"/></body>'
     head = f'<body name="head">{joint}<geom size="0.05"/><site name="imu"/>{tail}</body>'
-    text = f'<mujoco><worldbody>{head}</worldbody><sensor><{sensor} name="imu" site="imu"/></sensor></mujoco>'
+    text = f'<mujoco><worldbody>{world}{head}</worldbody><sensor><{sensor} name="imu" site="imu"/></sensor></mujoco>'
     assert [each.elements for each in hints(text, "root-is-fixed")] == [('body "head"',)] * told

@@ -29,7 +29,8 @@ Good:
 The number: wheels that touch the floor, below a body that nothing can move. A wheel is a hinge without limits whose
 round geom has its middle on the axis. Legs are two limbs and more of a body in the air whose ends are within 15 % of
 its height of the floor; in MJCF also two and more of which two parts are called so (hip and knee, thigh and shin, ...).
-And a body that carries links with joints and a gyro or a velocimeter, which read 0 on it for ever.
+And a body that carries links with joints and a gyro or a velocimeter, which read 0 on it for ever,
+in a file with a world.
 
 Keyframes get the seven numbers of the place where the body stands.
 
@@ -86,7 +87,8 @@ def _measured(model: ReaderModel) -> Iterator[Suspect]:
 def _still(of: Simulation) -> dict[int, int]:
     """The bodies of the world that carry what moves and a gyro or a velocimeter, by the first of these."""
     moving, made = set(of.moving_bodies), dict[int, int]()
-    for sensor, kind in enumerate(of.model("sensor_type")):
+    scene = any(int(body) == 0 for body in of.model("geom_bodyid"))  # else it is a part that a scene takes in
+    for sensor, kind in enumerate(of.model("sensor_type") if scene else ()):
         body = of.body_of("site", int(of.model("sensor_objid")[sensor])) if int(kind) in MOTION else 0
         if body and body not in moving and moving & set(of.below(root := of.ancestors(body)[-2])):
             made.setdefault(root, sensor)

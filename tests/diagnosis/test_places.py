@@ -234,3 +234,19 @@ def test_a_number_a_power_of_ten_off_its_twins_is_told(right: str, told: list[tu
     text = f'<mujoco><worldbody>{rods}<site name="pen" pos="0 0 0.2868"/></worldbody></mujoco>'
     found = hints(text, "twin-place-differs")
     assert [(each.elements[0], each.value) for each in found] == [(f'geom "{name}"', value) for name, value in told]
+
+
+@pytest.mark.parametrize(
+    ("place", "end", "told"),
+    [
+        pytest.param("0.015 0 0", "", ["0.15 0 0"], id="a tenth"),
+        pytest.param("0.02 0 0", "", [], id="not a tenth"),
+        pytest.param("0.015 0 0", '<site pos="0.15 0 0"/>', [], id="a site at the end"),
+        pytest.param("0 0.015 0", "", [], id="aside"),
+    ],
+)
+def test_a_link_at_a_tenth_of_a_rod_at_whose_end_nothing_is_is_told(place: str, end: str, told: list[str]):
+    arm = '<joint axis="0 0 1"/><geom type="capsule" fromto="0 0 0 0.15 0 0" size="0.006"/><geom size="0.02"/>'
+    pole = f'<body pos="{place}"><joint axis="1 0 0"/><geom size="0.01" pos="0.01 0 -0.2"/></body>'
+    text = f"<mujoco><worldbody><body pos='0 0 1'>{arm}{end}{pole}</body></worldbody></mujoco>"
+    assert [each.value for each in hints(text, "link-off-the-end")] == told

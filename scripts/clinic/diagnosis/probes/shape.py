@@ -6,10 +6,11 @@ import sys
 from collections.abc import Iterable
 from itertools import product
 
-from clinic.diagnosis.engine import FREE, HFIELD, MESH, PLANE, SLIDE
-from clinic.diagnosis.probes.vector import Vector, across, add, at, norm, sub, times, transpose
+from clinic.diagnosis.engine import BOX, CAPSULE, CYLINDER, FREE, HFIELD, MESH, PLANE, SLIDE
+from clinic.diagnosis.probes.vector import Vector, across, add, at, norm, of_quaternion, sub, times, transpose
 from clinic.diagnosis.simulation import Simulation, kept
 
+SLENDER = 1.5  # lengths over the thickness
 CLEAR = 0.05  # of the opacity
 FLUID = 12  # mjNFLUID, numbers of a geom in geom_fluid
 LIQUID = 100.0  # kg/m3
@@ -173,3 +174,23 @@ def box(
     """The box around a geom along the world's axes: its centre and half sizes in m."""
     own, matrix = simulation.row("geom_aabb", geom, 6), axes[9 * geom : 9 * geom + 9]
     return add(at(positions, geom), times(matrix, own[:3])), times([abs(x) for x in matrix], own[3:])
+
+
+def rods(of: Simulation, body: int, *, boxed: bool = False) -> list[tuple[int, Vector]]:
+    """The rods of a body that begin at its origin, and long boxes, with where they end; the longest last."""
+    made = []
+    for geom in of.geoms_of(body):
+        sizes, kind = of.row("geom_size", geom, 3), int(of.model("geom_type")[geom])
+        along = 2
+        if boxed and kind == BOX:
+            along = sizes.index(max(sizes))
+            radius, half = sorted(sizes)[1:]
+        else:
+            radius, half, _ = sizes
+        middle, turn = of.row("geom_pos", geom, 3), of_quaternion(of.row("geom_quat", geom, 4))
+        axis = times(turn, tuple(half if i == along else 0.0 for i in range(3)))
+        near, far = sorted((add(middle, axis), sub(middle, axis)), key=norm)
+        rod = kind in (CAPSULE, CYLINDER, *[BOX] * boxed) and half > SLENDER * radius
+        if rod and norm(near) < max(radius, 0.1 * half):
+            made.append((geom, far))
+    return sorted(made, key=lambda each: norm(each[1]))

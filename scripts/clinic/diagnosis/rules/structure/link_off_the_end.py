@@ -25,8 +25,9 @@ Good:
 
 The number: where the next link with a joint begins, in lengths of a capsule or cylinder that begins at its own body's
 origin: 10, 100 or 1000 times as far, where no other geom is; a tenth, where the rod is the one that is unlike the
-others; as far on the other side, where no other geom is, of two links at most (of long boxes too); or at its beginning,
-where the next one's is a rod in the same direction.
+others, or where it is a tenth to the digit, of two digits and more, and nothing is at the rod's end; or at its
+beginning, where the next one's is a rod in the same direction. And, of a long box too, as far on the other side, where
+no other geom is, of two links at most.
 
 And, of links of any shape that hinges move, the one that is more than 0.3 of its size away from what it hangs on, where
 two and more others all touch theirs, and so does it with two digits of its `pos` exchanged, or with another sign.
@@ -39,8 +40,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import BOX, CAPSULE, CYLINDER, HFIELD, HINGE, PLANE
-from clinic.diagnosis.probes.shape import boxes
+from clinic.diagnosis.engine import HFIELD, HINGE, PLANE
+from clinic.diagnosis.probes.shape import boxes, rods
 from clinic.diagnosis.probes.vector import Vector, add, dot, norm, of_quaternion, sub, times, unit, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
@@ -52,7 +53,8 @@ AFLOAT = True
 UNPLANTED = "where a link belongs, only a drawing tells"
 
 APART, TOUCHES, LINKS, LARGE = 0.3, 0.05, 3, 100  # sizes of the link; bodies
-WITHIN, PARALLEL, SLENDER, OFF, OPPOSITE, FEW = 0.15, 0.985, 1.5, 0.5, 0.98, 2
+WITHIN, PARALLEL, OFF, OPPOSITE, FEW = 0.15, 0.985, 0.5, 0.98, 2
+EXACT, AT_END = 1e-5, 0.2
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -64,7 +66,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         parent, share = of.parent(body), _share(of, body)
         if not parent or not of.joints_of(body) or share == 1:
             continue
-        geom, rod = _rods(of, parent, boxed=share < 0)[-1]
+        geom, rod = rods(of, parent, boxed=share < 0)[-1]
         place, above = of.row("body_pos", body, 3), of.name("body", parent)
         length = f"The rod of {above} ends {norm(rod):.3g} m from where that begins, and {of.name('body', body)}"
         says = f"{length} hangs {norm(place):.3g} m away in the same direction."
@@ -158,7 +160,7 @@ def _between(one: tuple[Vector, Vector], other: tuple[Vector, Vector]) -> float:
 
 def _odd_rod(of: Simulation, geom: int, rod: Vector, place: Vector) -> bool:
     """Whether it is the rod's length, and not the next link's place, that is unlike the other rods of the model."""
-    others = [norm(end) for body in of.moving_bodies for other, end in _rods(of, body) if other != geom]
+    others = [norm(end) for body in of.moving_bodies for other, end in rods(of, body) if other != geom]
     if not others:
         return False
     usual = sorted(others)[len(others) // 2]
@@ -169,32 +171,45 @@ def _off(of: Simulation, body: int) -> float:
     """How far a link begins from the end of the rod before it, in lengths of the rod; 0 where that is no mistake's."""
     if _share(of, body) == 1:
         return 0.0
-    rod = _rods(of, of.parent(body), boxed=_share(of, body) < 0)[-1][1]
+    rod = rods(of, of.parent(body), boxed=_share(of, body) < 0)[-1][1]
     return norm(sub(of.row("body_pos", body, 3), rod)) / norm(rod)
 
 
 def _share(of: Simulation, body: int) -> float:
     """Where a link is along the rod before it, where that is a mistake's number: 0, -1 or a power of ten; else 1."""
     parent, place = of.parent(body), of.row("body_pos", body, 3)
-    rods = _rods(of, parent)
+    above = rods(of, parent)
     if body in _opposite(of):
         return -1.0
-    if not rods:
+    if not above:
         return 1.0
-    rod = rods[-1][1]
+    rod = above[-1][1]
     if norm(place) < 0.02 * norm(rod):
-        own = [times(of_quaternion(of.row("body_quat", body, 4)), end) for _, end in _rods(of, body)[-1:]]
+        own = [times(of_quaternion(of.row("body_quat", body, 4)), end) for _, end in rods(of, body)[-1:]]
         beside = any(dot(unit(end), unit(rod)) > PARALLEL and norm(end) > 0.4 * norm(rod) for end in own)
         return 0.0 if beside else 1.0
     along, power = dot(unit(place), unit(rod)), round(math.log10(norm(place) / norm(rod)))
+    if along > 1 - EXACT and power < 0 and _slip(of, parent, norm(place) / 10.0**power, norm(rod)):
+        return float(10.0**power)
     near = [geom for geom in of.geoms_of(parent) if norm(sub(of.row("geom_pos", geom, 3), place)) < _radius(of, geom)]
     if along < PARALLEL or len(near) > (power < 0):  # the rod itself
         return 1.0
     if abs(math.log10(norm(place) / norm(rod)) - power) > math.log10(1 + WITHIN):
         return 1.0
-    if power < 0 and not _odd_rod(of, rods[-1][0], rod, place):  # what hangs on its way
+    if power < 0 and not _odd_rod(of, above[-1][0], rod, place):  # what hangs on its way
         return 1.0
     return float(10.0**power)
+
+
+def _slip(of: Simulation, body: int, written_: float, length: float) -> bool:
+    """Whether it is a rod's length to the digit, of two and more, and nothing is at the rod's end."""
+    digits = f"{length:.6e}".partition("e")[0].replace(".", "").rstrip("0")
+    if len(digits) == 1 or abs(written_ / length - 1) > EXACT:
+        return False
+    places = [of.row("geom_pos", geom, 3) for geom in of.geoms_of(body)]
+    places += [of.row("body_pos", each, 3) for each in of.children.get(body, [])]
+    places += [of.row("site_pos", site, 3) for site in range(of.count("site")) if of.body_of("site", site) == body]
+    return all(norm(place) < (1 - AT_END) * length for place in places)
 
 
 @kept
@@ -206,7 +221,7 @@ def _opposite(of: Simulation) -> set[int]:
 
 def _across(of: Simulation, body: int) -> bool:
     parent, place = of.parent(body), of.row("body_pos", body, 3)
-    for _, end in _rods(of, parent, boxed=True)[-1:] if any(place) else ():
+    for _, end in rods(of, parent, boxed=True)[-1:] if any(place) else ():
         as_far = abs(norm(place) / norm(end) - 1) < WITHIN
         near = (
             geom for geom in of.geoms_of(parent) if norm(sub(of.row("geom_pos", geom, 3), place)) < _radius(of, geom)
@@ -217,23 +232,3 @@ def _across(of: Simulation, body: int) -> bool:
 
 def _radius(of: Simulation, geom: int) -> float:
     return of.model("geom_rbound")[geom]
-
-
-def _rods(of: Simulation, body: int, *, boxed: bool = False) -> list[tuple[int, Vector]]:
-    """The rods of a body that begin at its origin, and long boxes, with where they end; the longest last."""
-    made = []
-    for geom in of.geoms_of(body):
-        sizes, kind = of.row("geom_size", geom, 3), int(of.model("geom_type")[geom])
-        along = 2
-        if boxed and kind == BOX:
-            along = sizes.index(max(sizes))
-            radius, half = sorted(sizes)[1:]
-        else:
-            radius, half, _ = sizes
-        middle, turn = of.row("geom_pos", geom, 3), of_quaternion(of.row("geom_quat", geom, 4))
-        axis = times(turn, tuple(half if i == along else 0.0 for i in range(3)))
-        near, far = sorted((add(middle, axis), sub(middle, axis)), key=norm)
-        rod = kind in (CAPSULE, CYLINDER, *[BOX] * boxed) and half > SLENDER * radius
-        if rod and norm(near) < max(radius, 0.1 * half):
-            made.append((geom, far))
-    return sorted(made, key=lambda each: norm(each[1]))

@@ -250,3 +250,19 @@ def test_a_link_at_a_tenth_of_a_rod_at_whose_end_nothing_is_is_told(place: str, 
     pole = f'<body pos="{place}"><joint axis="1 0 0"/><geom size="0.01" pos="0.01 0 -0.2"/></body>'
     text = f"<mujoco><worldbody><body pos='0 0 1'>{arm}{end}{pole}</body></worldbody></mujoco>"
     assert [each.value for each in hints(text, "link-off-the-end")] == told
+
+
+@pytest.mark.parametrize(
+    ("end", "bob", "more", "told"),
+    [
+        pytest.param("0 0 0.26", "0 0 -0.26", "", ["0 0 0 0 0 -0.26"], id="a sign"),
+        pytest.param("0 0 -0.26", "0 0 -0.26", "", [], id="well"),
+        pytest.param("0 0 0.26", "0 0 -0.2", "", [], id="not as far"),
+        pytest.param("0 0 0.26", "0 0 -0.26", '<site pos="0 0 0.26"/>', [], id="something at its end"),
+        pytest.param("0 0 0.26", "0 0 -0.26", '<geom size="0.05" pos="0.05 0 -0.1"/>', [], id="a third geom"),
+    ],
+)
+def test_a_rod_that_points_away_from_its_bob_is_told(end: str, bob: str, more: str, told: list[str]):
+    rod = f'<geom type="capsule" fromto="0 0 0 {end}" size="0.004"/><geom size="0.012" pos="{bob}"/>{more}'
+    text = f'<mujoco><worldbody><body pos="0 0 1"><joint axis="1 0 0"/>{rod}</body></worldbody></mujoco>'
+    assert [each.value for each in hints(text, "geom-far-off")] == told

@@ -25,7 +25,8 @@ Good:
     +       <geom name="bumper" size="0.03" pos="-0.12 0 0"/>
 
 The number: how far the geom's middle is from the nearest other geom of its mechanism at the start, in sizes of the box
-around all the others; more than 3.
+around all the others; more than 3. And a rod that begins at its body's joint and ends in the air, where the one other
+geom of that body, which touches nothing, is where the rod would end with another sign.
 
 When it is wrong: two things of one mechanism that are meant to be far apart.
 """
@@ -35,23 +36,25 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.shape import mechanisms
-from clinic.diagnosis.probes.vector import Vector
+from clinic.diagnosis.probes.shape import mechanisms, rods
+from clinic.diagnosis.probes.vector import Vector, norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A geom far away from the rest"
 FAMILIES = ("jumps-at-start", "drifts", "stuck")
 AFLOAT = True
 UNPLANTED = "what is far away harms by what happens to be there"
 
-FAR, ENOUGH = 3.0, 3
+FAR, ENOUGH, PAIR = 3.0, 3, 2
+SAME = 1e-4  # m
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The geoms that no other of their mechanism is near: such a one is the outermost along some axis."""
     of = model.simulation
+    yield from _across(model)
     of.begin()
     for root, places in _places(of).items():
         if len(places) < ENOUGH:
@@ -66,6 +69,37 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 says = f"Its middle is {far:.3g} times as far away as all others of its mechanism together are large."
                 now = " ".join(f"{x:.4g}" for x in where)
                 yield Suspect((of.name("geom", geom),), "pos", now, "near its body", (), probe, FAR, says, "below 3")
+
+
+def _across(model: ReaderModel) -> Iterator[Suspect]:
+    """The rods that point away from what they carry, each."""
+    of = model.simulation
+    for rod, (geom, signs) in _astray(of).items():
+        now = model.value("geom", rod, "fromto") or ""
+        ends = [float(each) for each in now.split()]
+        value = written([*ends[:3], *(sign * x for sign, x in zip(signs, ends[3:], strict=True))])
+        names, edits = (of.name("geom", rod), of.name("geom", geom)), model.set("geom", [rod], "fromto", value)
+        says = f"It ends in the air; {names[1]} is where it would end with another sign, and touches nothing."
+        probe = how_many("rods that point away from what they carry", _astray)
+        yield Suspect(names, "fromto", now, value, edits if now else (), probe, 0, says, "at what it carries")
+
+
+def _astray(of: Simulation) -> dict[int, tuple[int, Vector]]:
+    """By rod the geom of its body that is across from its end, and by which signs."""
+    made = {}
+    for body in of.moving_bodies:
+        geoms = of.geoms_of(body)
+        things = [of.row("geom_pos", each, 3) for each in geoms]
+        things += [of.row("body_pos", each, 3) for each in of.children.get(body, [])]
+        things += [of.row("site_pos", each, 3) for each in range(of.count("site")) if of.body_of("site", each) == body]
+        for rod, end in rods(of, body) if len(geoms) == PAIR else ():
+            (geom,) = {*geoms} - {rod}
+            place, reach = of.row("geom_pos", geom, 3), of.model("geom_rbound")[geom]
+            same = all(abs(abs(a) - abs(b)) < SAME for a, b in zip(place, end, strict=True))
+            apart = norm(sub(place, end)) > norm(end) and norm(place) > 2 * reach
+            if same and apart and not any(norm(sub(each, end)) < reach for each in things):
+                made[rod] = geom, tuple(-1.0 if a * b < 0 else 1.0 for a, b in zip(place, end, strict=True))
+    return made
 
 
 def _places(of: Simulation) -> dict[int, dict[int, Vector]]:

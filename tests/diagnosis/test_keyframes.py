@@ -317,3 +317,23 @@ def test_controls_of_another_keyframe_are_told_though_most_servos_stay(qpos: str
     found = findings(text, "key-targets-elsewhere")
     assert [each.level for each in found] == told
     assert [each.value for each in found] == [f"{qpos} 0"] * len(told)
+
+
+@pytest.mark.parametrize(
+    ("size", "height", "told"),
+    [
+        pytest.param("0.008 0.032 0.06", 0.238, [("size", "0.06 0.032 0.008")], id="on edge"),
+        pytest.param("0.06 0.032 0.008", 0.238, [], id="flat"),
+        pytest.param("0.008 0.032 0.06", 0.25, [("qpos", "height 0.29")], id="as high as none of its sizes"),
+    ],
+)
+def test_feet_that_stand_on_edge_in_the_floor_are_told(size: str, height: float, told: list[tuple[str, str]]):
+    feet = "".join(
+        f'<body pos="0 {y} -0.2"><joint axis="0 1 0"/><geom type="box" size="{size}" pos="0 0 -0.03"/></body>'
+        for y in (0.1, -0.1)
+    )
+    pelvis = f'<body pos="0 0 1"><freejoint/><geom type="box" size="0.05 0.1 0.05"/>{feet}</body>'
+    key = f'<keyframe><key qpos="0 0 {height} 1 0 0 0 0 0"/></keyframe>'
+    text = f'<mujoco><worldbody><geom type="plane" size="2 2 1"/>{pelvis}</worldbody>{key}</mujoco>'
+    found = diagnosed(text, "key-in-the-floor").causes
+    assert [(each.attribute, each.value) for each in found] == told

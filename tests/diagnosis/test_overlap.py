@@ -227,3 +227,23 @@ def test_what_is_pushed_out_gently_is_a_hint_and_what_is_thrown_a_cause(depth: f
     trunk = f'<body pos="0 0 {0.5 - depth}"><freejoint/><geom type="box" size="0.5 0.5 0.5"/></body>'
     found = findings(f"<mujoco><worldbody>{FLOOR}{trunk}</worldbody></mujoco>", "overlap-at-start")
     assert [each.level for each in found] == [level]
+
+
+@pytest.mark.parametrize(
+    ("second", "fourth", "told"),
+    [
+        pytest.param(-0.0452, 0.0502, ["-0.0502 0 0.3"], id="in the third"),
+        pytest.param(-0.0502, 0.0502, [], id="in its place"),
+        pytest.param(-0.0452, 0.0452, [], id="two of them"),
+        pytest.param(-0.0504, 0.0502, [], id="in none"),
+    ],
+)
+def test_a_ball_of_an_even_row_that_is_in_the_next_one_is_put_into_the_row(
+    second: float, fourth: float, told: list[str]
+):
+    balls = "".join(
+        f'<body name="ball{i}" pos="{x} 0 0.3"><joint axis="0 1 0" pos="0 0 0.3"/><geom size="0.025"/></body>'
+        for i, x in enumerate((-0.1004, second, 0, fourth, 0.1004))
+    )
+    found = hints(f"<mujoco><worldbody>{balls}</worldbody></mujoco>", "overlap-of-relatives")
+    assert [each.value for each in found if each.attribute == "pos"] == told

@@ -28,7 +28,8 @@ The number: the deepest overlap at the start of bodies at most 3 links apart, as
 thickness; below 0.1 is well. They do so too in a fifth of 17 poses over the ranges of all joints: two fingers that are
 closed at 0, and the wrist of an arm that lies in its forearm at 0 alone, do it in 1 or 2. Of a left and a right finger
 that are in each other when closed, one that is nearer to the middle is told as a hint. The first or last of three links
-in a row, called alike but for a number, is put as far from the next as these are apart, where that ends the overlap.
+in a row, called alike but for a number, is put as far from the next as these are apart, where that ends the overlap. So
+is one of four and more that is out of their step, between its neighbours, however little it overlaps.
 MuJoCo's manual, Computation, Collision detection: the filter of parents.
 
 When it is wrong: a geom that is too large, where the edit hides it; or a part without the free joint that it gets
@@ -40,14 +41,15 @@ A joint that starts outside of its range, which is another fault, is looked at i
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
 
 from clinic.diagnosis.engine import SLIDE
 from clinic.diagnosis.probes.arms import longest_row
 from clinic.diagnosis.probes.overlap import legged, of_relatives, often, relatives
 from clinic.diagnosis.probes.shape import root_of, roots, thickness
 from clinic.diagnosis.probes.sides import by_name
-from clinic.diagnosis.probes.vector import add, norm, sub, written
+from clinic.diagnosis.probes.vector import Vector, add, norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -57,7 +59,7 @@ FAMILIES = ("jumps-at-start", "stuck", "explodes")
 LEVEL = "hint"
 CASE = "joint-snaps-at-start"
 
-SAME = 1e-5  # m
+SAME, STEP = 1e-5, 0.02  # m; of a step
 ROW, NUMBER = 3, re.compile(r"_?\d+$")  # links that are called alike but for their number
 MOST, ARM = 0.1, 5  # hinges in a row of an arm
 
@@ -66,6 +68,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """All pairs of relatives that overlap, excluded together."""
     simulation = model.simulation
     yield from _lopsided(model)
+    uneven = [*_uneven_rows(model)]
+    yield from uneven
+    if uneven:
+        return
     if model.measured(of_relatives()) <= MOST or legged(model):
         return
     names = ["world", *simulation.names("body")[1:]]
@@ -107,6 +113,45 @@ def _lopsided(model: ReaderModel) -> Iterator[Suspect]:
         says = f"They are {1000 * _depth(of, near, far):.2g} mm in each other, and it is nearer to the middle."
         value = written(mirrored)
         yield Suspect(names, "pos", written(place), value, edits, probe, SAME, says, "the mirror image", level="hint")
+
+
+def _uneven_rows(model: ReaderModel) -> Iterator[Suspect]:
+    """The links that overlap another one of their even row, each put into the middle of its neighbours."""
+    of = model.simulation
+    for body, (other, middle) in _uneven(of).items():
+        probe = Probe("depth of two links in each other", "m", _depth, (body, other), dynamic=False)
+        edits, now = model.placed(body, middle), of.row("body_pos", body, 3)
+        if not edits or model.measured(probe, edits) > SAME:
+            continue
+        deep = f"{1000 * _depth(of, body, other):.2g} mm"
+        says = (
+            f"It is {deep} inside of {of.name('body', other)}; between its neighbours all of its row are as far apart."
+        )
+        names, value = (of.name("body", body), of.name("body", other)), written(middle)
+        yield Suspect(names, "pos", written(now), value, edits, probe, SAME, says, "in an even row")
+
+
+def _uneven(of: Simulation) -> dict[int, tuple[int, Vector]]:
+    """The one link of a row, of those called alike but for a number, that is out of its step and in another one."""
+    names, rows, made = of.names("body"), dict[tuple[int, str], list[int]](), dict[int, tuple[int, Vector]]()
+    for body in of.moving_bodies:
+        if (stem := NUMBER.sub("", names[body])) != names[body] and of.joints_of(body):
+            rows.setdefault((of.parent(body), stem), []).append(body)
+    for row in rows.values():
+        places = [of.row("body_pos", body, 3) for body in row]
+        if len(row) <= ROW or _even(places):
+            continue
+        for at in range(1, len(row) - 1):
+            middle = tuple((a + b) / 2 for a, b in zip(places[at - 1], places[at + 1], strict=True))
+            beside = [row[at + step] for step in (-1, 1) if _depth(of, row[at], row[at + step]) > 0]
+            if beside and _even([*places[:at], middle, *places[at + 1 :]]):
+                made[row[at]] = beside[0], middle
+    return made
+
+
+def _even(places: Sequence[Vector]) -> bool:
+    steps = [sub(b, a) for a, b in pairwise(places)]
+    return all(norm(sub(step, steps[0])) < STEP * norm(steps[0]) for step in steps)
 
 
 def _unlike(of: Simulation) -> list[tuple[int, int]]:

@@ -274,3 +274,32 @@ def test_a_robot_in_a_plane_that_lacks_a_joint_of_its_root_is_told(joints: str, 
     text = f'<mujoco><worldbody><body pos="0 0 3">{root}<geom size="0.1"/>{legs}</body></worldbody>'
     found = hints(f"{text}<actuator>{motors}</actuator></mujoco>", "planar-root-incomplete")
     assert [each.value for each in found] == [f"<joint {told}/>"] * bool(told)
+
+
+@pytest.mark.parametrize(
+    ("axis", "beam", "told"),
+    [
+        pytest.param("0 1 0", "1.5 0.04 0.05", ["1 0 0"], id="across"),
+        pytest.param("1 0 0", "1.5 0.04 0.05", [], id="along"),
+        pytest.param("0 1 0", "0.9 0.04 0.05", [], id="too short for the range"),
+        pytest.param("0 1 0", "1.5 1.6 0.05", [], id="a table"),
+    ],
+)
+def test_a_trolley_across_its_beam_is_told(axis: str, beam: str, told: list[str]):
+    slide = f'<joint type="slide" axis="{axis}" range="-1.3 1.3"/><geom type="box" size="0.12 0.1 0.04"/>'
+    text = f'<geom type="box" size="{beam}" pos="0 0 2"/><body pos="0 0 1.9">{slide}</body>'
+    found = hints(f"<mujoco><worldbody>{text}</worldbody></mujoco>", "slide-across-its-guide")
+    assert [each.value for each in found] == told
+
+
+@pytest.mark.parametrize(
+    ("name", "axis", "told"),
+    [("drawer", "0 1 0", ["1 0 0"]), ("drawer", "1 0 0", []), ("block", "0 1 0", []), ("drawer", "0 0 1", ["1 0 0"])],
+)
+def test_a_drawer_through_the_wall_of_its_cabinet_is_told(name: str, axis: str, told: list[str]):
+    walls = ('0.2 0.01 0.2" pos="0 0.2 0', '0.2 0.01 0.2" pos="0 -0.2 0', '0.01 0.2 0.2" pos="-0.2 0 0')
+    cabinet = "".join(f'<geom type="box" size="{wall}"/>' for wall in (*walls, '0.2 0.2 0.01" pos="0 0 0.2'))
+    slide = f'<joint type="slide" axis="{axis}" range="0 0.3"/><geom type="box" size="0.17 0.17 0.08"/>'
+    text = f'<body>{cabinet}<body name="{name}">{slide}</body></body>'
+    found = hints(f"<mujoco><worldbody>{text}</worldbody></mujoco>", "slide-across-its-guide")
+    assert [each.value for each in found] == told

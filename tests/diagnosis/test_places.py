@@ -266,3 +266,15 @@ def test_a_rod_that_points_away_from_its_bob_is_told(end: str, bob: str, more: s
     rod = f'<geom type="capsule" fromto="0 0 0 {end}" size="0.004"/><geom size="0.012" pos="{bob}"/>{more}'
     text = f'<mujoco><worldbody><body pos="0 0 1"><joint axis="1 0 0"/>{rod}</body></worldbody></mujoco>'
     assert [each.value for each in hints(text, "geom-far-off")] == told
+
+
+@pytest.mark.parametrize(("right", "told"), [("0.06", ["0 -0.06 -0.1"]), ("-0.06", [])], ids=["copied", "mirrored"])
+def test_two_hips_without_geoms_in_one_place_are_told_by_what_hangs_on_them(right: str, told: list[str]):
+    legs = "".join(
+        f'<body name="{side}_hip" pos="0 {y} -0.1"><joint axis="0 1 0"/>'
+        f'<inertial pos="0 {sign}0.04 0" mass="1" diaginertia="0.01 0.01 0.01"/>'
+        f'<body name="{side}_leg" pos="0 {sign}0.05 0"><joint axis="1 0 0"/><geom size="0.03"/></body></body>'
+        for side, y, sign in (("left", "0.06", ""), ("right", right, "-"))
+    )
+    text = f'<mujoco><worldbody><body pos="0 0 1"><freejoint/><geom size="0.05"/>{legs}</body></worldbody></mujoco>'
+    assert [each.value for each in hints(text, "parts-coincide")] == told

@@ -35,7 +35,8 @@ parent goes forth, its sign is turned.
 
 So are the two sites of a body that are called alike but for a number and read by sensors, in one place that is not its
 origin, and turned alike; the second is put on the other side. And a left and a right body that hang in one place, aside
-of the middle of what they hang on, and whose geoms are mirror images.
+of the middle of what they hang on, and whose geoms are mirror images, or without geoms their masses and what hangs on
+them.
 
 When it is wrong: parts that are meant to start in one place.
 """
@@ -50,7 +51,7 @@ from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import OBJ_SITE
 from clinic.diagnosis.probes.shape import solid
 from clinic.diagnosis.probes.sides import by_name
-from clinic.diagnosis.probes.vector import at, flipped, norm, sub, written
+from clinic.diagnosis.probes.vector import Vector, at, flipped, norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, how_many
@@ -79,7 +80,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         moved, side = list(of.row("body_pos", odd, 3)), _mirrored(of, odd, other)
         moved[side] = -moved[side]
         names, value = (of.name("body", odd), of.name("body", other)), written(moved)
-        says = f"{names[0]} and {names[1]} hang in one place, and their geoms are mirror images."
+        says = f"{names[0]} and {names[1]} hang in one place, and their parts are mirror images."
         now, edits = written(of.row("body_pos", odd, 3)), model.placed(odd, moved)
         probe = how_many("left and right bodies in one place", _one_side)
         yield Suspect(names, "pos", now, value, edits, probe, 0, says, "none")
@@ -101,24 +102,32 @@ def _one_side(of: Simulation) -> list[tuple[int, int]]:
         places = [(*of.row("body_pos", each, 3), *of.row("body_quat", each, 4)) for each in pair]
         if side < 0 or len(above) > 1 or norm(sub(*places)) > NEAR or abs(places[0][side]) < NEAR:
             continue
-        middle = [of.row("geom_pos", geom, 3)[side] for geom in of.geoms_of(*above)]
-        if middle and abs(sum(middle)) < len(middle) * abs(places[0][side]) / 2:
-            own = of.row("geom_pos", of.geoms_of(pair[0])[0], 3)[side]
+        middle = [of.row("geom_pos", geom, 3)[side] for geom in of.geoms_of(*above)] or [0.0]
+        if abs(sum(middle)) < len(middle) * abs(places[0][side]) / 2:
+            own = _parts(of, pair[0])[0][side]
             made.append(pair if own * places[0][side] < 0 else (pair[1], pair[0]))
     return made
 
 
 def _mirrored(of: Simulation, one: int, other: int) -> int:
     """The axis across which the geoms of two bodies are mirror images; -1 for none."""
-    places = [[of.row("geom_pos", geom, 3) for geom in of.geoms_of(body)] for body in (one, other)]
+    places = [_parts(of, body) for body in (one, other)]
     sizes = [[of.row("geom_size", geom, 3) for geom in of.geoms_of(body)] for body in (one, other)]
-    if not places[0] or sizes[0] != sizes[1]:
+    if not places[0] or len(places[0]) != len(places[1]) or sizes[0] != sizes[1]:
         return -1
     for side in range(3):
         images = [flipped(place, side) for place in places[0]]
         if abs(images[0][side]) > NEAR and all(norm(sub(*both)) < NEAR for both in zip(images, places[1], strict=True)):
             return side
     return -1
+
+
+def _parts(of: Simulation, body: int) -> list[Vector]:
+    """The places of a body's geoms; without any, of the bodies that hang on it and of its mass."""
+    hung = [of.row("body_pos", each, 3) for each in of.children.get(body, [])]
+    return [of.row("geom_pos", geom, 3) for geom in of.geoms_of(body)] or [*hung, of.row("body_ipos", body, 3)] * bool(
+        hung
+    )
 
 
 def _sites(of: Simulation) -> list[tuple[int, int]]:

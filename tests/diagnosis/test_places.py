@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from diagnosed import hints
+from diagnosed import findings, hints
 
 
 @pytest.mark.parametrize(
@@ -278,3 +278,21 @@ def test_two_hips_without_geoms_in_one_place_are_told_by_what_hangs_on_them(righ
     )
     text = f'<mujoco><worldbody><body pos="0 0 1"><freejoint/><geom size="0.05"/>{legs}</body></worldbody></mujoco>'
     assert [each.value for each in hints(text, "parts-coincide")] == told
+
+
+@pytest.mark.parametrize(
+    ("size", "posts", "told"),
+    [
+        pytest.param("0.78 0.04 2", 0.47, ["0.39 0.02 1"], id="full lengths"),
+        pytest.param("0.39 0.02 1", 0.47, [], id="half"),
+        pytest.param("0.78 0.04 2", 0.42, [], id="in them with half, too"),
+        pytest.param("0.78 0.04 2", 2, [], id="in the floor alone"),
+    ],
+)
+def test_a_door_of_full_lengths_is_told_by_its_frame(size: str, posts: float, told: list[str]):
+    frame = "".join(f'<geom type="box" size="0.05 0.06 1.05" pos="{x} 0 1.05"/>' for x in (posts, -posts))
+    door = f'<joint axis="0 0 1" pos="-0.4 0 0"/><geom type="box" size="{size}"/>'
+    text = f'<geom type="plane" size="3 3 1"/>{frame}<body name="door" pos="0 0 1.02">{door}</body>'
+    found = findings(f"<mujoco><worldbody>{text}</worldbody></mujoco>", "full-lengths", "overlap-of-relatives")
+    assert [each.value for each in found if each.rule == "full-lengths"] == told
+    assert not told or found[0].rule == "full-lengths"

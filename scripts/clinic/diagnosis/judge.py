@@ -121,8 +121,9 @@ def without_consequences(found: Sequence[Judged], model_of: Callable[[Rule], Rea
 
 
 def _displaced(each: Judged) -> bool:
-    """Whether it tells of a part that is not where it belongs, with an edit that puts it there."""
-    placed = each.rule.area in PLACES and each.suspect.attribute != "size"
+    """Whether it tells of a part that is not where it belongs, or twice as large, with an edit that puts it there."""
+    smaller = each.rule.id == "full-lengths"
+    placed = each.rule.area in PLACES and (smaller or each.suspect.attribute != "size")
     return placed and bool(each.suspect.edits) and not each.silenced
 
 

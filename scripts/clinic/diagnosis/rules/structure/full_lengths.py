@@ -24,6 +24,8 @@ Good:
 The number: upright boxes and cylinders whose middle is as high above a plane, or above the box that they stand on, as a
 half of their half height: with half the size they would stand on it. And a wall of a maze: of four boxes and more of a
 body that are as wide and as high, the one that ends beyond all its other boxes, and with half its length would not.
+And a box of something that moves which begins in two and more things that stand still, and with half its size in none,
+but nearer to two of them than a quarter of it.
 
 When it is wrong: a box that is to be sunk by exactly so much.
 """
@@ -33,8 +35,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.engine import BOX, CYLINDER
+from clinic.diagnosis.engine import BOX, CYLINDER, PLANE
 from clinic.diagnosis.probes.overlap import sunk_by_half
+from clinic.diagnosis.probes.shape import boxes, thickness
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -44,6 +47,7 @@ TITLE = "A size with full lengths"
 FAMILIES = ("jumps-at-start", "explodes", "wrong-numbers")
 UNPLANTED = "how large a box should be, only its maker knows"
 
+DEEP = 0.1  # of the thickness
 WALLS, OUT = 3, 0.02  # others in a row; of the length of all others
 
 
@@ -57,6 +61,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         probe = how_many("walls that stick out of their body", _sticking_out)
         wall = (of.name("geom", geom),)
         yield Suspect(wall, "size", written(half), value, model.set("geom", [geom], "size", value), probe, 0, says, "")
+    yield from _stuck(model)
     of.begin()
     found = [geom for geom in range(of.count("geom")) if sunk_by_half(of, geom)]
     placed = [(geom, element) for geom in found if (element := model.element("geom", geom)) is not None]
@@ -72,6 +77,51 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = "A size is half a length, and with half of it it would stand on what it is sunk into."
     now, probe = placed[0][1].get("size"), counted("boxes that are sunk by half their half height", len(placed))
     yield Suspect(names, "size", now, edits[0].value, tuple(edits), probe, 0.5, says, "half lengths")
+
+
+def _stuck(model: ReaderModel) -> Iterator[Suspect]:
+    """The boxes that are in what stands around them, and with half their size would fit between."""
+    of = model.simulation
+    for geom, others in _between(of).items():
+        half = of.row("geom_size", geom, 3)
+        value = written([x / 2 for x in half])
+        names = tuple(of.name("geom", each) for each in (geom, *others))
+        says = f"It begins in {len(others)} things that stand still, and with half its size fits between them."
+        probe = how_many("boxes in what stands around them", _between)
+        edits = model.set("geom", [geom], "size", value)
+        yield Suspect(names, "size", written(half), value, edits, probe, 0, says, "half lengths")
+
+
+def _between(of: Simulation) -> dict[int, list[int]]:
+    """By box of something that moves, the things that stand still in which it begins, where half of it would fit."""
+    of.begin()
+    kinds, bodies, moving, found = (
+        of.model("geom_type"),
+        of.model("geom_bodyid"),
+        set(of.moving_bodies),
+        dict[int, set[int]](),
+    )
+    for contact in of.engine.contacts():
+        for geom, other in (contact.geoms, contact.geoms[::-1]):
+            still = int(bodies[geom]) in moving and int(bodies[other]) not in moving
+            if still and int(kinds[geom]) == BOX and -contact.distance > DEEP * thickness(of, geom):
+                found.setdefault(geom, set()).add(other)
+    return {geom: sorted(others) for geom, others in found.items() if len(others) > 1 and _fits(of, geom, others)}
+
+
+def _fits(of: Simulation, geom: int, others: set[int]) -> bool:
+    """Whether a box of half the size is in none of the others, and near two of them."""
+    size, there = of.row("geom_size", geom, 3), boxes(of, [geom, *others])
+    place, half = there[geom]
+    gaps = []
+    for other in others:
+        at, reach = there[other]
+        if int(of.model("geom_type")[other]) == PLANE:
+            gaps.append(place[2] - of.data_row("geom_xpos", other, 3)[2] - half[2] / 2)
+        else:
+            apart = (abs(a - b) - c / 2 - d for a, b, c, d in zip(place, at, half, reach, strict=True))
+            gaps.append(max(apart))
+    return min(gaps) > 0 and sum(gap < max(size) / 8 for gap in gaps) > 1
 
 
 def _sticking_out(of: Simulation) -> list[int]:

@@ -124,6 +124,28 @@ def test_a_cable_that_does_not_reach_what_it_is_connected_to_is_told(place: str,
     assert not found or 'Put body "end" where it is to be held' in found[0].says
 
 
+@pytest.mark.parametrize(
+    ("right", "wrong", "told"),
+    [
+        ('anchor="0.3 0 0"', 'anchor="0.2 0 0"', ('equality "loop"', "anchor", "0.3 0 0")),
+        ('anchor="0.3 0 0"', 'anchor="0 0 0.3"', ('equality "loop"', "anchor", "0.3 0 0")),
+        ('"rocker" pos="0.3 0 1"', '"rocker" pos="-0.3 0 1"', ('body "rocker"', "pos", "0.3 0 1")),
+        ('"rocker" pos="0.3 0 1"', '"rocker" pos="0.33 0 1"', ("", "", "")),
+        ('body2="rocker"', 'body2="stub"', ('equality "loop"', "body2", "rocker")),
+    ],
+    ids=["short of the end", "exchanged", "a body's sign", "a little off", "the link before"],
+)
+def test_an_anchor_off_one_of_its_bodies_is_told_where_a_slip_says_why(right, wrong, told):
+    text = FOURBAR.replace(
+        '<body name="rocker"', '<body name="stub" pos="0.3 0 0.9"><geom size="0.01"/><body name="rocker"'
+    )
+    text = text.replace("    </body>\n  </worldbody>", "    </body></body>\n  </worldbody>")
+    text = text.replace('"rocker" pos="0.3 0 1"', '"rocker" pos="0 0 0.1"') if "stub" in wrong else FOURBAR
+    assert not hints(text, "anchor-far-off")
+    found = hints(text.replace(right, wrong), "anchor-far-off")
+    assert [(each.elements[0], each.attribute, each.value) for each in found] == [told] * bool(told[0])
+
+
 LOOP = rules()["loop-not-assembled"].example("Good")
 STANDING = LOOP.replace("<worldbody>", '<worldbody><geom size="0.1" pos="0 0 1"/>')
 TURNED = LOOP.replace('"rocker" pos="0.5 0 1"', '"rocker" pos="0.5 0 1" euler="0 90 0"').replace(

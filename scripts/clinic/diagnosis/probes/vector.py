@@ -19,6 +19,13 @@ def flipped(one: Sequence[float], axis: int) -> Vector:
     return tuple(-x if at == axis else x for at, x in enumerate(one))
 
 
+def slips(one: Sequence[float]) -> list[Vector]:
+    """A vector with two of its numbers exchanged, or with another sign of one."""
+    x, y, z = one
+    swapped = [each for each in ((y, x, z), (z, y, x), (x, z, y)) if each != (x, y, z)]
+    return [*swapped, *(flipped(one, axis) for axis in range(3) if one[axis])]
+
+
 def sub(a: Sequence[float], b: Sequence[float]) -> Vector:
     """`a - b`."""
     return tuple(x - y for x, y in zip(a, b, strict=True))

@@ -47,7 +47,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.equalities import CONNECT, WELD, by_mocap, ends, gap, held, kind_of, sited
-from clinic.diagnosis.probes.vector import Vector, across, cross, dot, flipped, sub, times, transpose, unit, written
+from clinic.diagnosis.probes.vector import Vector, across, cross, dot, slips, sub, times, transpose, unit, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.structure.equality_copied import copied_ends
 from clinic.diagnosis.simulation import Simulation
@@ -100,8 +100,8 @@ def _slip(model: ReaderModel, each: int) -> tuple[str, str, str, tuple[Edit, ...
     tries = []
     for kind, index in (*(("site", it) for it in ends_), *(("body", body) for body in loop)):
         place, element = of.row(f"{kind}_pos", index, 3), model.element(kind, index)
-        written_ = _slips(place) if element is not None and element.get("pos") else ()
-        tries += [(kind, index, "pos", written(place), value) for value in written_]
+        written_ = slips(place) if element is not None and element.get("pos") else ()
+        tries += [(kind, index, "pos", written(place), written(value)) for value in written_]
     for body in loop:
         element = model.element("body", body)
         bare = element is not None and not set(ORIENTATIONS) & element.attributes.keys()
@@ -114,14 +114,6 @@ def _slip(model: ReaderModel, each: int) -> tuple[str, str, str, tuple[Edit, ...
         if edits and model.measured(_all_gaps(), edits) <= most:
             found.append((of.name(kind, index), attribute, now, edits))
     return min(found, key=lambda each: round(model.measured(_extent(), each[-1]), 6), default=None)
-
-
-def _slips(place: Vector) -> list[str]:
-    """A place with two of its numbers exchanged, or with another sign of one."""
-    turned = [flipped(place, at) for at in range(3) if place[at]]
-    x, y, z = place
-    swapped = [each for each in ((y, x, z), (z, y, x), (x, z, y)) if each != place]
-    return [written(each) for each in (*swapped, *turned)]
 
 
 def _turn(of: Simulation, each: int, body: int) -> Vector:

@@ -194,6 +194,22 @@ def test_a_tendon_of_two_sites_of_its_own_ends_in_a_third(change, found):
     assert [each.value for each in hints(text, "tendon-through-anothers-site")] == found
 
 
+@pytest.mark.parametrize(("last", "told"), [("pinky_2", []), ("ring_2", ["pinky_2"]), ("pinky_nail", [])])
+def test_a_tendon_that_ends_on_another_finger_is_led_to_its_own(last, told):
+    finger = (
+        '<body pos="0 {1} 0"><joint axis="0 1 0"/><geom size="0.01"/><site name="{0}_1"/>'
+        '<body pos="0.04 0 0"><joint axis="0 1 0"/><geom size="0.01"/><site name="{0}_2"/></body></body>'
+    )
+    fingers = "".join(finger.format(name, place) for name, place in (("ring", 0), ("pinky", 0.03)))
+    palm = f'<geom size="0.01"/><site name="ring_0"/><site name="pinky_0"/><site name="pinky_nail"/>{fingers}'
+    paths = (("ring_0", "ring_1", "ring_2"), ("pinky_0", "pinky_1", last))
+    led = "".join(
+        '<spatial><site site="{}"/><site site="{}"/><site site="{}"/></spatial>'.format(*path) for path in paths
+    )
+    text = f"<mujoco><worldbody>{palm}</worldbody><tendon>{led}</tendon></mujoco>"
+    assert [each.value for each in hints(text, "tendon-through-anothers-site")] == told
+
+
 CYLINDERS = "".join(
     f'<body name="{part}"><joint name="{part}_pin" axis="0 1 0"/><geom size="0.1"/><body name="{part}_barrel">'
     f'<joint name="{part}_rod" type="slide"/><geom size="0.1"/><site name="{part}_eye"/></body></body>'

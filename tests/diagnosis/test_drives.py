@@ -80,6 +80,24 @@ def test_a_gripper_may_be_weaker_than_the_arm_that_carries_it(mass: float, told:
     assert [each.elements for each in hints(text, "strength-unlike-others")] == [('actuator "toe"',)] * told
 
 
+@pytest.mark.parametrize(
+    ("forces", "told"),
+    [
+        ((600, 500), []),
+        ((6, 500), [("600", "hint")]),
+        ((600, 9), [("900", "hint")]),
+        ((40, 500), []),
+        ((900, 800, 70000), [("700", "hint")]),
+        ((900, 800, -1), []),
+    ],
+)
+def test_a_muscle_that_is_a_hundred_times_weaker_or_stronger_is_told(forces, told):
+    parts = "".join(f'<muscle joint="elbow" gear="0.03" force="{force}" lengthrange="0 0.1"/>' for force in forces)
+    arm = '<body><joint name="elbow" axis="0 1 0"/><geom size="0.1" pos="0 0 -0.3"/></body>'
+    text = f"<mujoco><worldbody>{arm}</worldbody><actuator>{parts}</actuator></mujoco>"
+    assert [(each.value, each.level) for each in hints(text, "strength-unlike-others")] == told
+
+
 @pytest.mark.parametrize(("driven", "told"), [("wrist", []), ("f1", ['actuator "A_f1"'])])
 def test_a_wrist_may_be_stronger_than_the_fingers_that_it_carries(driven, told):
     fingers = "".join(

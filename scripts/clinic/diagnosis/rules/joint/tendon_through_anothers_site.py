@@ -40,7 +40,8 @@ Good:
     +       <site site="tib_i"/>
 
 The number: sites that a tendon shares with another one, and that lack a word which all its other sites have, two at
-least. One site of the same body has their words, and no tendon names it.
+least. One site of the same body has their words, and no tendon names it; or one of a body as deep in the tree that
+is in line with those of the others, where the shared site's is on another branch.
 
 When it is wrong: a muscle that ends in a tendon of several, beside a site that only marks a place.
 """
@@ -87,12 +88,24 @@ def _misled(of: Simulation) -> dict[tuple[int, int], int]:
     beside = {int(side) for kind, side in wraps if WRAPS.get(int(kind)) == "geom"}
     free = set(range(of.count("site"))) - times.keys() - beside
     words = [set(WORD.findall(name)) for name in of.names("site")]
+    inside = {of.body_of("site", each) for each in free}
     made = {}
     for tendon, sites in enumerate(paths):
         for _, site in sites if len({*sites}) > 2 else ():
             others = set.intersection(*(words[each] for _, each in sites if each != site))
             body = of.body_of("site", site)
-            meant = [each for each in free if others <= words[each] and of.body_of("site", each) == body]
+            own = [of.body_of("site", each) for _, each in sites if each != site]
+            bodies = {body}
+            if not _in_line(of, [*own, body]):
+                deep = len(of.ancestors(body))
+                bodies = {each for each in inside if len(of.ancestors(each)) == deep and _in_line(of, [*own, each])}
+            meant = [each for each in free if others <= words[each] and of.body_of("site", each) in bodies]
             if times[site] > 1 and others - words[site] and len(meant) == 1:
                 made[tendon, path(of, tendon).index(("site", site))] = meant[0]
     return made
+
+
+def _in_line(of: Simulation, bodies: list[int]) -> bool:
+    """Whether all bodies are on one branch of the tree."""
+    lowest = max((of.ancestors(body) for body in bodies), key=len)
+    return set(bodies) <= set(lowest)

@@ -124,12 +124,30 @@ def test_a_hinge_that_is_called_a_slide_is_told(joint: str, actuator: str, told:
 )
 def test_a_soft_body_that_goes_flat_is_told(young: str, value: str | None) -> None:
     foam = f"""<flexcomp name="foam" type="grid" count="3 3 3" spacing="0.07 0.07 0.07" pos="0 0 0.09" dim="3"
-        mass="1.2" radius="0.012"><elasticity young="{young}" poisson="0.2" damping="0.02"/>
+        mass="1.2" radius="0.012"><elasticity young="{young}" poisson="0.2" damping="0.002"/>
         <contact solref="0.01 1" selfcollide="none"/></flexcomp>"""
     floor = '<geom type="plane" size="1 1 0.1"/>'
     text = f'<mujoco><option timestep="0.002"/><worldbody>{floor}{foam}</worldbody></mujoco>'
     found = hints(text, "flex-falls-apart")
     assert [(each.attribute, each.value) for each in found] == [("young", value)] * (value is not None)
+
+
+@pytest.mark.parametrize(
+    ("elasticity", "told"),
+    [
+        ('young="5" damping="0.001"', [("young", "5000")]),
+        ('young="1e4" damping="0.001"', []),
+        ('young="1e4" damping="1"', [("damping", "0.01")]),
+        ('young="1e13"', []),
+    ],
+    ids=["lands-late", "holds", "damped-too-much", "too-stiff"],
+)
+def test_a_large_soft_body_is_watched_until_it_lies_and_its_damping_where_it_bursts(elasticity, told):
+    gel = f"""<flexcomp name="gel" type="grid" count="4 4 4" spacing="0.04 0.04 0.04" pos="0 0 0.3" dim="3" mass="0.8"
+        radius="0.005"><elasticity {elasticity} poisson="0.3"/><contact selfcollide="none"/></flexcomp>"""
+    floor = '<geom type="plane" size="1 1 0.1"/>'
+    text = f'<mujoco><option timestep="0.0005"/><worldbody>{floor}{gel}</worldbody></mujoco>'
+    assert [(each.attribute, each.value) for each in hints(text, "flex-falls-apart")] == told
 
 
 @pytest.mark.parametrize(

@@ -20,14 +20,16 @@ Good:
 
 The number: flexcomps that move and have no equality, no stiffness of their edges, no elasticity and no plugin. One of
 dimension 3 with elasticity is told where it loses more than 0.7 of its height within 1 s, and with 1000 times the
-`young` does not: foam has 1e4 to 1e6 Pa, rubber 1e6 to 1e8.
+`young` does not: foam has 1e4 to 1e6 Pa, rubber 1e6 to 1e8. And one that explodes within 200 steps, and does not with
+a tenth, a hundredth or a thousandth of the `damping` of its elasticity: the steps are too long for that.
 
 When it is wrong: grains that are meant to be loose.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit, insert, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
@@ -35,17 +37,20 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element, Source
 from clinic.diagnosis.suspect import Probe, Suspect, counted
 
-TITLE = "A flex that falls apart or goes flat"
+TITLE = "A flex that falls apart, goes flat or bursts"
 FAMILIES = ("explodes", "falls-through", "sags")
 UNPLANTED = "no healthy model with a flex is planted with faults"
 
 FLAT = 0.7  # of its height
+PRESSED = 1.0  # weight on its base over young: it would be shorter by all of its height
+LONG, SOON, STEPS = 2500, 200, 20  # steps of a run, until it explodes, and from look to look
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Flexcomps of loose points, each."""
     if model.source is None or not model.simulation.gravity:
         return
+    yield from _burst(model)
     yield from _soft(model)
     for flex in model.source.elements("flexcomp"):
         if flex.get("rigid") == "true" or _held(model.source, flex):
@@ -79,7 +84,9 @@ def _soft(model: ReaderModel) -> Iterator[Suspect]:
         if flex.get("dim") != "3" or elastic is None or name not in model.simulation.names("flex"):
             continue
         young = float(elastic.get("young") or "0")
-        value, probe = f"{1000 * young:g}", Probe("height that a flex loses within 1 s", "of its own", _flat, (name,))
+        steps = LONG if young > 0 and _weight_on_base(model.simulation, flex) > PRESSED * young else 0
+        probe = Probe("height that a flex loses within 1 s", "of its own", _flat, (name, steps))
+        value = f"{1000 * young:g}"
         edits = (set_attribute(elastic, "young", value),)
         if young > 0 and model.measured(probe) > FLAT >= model.measured(probe, edits):
             says = f"It goes flat: with young {young:g} Pa it does not carry its own weight."
@@ -87,11 +94,49 @@ def _soft(model: ReaderModel) -> Iterator[Suspect]:
             yield Suspect(told, "young", now, value, edits, probe, FLAT, says, "a body that keeps its shape")
 
 
-def _flat(of: Simulation, name: str) -> float:
-    """The share of its height that a flex loses."""
+def _burst(model: ReaderModel) -> Iterator[Suspect]:
+    """Flexes with elasticity that explode by its damping, each."""
+    assert model.source is not None
+    probe = Probe("explosions within 200 steps", "", _explodes)
+    for flex in model.source.elements("flexcomp"):
+        elastic = flex.first("elasticity")
+        damping = float((elastic.get("damping") if elastic is not None else "") or "0")
+        if elastic is None or damping <= 0 or not model.measured(probe):
+            continue
+        for less in (10, 100, 1000):
+            value = f"{damping / less:g}"
+            edits = (set_attribute(elastic, "damping", value),)
+            if not model.measured(probe, edits):
+                says = f"It explodes at once, and with damping {value} s it does not: the steps are too long for it."
+                told, now = (f'flexcomp "{flex.get("name")}"',), f"{damping:g}"
+                yield Suspect(told, "damping", now, value, edits, probe, 0.5, says, "a body that stays whole")
+                break
+
+
+def _explodes(of: Simulation) -> float:
+    """1 where the run becomes unstable soon, else 0."""
     of.begin()
-    before = _height(of, name)
-    for _ in of.run(1.0, samples=4):
+    for _ in range(SOON // STEPS):
+        of.engine.step(STEPS)
+        if of.unstable():
+            return 1.0
+    return 0.0
+
+
+def _weight_on_base(of: Simulation, flex: Element) -> float:
+    """The weight of a flex over the area of the box around it, in Pa; no less rests on its base."""
+    of.begin()
+    wide, deep, _ = (max(row) - min(row) for row in _points(of, flex.get("name") or ""))
+    return float(flex.get("mass") or "1") * of.gravity / max(wide * deep, 1e-9)
+
+
+def _flat(of: Simulation, name: str, steps: int) -> float:
+    """The share of its height that a flex loses; in so many steps at most, where a large model would do fewer."""
+    of.begin()
+    before, left = _height(of, name), min(steps, math.ceil(1 / of.timestep))
+    for _ in range(left // STEPS):
+        of.engine.step(STEPS)
+    for _ in of.run(1.0, samples=4) if not left else ():
         if of.unstable():
             return 0.0
     return 1 - _height(of, name) / before if before > 0 else 0.0
@@ -99,10 +144,16 @@ def _flat(of: Simulation, name: str) -> float:
 
 def _height(of: Simulation, name: str) -> float:
     """How tall a flex is as the state is now, in m."""
+    heights = _points(of, name)[2]
+    return max(heights) - min(heights)
+
+
+def _points(of: Simulation, name: str) -> list[Sequence[float]]:
+    """Where the points of a flex are in the world, in m: all x, all y, all z."""
     flex = of.names("flex").index(name)
     first, count = (int(of.model(f"flex_vert{field}")[flex]) for field in ("adr", "num"))
-    heights = of.data("flexvert_xpos")[3 * first + 2 : 3 * (first + count) : 3]
-    return max(heights) - min(heights)
+    places = of.data("flexvert_xpos")[3 * first : 3 * (first + count)]
+    return [places[axis::3] for axis in range(3)]
 
 
 def _held(source: Source, flex: Element) -> bool:

@@ -150,6 +150,20 @@ def test_a_large_soft_body_is_watched_until_it_lies_and_its_damping_where_it_bur
     assert [(each.attribute, each.value) for each in hints(text, "flex-falls-apart")] == told
 
 
+CLOTH = """<mujoco><worldbody><geom name="post" type="capsule" size="0.1 0.2" pos="0 0 0.3"/>
+<flexcomp name="tarp" type="grid" dim="2" count="5 5 1" spacing="0.1 0.1 0.1" pos="0 0 {}" radius="0.01" mass="0.4">
+<edge equality="true"/>{}</flexcomp></worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("height", "more", "told"),
+    [("0.52", "", ["0 0 0.611"]), ("0.62", "", []), ("0.59", "", []), ("0.52", '<pin id="0"/>', [])],
+    ids=["through-the-post", "above", "a-little-inside", "pinned"],
+)
+def test_a_cloth_that_begins_around_a_post_is_raised(height: str, more: str, told: list[str]) -> None:
+    assert [each.value for each in hints(CLOTH.format(height, more), "flex-begins-inside")] == told
+
+
 @pytest.mark.parametrize(
     ("axis", "links", "attribute"),
     [

@@ -82,6 +82,18 @@ def test_the_hinge_across_all_others_is_named_where_a_loop_locks():
     assert "loop-locked" not in [each.rule for each in hints(text)]
 
 
+@pytest.mark.parametrize("turned", ["", ' euler="0 0 90"'])
+def test_a_link_of_a_locked_loop_that_has_no_joint_gets_one_like_the_others(turned):
+    driven = '<actuator><velocity joint="crank" kv="1" ctrlrange="-3 3"/></actuator></mujoco>'
+    text = FOURBAR.replace("</mujoco>", driven).replace('<joint name="coupler" axis="0 1 0"/>', "")
+    text = text.replace('"coupler" pos="0 0 0.1"', f'"coupler" pos="0 0 0.1"{turned}')
+    if turned:
+        text = text.replace('fromto="0 0 0 0.3 0 0"', 'fromto="0 0 0 0 -0.3 0"').replace('"0.3 0 0"', '"0 -0.3 0"')
+    (found,) = hints(text, "loop-locked")
+    assert (found.elements[0], found.attribute) == ('body "coupler"', "joint")
+    assert found.value == f'<joint type="hinge" axis="{"1 0 0" if turned else "0 1 0"}"/>'
+
+
 @pytest.mark.parametrize(("mass", "told"), [(50, True), (1, False)])
 def test_a_weld_that_a_load_pulls_apart_is_told(mass, told):
     text = f"""

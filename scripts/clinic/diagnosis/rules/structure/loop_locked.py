@@ -36,7 +36,8 @@ Good:
 
 The number: of how fast a driven joint would tear the connections open if it moved alone, the share that no motion of
 all the other joints takes away; 0 in a mechanism, 1 where nothing else gives way. More than 0.1. At the start, by small
-motions of one joint after the other.
+motions of one joint after the other. Where all hinges are parallel, and one of the loop's bodies has no joint, and with
+a hinge like the others all of them move, that is the edit.
 
 When it is wrong: a joint that an equality locks for a while, until code sets it free. What a mocap body pulls is left
 alone.
@@ -47,7 +48,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.edit import Edit, insert
 from clinic.diagnosis.engine import BALL, FREE, HINGE
 from clinic.diagnosis.probes import tendons
 from clinic.diagnosis.probes.equalities import (
@@ -106,6 +107,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             says += f" {of.name('joint', odd)} turns about another axis than all other hinges."
         else:
             odd, edits = None, ()
+    if odd is None and (pinned := _without_pin(model, holds, probe)) is not None:
+        body, edits = pinned
+        name = of.name("body", body)
+        says += f" {name} has no joint, and with a hinge like the others the loop moves."
+        told = (name, *names, *(of.name("equality", each) for each in holds))
+        value = edits[0].value
+        yield Suspect(told, "joint", "", value, edits, probe, MOST, says, "a loop that moves", level="hint")
+        return
     yield Suspect(
         (*names, *(of.name("equality", each) for each in holds), *([] if odd is None else [of.name("joint", odd)])),
         "equality" if odd is None else "axis",
@@ -118,6 +127,26 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         "a loop that moves",
         at=model.element("equality", holds[0]) if holds else None,
     )
+
+
+def _without_pin(model: ReaderModel, holds: Sequence[int], probe: Probe) -> tuple[int, tuple[Edit, ...]] | None:
+    """The one body of the loops that has no joint, where a hinge like all others lets them move, with the edit."""
+    of, found = model.simulation, dict[int, tuple[Edit, ...]]()
+    of.begin()
+    axes = [of.axis(joint) for joint in range(of.count("joint")) if of.joint_type(joint) == HINGE]
+    if len(axes) < 2 or any(abs(dot(axes[0], each)) < PARALLEL for each in axes):
+        return None
+    for each in holds:
+        bodies = [of.body_of("site", one) if sited(of, each) else max(one, 0) for one in held(of, each)]
+        lines = [of.ancestors(body) for body in bodies]
+        for body in (body for body in (*lines[0], *lines[1]) if not (body in lines[0] and body in lines[1])):
+            element = model.element("body", body)
+            if element is not None and not of.joints_of(body) and body not in found:
+                axis = times(transpose(of.data_row("xmat", body, 9)), axes[0])
+                edits = (insert(element, f'<joint type="hinge" axis="{written([round(x, 6) for x in axis])}"/>'),)
+                if model.measured(probe, edits) <= MOST:
+                    found[body] = edits
+    return next(iter(found.items())) if len(found) == 1 else None
 
 
 def _across(model: ReaderModel) -> int | None:

@@ -210,6 +210,43 @@ def test_a_tendon_that_ends_on_another_finger_is_led_to_its_own(last, told):
     assert [each.value for each in hints(text, "tendon-through-anothers-site")] == told
 
 
+@pytest.mark.parametrize(
+    ("place", "count", "told"),
+    [
+        ("0.01 0 0.01", 3, []),
+        ("-0.01 0 0.01", 3, ["0.01 0 0.01"]),
+        ("0.01 0.01 0", 3, []),  # a place of its own
+        ("0.01 0 0.012", 3, []),
+        ("-0.01 0 0.01", 2, []),
+    ],
+)
+def test_the_one_cable_that_runs_over_the_back_of_its_finger_is_told(place, count, told):
+    finger = (
+        '<body pos="0 {0} 0"><joint axis="0 1 0"/><geom size="0.01"/><site name="{0}a" pos="{1}"/>'
+        '<site name="{0}b" pos="0.009 0 0.03"/><body pos="0 0 0.04"><joint axis="0 1 0"/><geom size="0.01"/>'
+        '<site name="{0}c" pos="0.008 0 0.02"/></body></body>'
+    )
+    cable = '<spatial><site site="{0}a"/><site site="{0}b"/><site site="{0}c"/></spatial>'
+    fingers = "".join(finger.format(each, "0.01 0 0.01" if each else place) for each in range(count))
+    cables = "".join(map(cable.format, range(count)))
+    text = f"<mujoco><worldbody>{fingers}</worldbody><tendon>{cables}</tendon></mujoco>"
+    assert [each.value for each in hints(text, "tendon-unlike-siblings")] == told
+
+
+@pytest.mark.parametrize(
+    ("other", "eye", "told"),
+    [("0 0.8", "0.1", []), ("0 0.9", "0.1", ["0 0.8"]), ("0 0.9", "0.3", []), ("0.5 0.9", "0.1", [])],
+    ids=["alike", "unequal", "of-another-length", "of-another-kind"],
+)
+def test_two_ropes_of_one_length_that_may_be_unequally_long_are_told(other, eye, told):
+    text = f"""<mujoco><worldbody><site name="a" pos="-0.1 0 2"/><site name="b" pos="0.1 0 2"/>
+      <body name="load" pos="0 0 1.2"><freejoint/><geom type="box" size="0.3 0.1 0.1"/>
+        <site name="c" pos="-0.1 0 0.1"/><site name="d" pos="{eye} 0 0.1"/></body></worldbody>
+    <tendon><spatial limited="true" range="0 0.8"><site site="a"/><site site="c"/></spatial>
+      <spatial limited="true" range="{other}"><site site="b"/><site site="d"/></spatial></tendon></mujoco>"""
+    assert [each.value for each in hints(text, "tendon-unlike-siblings")] == told
+
+
 CYLINDERS = "".join(
     f'<body name="{part}"><joint name="{part}_pin" axis="0 1 0"/><geom size="0.1"/><body name="{part}_barrel">'
     f'<joint name="{part}_rod" type="slide"/><geom size="0.1"/><site name="{part}_eye"/></body></body>'

@@ -63,11 +63,17 @@ have the same coefficients over joints as far from each other in the tree, how m
 And of two whose names differ in one word, each over a left and a right joint with as large coefficients, how many add
 the joints where the other takes one from the other. The one that adds is told where it is called a bar against roll.
 
+Of spatial tendons, three and more that go through sites in places of the same numbers, all but one agree in every site,
+and the one has in a single site another sign, or two numbers exchanged: its cable runs over the other side of the
+finger. And of two ropes of one length between the same two bodies, by how much the upper ends of their ranges differ;
+more than 2 %: a load hangs on the shorter alone.
+
 When it is wrong: a finger that is meant to be coupled in another way.
 """
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator, Sequence
 from itertools import combinations
@@ -75,8 +81,8 @@ from itertools import combinations
 from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.probes.siblings import WHICH
 from clinic.diagnosis.probes.sides import by_name
-from clinic.diagnosis.probes.tendons import joints_of
-from clinic.diagnosis.probes.vector import dot
+from clinic.diagnosis.probes.tendons import joints_of, path
+from clinic.diagnosis.probes.vector import dot, slips, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, how_many
@@ -87,6 +93,7 @@ UNPLANTED = "few healthy models have three tendons that are alike"
 
 BAR = re.compile(r"(?i)anti.?roll|sway|stabili")
 ENOUGH, LIKE, PARALLEL = 3, 1e-3, 0.95
+SAME, UNEQUAL = 1e-6, 0.02  # m; of the longer rope
 
 Shape = tuple[tuple[int | None, float], ...]  # of each joint: how far above the first it is, and its coefficient
 
@@ -116,6 +123,77 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         edits = _edits(model, adds, 1, "coef", value) if bar else ()
         probe = how_many("pairs of tendons of which one adds and one takes away", _opposed)
         yield Suspect(names, "coef", f"{coefficient:g}", value, edits, probe, 0, says, "tendons alike")
+
+    yield from _slipped(model)
+    for (longer, shorter), (most, least) in _unequal(of).items():
+        names = of.name("tendon", longer), of.name("tendon", shorter)
+        says = f"{names[0]} and {names[1]} are ropes of one length between the same bodies, and may be {most:g} and "
+        says += f"{least:g} m long: the load hangs on the shorter alone. Or the other way round."
+        value = written(of.row("tendon_range", shorter, 2))
+        edits, now = model.set("tendon", [longer], "range", value), written(of.row("tendon_range", longer, 2))
+        probe = how_many("pairs of ropes with unequal ranges", _unequal)
+        yield Suspect(names, "range", now, value, edits, probe, 0, says, "ropes alike")
+
+
+def _slipped(model: ReaderModel) -> Iterator[Suspect]:
+    """The sites that are in another place than those of the other tendons, by a sign or two numbers exchanged."""
+    of = model.simulation
+    for (tendon, site), (others, usual) in _astray(of).items():
+        names = of.name("site", site), of.name("tendon", tendon)
+        now, value = written(of.row("site_pos", site, 3)), written(usual)
+        told = " and ".join(of.name("tendon", each) for each in others[:2])
+        says = f"{names[1]} goes through {names[0]} at {now}, where {told} have {value}, and else are alike."
+        probe = how_many("sites of a tendon unlike those of its siblings", _astray)
+        yield Suspect(
+            names, "pos", now, value, model.set("site", [site], "pos", value), probe, 0, says, "tendons alike"
+        )
+
+
+def _astray(of: Simulation) -> dict[tuple[int, int], tuple[list[int], Sequence[float]]]:
+    """By tendon and site: the tendons that agree, and where that site has its place in them."""
+    paths = {tendon: path(of, tendon) for tendon in range(of.count("tendon"))}
+    sites = {each: [site for _, site in line] for each, line in paths.items() if {k for k, _ in line} == {"site"}}
+    places = {each: [of.row("site_pos", site, 3) for site in line] for each, line in sites.items() if len(line) > 2}
+    made = {}
+    for tendon, own in places.items():
+        like = [each for each in places if each != tendon and len(places[each]) == len(own)]
+        odd = {each: [k for k, pair in enumerate(zip(own, places[each], strict=True)) if _far(*pair)] for each in like}
+        for which in {each[0] for each in odd.values() if len(each) == 1}:
+            agree = [each for each, some in odd.items() if some == [which] and not {*sites[each]} & {*sites[tendon]}]
+            usual = places[agree[0]][which]
+            alike = all(not _far(places[each][which], usual) for each in agree)
+            slip = any(not _far(own[which], each) for each in slips(usual))
+            changed = [axis for axis in range(3) if abs(own[which][axis] - usual[axis]) > SAME]
+            sided = all(
+                any(k != which and point[axis] * usual[axis] > 0 for k, point in enumerate(own)) for axis in changed
+            )
+            if len(agree) >= ENOUGH - 1 and alike and slip and sided:
+                made[tendon, sites[tendon][which]] = agree, usual
+    return made
+
+
+def _far(one: Sequence[float], other: Sequence[float]) -> bool:
+    return math.dist(one, other) > SAME
+
+
+def _unequal(of: Simulation) -> dict[tuple[int, int], tuple[float, float]]:
+    """The pairs of ropes of one length between the same bodies, the longer first, with the upper ends of their ranges.
+
+    Ropes go through sites alone.
+    """
+    made = {}
+    for pair in combinations([each for each, on in enumerate(of.model("tendon_limited")) if on], 2):
+        lines = [path(of, each) for each in pair]
+        if any({kind for kind, _ in line} != {"site"} for line in lines):
+            continue
+        bodies = [[of.body_of("site", site) for _, site in line] for line in lines]
+        lengths = [of.model("tendon_length0")[each] for each in pair]
+        (low, high), (other_low, other_high) = (of.row("tendon_range", each, 2) for each in pair)
+        same = bodies[0] == bodies[1] and low == other_low and abs(lengths[0] - lengths[1]) <= LIKE * max(lengths)
+        if same and abs(high - other_high) > UNEQUAL * max(high, other_high):
+            longer = pair if high > other_high else pair[::-1]
+            made[longer[0], longer[1]] = max(high, other_high), min(high, other_high)
+    return made
 
 
 def _opposed(of: Simulation) -> list[tuple[int, int]]:

@@ -31,7 +31,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.shape import boxes
 from clinic.diagnosis.probes.vector import Vector, written
@@ -58,7 +58,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         probe = Probe("depth of a flex in a geom at the start", "of its extent", _deep, (name,), dynamic=False)
         x, y, z = (float(each) for each in (flex.get("pos") or "0 0 0").split())
         value = written((x, y, round(z + _lift(of, name, geom), 4)))
-        edits = (set_attribute(flex, "pos", value),)
+        edits: tuple[Edit, ...] = (set_attribute(flex, "pos", value),)
         if model.measured(probe, edits) > MOST:
             edits, value = (), "clear of what it is in"
         told = (f'flexcomp "{name}"', of.name("geom", geom))

@@ -149,7 +149,7 @@ def _slipped(model: ReaderModel) -> Iterator[Suspect]:
         )
 
 
-def _astray(of: Simulation) -> dict[tuple[int, int], tuple[list[int], Sequence[float]]]:
+def _astray(of: Simulation) -> dict[tuple[int, int], tuple[list[int], tuple[float, ...]]]:
     """By tendon and site: the tendons that agree, and where that site has its place in them."""
     paths = {tendon: path(of, tendon) for tendon in range(of.count("tendon"))}
     sites = {each: [site for _, site in line] for each, line in paths.items() if {k for k, _ in line} == {"site"}}

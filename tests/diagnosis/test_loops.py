@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 from clinic.diagnosis.rules import rules
 from diagnosed import findings, hints
@@ -80,6 +82,40 @@ def test_the_hinge_across_all_others_is_named_where_a_loop_locks():
     assert [(each.attribute, each.value) for each in locked] == [("axis", "0 1 0")]
     assert locked[0].elements == ('joint "crank"', 'equality "loop"', 'joint "rocker"')
     assert "loop-locked" not in [each.rule for each in hints(text)]
+
+
+@pytest.mark.parametrize(
+    ("welded", "load", "told"),
+    [
+        ("connect", "", []),
+        ("weld", "", ['equality "3"']),
+        ("connect", '<weld name="load" body1="plate" body2="load"/>', []),
+    ],
+    ids=["pins", "a-weld", "a-load"],
+)
+def test_the_one_strut_of_a_hexapod_that_is_welded_is_told(welded, load, told):
+    struts, ends = "", ""
+    for each in range(6):
+        low, high = (math.radians(60 * (each // 2 * 2 + 1) + side * (2 * (each % 2) - 1)) for side in (50, 10))
+        foot, head = (
+            (0.25 * math.cos(low), 0.25 * math.sin(low), 0.0),
+            (0.12 * math.cos(high), 0.12 * math.sin(high), 0.4),
+        )
+        way = [b - a for a, b in zip(foot, head, strict=True)]
+        struts += f"""<body pos="{foot[0]} {foot[1]} 0" zaxis="{way[0]} {way[1]} {way[2]}">
+          <joint axis="1 0 0"/><joint axis="0 1 0"/><geom size="0.01"/>
+          <body name="rod{each}" pos="0 0 {math.hypot(*way)}"><joint name="{each}" type="slide"/>
+            <geom size="0.01"/></body>
+        </body>"""
+        pin = "connect" if each != 3 else welded
+        anchor = 'anchor="0 0 0"' if pin == "connect" else ""
+        ends += f'<{pin} name="{each}" body1="rod{each}" body2="plate" {anchor}/>'
+    plates = '<body name="plate" pos="0 0 0.4"><freejoint/><geom type="cylinder" size="0.15 0.01"/></body>'
+    plates += '<body name="load" pos="0 0 0.6"><freejoint/><geom size="0.05"/></body>' if load else ""
+    motors = "".join(f'<motor joint="{each}"/>' for each in range(6))
+    text = f"""<mujoco><default><geom contype="0" conaffinity="0"/></default><worldbody>{struts}{plates}</worldbody>
+      <equality>{ends}{load}</equality><actuator>{motors}</actuator></mujoco>"""
+    assert [name for each in hints(text, "loop-locked") for name in each.elements] == told
 
 
 @pytest.mark.parametrize("turned", ["", ' euler="0 0 90"'])

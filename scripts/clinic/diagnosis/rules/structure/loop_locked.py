@@ -37,7 +37,9 @@ Good:
 The number: of how fast a driven joint would tear the connections open if it moved alone, the share that no motion of
 all the other joints takes away; 0 in a mechanism, 1 where nothing else gives way. More than 0.1. At the start, by small
 motions of one joint after the other. Where all hinges are parallel, and one of the loop's bodies has no joint, and with
-a hinge like the others all of them move, that is the edit.
+a hinge like the others all of them move, that is the edit. And where one weld holds a body that three connections and
+more hold too, and the loops leave fewer motions than there are motors, but not with a connection in its place, the weld
+is told.
 
 When it is wrong: a joint that an equality locks for a while, until code sets it free. What a mocap body pulls is left
 alone.
@@ -47,8 +49,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from html import escape
 
-from clinic.diagnosis.edit import Edit, insert
+from clinic.diagnosis.edit import Edit, insert, replace
 from clinic.diagnosis.engine import BALL, FREE, HINGE
 from clinic.diagnosis.probes import tendons
 from clinic.diagnosis.probes.equalities import (
@@ -75,7 +78,7 @@ UNPLANTED = "the healthy models have few loops"
 MOST, SMALL = 0.1, 1e-3  # shares of how fast a joint tears at the connections
 PARALLEL, ACROSS = 0.999, 0.9  # cosines of the angles between hinges
 STEP = 1e-5  # rad, m
-LARGE, FEW = 80, 12  # degrees of freedom; equalities that are tried
+LARGE, FEW, PINS = 80, 12, 3  # degrees of freedom; equalities that are tried; connections beside a weld
 Column = tuple[float, ...]
 
 
@@ -83,6 +86,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Driven joints that connections hold, all together."""
     of = model.simulation
     if not any(of.model("eq_active0")) or of.count("dof") > LARGE:
+        return
+    welded = [*_among_pins(model)]
+    yield from welded
+    if welded:
         return
     stuck = {joint: share for joint in _driven(of) if (share := _held(of, joint)) > MOST}
     if not stuck:
@@ -127,6 +134,37 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         "a loop that moves",
         at=model.element("equality", holds[0]) if holds else None,
     )
+
+
+def _among_pins(model: ReaderModel) -> Iterator[Suspect]:
+    """The one weld to a body among connections, where it leaves fewer motions than there are motors."""
+    of, motors = model.simulation, len(_driven(model.simulation))
+    active = [each for each, on in enumerate(of.model("eq_active0")) if on and not by_mocap(of, each)]
+    welds = [each for each in active if kind_of(of, each) == WELD]
+    pins = [each for each in active if kind_of(of, each) == CONNECT]
+    if len(welds) != 1 or (element := model.element("equality", welds[0])) is None:
+        return
+    (weld,) = welds
+    like = [each for each in pins if sited(of, each) == sited(of, weld) and {*held(of, each)} & {*held(of, weld)} - {0}]
+    probe = Probe("motors less the motions that the loops leave", "", _short_of, dynamic=False)
+    if len(like) < PINS or model.measured(probe) <= 0:
+        return
+    given = {key: value for key, value in element.attributes.items() if key not in ("relpose", "torquescale", "anchor")}
+    if not sited(of, weld):
+        given["anchor"] = model.value("equality", like[0], "anchor") or "0 0 0"
+    attributes = " ".join(f'{key}="{escape(value)}"' for key, value in given.items())
+    edits = (replace(element, f"<connect {attributes}/>"),)
+    if model.measured(probe, edits) > 0:
+        return
+    name, others = of.name("equality", weld), ", ".join(of.name("equality", each) for each in like[:3])
+    says = f"{name} is a weld, and {others} are connections to the same body. The loops leave {motors} motors "
+    says += f"{motors - int(model.measured(probe))} motions; with a connection, as many as there are motors, or more."
+    yield Suspect((name,), "weld", "weld", "connect", edits, probe, 0, says, "a motion for each motor", level="hint")
+
+
+def _short_of(of: Simulation) -> float:
+    """How many motors there are more than motions that the loops leave."""
+    return len(_driven(of)) - (of.count("dof") - len(_spanned(_columns(of))))
 
 
 def _without_pin(model: ReaderModel, holds: Sequence[int], probe: Probe) -> tuple[int, tuple[Edit, ...]] | None:
@@ -190,15 +228,19 @@ def _held(of: Simulation, joint: int) -> float:
     size = math.hypot(*own)
     if size < SMALL:
         return 0.0
-    spanned: list[Column] = []
-    for each in range(len(columns)):
-        if each != dof:
-            left, full = columns[each], math.hypot(*columns[each])
-            left = _without(left, spanned)
-            rest = math.hypot(*left)
-            if rest > SMALL * max(full, 1e-6):
-                spanned.append(tuple(x / rest for x in left))
+    spanned = _spanned([column for each, column in enumerate(columns) if each != dof])
     return math.hypot(*_without(own, spanned)) / size
+
+
+def _spanned(columns: Sequence[Column]) -> list[Column]:
+    """Directions at right angles to each other that span some columns."""
+    made: list[Column] = []
+    for column in columns:
+        left = _without(column, made)
+        rest = math.hypot(*left)
+        if rest > SMALL * max(math.hypot(*column), 1e-6):
+            made.append(tuple(x / rest for x in left))
+    return made
 
 
 def _without(column: Column, directions: Sequence[Column]) -> Column:

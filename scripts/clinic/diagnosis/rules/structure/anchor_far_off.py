@@ -40,6 +40,7 @@ When it is wrong: a rod that was left out of the drawing on purpose.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HFIELD, PLANE
@@ -57,6 +58,7 @@ UNPLANTED = "the 81 models of the bench connect nothing by an anchor"
 STRAIGHT = 1.02
 FAR, AWAY = 0.3, 3.0  # times the body's size; the same for a rod or a string that is not drawn
 OFF, ON, LONG = 0.25, 0.05, 12  # times the body's size; bodies of a loop
+TRIES = 40  # slips that are compiled
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -106,14 +108,12 @@ def _phantom(of: Simulation, each: int) -> Iterator[Suspect]:
 
 def _slipped(model: ReaderModel, each: int) -> Iterator[Suspect]:
     """A connection that is off one of its bodies, and on both once a slip of the pen is undone."""
-    of, probe = (
-        model.simulation,
-        Probe("distance of an anchor from a body", "times its size", off, (each,), dynamic=False),
-    )
+    of = model.simulation
+    probe = Probe("distance of an anchor from a body", "times its size", off, (each,), dynamic=False)
     if (far := off(of, each)) <= OFF or not of.model("eq_active0")[each]:
         return
     ends_ = Probe("distance of an anchor from the ends of the rods", "m", from_ends, (each,), dynamic=False)
-    met = [slip for slip in _slips(model, each) if slip[-1] and model.measured(probe, slip[-1]) <= ON]
+    met = [slip for slip in islice(_slips(model, each), TRIES) if slip[-1] and model.measured(probe, slip[-1]) <= ON]
     if not met:
         return
     name, attribute, now, value, edits = min(met, key=lambda slip: round(model.measured(ends_, slip[-1]), 6))
@@ -132,7 +132,7 @@ def _slips(model: ReaderModel, each: int) -> Iterator[tuple[str, str, str, str, 
         edits = model.set("equality", [each], "anchor", written(place))
         yield equality, "anchor", written(anchor), written(place), edits
     bodies = of.names("body")
-    for body in (of.parent(other), *of.children.get(other, [])):
+    for body in (of.parent(other), *of.children.get(other, [])) if other else ():
         if body and body != one and bodies[body]:
             edits = model.set("equality", [each], "body2", bodies[body])
             yield equality, "body2", bodies[other], bodies[body], edits
@@ -140,10 +140,9 @@ def _slips(model: ReaderModel, each: int) -> Iterator[tuple[str, str, str, str, 
     for body in [body for body in (*lines[0], *lines[1]) if not (body in lines[0] and body in lines[1])][:LONG]:
         for attribute in ("euler", "pos"):
             now = model.value("body", body, attribute) or ""
-            for at, number in enumerate(now.split()):
-                value = " ".join(
-                    [*now.split()[:at], number[1:] if number[0] == "-" else f"-{number}", *now.split()[at + 1 :]]
-                )
+            for at, number in enumerate(numbers := now.split()):
+                turned = number[1:] if number[0] == "-" else f"-{number}"
+                value = " ".join([*numbers[:at], turned, *numbers[at + 1 :]])
                 if float(number):
                     yield of.name("body", body), attribute, now, value, model.set("body", [body], attribute, value)
 

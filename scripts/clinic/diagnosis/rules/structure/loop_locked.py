@@ -48,8 +48,8 @@ alone.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Sequence
-from html import escape
 
 from clinic.diagnosis.edit import Edit, insert, replace
 from clinic.diagnosis.engine import BALL, FREE, HINGE
@@ -149,11 +149,9 @@ def _among_pins(model: ReaderModel) -> Iterator[Suspect]:
     probe = Probe("motors less the motions that the loops leave", "", _short_of, dynamic=False)
     if len(like) < PINS or model.measured(probe) <= 0:
         return
-    given = {key: value for key, value in element.attributes.items() if key not in ("relpose", "torquescale", "anchor")}
-    if not sited(of, weld):
-        given["anchor"] = model.value("equality", like[0], "anchor") or "0 0 0"
-    attributes = " ".join(f'{key}="{escape(value)}"' for key, value in given.items())
-    edits = (replace(element, f"<connect {attributes}/>"),)
+    xml = re.sub(r"""\s(?:relpose|torquescale|anchor)\s*=\s*("[^"]*"|'[^']*')""", "", model.text_of(element))
+    anchor = "" if sited(of, weld) else f' anchor="{model.value("equality", like[0], "anchor") or "0 0 0"}"'
+    edits = (replace(element, re.sub(r"^<weld\b", f"<connect{anchor}", xml)),)
     if model.measured(probe, edits) > 0:
         return
     name, others = of.name("equality", weld), ", ".join(of.name("equality", each) for each in like[:3])

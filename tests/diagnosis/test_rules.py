@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from clinic.diagnosis.rules import rules
@@ -13,14 +12,10 @@ from clinic.record.checkout import project_root
 from clinic.record.families import families
 from diagnosed import diagnosed, findings
 
+pytestmark = pytest.mark.usefixtures("folder")
+
 CASES = [load_case(folder) for folder in sorted((project_root() / "cases").iterdir())]
 MODELS = [case for case in CASES if case.record.run is not None]
-
-
-@pytest.fixture(autouse=True)
-def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """No file of this project is in the current folder."""
-    monkeypatch.chdir(tmp_path)
 
 
 @pytest.mark.parametrize("rule", rules().values(), ids=rules().keys())

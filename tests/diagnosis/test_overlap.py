@@ -103,7 +103,7 @@ def test_what_is_as_deep_in_other_keyframes_and_in_its_own_place_is_lifted_there
     box = BOX.format(z=other, more="")
     keys = "".join(f'<key qpos="{x} 0 {z} 1 0 0 0"/>' for x, z in ((0, 0.02), (1, other), (2, 0.05)))
     text = f"<mujoco><worldbody>{FLOOR}{box}</worldbody><keyframe>{keys}</keyframe></mujoco>"
-    (found,) = causes(text, "overlap-at-start")
+    (found,) = findings(text, "overlap-at-start")
     assert len(found.edit) == edits
 
 

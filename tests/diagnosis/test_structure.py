@@ -335,3 +335,11 @@ def test_a_drawer_through_the_wall_of_its_cabinet_is_told(name: str, axis: str, 
     text = f'<body>{cabinet}<body name="{name}">{slide}</body></body>'
     found = hints(f"<mujoco><worldbody>{text}</worldbody></mujoco>", "slide-across-its-guide")
     assert [each.value for each in found] == told
+
+
+@pytest.mark.parametrize("wheel", ["", '<body pos=".3 0 0"><joint axis="0 0 1"/><geom size=".05"/></body>'])
+def test_a_knee_whose_shin_is_fixed_to_its_rotor_bends(wheel: str) -> None:
+    shin = f'<body pos="0 0 .02"><geom type="capsule" fromto="0 0 0 .3 0 0" size=".02"/>{wheel}</body>'
+    rotor = '<joint name="knee" axis="0 0 1"/><geom type="cylinder" fromto="0 0 0 0 0 .02" size=".04"/>'
+    text = f'<mujoco><worldbody><body pos="0 0 1">{rotor}{shin}</body></worldbody></mujoco>'
+    assert not hints(text, "axis-unlike-name")

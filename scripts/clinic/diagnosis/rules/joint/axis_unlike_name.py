@@ -137,14 +137,16 @@ def _twisting(model: ReaderModel) -> Iterator[Suspect]:
 def _twisted(of: Simulation) -> list[int]:
     """The hinges called after a joint that bends, each alone on its body, whose axis goes along that."""
     of.as_written()
-    made = []
+    welds, mass, made = of.model("body_weldid"), of.model("body_mass"), []
     for joint, name in enumerate(of.names("joint")):
         body = of.body_of("joint", joint)
         called = BENDS.search(name) and not TURNS.search(name)
         if not called or of.joint_type(joint) != HINGE or len(of.joints_of(body)) > 1:
             continue
-        next_ones = [each for child in of.children.get(body, []) for each in of.joints_of(child)]
-        ends = [of.data_row("xanchor", each, 3) for each in next_ones] or [of.data_row("xipos", body, 3)]
+        one = [each for each in of.below(body) if welds[each] == body]
+        next_ones = [other for each in one for child in of.children.get(each, []) for other in of.joints_of(child)]
+        ends = [of.data_row("xanchor", each, 3) for each in next_ones]
+        ends = ends or [of.data_row("xipos", each, 3) for each in one if mass[each] > 0]
         ways = [sub(end, of.data_row("xanchor", joint, 3)) for end in ends]
         if all(norm(way) > FLAT and norm(cross(of.axis(joint), way)) < OFF * norm(way) for way in ways):
             made.append(joint)

@@ -14,7 +14,7 @@ from clinic.diagnosis.suspect import Probe, Suspect
 
 PLACES = {"body": ("pos",), "geom": ("pos", "size", "fromto"), "site": ("pos",)}
 POWERS = (1.0, 2.0, 3.0)
-APART, SMALL = 0.3, 1e-6  # tens; m
+APART, SMALL = 2.0, 1e-6  # times; m
 
 
 def decimals(model: ReaderModel) -> Iterator[Suspect]:
@@ -35,14 +35,14 @@ def decimals(model: ReaderModel) -> Iterator[Suspect]:
                 edits = model.set(kind, [pair[odd]], attribute, value)
                 says = f"Its {written([wrong[at]])} is {written([right[at]])} in its twin, {other}, to the digit."
                 field, name = f"{kind}_{'pos' if attribute == 'pos' else 'size'}", of.name(kind, pair[odd])
-                probe = Probe("numbers of a twin apart by", "tens", _tens, (field, *pair), dynamic=False)
+                probe = Probe("a number, unlike its twin's by", "times", _times, (field, *pair), dynamic=False)
                 yield Suspect((name,), attribute, written(wrong), value, edits, probe, APART, says, "that of its twin")
 
 
-def _tens(of: Simulation, field: str, *pair: int) -> float:
-    """How many powers of ten the numbers of two elements are apart, the most of three."""
+def _times(of: Simulation, field: str, *pair: int) -> float:
+    """How many times one number of two elements is the other's, the most of three."""
     both = zip(*(map(abs, of.row(field, each, 3)) for each in pair), strict=True)
-    return max((abs(math.log10(a / b)) for a, b in both if min(a, b) > SMALL), default=0.0)
+    return max((max(a / b, b / a) for a, b in both if min(a, b) > SMALL), default=1.0)
 
 
 def _slip(one: list[float], other: list[float]) -> int | None:

@@ -199,6 +199,9 @@ STANDING = LOOP.replace("<worldbody>", '<worldbody><geom size="0.1" pos="0 0 1"/
 TURNED = LOOP.replace('"rocker" pos="0.5 0 1"', '"rocker" pos="0.5 0 1" euler="0 90 0"').replace(
     '"-0.3 0 0"', '"0 0 -0.3"'
 )
+HELD = LOOP.replace("<connect", '<connect name="loop"').replace(
+    "</worldbody>", '<site name="tip" pos="0.1 0 2"/></worldbody>'
+)
 
 
 @pytest.mark.parametrize(
@@ -215,14 +218,37 @@ TURNED = LOOP.replace('"rocker" pos="0.5 0 1"', '"rocker" pos="0.5 0 1" euler="0
             "",
             ('body "rocker"', "quat", "0.866025 0 0.5 0"),
         ),
+        (
+            LOOP.replace('"0.5 0 1"', '"0.5 0 0.9" euler="0 60 0"').replace('"-0.3 0 0"', '"-0.236603 0 -0.209808"'),
+            ' euler="0 60 0"',
+            ' euler="0 -60 0"',
+            ('body "rocker"', "euler", "0 60 0"),
+        ),
+        (HELD, 'site2="hole"', 'site2="tip"', ('equality "loop"', "site2", "hole")),
+        (HELD, 'site1="pin"', 'site1="tip"', ('equality "loop"', "site1", "pin")),
+        (HELD.replace("</body>", '<site name="eye" pos="0.2 0 0"/></body>', 1), 'site1="pin"', 'site1="tip"', None),
     ],
-    ids=["a site's sign", "exchanged", "a body's sign", "another length", "another axis", "orientation left out"],
+    ids=[
+        "a site's sign",
+        "exchanged",
+        "a body's sign",
+        "another length",
+        "another axis",
+        "orientation left out",
+        "an orientation's sign",
+        "the second site",
+        "the first site",
+        "two sites in its place",
+    ],
 )
 def test_a_loop_that_a_slip_of_the_pen_opens_is_closed_there(text, right, wrong, told):
     assert text.count(right) == 1
     broken = text.replace(right, wrong)
     (found,) = hints(broken, "loop-not-assembled")
-    assert (found.elements[0], found.attribute, found.value) == told
+    if told is None:
+        assert "with this value" not in found.says
+    else:
+        assert (found.elements[0], found.attribute, found.value) == told
     assert not hints(text, "loop-not-assembled")
 
 

@@ -32,8 +32,9 @@ Good:
 The number: how far apart the two places are at the start that an equality holds together, as a share of the model's
 extent; below 1 % is well. The second site is moved to where the first one is, or `relpose` is left out, so that the
 start counts as assembled. But where all but a thousandth of the gap goes once two numbers in the `pos` of one site or
-body of the loop are exchanged, or one has another sign, or once a body without an orientation is turned about its own
-hinge, that is the edit; of several the one that makes the model smallest. From a keyframe it is a hint.
+body of the loop are exchanged, or one there or in its orientation has another sign, or once a body without an
+orientation is turned about its own hinge, or the equality holds the one other site that is in the place of one end,
+that is the edit; of several the one that makes the model smallest. From a keyframe it is a hint.
 
 When it is wrong: something that is to be pulled in. Bodies that are moved by `mocap` are left out, but for a weld with
 a `relpose` of its own that puts the other body more than 10 % of the extent away.
@@ -47,7 +48,20 @@ from collections.abc import Iterator
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.equalities import CONNECT, WELD, by_mocap, ends, gap, held, kind_of, sited
-from clinic.diagnosis.probes.vector import Vector, across, cross, dot, slips, sub, times, transpose, unit, written
+from clinic.diagnosis.probes.vector import (
+    Vector,
+    across,
+    cross,
+    dot,
+    flipped,
+    norm,
+    slips,
+    sub,
+    times,
+    transpose,
+    unit,
+    written,
+)
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.structure.equality_copied import copied_ends
 from clinic.diagnosis.simulation import Simulation
@@ -104,9 +118,14 @@ def _slip(model: ReaderModel, each: int) -> tuple[str, str, str, tuple[Edit, ...
         tries += [(kind, index, "pos", written(place), written(value)) for value in written_]
     for body in loop:
         element = model.element("body", body)
-        bare = element is not None and not set(ORIENTATIONS) & element.attributes.keys()
-        if bare and (turn := _turn(of, each, body)):
+        said = {} if element is None else {name: element.get(name) for name in ORIENTATIONS if element.get(name)}
+        for name, now in said.items():
+            tries += [("body", body, name, now, value) for value in _signs(now)]
+        if element is not None and not said and (turn := _turn(of, each, body)):
             tries.append(("body", body, "quat", "left out", written(turn)))
+    for side in (0, 1):
+        if meant := _in_place(of, each, side):
+            tries.append(("equality", each, f"site{side + 1}", of.names("site")[ends_[side]], meant))
     most = model.measured(_all_gaps()) - (1 - CLOSED) * _gap(of, each)
     found = []
     for kind, index, attribute, now, value in tries:
@@ -114,6 +133,28 @@ def _slip(model: ReaderModel, each: int) -> tuple[str, str, str, tuple[Edit, ...
         if edits and model.measured(_all_gaps(), edits) <= most:
             found.append((of.name(kind, index), attribute, now, edits))
     return min(found, key=lambda each: round(model.measured(_extent(), each[-1]), 6), default=None)
+
+
+def _signs(text: str) -> list[str]:
+    """An orientation with another sign of one of its numbers; none where it is no row of numbers."""
+    try:
+        numbers = [float(each) for each in text.split()]
+    except ValueError:
+        return []
+    return [written(flipped(numbers, at)) for at, number in enumerate(numbers) if number]
+
+
+def _in_place(of: Simulation, each: int, side: int) -> str:
+    """The name of the one site on another body that is where an equality's other end is; empty for none or several."""
+    of.begin()
+    there, body = ends(of, each)[1 - side], of.body_of("site", held(of, each)[1 - side])
+    near = CLOSED * _gap(of, each) * of.extent
+    found = [
+        site
+        for site in range(of.count("site"))
+        if of.body_of("site", site) != body and norm(sub(of.data_row("site_xpos", site, 3), there)) <= near
+    ]
+    return of.names("site")[found[0]] if len(found) == 1 else ""
 
 
 def _turn(of: Simulation, each: int, body: int) -> Vector:

@@ -247,6 +247,36 @@ def test_two_ropes_of_one_length_that_may_be_unequally_long_are_told(other, eye,
     assert [each.value for each in hints(text, "tendon-unlike-siblings")] == told
 
 
+HAULED = """<mujoco><worldbody>{tops}<body pos="0 0 1"><freejoint/><geom size="0.1"/>{lugs}</body></worldbody>
+<tendon>{cables}</tendon></mujoco>"""
+CABLE = '<spatial name="cable{0}"><site site="top{0}"/><site site="lug{1}"/></spatial>'
+
+
+@pytest.mark.parametrize(
+    ("ends", "called", "found"),
+    [
+        ("123", "123", []),
+        ("121", "123", [('tendon "cable3"', "lug3")]),
+        ("121", "12x", []),  # none is called after it
+        ("131", "123", []),  # lug2 is free, and cable3 goes to that of cable1
+        ("111", "123", []),  # all to one
+    ],
+)
+def test_a_cable_goes_to_the_site_of_its_number(ends, called, found):
+    tops = "".join(f'<site name="top{each}" pos="0 {each} 2"/>' for each in "123")
+    lugs = "".join(f'<site name="lug{each}" pos="0 0.{at} 0"/>' for at, each in enumerate(called))
+    cables = "".join(CABLE.format(at + 1, end) for at, end in enumerate(ends)).replace("lug3", f"lug{called[2]}")
+    text = HAULED.format(tops=tops, lugs=lugs, cables=cables)
+    told = hints(text, "tendon-through-anothers-site")
+    assert [(each.elements[0], each.value) for each in told] == found
+
+
+def test_the_tendons_of_two_sides_are_compared_by_their_sides_alone():
+    text = rules()["twin-path-differs"].example("Good").replace('"right_back"/>', '"left_back"/>')
+    ours = "twin-path-differs", "tendon-through-anothers-site"
+    assert [each.rule for each in hints(text, *ours)] == ["twin-path-differs"]
+
+
 CYLINDERS = "".join(
     f'<body name="{part}"><joint name="{part}_pin" axis="0 1 0"/><geom size="0.1"/><body name="{part}_barrel">'
     f'<joint name="{part}_rod" type="slide"/><geom size="0.1"/><site name="{part}_eye"/></body></body>'

@@ -40,8 +40,9 @@ Good:
     +       <site site="tib_i"/>
 
 The number: sites that a tendon shares with another one, and that lack a word which all its other sites have, two at
-least. One site of the same body has their words, and no tendon names it; or one of a body as deep in the tree that
-is in line with those of the others, where the shared site's is on another branch.
+least. One site of the same body has their words, and no tendon names it. And sites at which two tendons of as many
+sites are in the same place of their paths, where what sets the names of the two or of their other sites apart makes of
+it one site that no tendon names, unless the tendon and that site have twins.
 
 When it is wrong: a muscle that ends in a tendon of several, beside a site that only marks a place.
 """
@@ -50,9 +51,11 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Sequence
 
 from clinic.diagnosis.edit import set_attribute
+from clinic.diagnosis.probes.copied import Line, misled
+from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.probes.tendons import WRAPS, path
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -73,9 +76,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         parts = [each for each in element.children if each.get("site") == names[site]] if element is not None else []
         edits = (set_attribute(parts[0], "site", names[meant]),) if len(parts) == 1 else ()
         told, shared, own = of.name("tendon", tendon), of.name("site", site), of.name("site", meant)
-        says = (
-            f"It goes through {shared}, as another one does, and none through {own}, which is called like its others."
-        )
+        says = f"It goes through {shared}, as another one does, and none through {own}, which is called like its own."
         probe = how_many("sites of a tendon that are another's", _misled)
         yield Suspect((told, shared), "site", names[site], names[meant], edits, probe, 0, says, "sites of its own")
 
@@ -88,24 +89,28 @@ def _misled(of: Simulation) -> dict[tuple[int, int], int]:
     beside = {int(side) for kind, side in wraps if WRAPS.get(int(kind)) == "geom"}
     free = set(range(of.count("site"))) - times.keys() - beside
     words = [set(WORD.findall(name)) for name in of.names("site")]
-    inside = {of.body_of("site", each) for each in free}
     made = {}
     for tendon, sites in enumerate(paths):
         for _, site in sites if len({*sites}) > 2 else ():
             others = set.intersection(*(words[each] for _, each in sites if each != site))
             body = of.body_of("site", site)
-            own = [of.body_of("site", each) for _, each in sites if each != site]
-            bodies = {body}
-            if not _in_line(of, [*own, body]):
-                deep = len(of.ancestors(body))
-                bodies = {each for each in inside if len(of.ancestors(each)) == deep and _in_line(of, [*own, each])}
-            meant = [each for each in free if others <= words[each] and of.body_of("site", each) in bodies]
+            meant = [each for each in free if others <= words[each] and of.body_of("site", each) == body]
             if times[site] > 1 and others - words[site] and len(meant) == 1:
                 made[tendon, path(of, tendon).index(("site", site))] = meant[0]
-    return made
+    return made or _copied(of, paths, free)
 
 
-def _in_line(of: Simulation, bodies: list[int]) -> bool:
-    """Whether all bodies are on one branch of the tree."""
-    lowest = max((of.ancestors(body) for body in bodies), key=len)
-    return set(bodies) <= set(lowest)
+def _copied(
+    of: Simulation, paths: Sequence[Sequence[tuple[str, int]]], free: Collection[int]
+) -> dict[tuple[int, int], int]:
+    """The same where two tendons of as many sites go through one in the same place of their paths."""
+    names, called = of.names("site"), of.names("tendon")
+    made: dict[tuple[int, int], int] = {}
+    for long in {len(sites) for sites in paths}:
+        rows = {tendon: [names[site] for _, site in sites] for tendon, sites in enumerate(paths) if len(sites) == long}
+        for at in range(long):
+            lines = {each: Line(row[at], (called[each], *row[:at], *row[at + 1 :])) for each, row in rows.items()}
+            for tendon, name in misled(lines, [names[each] for each in free]).items():
+                if tendon not in sided(of, "tendon") or names.index(name) not in sided(of, "site"):
+                    made[tendon, path(of, tendon).index(paths[tendon][at])] = names.index(name)
+    return made if len(made) == 1 else {}

@@ -92,6 +92,29 @@ def test_what_a_line_is_called_tells_what_it_was_meant_for(rule, lines, right, w
     assert not hints(text, rule)
 
 
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({}, True),
+        ({'<joint name="rfJ0" axis="0 1 0"': '<joint name="rfJ0" axis="0 -1 0"'}, False),  # its axis is turned as well
+        ({'"rfJ0" axis="0 1 0" range="0 90"': '"rfJ0" axis="0 1 0" range="-90 0"'}, False),  # it bends back
+        ({'joint2="ffJ1" polycoef="0 0.7': 'joint2="ffJ1" polycoef="0 0.5'}, False),  # two others of three
+        ({'joint2="ffJ1" polycoef="0 0.7': 'joint2="ffJ1" polycoef="0 -0.7'}, False),
+    ],
+)
+def test_one_coupling_of_three_has_the_other_sign(change, told):
+    right = hand(equality='<joint name="A" joint1="AJ0" joint2="AJ1" polycoef="0 0.7 0 0 0"/>')
+    wrong = right.replace('joint2="rfJ1" polycoef="0 0.7', 'joint2="rfJ1" polycoef="0 -0.7')
+    text = wrong
+    for old, new in change.items():
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    found = hints(text, "coupling-unlike-others", "follower-out-of-range")
+    found = [each for each in found if each.rule == "coupling-unlike-others" or told]
+    assert [(each.rule, each.value) for each in found] == [("coupling-unlike-others", "0 0.7 0 0 0")] * told
+    assert not told or with_edits(text, found[0]) == right
+
+
 @pytest.mark.parametrize("rule", ["coupling-unlike-others", "loop-not-assembled"])
 def test_what_follows_from_a_copied_end_of_an_equality_is_not_told(rule):
     line = '<joint name="A" joint1="AJ0" joint2="AJ1"/><connect site1="Atip" site2="Apad"/>'

@@ -52,24 +52,38 @@ When it is wrong: a mechanism in which one coupling is of another kind than all 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from clinic.diagnosis.probes.couplings import couplings, lost
 from clinic.diagnosis.probes.equalities import COUPLED, held, kind_of
+from clinic.diagnosis.probes.sides import sided
+from clinic.diagnosis.probes.vector import dot, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.structure.equality_copied import copied_ends
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "A coupling unlike the others"
 FAMILIES = ("stuck", "drifts", "jumps-at-start")
 UNPLANTED = "few healthy models have three couplings"
 
-ENOUGH = 3
+ENOUGH, PARALLEL = 3, 0.95
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The one coupling that stands apart."""
     of = model.simulation
+    for back, others in other_way(of).items():
+        follower, leader = held(of, back)
+        now, value = (written(factors) for factors in (of.equality_data(back)[:5], _turned(of.equality_data(back)[:5])))
+        says = f"{of.name('joint', follower)} bends back where {of.name('joint', leader)} bends on, and leaves its "
+        says += f"range; each of the {len(others)} others keeps to the same way."
+        names = tuple(of.name("joint", joint) for joint in (follower, leader))
+        edits, probe = (
+            model.set("equality", [back], "polycoef", value),
+            how_many("couplings of another sign", other_way),
+        )
+        yield Suspect(names, "polycoef", now, value, edits, probe, 0, says, "couplings alike")
     if (each := _odd(of)) is None or (each, 0) in copied_ends(of):
         return
     follower, leader = held(of, each)
@@ -96,6 +110,30 @@ def _odd(of: Simulation) -> int | None:
     if len(found) < ENOUGH or len(apart) != 1 or len(usual) != 1:
         return None
     return apart[0] if 0 < usual.pop() < len(_line(of, held(of, apart[0])[0])) else None
+
+
+def other_way(of: Simulation) -> dict[int, list[int]]:
+    """By coupling that bends the other way than all others of its size, and leaves its range so: those others."""
+    steps, known = _relations(of), dict(couplings(of))
+    groups: dict[tuple[object, ...], dict[int, float]] = {}
+    of.begin()
+    for each, (follower, leader, factors) in known.items():
+        along = dot(of.axis(follower), of.axis(leader))
+        if steps.get(each) and abs(along) > PARALLEL and factors[1] and follower not in sided(of, "joint"):
+            groups.setdefault((steps[each], *map(abs, factors)), {})[each] = along * factors[1]
+    made = {}
+    for group in groups.values():
+        for each, way in group.items() if len(group) >= ENOUGH else ():
+            follower, leader, factors = known[each]
+            others = [one for one in group if one != each]
+            less = lost(of, ((follower, leader, _turned(factors)),)) < lost(of, (known[each],))
+            if less and all(way * group[one] < 0 for one in others):
+                made[each] = others
+    return made
+
+
+def _turned(factors: Sequence[float]) -> tuple[float, ...]:
+    return (factors[0], *(-factor for factor in factors[1:]))
 
 
 def _relations(of: Simulation) -> dict[int, int | None]:

@@ -48,6 +48,7 @@ from clinic.diagnosis.probes.couplings import Coupling, couplings, led_over, los
 from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.probes.vector import dot, written
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.joint.coupling_unlike_others import other_way
 from clinic.diagnosis.rules.joint.fingers_move_together import sign_lost
 from clinic.diagnosis.rules.keyframe.key_breaks_equality import elsewhere
 from clinic.diagnosis.simulation import Simulation
@@ -69,9 +70,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Followers whose range leaves out most of what they are led to, all together."""
     simulation = model.simulation
     yield from _constant(model)
+    turned = other_way(simulation)
     astray = {number: each for number, each in couplings(simulation) if lost(simulation, (each,)) > LOST
               and any(each[2][1:]) and not sign_lost(simulation, number, each)
-              and not elsewhere(model, number)}  # fmt: skip
+              and number not in turned and not elsewhere(model, number)}  # fmt: skip
     for number, each in astray.items() if len(astray) == 1 else ():
         if factors := _turned(simulation, each):
             suspect = _of_sign(model, number, each, factors)

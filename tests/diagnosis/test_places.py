@@ -101,6 +101,31 @@ def test_twins_in_one_place_whose_geoms_are_mirror_images_are_told(left, right, 
     assert [(each.elements[0], each.value) for each in hints(text, "parts-coincide")] == ([told] if told else [])
 
 
+UNSEEN = 'contype="0" conaffinity="0"'
+
+
+@pytest.mark.parametrize(
+    ("turns", "geom", "last", "told"),
+    [
+        (("0", "120", "240"), UNSEEN, "", []),
+        (("0", "120", "120"), UNSEEN, "", [('body "root2"', "euler", "120 0 0")]),
+        (("0", "120", "120"), "", "", [('body "root2"', "euler", "120 0 0")]),
+        (("90", "90"), UNSEEN, "", [('body "blade0"', "pos", "0 0 0")]),  # no third one is turned otherwise
+        (("0", "120", "120"), UNSEEN, 'mass="2"', []),
+    ],
+    ids=["a rotor", "one on another", "that are solid", "two alone", "of other mass"],
+)
+def test_blades_in_one_place_are_told_by_how_they_are_turned(turns, geom, last, told):
+    blades = "".join(
+        f'<body name="root{at}" euler="{turn} 0 0"><body name="blade{at}"><joint axis="0 0 1"/>'
+        f'<geom type="box" size=".01 .07 .4" pos="0 0 0.5" {geom} {last if at == 2 else ""}/></body></body>'
+        for at, turn in enumerate(turns)
+    )
+    text = f"<mujoco><worldbody><body pos='0 0 2'><joint axis='1 0 0'/><geom size='.1'/>{blades}</body></worldbody>"
+    found = hints(f"{text}</mujoco>", "parts-coincide")
+    assert [(each.elements[0], each.attribute, each.now) for each in found] == told
+
+
 @pytest.mark.parametrize(
     ("name", "coefficients", "axis", "told"),
     [

@@ -30,8 +30,9 @@ Good:
     +       <body name="right_finger" pos="0 -0.005 0.05">
 
 The number: groups of moving bodies, none of which hangs on another, that begin with all their solid geoms in the same
-places, of the same kinds and sizes, and touch. Of 499 healthy models none has one. Where a link goes back by what its
-parent goes forth, its sign is turned.
+places, of the same kinds and sizes, and touch; without solid geoms, with all their geoms, and of the same mass. Of 499
+healthy models none has one. Where a link goes back by what its parent goes forth, its sign is turned. Of a propeller's
+blades, which stand in one place and are turned, the second of the two that are turned alike is named.
 
 So are the two sites of a body that are called alike but for a number and read by sensors, in one place that is not its
 origin, and turned alike; the second is put on the other side. And a left and a right body that hang in one place, aside
@@ -54,6 +55,7 @@ from clinic.diagnosis.probes.sides import by_name
 from clinic.diagnosis.probes.vector import Vector, at, flipped, norm, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.source import ORIENTATIONS
 from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "Two parts in one place"
@@ -73,9 +75,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         names = tuple(of.name("body", body) for body in bodies)
         says = f"{names[0]} and {names[1]} begin in the same place, and have the same shape."
         odd, value = (bodies[1], edits[0].value) if edits else (bodies[0], "apart from each other")
-        now = " ".join(f"{x:.4g}" for x in of.row("body_pos", odd, 3))
+        attribute, now = "pos", " ".join(f"{x:.4g}" for x in of.row("body_pos", odd, 3))
+        if not edits and (turned_alike := _turned_alike(model, bodies)):
+            odd, attribute, now = turned_alike
         names = tuple(dict.fromkeys((of.name("body", odd), *names)))
-        yield Suspect(names, "pos", now, value, edits, probe, 0.1, says, "none")
+        yield Suspect(names, attribute, now, value, edits, probe, 0.1, says, "none")
     for odd, other in _one_side(of):
         moved, side = list(of.row("body_pos", odd, 3)), _mirrored(of, odd, other)
         moved[side] = -moved[side]
@@ -160,6 +164,22 @@ def _turned_back(model: ReaderModel, bodies: Sequence[int]) -> tuple[Edit, ...]:
     return model.placed(bodies[1], back)
 
 
+def _turned_alike(model: ReaderModel, bodies: Sequence[int]) -> tuple[int, str, str] | None:
+    """The second of two that hang turned alike where a third in their place is turned otherwise: how it is turned."""
+    of = model.simulation
+    lines = [reversed(of.ancestors(body)) for body in bodies[:2]]
+    hung = next(((one, other) for one, other in zip(*lines, strict=False) if one != other), None)
+    if hung is None:
+        return None
+    beside = {each: of.row("body_pos", each, 3) for each in of.children.get(of.parent(hung[1]), [])}
+    turns = {of.row("body_quat", each, 4) for each, place in beside.items() if place == beside[hung[1]]}
+    element = model.element("body", hung[1])
+    said = next((name for name in ORIENTATIONS if element is not None and element.get(name)), None)
+    if element is None or said is None or len(turns) < 2 or beside[hung[0]] != beside[hung[1]]:
+        return None
+    return hung[1], said, element.get(said)
+
+
 def _together(of: Simulation) -> list[list[int]]:
     """Bodies with joints that stand in one place with the same solid geoms at the start, and touch."""
     of.begin()
@@ -168,11 +188,24 @@ def _together(of: Simulation) -> list[list[int]]:
     groups: dict[tuple[float, ...], list[int]] = {}
     for body in of.moving_bodies:
         key: list[float] = []
+        bare = not any(solid(of, geom) for geom in of.geoms_of(body))
         for geom in of.geoms_of(body) if of.joints_of(body) else ():
-            if solid(of, geom):
+            if solid(of, geom) or bare:
                 key += [round(x, 4) for x in at(places, geom)]
                 key += [round(x, 3) + 0.0 for x in of.data_row("geom_xmat", geom, 9)]
                 key += [of.model("geom_type")[geom], *(round(x, 6) for x in of.row("geom_size", geom, 3))]
         if key:
+            key += [round(of.model("body_mass")[body], 6)] if bare else []
             groups.setdefault(tuple(key), []).append(body)
-    return [bodies for bodies in groups.values() if any({*pair} in touching for pair in combinations(bodies, 2))]
+    return [
+        bodies
+        for bodies in groups.values()
+        if any({*pair} in touching or _unseen(of, *pair) for pair in combinations(bodies, 2))
+    ]
+
+
+def _unseen(of: Simulation, one: int, other: int) -> bool:
+    """Whether two bodies have geoms that touch nothing at all, and neither hangs on the other."""
+    geoms = (*of.geoms_of(one), *of.geoms_of(other))
+    hung = one in of.ancestors(other) or other in of.ancestors(one)
+    return not hung and not any(solid(of, geom) for geom in geoms)

@@ -278,3 +278,21 @@ def test_a_joint_is_mended_where_it_is_and_not_where_a_transmission_names_it():
     found = causes(text, "follower-out-of-range")
     assert [(each.attribute, each.now, each.value) for each in found] == [("multiplier", "-1", "1")]
     assert 'multiplier="1"' in with_edits(text, found[0])
+
+
+def test_the_one_finger_of_three_that_mimics_with_the_other_sign_is_told_by_its_multiplier():
+    inertia = '<inertia ixx="1e-3" iyy="1e-3" izz="1e-3" ixy="0" ixz="0" iyz="0"/>'
+    link = f'<link name="{{0}}"><inertial><mass value="1"/>{inertia}</inertial></link>'
+    joint = (
+        '<joint name="{0}" type="revolute"><parent link="{1}"/><child link="{0}"/><origin xyz="0.1 0 0"/>'
+        '<axis xyz="0 1 0"/><limit lower="{2}" upper="0.8" effort="9" velocity="2"/>{3}</joint>'
+    )
+    parts = '<link name="palm"/>'
+    for one, times in (("a", 0.7), ("b", -0.7), ("c", 0.7)):
+        mimic = f'<mimic joint="{one}1" multiplier="{times}"/>'
+        parts += link.format(f"{one}1") + joint.format(f"{one}1", "palm", 0, "")
+        parts += link.format(f"{one}2") + joint.format(f"{one}2", f"{one}1", -0.1, mimic)
+    text = f'<robot name="hand">{parts}</robot>'
+    (found,) = hints(text, "coupling-unlike-others", "follower-out-of-range")
+    assert (found.elements[0], found.attribute, found.now, found.value) == ('joint "b2"', "multiplier", "-0.7", "0.7")
+    assert 'multiplier="-' not in with_edits(text, found)

@@ -54,6 +54,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from clinic.diagnosis.edit import Edit, set_attribute
 from clinic.diagnosis.probes.couplings import couplings, lost
 from clinic.diagnosis.probes.equalities import COUPLED, held, kind_of
 from clinic.diagnosis.probes.sides import sided
@@ -75,15 +76,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     for back, others in other_way(of).items():
         follower, leader = held(of, back)
-        now, value = (written(factors) for factors in (of.equality_data(back)[:5], _turned(of.equality_data(back)[:5])))
+        attribute, now, value, edits = with_factors(model, back, _turned(of.equality_data(back)[:5]))
         says = f"{of.name('joint', follower)} bends back where {of.name('joint', leader)} bends on, and leaves its "
         says += f"range; each of the {len(others)} others keeps to the same way."
         names = tuple(of.name("joint", joint) for joint in (follower, leader))
-        edits, probe = (
-            model.set("equality", [back], "polycoef", value),
-            how_many("couplings of another sign", other_way),
-        )
-        yield Suspect(names, "polycoef", now, value, edits, probe, 0, says, "couplings alike")
+        probe = how_many("couplings of another sign", other_way)
+        yield Suspect(names, attribute, now, value, edits, probe, 0, says, "couplings alike")
     if (each := _odd(of)) is None or (each, 0) in copied_ends(of):
         return
     follower, leader = held(of, each)
@@ -96,6 +94,18 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     now, value = of.names("joint")[leader], of.names("joint")[wanted]
     edits = model.set("equality", [each], "joint2", value) if value else ()
     yield Suspect(names, "joint2", now, value, edits, probe, 0, says, "couplings alike")
+
+
+def with_factors(model: ReaderModel, each: int, factors: Sequence[float]) -> tuple[str, str, str, tuple[Edit, ...]]:
+    """How a coupling gets other factors, in URDF by its `<mimic>`: the attribute, what it is and will be, the edits."""
+    of, value = model.simulation, written(factors)
+    element = model.element("joint", held(of, each)[0])
+    if element is not None and (mimic := element.first("mimic")) is not None:
+        value = f"{factors[1]:g}"
+        edit = set_attribute(mimic, "multiplier", value)
+        return "multiplier", mimic.get("multiplier", "1"), value, (edit,)
+    now = written(of.equality_data(each)[:5])
+    return "polycoef", now, value, model.set("equality", [each], "polycoef", value)
 
 
 def _count(of: Simulation) -> float:

@@ -42,13 +42,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from clinic.diagnosis.edit import Edit, set_attribute
+from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.couplings import Coupling, couplings, led_over, lost
 from clinic.diagnosis.probes.sides import sided
 from clinic.diagnosis.probes.vector import dot, written
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.joint.coupling_unlike_others import other_way
+from clinic.diagnosis.rules.joint.coupling_unlike_others import other_way, with_factors
 from clinic.diagnosis.rules.joint.fingers_move_together import sign_lost
 from clinic.diagnosis.rules.keyframe.key_breaks_equality import elsewhere
 from clinic.diagnosis.simulation import Simulation
@@ -174,12 +174,7 @@ def _alike(one: Sequence[float], other: Sequence[float]) -> bool:
 def _of_sign(model: ReaderModel, number: int, coupling: Coupling, factors: tuple[float, ...]) -> Suspect:
     of = model.simulation
     names = tuple(of.name("joint", joint) for joint in coupling[:2])
-    value = written(factors)
-    edits, attribute, now = model.set("equality", [number], "polycoef", value), "polycoef", written(coupling[2])
-    element = model.element("joint", coupling[0])
-    if element is not None and (mimic := element.first("mimic")) is not None:
-        attribute, now, value = "multiplier", mimic.get("multiplier", "1"), f"{factors[1]:g}"
-        edits = (set_attribute(mimic, attribute, value),)
+    attribute, now, value, edits = with_factors(model, number, factors)
     probe = Probe("share of a leader's range that leads a joint out of its own", "", _lost_by, (number,), dynamic=False)
     says = f"{_astray(of, coupling)} With the other sign it keeps to that."
     return Suspect(names, attribute, now, value, edits, probe, LOST, says, "within its range")

@@ -199,6 +199,11 @@ STANDING = LOOP.replace("<worldbody>", '<worldbody><geom size="0.1" pos="0 0 1"/
 TURNED = LOOP.replace('"rocker" pos="0.5 0 1"', '"rocker" pos="0.5 0 1" euler="0 90 0"').replace(
     '"-0.3 0 0"', '"0 0 -0.3"'
 )
+FAR = (
+    LOOP.replace('"0 0 0 0.15 0 0"', '"0 0 0 0 0 0.4"')
+    .replace('"0.2 0 0"/>', '"0.3 0 0.1"/>')
+    .replace('"-0.3 0 0"/>', '"-0.2 0 0.1"/>')
+)
 HELD = LOOP.replace("<connect", '<connect name="loop"').replace(
     "</worldbody>", '<site name="tip" pos="0.1 0 2"/></worldbody>'
 )
@@ -224,6 +229,7 @@ HELD = LOOP.replace("<connect", '<connect name="loop"').replace(
             ' euler="0 -60 0"',
             ('body "rocker"', "euler", "0 60 0"),
         ),
+        (FAR, '"0.3 0 0.1"', '"0.1 0 0.3"', ('site "pin"', "pos", "0.3 0 0.1")),
         (HELD, 'site2="hole"', 'site2="tip"', ('equality "loop"', "site2", "hole")),
         (HELD, 'site1="pin"', 'site1="tip"', ('equality "loop"', "site1", "pin")),
         (HELD.replace("</body>", '<site name="eye" pos="0.2 0 0"/></body>', 1), 'site1="pin"', 'site1="tip"', None),
@@ -236,6 +242,7 @@ HELD = LOOP.replace("<connect", '<connect name="loop"').replace(
         "another axis",
         "orientation left out",
         "an orientation's sign",
+        "exchanged as a turn would",
         "the second site",
         "the first site",
         "two sites in its place",

@@ -34,7 +34,7 @@ extent; below 1 % is well. The second site is moved to where the first one is, o
 start counts as assembled. But where all but a thousandth of the gap goes once two numbers in the `pos` of one site or
 body of the loop are exchanged, or one there or in its orientation has another sign, or once a body without an
 orientation is turned about its own hinge, or the equality holds the one other site that is in the place of one end,
-that is the edit; of several the one that makes the model smallest. From a keyframe it is a hint.
+that is the edit; of several the one that makes the model smallest, a turn last. From a keyframe it is a hint.
 
 When it is wrong: something that is to be pulled in. Bodies that are moved by `mocap` are left out, but for a weld with
 a `relpose` of its own that puts the other body more than 10 % of the extent away.
@@ -74,6 +74,7 @@ CASE = "linkage-jumps-at-start"
 UNPLANTED = "the healthy models connect and weld nothing but what is moved by mocap"
 
 CLOSED, MANY, LONG = 1e-3, 3, 12  # of the gap; loops that are open; bodies of a loop
+LEFT_OUT = "left out"
 APART, PUSHED = 0.01, 0.1  # of the model's extent; where mocap moves one of the two
 
 
@@ -122,7 +123,7 @@ def _slip(model: ReaderModel, each: int) -> tuple[str, str, str, tuple[Edit, ...
         for name, now in said.items():
             tries += [("body", body, name, now, value) for value in _signs(now)]
         if element is not None and not said and (turn := _turn(of, each, body)):
-            tries.append(("body", body, "quat", "left out", written(turn)))
+            tries.append(("body", body, "quat", LEFT_OUT, written(turn)))
     for side in (0, 1):
         if meant := _in_place(of, each, side):
             tries.append(("equality", each, f"site{side + 1}", of.names("site")[ends_[side]], meant))
@@ -132,7 +133,8 @@ def _slip(model: ReaderModel, each: int) -> tuple[str, str, str, tuple[Edit, ...
         edits = model.set(kind, [index], attribute, value)
         if edits and model.measured(_all_gaps(), edits) <= most:
             found.append((of.name(kind, index), attribute, now, edits))
-    return min(found, key=lambda each: round(model.measured(_extent(), each[-1]), 6), default=None)
+    written_ones = [each for each in found if each[2] != LEFT_OUT]  # a turn closes what is as far from its hinge, too
+    return min(written_ones or found, key=lambda each: round(model.measured(_extent(), each[-1]), 6), default=None)
 
 
 def _signs(text: str) -> list[str]:

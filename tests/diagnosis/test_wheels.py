@@ -78,6 +78,24 @@ def test_a_coupling_that_steers_two_wheels_of_an_axle_apart_is_told(
 
 
 @pytest.mark.parametrize(
+    ("names", "shaft", "told"),
+    [
+        pytest.param(("rear_l", "rear_r"), '<velocity tendon="shaft"/>', ["0.1"], id="driven-together"),
+        pytest.param(("rear_l", "rear_r"), '<velocity joint="front"/>', ["0.1"], id="trailing"),
+        pytest.param(("rear", "prop"), '<velocity tendon="shaft"/>', [], id="not-called-a-pair"),
+    ],
+)
+def test_two_wheels_of_two_sizes_are_told_whatever_drives_them(names: tuple[str, str], shaft: str, told: list[str]):
+    part = '<body name="{0}" pos="0 {1} 0"><joint name="{0}" axis="0 1 0"/><geom type="sphere" size="{2}"/></body>'
+    wheels = "".join(part.format(*each) for each in zip(names, (0.2, -0.2), (0.1, 0.08), strict=True))
+    wheels += '<body pos="0.3 0 0"><joint name="front" axis="0 1 0"/><geom size="0.1"/></body>'
+    joints = "".join(f'<joint joint="{name}" coef="0.5"/>' for name in names)
+    text = f"""<mujoco><worldbody><body pos="0 0 0.1"><freejoint/><geom type="box" size="0.2 0.1 0.03"/>{wheels}</body>
+      </worldbody><tendon><fixed name="shaft">{joints}</fixed></tendon><actuator>{shaft}</actuator></mujoco>"""
+    assert [each.value for each in hints(text, "wheels-unlike")] == told
+
+
+@pytest.mark.parametrize(
     ("axis", "cylinder", "told"),
     [
         pytest.param("1 0 0", 'euler="90 0 0"', ("axis", "0 -1 0"), id="the hinge is wrong"),

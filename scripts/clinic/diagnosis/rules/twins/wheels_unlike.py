@@ -33,7 +33,8 @@ Good:
     +         <joint name="right_wheel" axis="0 1 0"/>
 
 The number: of the two driven wheels on one axle, how much equal controls roll them against each other, from -1, both
-the same way, to 1; and by how much the smaller radius is less than the other, from 0.2 % on.
+the same way, to 1; and by how much the smaller radius is less than the other, from 0.2 % on, of two that are called
+left and right as well, whatever drives them.
 
 In a URDF, which has no actuators, it is the hinges that are called wheels'.
 
@@ -47,6 +48,7 @@ from itertools import combinations
 
 from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, SPHERE
 from clinic.diagnosis.probes.shape import root_of, solid
+from clinic.diagnosis.probes.sides import by_name
 from clinic.diagnosis.probes.vector import dot, norm, sub
 from clinic.diagnosis.probes.wheels import is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
@@ -68,7 +70,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     for one, other in _axles(of):
         names = tuple(of.name("joint", joint) for joint in (one, other))
-        if (against := _against(of, one, other)) > AGAINST:
+        if _driven(of, one, other) and (against := _against(of, one, other)) > AGAINST:
             probe = Probe(
                 "equal controls turn the wheels against each other", "", _against, (one, other), dynamic=False
             )
@@ -94,11 +96,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _axles(of: Simulation) -> Iterator[tuple[int, int]]:
-    """Pairs of driven wheels of one robot that lie on one line along their hinges."""
+    """Pairs of wheels of one robot on one line along their hinges, which are driven or called left and right."""
     of.begin()
-    wheels = [joint for joint in range(of.count("joint")) if _is_wheel(of, joint)]
+    wheels, called = [joint for joint in range(of.count("joint")) if _is_wheel(of, joint)], by_name(of, "joint")
     owner, bodies = root_of(of), of.model("jnt_bodyid")
     for one, other in combinations(wheels, 2):
+        if not _driven(of, one, other) and (one, other) not in called and (other, one) not in called:
+            continue
         between = sub(of.data_row("xanchor", one, 3), of.data_row("xanchor", other, 3))
         far = norm(between)
         along = [abs(dot(between, of.axis(joint))) for joint in (one, other)]
@@ -107,11 +111,15 @@ def _axles(of: Simulation) -> Iterator[tuple[int, int]]:
 
 
 def _is_wheel(of: Simulation, joint: int) -> bool:
-    body = of.body_of("joint", joint)
-    called = is_wheel(of.names("joint")[joint], of.names("body")[body])
-    driven = len(of.drivers.get(joint, [])) == 1 or (called and not of.count("actuator"))
     level = abs(of.axis(joint)[2]) < LEVEL_ENOUGH
-    return of.continuous(joint) and driven and level and _tyre(of, joint) >= 0 and body > 0
+    return of.continuous(joint) and level and _tyre(of, joint) >= 0 and of.body_of("joint", joint) > 0
+
+
+def _driven(of: Simulation, *wheels: int) -> bool:
+    """Whether one actuator turns each wheel, or would in a URDF, which has none."""
+    if not of.count("actuator"):
+        return all(is_wheel(of.names("joint")[each], of.names("body")[of.body_of("joint", each)]) for each in wheels)
+    return all(len(of.drivers.get(each, ())) == 1 for each in wheels)
 
 
 def _tyre(of: Simulation, joint: int) -> int:

@@ -284,3 +284,23 @@ def test_a_servo_that_rings_beside_its_twin_of_the_same_gains_moves_what_is_unli
         for far in (0.3, 3)
     }
     assert {far: [each.level for each in told] for far, told in found.items()} == {0.3: ["hint"], 3: ["cause"]}
+
+
+@pytest.mark.parametrize(
+    ("actuator", "told"),
+    [
+        pytest.param('position kp="500" forcerange="0 120"', [("forcerange", "-120 0")], id="servo"),
+        pytest.param('position kp="500" forcerange="-120 0"', [], id="servo-that-pulls"),
+        pytest.param('position kp="500" gear="-1" forcerange="-120 0"', [("forcerange", "0 120")], id="turned-round"),
+        pytest.param('position kp="500" forcerange="-120 120"', [], id="both-ways"),
+        pytest.param('position kp="500"', [], id="no-limit"),
+        pytest.param('motor ctrlrange="0 50"', [("gear", "-1")], id="motor"),
+    ],
+)
+def test_a_winch_that_may_only_push_its_rope_is_told(actuator: str, told: list[tuple[str, str]]) -> None:
+    text = (
+        rules()["rope-pushes"]
+        .example("Bad")
+        .replace('motor tendon="rope" ctrlrange="0 50"', f'{actuator} tendon="rope"')
+    )
+    assert [(each.attribute, each.value) for each in hints(text, "rope-pushes")] == told

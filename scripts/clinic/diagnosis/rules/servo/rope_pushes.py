@@ -31,8 +31,8 @@ Good:
     -     <motor tendon="rope" ctrlrange="0 50"/>
     +     <motor tendon="rope" ctrlrange="0 50" gear="-1"/>
 
-The number: the most that the motor pushes over its control range in N, at least ten times what it can pull. Actuators
-with a bias are left out: servos of length, and muscles, which pull with positive controls.
+The number: the most that the motor pushes over its control range in N, at least ten times what it can pull. Of servos
+of length, and of muscles, which pull with positive controls, it is their `forcerange`.
 
 When it is wrong: a tendon that stands for a piston.
 """
@@ -42,9 +42,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import Edit
-from clinic.diagnosis.engine import BIAS_NONE, GAIN_FIXED, TRN_TENDON
-from clinic.diagnosis.probes.tendons import joints_of
+from clinic.diagnosis.engine import BIAS_NONE, GAIN_FIXED
+from clinic.diagnosis.probes.tendons import joints_of, pulled
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -66,14 +65,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         tendon = int(of.model("actuator_trnid")[2 * each])
         if push <= 0 or push < MOST * pull or PISTON.search(of.name("tendon", tendon) + of.name("actuator", each)):
             continue
-        gear = of.gear(each)
-        edits: tuple[Edit, ...] = model.set("actuator", [each], "gear", written([-gear]))
+        attribute, now, value = "gear", f"{of.gear(each):g}", f"{-of.gear(each):g}"
+        if not _is_motor(of, each):
+            low, high = of.row("actuator_forcerange", each, 2)
+            attribute, now, value = "forcerange", written((low, high)), written((0.0 - high, 0.0 - low))
         yield Suspect(
             (of.name("actuator", each), of.name("tendon", tendon)),
-            "gear",
-            f"{gear:g}",
-            f"{-gear:g}",
-            edits,
+            attribute,
+            now,
+            value,
+            model.set("actuator", [each], attribute, value),
             Probe("the most that a motor pushes a rope", "N", _pushes, (each,), dynamic=False),
             1e-9,
             f"{of.name('actuator', each)} pushes the ends of {of.name('tendon', tendon)} apart with up to "
@@ -87,14 +88,16 @@ def _pushes(of: Simulation, actuator: int) -> float:
     return push if push >= MOST * pull else 0.0
 
 
+def _is_motor(of: Simulation, actuator: int) -> bool:
+    kinds = [of.model(f"actuator_{field}")[actuator] for field in ("gaintype", "biastype")]
+    return tuple(map(int, kinds)) == (GAIN_FIXED, BIAS_NONE)
+
+
 def _forces(of: Simulation, actuator: int) -> tuple[float, float]:
-    """The most that a motor on a spatial tendon pushes and pulls in N; zeros for another actuator."""
-    fields = [of.model(f"actuator_{field}")[actuator] for field in ("trntype", "gaintype", "biastype", "ctrllimited")]
-    tendon = int(of.model("actuator_trnid")[2 * actuator])
-    if tuple(map(int, fields)) != (TRN_TENDON, GAIN_FIXED, BIAS_NONE, 1):
+    """The most that an actuator on a spatial tendon pushes and pulls in N, by its limits; zeros for another one."""
+    tendon = pulled(of).get(actuator)
+    field, factor = ("ctrl", of.gain(actuator)[0]) if _is_motor(of, actuator) else ("force", 1.0)
+    if tendon is None or joints_of(of, tendon) or not of.model(f"actuator_{field}limited")[actuator]:
         return 0.0, 0.0
-    if joints_of(of, tendon):
-        return 0.0, 0.0
-    factor = of.gain(actuator)[0] * of.gear(actuator)
-    forces = [factor * ctrl for ctrl in of.row("actuator_ctrlrange", actuator, 2)]
+    forces = [factor * of.gear(actuator) * end for end in of.row(f"actuator_{field}range", actuator, 2)]
     return max(0.0, *forces), max(0.0, *(-force for force in forces))

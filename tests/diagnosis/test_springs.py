@@ -65,15 +65,33 @@ def test_a_spring_that_rests_on_the_side_of_its_load_gets_the_other_sign(rest: s
         ('stiffness="900" springref="-0.18"', "motor", 3, ("springref", "0")),
         ('stiffness="900" springref="-0.18"', "motor", 0, None),
         ('stiffness="900"', "motor", 3, None),
+        ('stiffness="0.9" springref="0.02"', "motor", 3, ("stiffness", "900")),
         ('stiffness="0.9"', 'position kp="2000"', 3, None),
     ],
-    ids=["N/mm", "weak", "rests at its stop", "a plunger without a load", "right", "a servo holds it"],
+    ids=[
+        "N/mm",
+        "weak",
+        "rests at its stop",
+        "a plunger without a load",
+        "right",
+        "N/mm from its stop",
+        "a servo holds it",
+    ],
 )
 def test_a_leg_with_a_spring_beside_its_motor_is_told_at_its_stop(spring, drive, weight, told):
     slide = f'<joint name="leg" type="slide" axis="0 0 1" range="-0.18 0.02" damping="40" {spring}/>'
     text = f"""<mujoco><option gravity="0 0 {-3.27 * weight}"/><worldbody><body>{slide}<geom size="1" mass="3"/></body>
       </worldbody><actuator><{drive} joint="leg"/></actuator></mujoco>"""
     assert [(each.attribute, each.value) for each in hints(text, "spring-at-its-stop")] == ([told] if told else [])
+
+
+def test_a_spring_pressed_to_the_stop_where_it_rests_hides_no_other() -> None:
+    slide = '<joint type="slide" axis="0 0 1" range="-0.18 0.02" damping="40" stiffness="0.9" springref="0.02"/>'
+    legs = "".join(
+        f'<body pos="{5 * lifted} 0 0" gravcomp="{2 * lifted}">{slide}<geom size="1" mass="3"/></body>'
+        for lifted in (0, 1)
+    )
+    assert hints(f"<mujoco><worldbody>{legs}</worldbody></mujoco>", "spring-at-its-stop")
 
 
 @pytest.mark.parametrize(

@@ -163,14 +163,15 @@ def _held(of: Simulation, joint: int) -> bool:
 
 
 def _pressed(of: Simulation, joint: int) -> float:
-    """The share of the way from the spring's rest to the limit; 0 where it moves, or the rest is outside."""
+    """The share of the way from the spring's rest to the limit; 0 where it moves, or rests outside or at that limit."""
     end, place = let_go(of).end, of.place(joint)
     low, high = of.row("jnt_range", joint, 2)
     rest = of.model("qpos_spring")[place]
-    if end is None or not low < rest < high or abs(end.qvel[of.dof(joint)]) > STILL:
+    if end is None or not low <= rest <= high or abs(end.qvel[of.dof(joint)]) > STILL:
         return 0.0
     off = end.qpos[place] - rest
-    return off / (high - rest) if off > 0 else off / (low - rest)
+    way = high - rest if off > 0 else low - rest
+    return off / way if way else 0.0
 
 
 def _most(of: Simulation, *joints: int) -> float:

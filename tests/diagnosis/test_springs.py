@@ -193,3 +193,19 @@ def test_a_spring_without_a_damper_is_told_of_what_moves_freely(joint: str, extr
     assert [each.value for each in hints(text, "spring-undamped")] == told
     fixed = text.replace("<freejoint/>", "")
     assert not hints(fixed, "spring-undamped")
+
+
+@pytest.mark.parametrize(
+    ("root", "drive", "told"),
+    [
+        pytest.param("", "", [], id="on-the-ground"),
+        pytest.param('<joint type="slide" axis="0 0 1"/>', "", ["66"], id="on-a-rail"),
+        pytest.param('<joint type="slide" axis="0 0 1"/>', '<motor joint="leg"/>', ["66"], id="beside-a-motor"),
+        pytest.param('<joint type="slide" axis="0 0 1"/>', '<position joint="leg"/>', [], id="beside-a-servo"),
+    ],
+)
+def test_the_spring_of_a_hopper_without_a_damper_is_told(root: str, drive: str, told: list[str]) -> None:
+    text = f"""<mujoco><worldbody><body name="carriage" pos="0 0 0.75">{root}<geom size="0.1" mass="4.6"/>
+      <body pos="0 0 -0.4"><joint name="leg" type="slide" axis="0 0 1" range="0 0.2" stiffness="2500"/>
+      <geom size="0.025" mass="0.25"/></body></body></worldbody><actuator>{drive}</actuator></mujoco>"""
+    assert [each.value for each in hints(text, "spring-undamped")] == told

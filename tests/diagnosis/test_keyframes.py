@@ -337,3 +337,23 @@ def test_feet_that_stand_on_edge_in_the_floor_are_told(size: str, height: float,
     text = f'<mujoco><worldbody><geom type="plane" size="2 2 1"/>{pelvis}</worldbody>{key}</mujoco>'
     found = diagnosed(text, "key-in-the-floor").causes
     assert [(each.attribute, each.value) for each in found] == told
+
+
+@pytest.mark.parametrize(
+    ("winch", "ctrl", "told"),
+    [
+        pytest.param("position", "", ["1.41421 1.41421"], id="left-out"),
+        pytest.param("position", 'ctrl="1.4142 1.4142"', [], id="held"),
+        pytest.param("position", 'ctrl="0.4 0.4"', ["1.41421 1.41421"], id="elsewhere"),
+        pytest.param("motor", "", [], id="motors"),
+    ],
+)
+def test_winches_that_a_keyframe_does_not_hold_are_told(winch: str, ctrl: str, told: list[str]) -> None:
+    sites = "".join(f'<site name="top{i}" pos="{x} 0 2"/>' for i, x in enumerate((-1, 1)))
+    ropes = "".join(f'<spatial name="rope{i}"><site site="top{i}"/><site site="eye"/></spatial>' for i in range(2))
+    kp = 'kp="900"' if winch == "position" else ""
+    winches = "".join(f'<{winch} tendon="rope{i}" {kp}/>' for i in range(2))
+    text = f"""<mujoco><worldbody>{sites}<body pos="0 0 1"><freejoint/><geom size="0.1" mass="3"/><site name="eye"/>
+      </body></worldbody><tendon>{ropes}</tendon><actuator>{winches}</actuator>
+      <keyframe><key name="work" qpos="0 0 1 1 0 0 0" {ctrl}/></keyframe></mujoco>"""
+    assert [each.value for each in findings(text, "key-targets-elsewhere")] == told

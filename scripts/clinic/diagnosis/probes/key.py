@@ -8,7 +8,7 @@ from itertools import combinations, permutations
 
 from clinic.diagnosis.edit import Edit, insert, remove_attribute, set_attribute
 from clinic.diagnosis.engine import BALL, FREE, PLANE, SLIDE
-from clinic.diagnosis.probes import servo
+from clinic.diagnosis.probes import servo, tendons
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import WIDTH, Simulation, kept
@@ -28,15 +28,23 @@ def start_at(simulation: Simulation, key: int) -> None:
 
 
 def servos(simulation: Simulation, key: int) -> dict[int, tuple[float, float]]:
-    """Of position servos on hinges and slides: the target in a keyframe and the joint's position, in rad or m."""
+    """Of position servos the target in a keyframe and where they are, in rad or m.
+
+    Those of hinges and slides, and those of tendons that no ranges bound, such as winches', by their length.
+    """
     found = servo.servos(simulation)
+    ropes = [each for each, tendon in tendons.pulled(simulation).items() if tendons.reach(simulation, tendon) is None]
     start_at(simulation, key)
-    ctrl = simulation.data("ctrl")
-    return {
+    ctrl, lengths = simulation.data("ctrl"), simulation.data("ten_length")
+    made = {
         each.actuator: (each.target(ctrl[each.actuator]), simulation.position(each.joint))
         for each in found
         if each.scale > 0
     }
+    for each in ropes:
+        if (line := tendons.servo(simulation, each)) is not None and line[1] > 0:
+            made[each] = line[0] + line[1] * ctrl[each], lengths[tendons.pulled(simulation)[each]]
+    return made
 
 
 def _off(simulation: Simulation, key: int) -> float:

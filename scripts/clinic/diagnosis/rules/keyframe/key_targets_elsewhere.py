@@ -32,10 +32,11 @@ Good:
 The number: the distance between target and joint that three quarters of the position servos keep, in rad or m; 0.1 and
 more tells a cause, for keyframes in which at least two servos and half of them are off. Where there is no `ctrl`, two
 servos that go 0.5 away are told in a hint. Two that are each told the other's place are told as such. Joints outside of
-their ranges do not count: their places are wrong, which another rule tells. A servo on a tendon, a gripper's, is told
-where it goes more than half of the tendon's way. Where the `ctrl` is that of another keyframe, which fits its own pose,
-and not zero, two servos that go elsewhere are told in a hint. Of five actuators with a state and more the one whose
-`act` is not its `ctrl`, as it is of all others, is told in a hint.
+their ranges do not count: their places are wrong, which another rule tells. Winches that hold what moves freely count
+as servos of joints; another servo on a tendon, a gripper's, is told where it goes more than half of the tendon's way.
+Where the `ctrl` is that of another keyframe, which fits its own pose, and not zero, two servos that go elsewhere are
+told in a hint. Of five actuators with a state and more the one whose `act` is not its `ctrl`, as it is of all others,
+is told in a hint.
 
 When it is wrong: a keyframe that is meant to start a motion.
 Whether `ctrl` is left out on purpose, only its author knows: all zero and no `ctrl` is a hint.

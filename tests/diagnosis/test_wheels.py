@@ -133,6 +133,16 @@ def test_a_wheel_that_needs_seconds_to_its_speed_is_told(kv, force, told):
     assert [(each.attribute, each.value) for each in hints(text, "speed-not-reached")] == [("kv", "0.4")] * told
 
 
+@pytest.mark.parametrize(
+    ("damping", "told"),
+    [pytest.param(0.05, ["5.6"], id="more-than-it-gives"), pytest.param(0.02, [], id="less")],
+)
+def test_a_wheel_whose_damping_takes_all_force_below_its_speed_is_told(damping: float, told: list[str]) -> None:
+    text = rules()["speed-not-reached"].example("Good").replace('kv="0.2"', 'kv="4" forcerange="-0.28 0.28"')
+    text = text.replace('damping="0.01"', f'damping="{damping}"').replace('mass="3"', 'mass="0.5"')
+    assert [each.value for each in hints(text, "speed-not-reached")] == told
+
+
 @pytest.mark.parametrize(("force", "told"), [(0.01, ["0.2"]), (0.3, [])])
 def test_a_cart_that_meets_a_wall_had_its_speed_before(force: float, told: list[str]) -> None:
     text = rules()["speed-not-reached"].example("Good").replace('kv="0.2"', f'kv="0.2" forcerange="-{force} {force}"')

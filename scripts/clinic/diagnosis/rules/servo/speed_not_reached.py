@@ -37,7 +37,8 @@ Good:
 
 The number: all velocity servos of hinges without limits are told half of their greatest speed; the share of it that is
 missing after 2 s, of the fastest wheel. Above 0.8 is told, and above 0.4 where kv asks for less than a fifth of the
-force that the servo can give, from the greatest speed back to the same. Where a servo gives three times what speeds up
+force that the servo can give, from the greatest speed back to the same, or where damping alone takes more than that
+force at the speed that is told. Where a servo gives three times what speeds up
 its part of the model in that time, against friction, damping and weight, its force is not what is missing: something
 blocks the wheels.
 
@@ -82,7 +83,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The wheels of a model, where none comes near to what it is told."""
     of = model.simulation
     wheels = _wheels(of)
-    allowed = LATE if wheels and all(_asked(of, each) < ASKED for each in wheels) else MISSING
+    allowed = LATE if all(_asked(of, each) < ASKED or _braked(of, each) for each in wheels) else MISSING
     if not wheels or _missing(of) <= allowed:
         return
     damping = of.model("dof_damping")[of.dof(wheels[0].joint)]
@@ -142,6 +143,13 @@ def _asked(of: Simulation, wheel: Wheel) -> float:
     most = max(map(abs, of.row("actuator_forcerange", wheel.actuator, 2))) * abs(of.gear(wheel.actuator))
     limited = of.model("actuator_forcelimited")[wheel.actuator] and most > 0
     return 2 * wheel.gain * wheel.fastest / most if limited else 1.0
+
+
+def _braked(of: Simulation, wheel: Wheel) -> bool:
+    """Whether damping takes more at the speed that is told than a servo with a limit can give."""
+    most = max(map(abs, of.row("actuator_forcerange", wheel.actuator, 2))) * abs(of.gear(wheel.actuator))
+    takes = of.model("dof_damping")[of.dof(wheel.joint)] * HALF * wheel.fastest
+    return bool(of.model("actuator_forcelimited")[wheel.actuator]) and takes > most
 
 
 def _missing(of: Simulation) -> float:

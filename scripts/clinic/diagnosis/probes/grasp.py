@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -16,6 +17,7 @@ from clinic.diagnosis.probes.vector import Vector, across, at, cross, dot, norm,
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
+PAD = re.compile(r"(?i)finger|thumb|grip|jaw|pad|(?<![a-z])tip")  # what parts that hold something are called
 CLOSING, CARRYING = 1.0, 2.0  # s
 OPPOSITE = -0.7  # cosine of the normals of two jaws
 PLACES, MOMENTS = 4, 40  # between the jaws, and while they close

@@ -30,11 +30,11 @@ When it is wrong: ice.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from itertools import combinations
 
 from clinic.diagnosis.engine import CONTACTS_OFF, FREE
+from clinic.diagnosis.probes.grasp import PAD
 from clinic.diagnosis.probes.push import slides_on
 from clinic.diagnosis.probes.shape import collides, pair_of, solid
 from clinic.diagnosis.probes.touch import DRY, edits_of, names_of, resting, with_like
@@ -47,7 +47,7 @@ TITLE = "Friction next to nothing"
 FAMILIES = ("slips", "rolls-on")
 
 LOW, MOST = 0.12, 0.5
-PAD, GRIP = re.compile(r"(?i)finger|thumb|grip|jaw|pad|(?<![a-z])tip"), 0.05  # friction
+GRIP = 0.05  # friction
 NONE, MANY = 0.001, 60  # friction; geoms of which pairs are looked at
 
 

@@ -193,3 +193,16 @@ def test_a_robot_in_a_plane_that_lacks_a_joint_of_its_root_is_told(joints: str, 
     text = f'<mujoco><worldbody><body pos="0 0 3">{root}<geom size="0.1"/>{legs}</body></worldbody>'
     found = hints(f"{text}<actuator>{motors}</actuator></mujoco>", "planar-root-incomplete")
     assert [each.value for each in found] == [f"<joint {told}/>"] * bool(told)
+
+
+@pytest.mark.parametrize("legs", [1, 2])
+def test_a_hopper_on_a_boom_has_one_leg_and_does_not_turn(legs: int):
+    thigh = '<body><joint name="{0}" axis="0 1 0"/><geom size=".1" pos="0 0 -1"/>{1}</body>'
+    shins = [thigh.format(f"{i}knee", "") for i in range(legs)]
+    below = "".join(thigh.format(f"{i}hip", shin) for i, shin in enumerate(shins))
+    motors = "".join(f'<motor joint="{i}{at}"/>' for i in range(legs) for at in ("hip", "knee"))
+    root = '<joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/><geom size=".1"/>'
+    text = (
+        f'<mujoco><worldbody><body pos="0 0 3">{root}{below}</body></worldbody><actuator>{motors}</actuator></mujoco>'
+    )
+    assert len(hints(text, "planar-root-incomplete")) == legs - 1

@@ -164,3 +164,12 @@ SECOND = '<pair name="{0}" geom1="{1}" geom2="{2}"/>'
 def test_a_pair_that_is_called_after_a_geom_without_one_is_told(pairs, told):
     text = FEET.format(pairs="".join(SECOND.format(*each) for each in pairs))
     assert [(each.attribute, each.value) for each in hints(text, "pair-of-another-geom")] == told
+
+
+@pytest.mark.parametrize(("name", "told"), [("caster", 0), ("heel", 1)])
+def test_a_caster_that_slides_by_its_priority_is_meant_to(name: str, told: int):
+    slick = '<geom name="{}{}" size="0.02" pos="{} -0.03" friction="0.02" priority="1"/>'
+    feet = "".join(slick.format(name, i, at) for i, at in enumerate(("0.1 0", "-0.1 0.08", "-0.1 -0.08")))
+    sled = f'<body pos="0 0 0.05"><freejoint/><geom type="box" size="0.1 0.1 0.02"/>{feet}'
+    text = f"<mujoco><worldbody>{FLOOR}{sled}</body></worldbody></mujoco>"
+    assert len(findings(text, "friction-too-low")) == told

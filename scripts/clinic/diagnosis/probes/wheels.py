@@ -1,9 +1,10 @@
-"""What is called a wheel."""
+"""What is called a wheel, and what a caster."""
 
 from __future__ import annotations
 
 import re
 
+CASTER = re.compile(r"caster|castor|ball_?wheel|roller", re.IGNORECASE)
 WHEEL = re.compile(r"wheel|tyre|tire(?![a-z])", re.IGNORECASE)
 OTHER = re.compile(
     r"steer|caster|castor|susp|fork|hub|spare|swivel|mount|knuckle|motor|axle|arm|leg|guard|cover|fender|well|yaw|camber"

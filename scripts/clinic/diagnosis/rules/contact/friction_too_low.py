@@ -39,6 +39,7 @@ from clinic.diagnosis.probes.push import slides_on
 from clinic.diagnosis.probes.shape import collides, pair_of, solid
 from clinic.diagnosis.probes.touch import DRY, edits_of, names_of, resting, with_like
 from clinic.diagnosis.probes.vector import written
+from clinic.diagnosis.probes.wheels import CASTER
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, how_many
@@ -55,6 +56,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """What decides the contacts that carry something with friction below 0.12."""
     simulation = model.simulation
     low = [decides for _, decides in resting(simulation) if decides.dim > 1 and decides.friction < LOW]
+    low = [each for each in low if not any(map(CASTER.search, names_of(simulation, [each])))]
     if not low or model.measured(slides_on()) <= MOST:
         yield from _none(model)
         yield from _pads(model)

@@ -42,12 +42,11 @@ When it is wrong: wheels that are let down later, on a suspension.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import CYLINDER, SPHERE
 from clinic.diagnosis.probes.shape import in_world, root_of, solid
-from clinic.diagnosis.probes.wheels import is_wheel
+from clinic.diagnosis.probes.wheels import CASTER, is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect, how_many
@@ -57,7 +56,6 @@ FAMILIES = ("drifts", "slips", "jumps-at-start", "stuck")
 AFLOAT = True
 UNPLANTED = "nearly no healthy model stands on wheels"
 
-CASTER = re.compile(r"caster|castor|ball_?wheel|roller", re.IGNORECASE)
 ALOFT, SHARE = 0.0008, 1 / 40  # m; of the radius of a wheel
 LEAST, LEVEL_ENOUGH = 0.001, 0.1  # m; of the axle's direction along the vertical
 

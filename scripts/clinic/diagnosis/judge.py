@@ -93,11 +93,10 @@ def without_consequences(found: Sequence[Judged], model_of: Callable[[Rule], Rea
     goes away with the place of a part, which is hinted at, follows from it; where it was a cause, that place is one.
     """
 
-    def ends(one: Sequence[Judged], other: Judged) -> bool:
+    def ends(one: Sequence[Judged], other: Judged, rest: float = 0.0) -> bool:
         edits = [edit for each in one for edit in each.suspect.edits]
-        return model_of(other.rule).measured(other.suspect.probe, edits) <= max(
-            other.suspect.limit, LITTLE * other.before
-        )
+        left = model_of(other.rule).measured(other.suspect.probe, edits)
+        return left <= other.suspect.limit or (math.isfinite(other.before) and left <= rest * other.before)
 
     causes = [each for each in found if each.level == "cause"]
     reasons, follows = list[Judged](), list[Judged]()
@@ -106,7 +105,7 @@ def without_consequences(found: Sequence[Judged], model_of: Callable[[Rule], Rea
         ended = [each for each in causes if alike and each.rule.area != MASS and ends(alike, each)]
         reasons += alike if ended else []
         follows += ended
-    follows += [each for each in causes if any(ends([one], each) and not ends([each], one) for one in causes)]
+    follows += [each for each in causes if any(ends([one], each, LITTLE) and not ends([each], one) for one in causes)]
     displaced = [each for each in found if _displaced(each)]
     overlaps = [each for each in found if each.rule.id in OVERLAPS and any(ends([one], each) for one in displaced)]
     follows += overlaps

@@ -2,7 +2,7 @@
 
 import { keep } from "../page/fetch.js";
 
-export const SIZE = 6.8e6; // bytes, about, of all that is loaded before the first diagnosis
+export const SIZE = 7.2e6; // bytes, about, of all that is loaded before the first diagnosis
 const LIMIT = 60_000; // ms without a sign of life
 const SILENT = `MuJoCo gave no answer for ${LIMIT / 1000} s`;
 const DEATHS = 5;

@@ -109,6 +109,14 @@ def apart(a: float, b: float) -> float:
     return 100 * abs(a - b) / largest if largest > 1e-9 else 0.0
 
 
+def numbers(text: str | None) -> list[float]:
+    """The row of numbers that a text holds; none where it is no such row."""
+    try:
+        return [float(each) for each in (text or "").split()]
+    except ValueError:
+        return []
+
+
 def written(values: Sequence[float]) -> str:
     """Numbers as XML has them."""
     return " ".join(f"{0.0 if abs(value) < 1e-12 else value:.6g}" for value in values)

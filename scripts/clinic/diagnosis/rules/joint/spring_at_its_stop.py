@@ -51,11 +51,8 @@ UNPLANTED = "healthy models have few slides with springs"
 
 MOST, USUAL, LITTLE, STILL = 0.75, 0.3, 0.05, 0.05  # of the way to the limit; m/s
 LEAVES, BACK = 0.3, 0.35  # of half of the range; of that, with the other sign
-AT_STOP, FURTHER, GROUPS = (
-    0.02,
-    1.4,
-    6,
-)  # of the range; of the way to the spring's rest; of hinges with one rest, that are tried
+AT_STOP, FURTHER = 0.02, 1.4  # of the range; of the way to the spring's rest
+GROUPS = 6  # of hinges with one rest, that are tried
 ROUNDS = 4  # for the load on a spring at its stop shows only once the stop does not bear it
 
 

@@ -39,6 +39,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.probes.inertia import inertial, set_inertial
 from clinic.diagnosis.probes.matter import matter, volume_of
 from clinic.diagnosis.probes.shape import root_of, solid
+from clinic.diagnosis.probes.vector import numbers
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.world.lengths_in_another_unit import unit_of_lengths
 from clinic.diagnosis.simulation import Simulation
@@ -122,8 +123,9 @@ def _links(model: ReaderModel, most: float) -> Iterator[Suspect]:
     for text, bodies in found.items():
         every = [geom for geom in range(of.count("geom")) if model.value("geom", geom, "density") == text]
         moved = [geom for geom in every if of.body_of("geom", geom) in bodies and volume_of(of, geom)]
-        metal = _number(text) in METALS
-        if not metal and (len(moved) < FEW or not FEATHER < _number(text) < AIR / PLASTIC):
+        density = next(iter(numbers(text)), 0.0)
+        metal = density in METALS
+        if not metal and (len(moved) < FEW or not FEATHER < density < AIR / PLASTIC):
             continue
         roots = {owner[body] for body in bodies}
         whole = tuple(body for body in of.moving_bodies if owner[body] in roots)
@@ -143,13 +145,6 @@ def _links(model: ReaderModel, most: float) -> Iterator[Suspect]:
             "wood has 500 kg/m3, air 1.2",
             level="hint",
         )
-
-
-def _number(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        return 0.0
 
 
 def _for_mass(model: ReaderModel, most: float) -> Iterator[Suspect]:

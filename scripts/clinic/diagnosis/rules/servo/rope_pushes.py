@@ -89,8 +89,7 @@ def _pushes(of: Simulation, actuator: int) -> float:
 
 
 def _is_motor(of: Simulation, actuator: int) -> bool:
-    kinds = [of.model(f"actuator_{field}")[actuator] for field in ("gaintype", "biastype")]
-    return tuple(map(int, kinds)) == (GAIN_FIXED, BIAS_NONE)
+    return of.actuator_types(actuator)[:2] == (GAIN_FIXED, BIAS_NONE)
 
 
 def _forces(of: Simulation, actuator: int) -> tuple[float, float]:

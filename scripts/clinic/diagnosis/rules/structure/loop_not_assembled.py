@@ -55,6 +55,7 @@ from clinic.diagnosis.probes.vector import (
     dot,
     flipped,
     norm,
+    numbers,
     slips,
     sub,
     times,
@@ -139,11 +140,8 @@ def _slip(model: ReaderModel, each: int) -> tuple[str, str, str, tuple[Edit, ...
 
 def _signs(text: str) -> list[str]:
     """An orientation with another sign of one of its numbers; none where it is no row of numbers."""
-    try:
-        numbers = [float(each) for each in text.split()]
-    except ValueError:
-        return []
-    return [written(flipped(numbers, at)) for at, number in enumerate(numbers) if number]
+    row = numbers(text)
+    return [written(flipped(row, at)) for at, number in enumerate(row) if number]
 
 
 def _in_place(of: Simulation, each: int, side: int) -> str:

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.sides import by_name
-from clinic.diagnosis.probes.vector import written
+from clinic.diagnosis.probes.vector import numbers, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -19,14 +19,14 @@ APART, SMALL = 2.0, 1e-6  # times; m
 
 def decimals(model: ReaderModel) -> Iterator[Suspect]:
     """The one of a pair whose number is a power of ten away from its twin's, where it stands alone in the model."""
-    of, numbers = model.simulation, _numbers(model)
+    of, counts = model.simulation, _counts(model)
     for kind, attributes in PLACES.items() if not model.urdf else ():
         for pair in by_name(of, kind):
             for attribute in attributes:
-                values = [_floats(model.value(kind, each, attribute)) for each in pair]
+                values = [numbers(model.value(kind, each, attribute)) for each in pair]
                 if (at := _slip(*values)) is None:
                     continue
-                often = [numbers[abs(value[at])] for value in values]
+                often = [counts[abs(value[at])] for value in values]
                 odd = min((0, 1), key=lambda i: (often[i], -abs(values[i][at])))
                 wrong, right = values[odd], values[1 - odd]
                 mended = list(wrong)
@@ -56,18 +56,11 @@ def _slip(one: list[float], other: list[float]) -> int | None:
     return apart[0] if len(digits) > 1 and any(abs(power - each) < 1e-9 for each in POWERS) else None
 
 
-def _numbers(model: ReaderModel) -> Counter[float]:
+def _counts(model: ReaderModel) -> Counter[float]:
     """How often each number is written in the places and sizes of the model."""
     made = Counter[float]()
     for kind, attributes in PLACES.items():
         for index in range(model.simulation.count(kind)):
             for attribute in attributes:
-                made.update({abs(each) for each in _floats(model.value(kind, index, attribute))})
+                made.update({abs(each) for each in numbers(model.value(kind, index, attribute))})
     return made
-
-
-def _floats(text: str | None) -> list[float]:
-    try:
-        return [float(each) for each in (text or "").split()]
-    except ValueError:
-        return []

@@ -101,3 +101,15 @@ def test_a_servo_that_is_late_by_its_own_kv_is_told_to_have_less_of_that(kv, oth
     (found,) = causes(text, "weak-servo")
     assert (found.attribute, found.value) == told
     assert found.after < found.before / 2
+
+
+@pytest.mark.parametrize(("root", "symptom", "told"), [("", "", True), ("free", "", False), ("free", "sags", True)])
+def test_little_sag_of_a_free_robot_is_told_to_whoever_sees_it(root: str, symptom: str, told: bool):
+    arm = '<body><joint name="hip" axis="0 1 0" damping="1"/>'
+    arm += '<geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="1"/>'
+    trunk = "<freejoint/>" * bool(root) + '<geom type="box" size="0.2 0.2 0.1" mass="9"/>'
+    base = f'<body pos="0 0 0.1">{trunk}{arm}</body></body>'
+    floor = '<geom type="plane" size="2 2 0.1"/>'
+    servo = '<actuator><position name="hip" joint="hip" kp="15" kv="1"/></actuator>'  # 1.5 N m: 0.1 rad
+    text = f"<mujoco><worldbody>{floor}{base}</worldbody>{servo}</mujoco>"
+    assert [each.elements for each in hints(text, "weak-servo", symptom=symptom)] == [('actuator "hip"',)] * told

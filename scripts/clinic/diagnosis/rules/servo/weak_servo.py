@@ -36,7 +36,7 @@ told.
 
 Where the base is fixed, a hint tells of hinges that sag by more than 0.085 rad, and of slides that sag by more
 than 10 % of their range: fingers with 40 mm that swing by 5 mm as the arm turns, where grippers and lifters that work
-well do by 6 to 7 %. With `--symptom sags` it tells from a fifth of that on.
+well do by 6 to 7 %. With `--symptom sags` it tells from a fifth of that on, of a free base's too.
 
 When it is wrong: a controller that adds the weight itself. `gravcomp="1"` on the bodies takes the load away as well.
 """
@@ -161,7 +161,8 @@ def _little(model: ReaderModel, found: dict[int, float]) -> Iterator[Suspect]:
     """Hinges that sag visibly, and slides that sag by a good part of their range: hints."""
     of = model.simulation
     for hinge in (True, False):
-        weak = [each for each in _alone(of) if each.hinge == hinge and each.actuator in found and not _free(of, each)]
+        weak = [each for each in _alone(of) if each.hinge == hinge and each.actuator in found]
+        weak = [each for each in weak if model.symptom == FAMILIES[0] or not _free(of, each)]
         part = KEEN if model.symptom == FAMILIES[0] else 1.0
         weak = [each for each in weak if found[each.actuator] > part * _allowed(each)]
         if not weak:

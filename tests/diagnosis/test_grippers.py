@@ -199,6 +199,12 @@ def test_what_a_jaw_and_its_palm_would_lift_is_tried_between_them(model, told):
     assert not findings(with_edits(model, *found), *GRASP)
 
 
+@pytest.mark.parametrize("symptom", ["", "slips"])
+def test_a_fast_creep_has_one_repair_whatever_the_symptom(symptom: str):
+    found = diagnosed(GRIPPER.format(2000, 1, 30, ""), "grasp-creeps", symptom=symptom)
+    assert [each.attribute for each in found.hints] == ["impratio"], found.text()
+
+
 @pytest.mark.parametrize(("symptom", "told"), [("", []), ("slips", ["grasp-creeps"]), ("sags", [])])
 def test_a_slow_creep_is_told_to_whom_something_slips(symptom: str, told: list[str]):
     text = rules()["grasp-creeps"].example("Bad")

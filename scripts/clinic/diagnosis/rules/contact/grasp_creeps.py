@@ -77,13 +77,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     passes = of.model("opt.noslip_iterations")[0] > 0
     hung = None if passes else next(_hung(of), None)
     part = KEEN if model.symptom in FAMILIES else 1.0
-    slow = part * SLOW
-    slides = (each.body for each in grasps(of) if each.weight * FIRM < each.carries and each.leaves > slow)
+    firm_ones = [each for each in grasps(of) if each.weight * FIRM < each.carries]
+    slides = ((each.body, slow) for slow in (SLOW, part * SLOW) for each in firm_ones if each.leaves > slow)
     if hung is not None:
         firm = part < 1 and model.measured(creeps(hung)) <= MOST
         held = _noslip(model, hung, creeps(hung), part * MOST if firm else MOST)
         yield replace(held, level="hint") if firm else held
-    elif (body := next(slides, None)) is not None:
+    elif (slide := next(slides, None)) is not None:
+        body, slow = slide
         edits = (*model.option("cone", "elliptic"), *model.option("impratio", "10"))
         if model.measured(leaves(body), edits) > slow:
             if not passes:

@@ -22,7 +22,8 @@ Good:
     +       <geom name="box" type="box" size="0.05 0.05 0.05"/>
 
 The number: the deepest contact 2 s after letting go as a share of the thinner geom's thickness; below 0.05 is well.
-With the default values a box at rest sinks in by 0.1 mm.
+With the default values a box at rest sinks in by 0.1 mm. With `--symptom sinks` the first number of `solimp` is looked
+at, by which a contact begins: that of feet which are to be soft is often 0.015.
 
 When it is wrong: a cushion.
 """
@@ -44,6 +45,7 @@ LEVEL = "hint"
 
 MOST = 0.05  # of the thinner geom's thickness
 TIME, SOFT = 0.02, 400.0  # s, MuJoCo's default; 1/s2 of a negative solref
+COLUMNS = {"solref": 2, "solimp": 5}
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -52,7 +54,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if model.measured(depth()) <= MOST:
         return
     rests = [decides for _, decides in resting(simulation)]
-    for attribute, value, softness in (("solref", "0.02 1", _slow), ("solimp", "0.9 0.95 0.001", _weak)):
+    weak = _weak_at_first if model.symptom == FAMILIES[0] else _weak
+    for attribute, value, softness in (("solref", "0.02 1", _slow), ("solimp", "0.9 0.95 0.001", weak)):
         soft = [_soft_ones(each, partial(softness, simulation, each.kind)) for each in rests]
         soft = [each for each in soft if each.elements]
         if soft:
@@ -60,7 +63,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 (softness(simulation, each.kind, i), each.kind, i) for each in soft for i in each.elements
             )
             soft = with_like(simulation, soft, partial(_softer, simulation, softness))
-            now = " ".join(f"{each:g}" for each in simulation.row(f"{kind}_{attribute}", worst, len(value.split())))
+            row = simulation.row(f"{kind}_{attribute}", worst, COLUMNS[attribute])
+            now = " ".join(f"{each:g}" for each in row[: len(value.split())])
             says = f"{attribute} {now} lets the contact give way; MuJoCo's default is {value}."
             edits = edits_of(model, soft, attribute, value)
             yield Suspect(
@@ -86,3 +90,8 @@ def _slow(simulation: Simulation, kind: str, index: int) -> float:
 def _weak(simulation: Simulation, kind: str, index: int) -> float:
     """How many times smaller than a half the largest impedance is."""
     return 0.5 / max(simulation.row(f"{kind}_solimp", index, 5)[1], 1e-3)
+
+
+def _weak_at_first(simulation: Simulation, kind: str, index: int) -> float:
+    """How many times smaller than a half the least impedance is, that of a contact which only begins."""
+    return 0.5 / max(simulation.row(f"{kind}_solimp", index, 5)[0], 1e-3)

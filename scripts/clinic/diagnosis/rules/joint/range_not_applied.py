@@ -21,7 +21,7 @@ Good:
 The number: the joint is put a tenth of its range beyond a limit; 1 where nothing pushes it back.
 
 A hinge whose range is a turn and more is left alone, and so are the joints of a body that goes about by a slide of ten
-times the model's extent.
+times the model's extent. With `--symptom passes-limit` a hint names the driven joints that have no range at all.
 
 When it is wrong: a range that is kept for reference.
 """
@@ -32,8 +32,10 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import HINGE, SLIDE
 from clinic.diagnosis.probes.limits import unstopped
+from clinic.diagnosis.probes.wheels import is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.suspect import Suspect
+from clinic.diagnosis.simulation import Simulation
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A range that is not applied"
 FAMILIES = ("passes-limit",)
@@ -59,6 +61,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if not limited and low < high and span < TURN and not turns and joint in simulation.scalar_joints:
             found.append(joint)
     found = [joint for joint in found if bodies[joint] not in roaming]
+    if model.symptom == FAMILIES[0] and (endless := _endless(simulation)):
+        names, probe = tuple(simulation.name("joint", each) for each in endless), how_many("such joints", _endless)
+        says = f"{names[0]} is driven and has no range: nothing stops it."
+        yield Suspect(names, "range", "left out", "", (), probe, 0, says, "the range of the real joint", level="hint")
     if not found:
         return
     low, high = simulation.row("jnt_range", found[0], 2)
@@ -74,3 +80,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         "has no effect.",
         'limited="auto", with autolimits',
     )
+
+
+def _endless(of: Simulation) -> list[int]:
+    """The driven hinges and slides for which no range is written, but for wheels."""
+    driven = {of.driven_joint(each) for each in range(of.count("actuator"))}
+    bare = [joint for joint in of.scalar_joints if joint in driven and not any(of.row("jnt_range", joint, 2))]
+    names, bodies = of.names("joint"), of.names("body")
+    return [each for each in bare if not is_wheel(names[each], bodies[of.body_of("joint", each)])]

@@ -24,7 +24,8 @@ Good:
 
 The number: the share of the joint's range that no target reaches; more than 60 %, of at most a whole turn. Of a joint
 that leads another by a factor it is the other one's range, more than 90 %, and a hint. So is a range that a keyframe's
-control is outside of by a fifth of it, where that control holds the joint at the keyframe's own place.
+control is outside of by a fifth of it, where that control holds the joint at the keyframe's own place. With
+`--symptom stuck` it tells, as a hint, from 10 % on.
 
 When it is wrong: a servo that is kept to a small part of the range on purpose.
 """
@@ -51,6 +52,7 @@ FAMILIES = ("stuck", "passes-limit", "sags")
 CASE = "servo-moves-a-fraction"
 
 MISSED, UNLED = 0.6, 0.9
+KEEN = 0.1  # of the range, where the reader sees something stop short
 GEARED = 1.5
 CLIPPED, AGREES = 0.2, 0.01  # of the targets' width; of the joint's place
 
@@ -73,7 +75,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield from _leaders(model)
     yield from _below_keyframes(model)
     shared = {actuator for each in twice(simulation).values() for actuator in each}  # meant for another joint
-    found = [each for each in servos(simulation) if missed(each) > MISSED and not meets(simulation, each)]
+    keen = model.symptom == FAMILIES[0] and all(missed(each) <= MISSED for each in servos(simulation))
+    most = KEEN if keen else MISSED
+    found = [each for each in servos(simulation) if missed(each) > most and not meets(simulation, each)]
     held = {joint for key in range(simulation.count("key")) for joint in against_range(simulation, key)}
     found = [each for each in found if each.actuator not in shared and each.joint not in held]
     found = [each for each in found if ranged_like(simulation, each) is None and not of_image(simulation, each)]
@@ -101,11 +105,12 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 (tuple(each.actuator for each in some),),
                 dynamic=False,
             ),
-            MISSED,
+            most,
             f"Targets from {worst.targets[0]:.3g} to {worst.targets[1]:.3g} {worst.unit} for "
             f"{simulation.name('joint', worst.joint)}, whose range is {worst.range[0]:.3g} to "
             f"{worst.range[1]:.3g}{why}.",
             'the joint\'s range (inheritrange="1")',
+            level="hint" if keen else "cause",
         )
 
 

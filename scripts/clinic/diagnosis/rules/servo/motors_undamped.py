@@ -38,6 +38,8 @@ Good:
 The number: the derivative gain that the lightest joint bears, 2 M / h with its inertia M and the timestep h, below
 1 N m s/rad (an explicit damper is stable below h kd / M = 2). Told where three motors and more drive hinges with
 ranges, of which none has damping, friction or armature, in no fluid. Of the healthy robots with motors none is so.
+With `--symptom oscillates` all hinges and slides are told that have neither damping nor friction and no servo, in no
+fluid; the edit lets their speed fall to a third in a second.
 
 When it is wrong: torques that come from a policy without any gains.
 """
@@ -50,7 +52,7 @@ from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.servo.no_armature import ROTOR
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect
+from clinic.diagnosis.suspect import Probe, Suspect, how_many, rounded
 
 TITLE = "Motors on joints that nothing damps"
 FAMILIES = ("oscillates", "explodes", "drifts")
@@ -62,6 +64,9 @@ ENOUGH, LEAST = 3, 1.0  # motors; N m s/rad
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The driven joints of a robot of which none has damping, friction or armature, together."""
     of = model.simulation
+    if model.symptom == FAMILIES[0] and _loose(of):
+        yield _undamped(model)
+        return
     joints = _bare(of)
     if len(joints) < ENOUGH:
         return
@@ -84,6 +89,17 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     )
 
 
+def _undamped(model: ReaderModel) -> Suspect:
+    """The joints that nothing damps, each to be damped by its own inertia a second."""
+    of = model.simulation
+    found = {joint: rounded(of.mass_diagonal[of.dof(joint)]) for joint in _loose(of)}
+    names = tuple(of.name("joint", each) for each in found)
+    edits = tuple(edit for each, value in found.items() for edit in model.set("joint", [each], "damping", value))
+    says = f"Nothing takes energy out of {names[0]}: it has neither damping nor friction."
+    probe, healthy = how_many("joints that nothing damps", _loose), "what the real joint has"
+    return Suspect(names, "damping", "0", next(iter(found.values())), edits, probe, 0, says, healthy, level="hint")
+
+
 def _share(of: Simulation) -> float:
     """The timestep over twice the least inertia of the bare joints, in rad/(N m s)."""
     return max((of.timestep / (2 * of.mass_diagonal[of.dof(joint)]) for joint in _bare(of)), default=0.0)
@@ -96,6 +112,18 @@ def _bare(of: Simulation) -> list[int]:
     fields = ("dof_damping", "dof_armature", "dof_frictionloss")
     held = any(of.model(field)[of.dof(joint)] for joint in hinges for field in fields)
     motors = all(of.actuator_types(each)[:2] == (0, 0) for each in actuators)
-    fluid = any(of.model(f"opt.{what}")[0] for what in ("density", "viscosity"))
+    fluid = _in_fluid(of)
     ranged = [joint for joint in hinges if joint in of.ranges]  # a rotor turns round, as a wheel does
     return [] if held or not motors or fluid or len(ranged) < len(hinges) else hinges
+
+
+def _loose(of: Simulation) -> list[int]:
+    """The hinges and slides that carry something, with neither damping, friction nor a servo; none in a fluid."""
+    fields = [of.model(field) for field in ("dof_damping", "dof_frictionloss")]
+    served = {of.driven_joint(each) for each in range(of.count("actuator")) if not of.is_motor(each)}
+    free = [each for each in of.scalar_joints if each not in served]
+    return [] if _in_fluid(of) else [each for each in free if not any(field[of.dof(each)] for field in fields)]
+
+
+def _in_fluid(of: Simulation) -> bool:
+    return any(of.model(f"opt.{what}")[0] for what in ("density", "viscosity"))

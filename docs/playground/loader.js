@@ -149,16 +149,20 @@ function take(root) {
   form.children[1].innerHTML = CHOICES;
   const seen = /** @type {HTMLSelectElement} */ (form.querySelector("select"));
   for (const each of root.dataset.symptoms?.split("|") ?? []) seen.add(new Option(...each.split(": ").reverse()));
+  /** @type {(FileSystemEntry | File)[]} */
+  let last = [];
   const given = async (/** @type {Iterable<FileSystemEntry | File>} */ files) => {
+    last = [...files];
     try {
       const { start } = await import(base + "diagnose.js");
-      await start(place, base, new URL(root.dataset.rules ?? "", location.href).href, seen.value, files);
+      await start(place, base, new URL(root.dataset.rules ?? "", location.href).href, seen.value, last);
     } catch (error) {
       console.error(error);
       note.hidden = false;
     }
   };
   form.onchange = async ({ target }) => {
+    if (target === seen && last.length > 0) await given(last);
     if (!(target instanceof HTMLInputElement) || !target.files?.length) return;
     await given(target.files);
     target.value = ""; // the same file can be chosen again

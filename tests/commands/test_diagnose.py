@@ -54,11 +54,16 @@ def test_a_cause_is_named_with_file_line_and_edit(model):
     assert "unknown-attribute  robot.xml:3" in result.stdout
 
 
+ASKS = 'clinic: say what you see, and more is told: --symptom slips, or --symptom "it sags"\n'
+
+
 def test_nothing_found_says_what_was_tried(model):
     model.write_text(WELL)
     result = run("diagnose", model)
-    assert (result.exit_code, result.stderr) == (0, "")
+    assert (result.exit_code, result.stderr) == (0, ASKS)
     assert result.stdout.startswith("Nothing found, by ")
+    assert run("diagnose", model, "--symptom", "sags").stderr == ""
+    assert run("diagnose", model, "--format", "json").stderr == ""
     assert "; --all names them)" in result.stdout
     assert "timestep-too-long" in run("diagnose", model, "--all").stdout
 

@@ -28,6 +28,16 @@ DROP = """(place, files) => {
 }"""
 TOP = "one => one.getBoundingClientRect().top"
 BAD = rules()["spring-too-stiff"].example("Bad")
+SWING = """
+<mujoco>
+  <worldbody>
+    <body pos="0 0 1">
+      <joint name="pivot" axis="0 1 0"/>
+      <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02" mass="0.2"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
 
 
 def opened(page: Page, served: str) -> Page:
@@ -270,6 +280,19 @@ def test_the_symptom_and_everything_shown_have_names(page: Page, served: str, ro
     )
 
     assert found == []
+
+
+def test_what_the_reader_sees_can_be_said_afterwards(page: Page, served: str, tmp_path: Path) -> None:
+    page.goto(f"{served}rules/index.html")
+    text = give(page, written(tmp_path / "swing.xml", SWING))
+    assert "Choose above what you see" in text
+    assert "hint" not in text
+
+    page.get_by_label("What do you see?").select_option("oscillates")
+
+    text = answer(page)
+    assert "1 hint" in text
+    assert "Choose above what you see" not in text
 
 
 def test_what_is_found_is_read_on_the_first_page(page: Page, served: str, root: Path, tmp_path: Path) -> None:

@@ -80,6 +80,11 @@ def diagnose(
             print(f"clinic: {said}", file=sys.stderr)
         if made or form in ("sarif", "github"):
             say(printed(made, failed, form, fix is not None, every))
+        unsaid = form == "text" and len(models) == 1 and not (family or select)
+        if unsaid and any(not (found.causes or found.error) for _, found in made):
+            print(
+                'clinic: say what you see, and more is told: --symptom slips, or --symptom "it sags"', file=sys.stderr
+            )
         if every and form == "text":
             from clinic.triage.process import reports
 

@@ -123,26 +123,6 @@ def test_a_keyframe_in_degrees_is_told_of_hinges_without_a_range(qpos: str, othe
     assert [each.value for each in hints(text, "key-outside-range")] == [meant] * bool(meant)
 
 
-@pytest.mark.parametrize(
-    ("name", "height", "told"),
-    [("stand", 0.65, True), ("stand", 0.51, False), ("drop", 0.65, False)],
-    ids=["in-the-air", "on-the-floor", "by-its-name"],
-)
-def test_a_robot_that_stands_is_told_where_its_keyframe_drops_it(name: str, height: float, told: bool):
-    leg = (
-        '<body pos="0.2 {0} 0"><joint name="hip{0}" axis="0 1 0"/><geom size="0.03" fromto="0 0 0 0 0 -0.25"'
-        ' type="capsule"/><body pos="0 0 -0.25"><joint name="knee{0}" axis="0 1 0"/>'
-        '<geom type="capsule" size="0.03" fromto="0 0 0 0 0 -0.22"/></body></body>'
-    )
-    legs = "".join(leg.format(y) for y in (-0.2, 0.2))
-    trunk = f'<body pos="0 0 0.5"><freejoint/><geom type="box" size="0.3 0.2 0.1"/>{legs}</body>'
-    servos = "".join(f'<position joint="{kind}{y}" kp="90"/>' for kind in ("hip", "knee") for y in (-0.2, 0.2))
-    key = f'<key name="{name}" qpos="0 0 {height} 1 0 0 0 0 0 0 0"/>'
-    world = f'<worldbody><geom type="plane" size="5 5 0.1"/>{trunk}</worldbody>'
-    text = f"<mujoco>{world}<actuator>{servos}</actuator><keyframe>{key}</keyframe></mujoco>"
-    assert [each.value for each in hints(text, "key-in-the-air")] == ["height 0.5"] * told
-
-
 THIGH = '<joint name="{0}" axis="0 1 0"/><geom size="0.05" pos="0 0 -0.3"/>'
 LEG = '<body name="{0}_thigh" pos="0 {1} -0.1">' + THIGH + "{2}</body>"
 SHIN = '<body name="{0}_shin" pos="0 0 -0.3"><geom size="0.05" pos="0 0 -0.1"/></body>'

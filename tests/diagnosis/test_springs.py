@@ -119,32 +119,6 @@ def test_a_spring_that_holds_a_door_shut_is_well(rest, told):
     assert bool(findings(text, "spring-far-off")) == told
 
 
-CABLE = rules()["spring-with-its-rope"].example("Bad")
-PULL = '<motor tendon="cable" gear="-1" ctrlrange="0 25"/>'
-
-
-@pytest.mark.parametrize(
-    ("other", "told"),
-    [
-        pytest.param(PULL, True, id="one rope"),
-        pytest.param(PULL.replace("0 25", "-25 25"), False, id="pulls and pushes"),
-        pytest.param(PULL.replace("-1", "1"), False, id="opens it"),
-        pytest.param(PULL + '<motor joint="knuckle"/>', False, id="a motor too"),
-        pytest.param('<position tendon="cable" kp="10"/>', False, id="a servo"),
-        pytest.param("", False, id="nothing"),
-    ],
-)
-def test_a_spring_that_pulls_with_the_only_rope_is_told(other: str, told: bool) -> None:
-    found = hints(CABLE.replace(PULL, other), "spring-with-its-rope")
-    assert [(each.now, each.value) for each in found] == [("60", "0")] * told
-
-
-@pytest.mark.parametrize(("mass", "rest", "told"), [("0.02", "60", True), ("0.02", "-5", False), ("2", "60", False)])
-def test_a_spring_that_its_load_opens_is_left_alone(mass: str, rest: str, told: bool) -> None:
-    text = CABLE.replace('mass="0.02"', f'mass="{mass}"').replace('springref="60"', f'springref="{rest}"')
-    assert bool(hints(text, "spring-with-its-rope")) == told
-
-
 @pytest.mark.parametrize(
     ("spring", "turn", "motor", "told"),
     [

@@ -291,7 +291,7 @@ def test_what_the_reader_sees_can_be_said_afterwards(page: Page, served: str, tm
     page.get_by_label("What do you see?").select_option("oscillates")
 
     text = answer(page)
-    assert "1 hint" in text
+    assert "no cause, one hint" in text
     assert "Choose above what you see" not in text
 
 

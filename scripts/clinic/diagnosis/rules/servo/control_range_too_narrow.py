@@ -25,7 +25,7 @@ Good:
 The number: the share of the joint's range that no target reaches; more than 60 %, of at most a whole turn. Of a joint
 that leads another by a factor it is the other one's range, more than 90 %, and a hint. So is a range that a keyframe's
 control is outside of by a fifth of it, where that control holds the joint at the keyframe's own place. With
-`--symptom stuck` it tells, as a hint, from 10 % on.
+`--symptom stuck` it tells, as a hint, from 4 % on.
 
 When it is wrong: a servo that is kept to a small part of the range on purpose.
 """
@@ -52,7 +52,7 @@ FAMILIES = ("stuck", "passes-limit", "sags")
 CASE = "servo-moves-a-fraction"
 
 MISSED, UNLED = 0.6, 0.9
-KEEN = 0.1  # of the range, where the reader sees something stop short
+KEEN = 0.04  # of the range, where the reader sees something stop short
 GEARED = 1.5
 CLIPPED, AGREES = 0.2, 0.01  # of the targets' width; of the joint's place
 

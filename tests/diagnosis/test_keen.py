@@ -24,7 +24,14 @@ def arm(joint: str, actuator: str = "") -> str:
 
 SHORT, WIDE = (f'<position joint="elbow" kp="20" kv="1" ctrlrange="{low} 1.57"/>' for low in (-0.7, -1.57))
 MOTOR = '<motor joint="elbow"/>'
+LEGS = "".join(
+    f'<body pos="0 {y} 0.7"><inertial pos="0 0 {{0}}" mass="10" diaginertia="0.3 0.3 0.05"/>'
+    '<geom type="box" size="0.05 0.1 0.3" pos="0 0 -0.3"/></body>'
+    for y in (-0.2, 0.2)
+)
+BODY = f'<mujoco><worldbody><body><freejoint/><geom size="0.1" mass="10"/>{LEGS}</body></worldbody></mujoco>'
 KEEN = {
+    "centre-at-the-joint": ("wrong-mass", BODY.format(0), BODY.format(-0.3)),
     "control-range-too-narrow": ("stuck", arm(' range="-90 90"', SHORT), arm(' range="-90 90"', WIDE)),
     "range-not-applied": ("passes-limit", arm("", MOTOR), arm(' range="-90 90"', MOTOR)),
     "motors-undamped": ("oscillates", arm(""), arm(' damping="0.01"')),

@@ -33,6 +33,8 @@ Good:
 The number: how far the middle of the geoms is from the joint, in half lengths of the box around them; told from 0.7 on
 of one link that a hinge turns, where no other is so; of several where the joint is half of that outside of the box.
 
+With `--symptom wrong-mass` every such link is told, of one that is fixed to its parent as well.
+
 And a centre on the hinge's axis, near the edge of the geoms, beside an inertia of its own that has no room then: mass
 between a and b whose centre is c has a mean square distance from it of (b - c)(c - a) at most. Twice that is told,
 where there is room about the middle of the geoms.
@@ -65,12 +67,14 @@ LIGHT = 0.01  # of the mass of all
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Jointed links with the centre of mass at their origin and the geoms beside it, where the others' is elsewhere."""
     of = model.simulation
-    heavy = [(body, each) for body, each in explicit(model) if each.mass > LIGHT * of.moving_mass and _turns(of, body)]
+    keen = model.symptom == FAMILIES[0]
+    heavy = [(body, each) for body, each in explicit(model) if each.mass > LIGHT * of.moving_mass]
+    heavy = [(body, each) for body, each in heavy if keen or _turns(of, body)]
     here = [(body, each) for body, each in heavy if not any(each.centre)]
     found = [(body, each) for body, each in here if norm(each.solid_centre) > FAR * max(each.half)]
-    if len(found) != 1:
+    if len(found) != 1 and not keen:
         found = [(body, each) for body, each in found if each.outside > OUTSIDE * max(each.half)]
-    if len(heavy) - len(here) < 2:
+    if len(heavy) - len(here) < 2 and not keen:
         found = []
     for body, each in heavy:
         far, crowded = norm(sub(each.solid_centre, each.centre)), _crowded(of, body)

@@ -81,7 +81,7 @@ def diagnose(
         if made or form in ("sarif", "github"):
             say(printed(made, failed, form, fix is not None, every))
         unsaid = form == "text" and len(models) == 1 and not (family or select)
-        if unsaid and any(not (found.causes or found.error) for _, found in made):
+        if unsaid and any(not found.causes and (found.hints or not found.error) for _, found in made):
             print(
                 'clinic: say what you see, and more is told: --symptom slips, or --symptom "it sags"', file=sys.stderr
             )

@@ -66,7 +66,7 @@ from clinic.diagnosis.source import ORIENTATIONS
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A wheel that is not round"
-FAMILIES = ("stuck", "drifts", "oscillates")
+FAMILIES = ("stuck", "drifts", "oscillates", "sinks")
 UNPLANTED = "no healthy model stands on a wheel that is a single cylinder or box"
 
 VARIES, CENTRED = 0.1, 0.2

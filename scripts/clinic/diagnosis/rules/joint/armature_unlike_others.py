@@ -46,7 +46,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An armature unlike that of all others"
-FAMILIES = ("stuck", "slow")
+FAMILIES = ("stuck", "slow", "oscillates")
 UNPLANTED = "an armature of its own is planted for servo-held-back"
 
 MOST, OTHERS = 20.0, 2

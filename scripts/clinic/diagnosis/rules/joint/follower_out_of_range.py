@@ -55,7 +55,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A joint may not go where it is led"
-FAMILIES = ("stuck", "jumps-at-start")
+FAMILIES = ("stuck", "jumps-at-start", "wrong-numbers")
 LEVEL = "cause"
 UNPLANTED = "one healthy model has a joint that follows another"
 

@@ -44,7 +44,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A joint away from its links"
-FAMILIES = ("drifts", "stuck", "sags")
+FAMILIES = ("drifts", "stuck", "sags", "wrong-numbers")
 UNPLANTED = "in a healthy model a joint that is moved by little is planted as that of a pair"
 
 FAR, FEW, SHARE, STEPS, LARGE, MANY = 0.28, 2, 0.2, 5, 200, 10

@@ -44,7 +44,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "Ranges in degrees read as radians, or the other way"
-FAMILIES = ("stuck", "passes-limit", "jumps-at-start")
+FAMILIES = ("stuck", "passes-limit", "jumps-at-start", "explodes")
 CASE = "elbow-will-not-bend"
 
 NARROW, WIDE = 0.12, 25.0  # rad

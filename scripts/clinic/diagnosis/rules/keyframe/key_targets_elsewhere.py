@@ -56,7 +56,7 @@ from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Probe, Suspect, how_many, rounded
 
 TITLE = "A keyframe's targets are not its pose"
-FAMILIES = ("drifts", "jumps-at-start", "sags")
+FAMILIES = ("drifts", "jumps-at-start", "sags", "stuck")
 LEVEL = "cause"
 UNPLANTED = "no healthy model has a keyframe with controls"
 

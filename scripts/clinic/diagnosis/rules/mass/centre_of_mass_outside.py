@@ -41,7 +41,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The centre of mass is outside of the body"
-FAMILIES = ("drifts", "sags")
+FAMILIES = ("drifts", "sags", "wrong-mass")
 AFLOAT = True
 LEVEL = "hint"
 

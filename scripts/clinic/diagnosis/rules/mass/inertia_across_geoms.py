@@ -47,7 +47,7 @@ from clinic.diagnosis.source import ORIENTATIONS
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The inertia lies across the body"
-FAMILIES = ("drifts", "oscillates")
+FAMILIES = ("drifts", "oscillates", "wrong-mass", "wrong-numbers")
 AFLOAT = True
 LEVEL = "hint"
 

@@ -44,7 +44,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "An inertia larger than the whole model"
-FAMILIES = ("wrong-mass", "stuck", "explodes")
+FAMILIES = ("wrong-mass", "stuck", "explodes", "wrong-numbers")
 UNPLANTED = "the kinds of wrong inertias are planted in bodies with geoms, of which other rules tell"
 MOST, FELT = 2.0, 0.01  # of the inertia at a joint
 USUAL = 0.1  # of the model's size, which the edit gives

@@ -44,7 +44,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The inertia is not that of the geoms"
-FAMILIES = ("explodes", "oscillates", "stuck", "drifts", "wrong-mass")
+FAMILIES = ("explodes", "oscillates", "stuck", "drifts", "wrong-mass", "wrong-numbers")
 AFLOAT = True
 CASE = "heavy-base-spins"
 LEVEL = "hint"

@@ -53,7 +53,7 @@ from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect, how_many, rounded
 
 TITLE = "Rotors that cannot yaw alone"
-FAMILIES = ("drifts", "stuck")
+FAMILIES = ("drifts", "stuck", "wrong-numbers")
 UNPLANTED = "only one of the healthy models flies"
 
 ROTORS, LEAST = 4, 0.01

@@ -79,7 +79,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A robot unlike the data sheet of its name"
-FAMILIES = ("wrong-numbers", "stuck", "passes-limit")
+FAMILIES = ("wrong-numbers", "stuck", "passes-limit", "wrong-mass")
 AFLOAT = True
 UNPLANTED = "few of the models of the bench are robots that are sold"
 

@@ -52,7 +52,7 @@ from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "Something lower than the wheels, or a caster above them"
-FAMILIES = ("drifts", "slips", "jumps-at-start", "stuck")
+FAMILIES = ("drifts", "slips", "jumps-at-start", "stuck", "falls-through")
 AFLOAT = True
 UNPLANTED = "nearly no healthy model stands on wheels"
 

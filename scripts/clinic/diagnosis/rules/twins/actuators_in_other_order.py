@@ -63,7 +63,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "The actuators are in another order than the joints"
-FAMILIES = ("drifts",)
+FAMILIES = ("drifts", "wrong-numbers")
 UNPLANTED = "a model has one order, and only names tell that another was meant"
 
 

@@ -60,7 +60,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A centre of mass copied to the other side and not mirrored"
-FAMILIES = ("drifts", "wrong-mass")
+FAMILIES = ("drifts", "wrong-mass", "wrong-numbers")
 AFLOAT = True
 UNPLANTED = "on a robot of which both sides are wrong, no side tells it"
 

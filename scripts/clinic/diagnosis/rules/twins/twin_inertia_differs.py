@@ -69,7 +69,7 @@ from clinic.diagnosis.rules.twins._siblings import siblings
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The mass of a body is unlike its twin's"
-FAMILIES = ("drifts", "oscillates")
+FAMILIES = ("drifts", "oscillates", "wrong-mass")
 LEVEL = "hint"
 
 

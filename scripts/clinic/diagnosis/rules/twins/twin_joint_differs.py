@@ -63,7 +63,7 @@ from clinic.diagnosis.rules.twins._siblings import siblings
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "The joint of a pair is unlike its twin"
-FAMILIES = ("drifts", "stuck", "oscillates")
+FAMILIES = ("drifts", "stuck", "oscillates", "passes-limit", "wrong-numbers")
 LEVEL = "hint"
 
 KINEMATIC = ("type", "axis sign", "axis", "pos", "range", "limited")

@@ -39,7 +39,7 @@ from clinic.diagnosis.source import ORIENTATIONS
 from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A plane turned about its own normal"
-FAMILIES = ("stuck", "rolls-on", "slips")
+FAMILIES = ("stuck", "rolls-on", "slips", "wrong-numbers")
 UNPLANTED = "nothing changes in a healthy model whose floor is turned about its normal"
 
 LEAST, LEVEL_ENOUGH = 1.0, 1e-6  # degrees; of the quaternion

@@ -54,7 +54,7 @@ def test_a_cause_is_named_with_file_line_and_edit(model):
     assert "unknown-attribute  robot.xml:3" in result.stdout
 
 
-ASKS = 'clinic: say what you see, and more is told: --symptom slips, or --symptom "it sags"\n'
+ASKS = 'clinic: say what you see, and weaker signs of it are told, too: --symptom slips, or --symptom "it sags"\n'
 
 
 def test_nothing_found_says_what_was_tried(model):

@@ -21,7 +21,7 @@ export function report(diagnosis, request, rules, tryEdit) {
   const { causes, hints, silenced, ruled_out: ruledOut, untried, engine, error } = diagnosis.data;
   const made = el("div", { class: "dg-report" }, el("p", { role: "status" }, el("strong", {}, request.name), ` ${summary(diagnosis)}`));
   if (error && causes.length === 0) made.append(el("pre", {}, error.trim()));
-  if (causes.length === 0 && (!error || hints.length > 0) && !request.symptom) made.append(el("p", {}, "Choose above what you see: then more is told, from smaller numbers on."));
+  if (causes.length === 0 && (!error || hints.length > 0) && !request.symptom) made.append(el("p", {}, "Choose above what you see: weaker signs of it are told then, too."));
   if (request.single && hints.some(({ rule }) => rule === "missing-file")) made.append(el("p", {}, "Drop the model's folder, or a zip of it, to have its files looked at too."));
   const tried = el("div", { class: "dg-tried" });
   const item = (/** @type {Finding} */ found, /** @type {number} */ index) => {

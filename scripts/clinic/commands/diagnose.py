@@ -82,9 +82,8 @@ def diagnose(
             say(printed(made, failed, form, fix is not None, every))
         unsaid = form == "text" and len(models) == 1 and not (family or select)
         if unsaid and any(not found.causes and (found.hints or not found.error) for _, found in made):
-            print(
-                'clinic: say what you see, and more is told: --symptom slips, or --symptom "it sags"', file=sys.stderr
-            )
+            said = 'say what you see, and weaker signs of it are told, too: --symptom slips, or --symptom "it sags"'
+            print(f"clinic: {said}", file=sys.stderr)
         if every and form == "text":
             from clinic.triage.process import reports
 

@@ -21,7 +21,10 @@ from clinic.diagnosis.start import Start
 from clinic.diagnosis.suspect import Suspect
 
 LIMIT = 20.0  # s of processor time for a start, after which no further rule is tried
-OF_SHAPES = {"contact", "mass", "parts-coincide"}  # rules, by area or id, that boxes in the place of meshes mislead
+OF_SHAPES = {  # rules, by area or id, that boxes in the place of meshes mislead
+    "contact", "mass", "parts-coincide", "mesh-in-another-unit", "mesh-of-another-link", "geom-out-of-scale",
+    "key-in-the-floor", "wheels-off-the-ground",
+}  # fmt: skip
 MENDED = "What else is told was measured with these mended."
 LARGER = 3.0  # times the boxes' size: what is told is the same with these
 

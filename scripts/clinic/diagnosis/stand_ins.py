@@ -52,8 +52,10 @@ class StandIns:
 
     def told(self) -> str:
         """What is said of it to a reader."""
-        box = f"a box of {1000 * self.size:g} mm in the place of each mesh" if self.shapes else "grey in its place"
-        return f"What else is told was measured with {box}."
+        if not self.shapes:
+            return "What else is told was measured with grey in its place."
+        box = f"a box of {1000 * self.size:g} mm in the place of each mesh"
+        return f"What else is told was measured with {box}; rules about contacts, masses and shapes were not tried."
 
     def _missing(self, error: str, files: Collection[str]) -> set[str]:
         """The files that an error speaks of, and those of the same folder that are not there either."""

@@ -17,7 +17,7 @@ def smaller_steps(case: Case, evidence: Evidence) -> str:
     spans = [evidence.variants["broken"].values[check.signal]["span"] or 0.0 for check in case.record.checks.broken]
     if "broken" not in evidence.robustness or max(spans) < STILL:
         return ""
-    words = {"broken": "the symptom is the same", "well": "it is gone", "neither": "it is neither the same nor gone"}
+    words = {"broken": "the symptom is the same", "well": "it is gone", "neither": "it has changed and is not gone"}
     shrunk, step = evidence.robustness["broken"].shrunk, 1e3 * (evidence.variants["broken"].timestep or 0.0)
     half, twentieth = shrunk.values()
     at_half, at_twentieth = (f"({plain(step * float(share))}\u00a0ms)" for share in shrunk)

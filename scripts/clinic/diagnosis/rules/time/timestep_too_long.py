@@ -1,7 +1,7 @@
 """The timestep is too long for the fastest motion of the model.
 
 An explicit integrator diverges where a spring, a contact or a gain moves something within a few steps. A model that
-is well at a shorter timestep, and explodes or rattles at its own, has no other fault.
+is well at a shorter timestep, and explodes or rattles at its own, may have no other fault.
 
 Bad:
 

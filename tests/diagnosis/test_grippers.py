@@ -199,6 +199,13 @@ def test_what_a_jaw_and_its_palm_would_lift_is_tried_between_them(model, told):
     assert not findings(with_edits(model, *found), *GRASP)
 
 
+@pytest.mark.parametrize(("mass", "told"), [(0.9, "grasp-slips"), (1.5, "grip-too-weak")])
+def test_friction_is_the_repair_where_it_holds_more_than_the_weight(mass: float, told: str):
+    text = rules()["grasp-slips"].example("Bad").replace('mass="0.4"', f'mass="{mass}"')
+    found = diagnosed(text, "grasp-slips", "grip-too-weak")
+    assert [each.rule for each in (*found.causes, *found.hints)] == [told], found.text()
+
+
 @pytest.mark.parametrize("symptom", ["", "slips"])
 def test_a_fast_creep_has_one_repair_whatever_the_symptom(symptom: str):
     found = diagnosed(GRIPPER.format(2000, 1, 30, ""), "grasp-creeps", symptom=symptom)

@@ -33,7 +33,8 @@ Good:
     +       <geom name="cube" type="box" size="0.025 0.025 0.025" mass="0.4" friction="1" priority="1"/>
 
 The number: the weight of what is put between the fingers over what friction carries, once they went to one end of
-their controls for 1 s; above 1 it slips. Only friction below 0.5 is told: rubber on a solid has 0.5 to 1.
+their controls for 1 s; above 1 it slips. Only friction below 0.5 is told: rubber on a solid has 0.5 to 1. A hand that
+lifts asks for more than the weight: where friction 1 leaves more than 0.6, the fingers are told, which are too weak.
 
 When it is wrong: a thing that is to slip. Fingers that are too weak need force, not friction.
 """
@@ -42,7 +43,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.probes.grasp import grasps, needed
+from clinic.diagnosis.edit import Edit
+from clinic.diagnosis.probes.grasp import Grasp, grasps, needed
 from clinic.diagnosis.probes.touch import DRY, edits_of, names_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
@@ -53,7 +55,7 @@ LEVEL = "cause"
 UNPLANTED = "the fingers of the healthy models hold nothing when they close"
 CASE = "grasp-slips"
 
-LOW = 0.5
+LOW, RESERVE = 0.5, 0.6
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -61,22 +63,31 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     for found in grasps(of):
         low = [each for each in found.deciding if each.friction < LOW]
-        if found.weight <= found.carries or not low or model.measured(needed(found)) <= 1:
+        if found.weight <= found.carries or not low or not would_hold(model, found):
             continue
         least = min(each.friction for each in low)
         says = (
             f"The fingers press with {found.force:.3g} N in all, of which friction {least:g} carries "
             f"{found.carries:.3g} N; {of.name('body', found.body)} weighs {found.weight:.3g} N."
         )
-        edits = edits_of(model, low, "friction", DRY)
         yield Suspect(
             names_of(of, low),
             "friction",
             f"{least:g}",
             "1",
-            edits,
+            _rougher(model, found),
             needed(found),
             1.0,
             says,
             "0.5 to 1 for rubber",
         )
+
+
+def would_hold(model: ReaderModel, found: Grasp) -> bool:
+    """Whether the fingers would hold what they drop, with something to spare, if it and they were rougher."""
+    edits = _rougher(model, found)
+    return bool(edits) and model.measured(needed(found)) > 1 and model.measured(needed(found), edits) <= RESERVE
+
+
+def _rougher(model: ReaderModel, found: Grasp) -> tuple[Edit, ...]:
+    return edits_of(model, [each for each in found.deciding if each.friction < LOW], "friction", DRY)

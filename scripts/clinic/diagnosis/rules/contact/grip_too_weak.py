@@ -48,21 +48,21 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.probes.grasp import grasps, needed
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.contact.grasp_slips import would_hold
 from clinic.diagnosis.suspect import Suspect
 
 TITLE = "Jaws that press too weakly"
 FAMILIES = ("slips",)
 UNPLANTED = "most healthy models have nothing to grasp"
 
-FEW, RUBBER, TIMES = 3.0, 0.5, 5.0  # times the weight; the least friction of a grip; times the gain
+FEW, TIMES = 3.0, 5.0  # times the weight; times the gain
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The actuators of jaws whose friction would do if they pressed harder."""
     of = model.simulation
     for found in grasps(of):
-        rough = all(each.friction >= RUBBER for each in found.deciding)
-        if not rough or found.carries > FEW * found.weight:
+        if would_hold(model, found) or found.carries > FEW * found.weight:
             continue
         gains = {each: TIMES * of.gain(each)[0] for each in found.jaws.actuators}
         written = all(model.value("actuator", each, "kp") is not None for each in gains)

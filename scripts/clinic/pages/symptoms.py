@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from clinic.diagnosis.rules import rules
 from clinic.pages.case_page import value_in
 from clinic.pages.cases import CasePage, Differentials
 from clinic.pages.text.template import render
-from clinic.proof.procedure import members
+from clinic.proof.procedure import Answer, members
 from clinic.record.families import families
 from clinic.work.cache import Files
 
@@ -40,7 +40,7 @@ def _page(name: str, causes: list[CasePage], told: Differentials) -> str:
         causes=causes,
         code=found.code if found else "",
         measured=measured,
-        matrix=[_row(one, measured, told) for one in measured],
+        matrix=[_row(one, measured, found.answers) for one in measured] if found else [],
         printed=found.answers[measured[0].case.slug].printed if found and measured else "",
         rules=sorted(
             (rule for rule in rules().values() if name in rule.families),
@@ -49,13 +49,9 @@ def _page(name: str, causes: list[CasePage], told: Differentials) -> str:
     )
 
 
-def _row(row: CasePage, columns: list[CasePage], told: Differentials) -> dict[str, Any]:
+def _row(row: CasePage, columns: list[CasePage], answers: Mapping[str, Answer]) -> dict[str, Any]:
     """What the measurement of one case gives for the broken model of each."""
-    tells, found = row.case.record.telling, told[row.case.record.family]
+    tells = row.case.record.telling
     assert tells is not None
-    assert found is not None
-    return {
-        "case": row.case,
-        "unit": tells.unit,
-        "cells": [value_in(found.answers[c.case.slug], row.case.slug) for c in columns],
-    }
+    cells = [value_in(answers[column.case.slug], row.case.slug) for column in columns]
+    return {"case": row.case, "unit": tells.unit, "cells": cells}

@@ -86,8 +86,12 @@ class Differential(Strict):
 
 
 def members(family: str, cases: Iterable[Case]) -> list[Case]:
-    """The cases of a family, likeliest first."""
-    own = [case for case in cases if case.record.family == family]
+    """The cases of a family, and those of others that tell in it too, likeliest first."""
+    own = [
+        case
+        for case in cases
+        if family in (case.record.family, *(tells.also if (tells := case.record.telling) else ()))
+    ]
     return sorted(own, key=lambda case: (-(case.record.telling.threads if case.record.telling else 0), *case.rank))
 
 

@@ -51,6 +51,10 @@ class Telling(Strict):
     of: Element | None = Field(default=None, description="What kind of element each of the numbers belongs to.")
     above: float | None = Field(default=None, description="Holds where the largest number is greater.")
     below: float | None = Field(default=None, description="Holds where the smallest number is smaller.")
+    also: list[FamilyName] = Field(
+        default=[],
+        description="Further families in which it tells: their `probe` measures what `expr` is over as well.",
+    )
     still: dict[Identifier, Text] = Field(
         default={}, description="Fixes after which it holds nevertheless, each with the reason."
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from clinic.record.families import families
 from clinic.record.fields import Record
 from clinic.record.parts import WARNINGS, Check
 from clinic.record.problem import listed
@@ -64,6 +65,24 @@ def wrong(name: str, old: str, new: str, *problems: str) -> object:
             "title: Remove the masks of the floor\n    ",
             "",
             "21: fixes[0].title | nothing | the field `title` | add `title:`",
+        ),
+        wrong(
+            "contrast-without-checks",
+            "fixes:\n",
+            "trials: [{id: drop, title: Dropped, contrast: true}]\nfixes:\n",
+            "20: trials[0] | a `contrast` without `checks` | `checks` of its own | add `checks`, or remove `contrast`",
+        ),
+        wrong(
+            "release-that-is-none",
+            "fixes:\n",
+            'older: {"3.4": because}\nfixes:\n',
+            "20: older.3.4 | 3.4, which names no releases | such as <3.13 or ==3.9.* | correct it",
+        ),
+        wrong(
+            "bars-in-a-value",
+            "number: 1",
+            "number: 1\nfamily: a||b",
+            "2: family | a||b, which is no family | one of " + ", ".join(families()) + " | write wrong-numbers",
         ),
         wrong(
             "quoted-number",

@@ -58,7 +58,7 @@ def _explained(error: ErrorDetails, where: Where, kind: str) -> tuple[str, str, 
     found = json.dumps(error["input"], default=str, ensure_ascii=False)
     found = found if len(found) <= 60 else found[:57] + "..."
     if said == "value_error":
-        found, expected, repair = str(details["error"]).split("||")
+        found, expected, repair = str(details["error"]).rsplit("||", 2)
         return found, expected, repair
     if said == "extra_forbidden":
         known = list(_model_at(where[:-1], kind).model_fields)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import difflib
 from typing import Annotated, Literal
 
+from packaging.specifiers import InvalidSpecifier, SpecifierSet
 from pydantic import AfterValidator, Field, model_validator
 
 from clinic.record.families import families, likely_families
@@ -33,6 +34,16 @@ def _known_family(name: str) -> str:
     return name
 
 
+def _specifier(text: str) -> str:
+    """The text itself, if it says which releases are meant."""
+    try:
+        SpecifierSet(text)
+    except InvalidSpecifier:
+        raise ValueError(f"{text}, which names no releases||such as <3.13 or ==3.9.*||correct it") from None
+    return text
+
+
+Releases = Annotated[str, AfterValidator(_specifier)]
 FamilyName = Annotated[str, AfterValidator(_known_family), Field(json_schema_extra={"enum": list(families())})]
 ManualPage = Annotated[str, Field(pattern=r"^[A-Za-z0-9_/]+\.html(?:#[a-z0-9-]+)?$")]
 
@@ -160,7 +171,7 @@ class Trial(Strict):
     @model_validator(mode="after")
     def _contrast_checks(self) -> Trial:
         if self.contrast and self.checks is None:
-            raise ValueError("a trial that is a `contrast` has `checks` of its own")
+            raise ValueError("a `contrast` without `checks`||`checks` of its own||add `checks`, or remove `contrast`")
         return self
 
 
@@ -236,7 +247,7 @@ class Record(Strict):
     refuted: list[Refuted] = Field(default=[], description="Remedies people try that do not work.")
     trials: list[Trial] = Field(default=[], description="Other situations in which the checks are asked as well.")
     task: Task = Field(default=Task(), description="What a repair may change besides what every repair may.")
-    older: dict[str, Text] = Field(
+    older: dict[Releases, Text] = Field(
         default={}, description='What older releases of MuJoCo do otherwise, and why: `{"<3.13": reason}`.'
     )
     sweep: dict[Identifier, Sweep] = Field(default={}, description="Sweeps by name.")

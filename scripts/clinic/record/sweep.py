@@ -66,7 +66,7 @@ class Sweep(Strict):
     """The cause as a law: parameters varied, an outcome measured, a prediction drawn over it."""
 
     title: Text = Field(description="What is varied and what is seen.")
-    text: Text = Field(description="Prose under Cause; may hold `{{ sweep.ID.points }}`, `.worst`, `.agreed`, ...")
+    text: Text = Field(description="Prose under Cause; may hold `{{ sweep.ID.points }}`, `.worst`, `.wrong`, ...")
     base: Identifier = Field(default="broken", description="The variant whose text is varied.")
     edits: list[Edit] = Field(default=[], description="Applied to the base variant before the parameters are.")
     vary: list[Parameter] = Field(min_length=1, max_length=2, description="One or two parameters.")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from clinic.diagnosis.probes.servo import Servo, hold, servos
-from clinic.diagnosis.probes.shape import boxes, geoms_of_tree, plane_heights, root_of
+from clinic.diagnosis.probes.shape import boxes, geoms_of_tree, in_pairs, plane_heights, root_of, solid
 from clinic.diagnosis.simulation import Simulation, kept
 from clinic.diagnosis.suspect import Probe
 
@@ -68,9 +68,9 @@ def stance_after(simulation: Simulation, seconds: float) -> Stance:
 
 def _lowest(simulation: Simulation, root: int) -> float:
     """The lowest point of what collides of a tree, in m."""
-    collides, sides = simulation.model("geom_contype"), (simulation.model(f"pair_geom{side}") for side in (1, 2))
-    paired = {int(geom) for side in sides for geom in side}
-    found = boxes(simulation, [each for each in geoms_of_tree(simulation, root) if collides[each] or each in paired])
+    paired = in_pairs(simulation)
+    geoms = [each for each in geoms_of_tree(simulation, root) if solid(simulation, each) or each in paired]
+    found = boxes(simulation, geoms)
     return min((centre[2] - half[2] for centre, half in found.values()), default=float("inf"))
 
 

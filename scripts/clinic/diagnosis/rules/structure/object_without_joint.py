@@ -42,7 +42,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.engine import HINGE, PLANE, SPHERE
 from clinic.diagnosis.probes.inertia import inertial
 from clinic.diagnosis.probes.key import freed
-from clinic.diagnosis.probes.shape import boxes
+from clinic.diagnosis.probes.shape import boxes, solid
 from clinic.diagnosis.probes.vector import norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -103,7 +103,7 @@ def _weighed(model: ReaderModel) -> Iterator[int]:
     for body in range(1, of.count("body")):
         if of.parent(body) or body in carries or of.joints_of(body) or of.model("body_mocapid")[body] >= 0:
             continue
-        geoms = [geom for geom in of.geoms_of(body) if of.model("geom_contype")[geom]]
+        geoms = [geom for geom in of.geoms_of(body) if solid(of, geom)]
         weighed = any((model.value("geom", geom, "mass") or "0") != "0" for geom in geoms)
         weighed = weighed or inertial(model, body) is not None
         called = len(geoms) == 1 and bool(OBJECT.search(of.names("body")[body]))
@@ -157,20 +157,20 @@ def _like_free(of: Simulation) -> list[int]:
     free = {looks(body) for body in single if body in of.free_bodies}
     placed = [body for body in single if not of.parent(body) and of.model("body_mocapid")[body] < 0]
     still = _still(of, *placed)
-    solids = [body for body in still if of.model("geom_contype")[of.geoms_of(body)[0]]]
+    solids = [body for body in still if solid(of, of.geoms_of(body)[0])]
     return [body for body in solids if looks(body) in free]
 
 
 def _height(of: Simulation, body: int) -> float:
     """How far a body that stands still is above all planes, 0 for one that reaches another one that does."""
     of.begin()
-    bodies, kinds, collides = of.model("geom_bodyid"), of.model("geom_type"), of.model("geom_contype")
+    bodies, kinds = of.model("geom_bodyid"), of.model("geom_type")
     every = boxes(of, range(len(kinds)))
     moving, made = set(of.moving_bodies), float("inf")
     for geom in of.geoms_of(body):
         place, half = every[geom]
-        for other in range(len(kinds)) if collides[geom] else ():
-            if int(bodies[other]) in (*moving, body) or not collides[other]:
+        for other in range(len(kinds)) if solid(of, geom) else ():
+            if int(bodies[other]) in (*moving, body) or not solid(of, other):
                 continue
             there, extent = every[other]
             if int(kinds[other]) == PLANE:

@@ -44,7 +44,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import CYLINDER, ELLIPSOID, SPHERE
 from clinic.diagnosis.probes.key import freed
-from clinic.diagnosis.probes.shape import plane_heights, root_of
+from clinic.diagnosis.probes.shape import plane_heights, root_of, solid
 from clinic.diagnosis.probes.vector import across, norm, sub
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -108,7 +108,7 @@ def _feet(of: Simulation) -> list[int]:
     for first, low in lowest.items():
         root = of.parent(first)
         height = heights[root] - max(floors)
-        own = [of.data("geom_xpos")[3 * geom + 2] for geom in of.geoms_of(root) if of.model("geom_contype")[geom]]
+        own = [of.data("geom_xpos")[3 * geom + 2] for geom in of.geoms_of(root) if solid(of, geom)]
         in_air = bool(own) and root > 0 and min(own) - max(floors) > 0.4 * height
         if in_air and of.parent(root) == 0 and 0 <= low - max(floors) < 0.15 * height:
             made.append(first)

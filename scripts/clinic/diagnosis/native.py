@@ -14,6 +14,7 @@ import numpy as np
 
 from clinic.diagnosis.engine import CompileError, Contact
 from clinic.diagnosis.texts import read_file
+from clinic.engine.releases import mass_matrix
 
 OBJECTS = {"joint": "njnt", "camera": "ncam", "equality": "neq", "actuator": "nu", "dof": "nv", "sensor": "nsensor"}
 MAIN, UNOPENED = "clinic-main.xml", "opening file"
@@ -107,13 +108,7 @@ class NativeModel:
         return made
 
     def mass_diagonal(self) -> list[float]:
-        dense = np.zeros((self.mj.nv, self.mj.nv))
-        if self.mj.nv:
-            try:
-                mujoco.mj_fullM(self.mj, self.mjdata, dense)
-            except TypeError:  # before MuJoCo 3.10
-                mujoco.mj_fullM(self.mj, dense, self.mjdata.qM)
-        return [float(number) for number in np.diagonal(dense)]
+        return [float(number) for number in np.diagonal(mass_matrix(self.mj, self.mjdata))]
 
     def warnings(self) -> dict[str, int]:
         counts = {

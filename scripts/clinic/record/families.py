@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import yaml
 
@@ -59,24 +59,15 @@ class Family(NamedTuple):
     words: tuple[str, ...]
     further: tuple[str, ...]
     context: tuple[str, ...]
-    probe: str
+    probe: str = ""
 
 
 @cache
 def families() -> dict[str, Family]:
     """All families by name, in the order of the file."""
-    read = tomllib.loads((FOLDER / "families.toml").read_text(encoding="utf-8"))
-    return {
-        name: Family(
-            each["title"],
-            each["first"],
-            tuple(each["words"]),
-            tuple(each["further"]),
-            tuple(each.get("context", ())),
-            each.get("probe", ""),
-        )
-        for name, each in read.items()
-    }
+    read: dict[str, dict[str, Any]] = tomllib.loads((FOLDER / "families.toml").read_text(encoding="utf-8"))
+    listed = ("words", "further", "context")
+    return {name: Family(**each | {key: tuple(each[key]) for key in listed}) for name, each in read.items()}
 
 
 def likely_families(text: str) -> list[str]:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from clinic.diagnosis.engine import FREE, HINGE, SLIDE
+from clinic.engine.releases import mass_matrix
 
 Array = NDArray[np.float64]
 SECONDS, SAMPLES, MOST_STEPS = 1.0, 20, 2500
@@ -48,13 +49,7 @@ class Behaviour:
     @cached_property
     def mass_diagonal(self) -> Array:
         """Of the mass matrix at the start."""
-        made, unit = np.zeros(self.model.nv), np.zeros(self.model.nv)
-        for dof in range(self.model.nv):
-            column, unit[:] = np.zeros(self.model.nv), 0
-            unit[dof] = 1
-            mujoco.mj_mulM(self.model, self.start, column, unit)
-            made[dof] = column[dof]
-        return made
+        return np.diagonal(mass_matrix(self.model, self.start))
 
     @cached_property
     def let_go(self) -> Run:

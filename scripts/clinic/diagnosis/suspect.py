@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sized
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypeVarTuple
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
 
 Level = Literal["cause", "hint"]
+Of = TypeVarTuple("Of")
 EXPONENT = re.compile(r"(?<![\"'\w.])(\d(?:\.\d+)?)e([+-]\d\d+)\b")  # no part of a name or of what is quoted
 
 
@@ -50,6 +51,19 @@ class Probe:
         """The number; infinity where it is not finite."""
         value = self.measure(simulation, *self.of)
         return value if abs(value) < float("inf") else float("inf")
+
+
+def probe(
+    title: str, unit: str = "", *, dynamic: bool = True
+) -> Callable[[Callable[[Simulation, *Of], float]], Callable[[*Of], Probe]]:
+    """Makes of a measurement the function that gives its probe, for the arguments that follow the simulation."""
+
+    def made(measure: Callable[[Simulation, *Of], float]) -> Callable[[*Of], Probe]:
+        return lambda *of: Probe(
+            title, unit, measure, tuple(tuple(a) if isinstance(a, list) else a for a in of), dynamic
+        )
+
+    return made
 
 
 def counted(title: str, count: int) -> Probe:

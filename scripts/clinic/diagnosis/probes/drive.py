@@ -8,12 +8,14 @@ from clinic.diagnosis.engine import HINGE, TRN_IN_PARENT, TRN_SITE, TRN_TENDON
 from clinic.diagnosis.probes.run import model_size
 from clinic.diagnosis.probes.servo import alone, command, hold, servos
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import probe
 
 SECONDS = 2.0
 
 
-def _left(simulation: Simulation, joints: tuple[int, ...]) -> float:
+@probe("share of the way to 1 rad (0.1 m) or the far limit that is left after 2 s of all that the actuators give")
+def way_left(simulation: Simulation, joints: tuple[int, ...]) -> float:
+    """How much is left of 1 rad (0.1 m), or of the way to the far limit, after driving a joint there for 2 s."""
     return max((_left_of(simulation, joint) for joint in joints), default=0.0)
 
 
@@ -89,19 +91,15 @@ def pull(simulation: Simulation, joint: int) -> float:
     return sum(abs(force) * max(map(abs, ranges[actuator])) for actuator, force in found.items())
 
 
-def way_left(joints: tuple[int, ...]) -> Probe:
-    """How much is left of 1 rad (0.1 m), or of the way to the far limit, after driving a joint there for 2 s."""
-    title = "share of the way to 1 rad (0.1 m) or the far limit that is left after 2 s of all that the actuators give"
-    return Probe(title, "", _left, (joints,))
-
-
 def _ranges(simulation: Simulation) -> list[tuple[float, ...]]:
     """The lowest and the highest control of each actuator; -1 and 1 where it has no range."""
     limited = simulation.model("actuator_ctrllimited")
     return [tuple(simulation.row("actuator_ctrlrange", i, 2)) if on else (-1.0, 1.0) for i, on in enumerate(limited)]
 
 
-def _commanded(simulation: Simulation) -> float:
+@probe("fastest joint with all controls at the ends of their ranges", "rad/s")
+def commanded(simulation: Simulation) -> float:
+    """The highest speed while all controls are at the upper ends of their ranges, then at the lower ones."""
     made = 0.0
     for end in (1, 0):
         simulation.begin()
@@ -113,12 +111,9 @@ def _commanded(simulation: Simulation) -> float:
     return made
 
 
-def commanded() -> Probe:
-    """The highest speed while all controls are at the upper ends of their ranges, then at the lower ones."""
-    return Probe("fastest joint with all controls at the ends of their ranges", "rad/s", _commanded)
-
-
-def _to_and_fro(simulation: Simulation) -> float:
+@probe("deepest contact while the actuators go to and fro over half of their ranges", "of the model's extent")
+def pressed_in(simulation: Simulation) -> float:
+    """How deep the deepest contact is while every actuator goes to and fro over half of its range."""
     ranges, deepest = _ranges(simulation), 0.0
     if not ranges:
         return 0.0
@@ -131,9 +126,3 @@ def _to_and_fro(simulation: Simulation) -> float:
             return math.inf
         deepest = max([deepest, *(-contact.distance for contact in simulation.engine.contacts())])
     return deepest / model_size(simulation)
-
-
-def pressed_in() -> Probe:
-    """How deep the deepest contact is while every actuator goes to and fro over half of its range."""
-    title = "deepest contact while the actuators go to and fro over half of their ranges"
-    return Probe(title, "of the model's extent", _to_and_fro)

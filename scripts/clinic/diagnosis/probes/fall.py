@@ -9,7 +9,7 @@ from clinic.diagnosis.probes.run import State, beginning, let_go
 from clinic.diagnosis.probes.shape import box, falling, root_of, size, solid
 from clinic.diagnosis.probes.vector import at, dot, sub
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import probe
 
 
 def _above(simulation: Simulation, now: State, body: int, geom: int) -> float | None:
@@ -76,14 +76,11 @@ def limit(simulation: Simulation, root: int) -> float:
     return 0.25 * size(simulation, root)
 
 
-def _below(simulation: Simulation, root: int, geom: int) -> float:
+@probe("centre below the surface 2 s after letting go", "m")
+def below(simulation: Simulation, root: int, geom: int) -> float:
+    """How far a body's centre is below a surface that it began above."""
     run = let_go(simulation)
     if run.end is None:
         return float("inf")
     above = _above(simulation, run.end, root, geom)
     return max(0.0, -above) if above is not None else 0.0
-
-
-def below(root: int, geom: int) -> Probe:
-    """How far a body's centre is below a surface that it began above."""
-    return Probe("centre below the surface 2 s after letting go", "m", _below, (root, geom))

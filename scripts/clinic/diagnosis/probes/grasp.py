@@ -15,7 +15,7 @@ from clinic.diagnosis.probes.tendons import joints_of, pulled
 from clinic.diagnosis.probes.touch import Deciding, deciding
 from clinic.diagnosis.probes.vector import Vector, across, at, cross, dot, norm, sub, times, transpose, unit
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import Probe, probe
 
 PAD = re.compile(r"(?i)finger|thumb|grip|jaw|pad|(?<![a-z])tip")  # what parts that hold something are called
 CLOSING, CARRYING = 1.0, 2.0  # s
@@ -242,10 +242,7 @@ def needed(grasp: Grasp) -> Probe:
     return Probe(title, "", _needed, (grasp.body, grasp.jaws.palm))
 
 
-def _leaves(simulation: Simulation, body: int) -> float:
-    return max((each.leaves for each in grasps(simulation) if each.body == body), default=0.0)
-
-
-def leaves(body: int) -> Probe:
+@probe("between jaws that closed on it, it slides with", "radii a second")
+def leaves(simulation: Simulation, body: int) -> float:
     """How fast a thing slides out of the jaws that closed on it, in its radii a second; infinite where it falls."""
-    return Probe("between jaws that closed on it, it slides with", "radii a second", _leaves, (body,))
+    return max((each.leaves for each in grasps(simulation) if each.body == body), default=0.0)

@@ -11,7 +11,7 @@ from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.probes.surface import Triangle, jointed_roots, nearest, triangles
 from clinic.diagnosis.probes.vector import Vector, add, at, cross, dot, sub, times
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import probe
 
 PAIRS = 24  # the deepest ones are looked at
 FACES = 4000  # of a finer mesh nothing is told
@@ -129,12 +129,7 @@ def _pierces(start: Vector, end: Vector, face: Triangle) -> bool:
     return u >= 0 and v >= 0 and u + v <= 1 and 0 <= t <= 1
 
 
-def _closed(simulation: Simulation) -> float:
-    return max(closed_holes(simulation).values(), default=0.0)
-
-
-def holes_closed() -> Probe:
+@probe("deepest overlap at the start of meshes that do not touch", "of a mesh's radius", dynamic=False)
+def holes_closed(simulation: Simulation) -> float:
     """The deepest overlap at the start of meshes whose surfaces do not meet."""
-    return Probe(
-        "deepest overlap at the start of meshes that do not touch", "of a mesh's radius", _closed, dynamic=False
-    )
+    return max(closed_holes(simulation).values(), default=0.0)

@@ -12,7 +12,7 @@ from clinic.diagnosis.probes import servo, tendons
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import WIDTH, Simulation, kept
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import probe
 
 SLIDES = 2.5  # rad, as which a slide's metre counts
 WIDTHS = 0.2  # rad, as which the width of its range counts
@@ -47,26 +47,22 @@ def servos(simulation: Simulation, key: int) -> dict[int, tuple[float, float]]:
     return made
 
 
-def _off(simulation: Simulation, key: int) -> float:
+@probe("distance of three quarters of the servos from their targets", "rad", dynamic=False)
+def off_target(simulation: Simulation, key: int) -> float:
+    """How far three quarters of the servos are at most from their targets in a keyframe."""
     apart = sorted(abs(target - at) for target, at in servos(simulation, key).values())
     return apart[len(apart) * 3 // 4] if apart else 0.0
 
 
-def off_target(key: int) -> Probe:
-    """How far three quarters of the servos are at most from their targets in a keyframe."""
-    return Probe("distance of three quarters of the servos from their targets", "rad", _off, (key,), dynamic=False)
-
-
-def _farthest(simulation: Simulation, key: int) -> float:
+@probe("distance of a servo from its target", "rad", dynamic=False)
+def farthest_target(simulation: Simulation, key: int) -> float:
+    """How far the servo is from its target in a keyframe that is farthest from it."""
     return max((abs(target - at) for target, at in servos(simulation, key).values()), default=0.0)
 
 
-def farthest_target(key: int) -> Probe:
-    """How far the servo is from its target in a keyframe that is farthest from it."""
-    return Probe("distance of a servo from its target", "rad", _farthest, (key,), dynamic=False)
-
-
-def _depth(simulation: Simulation, key: int) -> float:
+@probe("depth in the floor at the keyframe", "m", dynamic=False)
+def sunk(simulation: Simulation, key: int) -> float:
+    """How deep something that moves is in a plane at a keyframe."""
     start_at(simulation, key)
     kinds, bodies = simulation.model("geom_type"), simulation.model("geom_bodyid")
     moving = set(simulation.moving_bodies)
@@ -78,12 +74,9 @@ def _depth(simulation: Simulation, key: int) -> float:
     return max(deep)
 
 
-def sunk(key: int) -> Probe:
-    """How deep something that moves is in a plane at a keyframe."""
-    return Probe("depth in the floor at the keyframe", "m", _depth, (key,), dynamic=False)
-
-
-def _beyond(simulation: Simulation, key: int) -> float:
+@probe("worst joint outside of its range at the keyframe", "rad", dynamic=False)
+def outside(simulation: Simulation, key: int) -> float:
+    """How far the worst joint is outside of its range at a keyframe."""
     return max((weighed(simulation, *each) for each in beyond(simulation, key).items()), default=0.0)
 
 
@@ -123,19 +116,11 @@ def against_range(simulation: Simulation, key: int) -> dict[int, tuple[float, fl
     return made
 
 
-def outside(key: int) -> Probe:
-    """How far the worst joint is outside of its range at a keyframe."""
-    return Probe("worst joint outside of its range at the keyframe", "rad", _beyond, (key,), dynamic=False)
-
-
-def _astray(simulation: Simulation, key: int, meant: tuple[float, ...]) -> float:
+@probe("numbers that go to another joint", dynamic=False)
+def astray(simulation: Simulation, key: int, meant: tuple[float, ...]) -> float:
+    """How many numbers of a keyframe go to another joint than they are meant for."""
     simulation.engine.reset(key)
     return float(sum(abs(a - b) > 1e-5 for a, b in zip(simulation.data("qpos"), meant, strict=True)))
-
-
-def astray(key: int, meant: Sequence[float]) -> Probe:
-    """How many numbers of a keyframe go to another joint than they are meant for."""
-    return Probe("numbers that go to another joint", "", _astray, (key, tuple(meant)), dynamic=False)
 
 
 def reordered(model: ReaderModel, key: int) -> list[float] | None:

@@ -9,7 +9,7 @@ from clinic.diagnosis.probes.equalities import CONNECT, gap, kind_of
 from clinic.diagnosis.probes.servo import Servo, alone, hold, servos
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import Probe, probe
 
 POSES = 16
 SPREAD = 0.5  # rad or m, of a joint without a range
@@ -117,16 +117,14 @@ def carriers(simulation: Simulation) -> dict[Servo, Servo]:
     return made
 
 
-def _outdone(simulation: Simulation, actuators: Sequence[int]) -> float:
+@probe(
+    "share of its greatest force that the weight takes, over that of the servos which carry the joint", dynamic=False
+)
+def outdone(simulation: Simulation, actuators: Sequence[int]) -> float:
+    """How many times the share of its force that a servo needs is that of the servos that carry it."""
     found, over = strains(simulation), carriers(simulation)
     shares = [found[one.actuator] / found[other.actuator] for one, other in over.items() if one.actuator in actuators]
     return max(shares, default=0.0)
-
-
-def outdone(actuators: Sequence[int]) -> Probe:
-    """How many times the share of its force that a servo needs is that of the servos that carry it."""
-    title = "share of its greatest force that the weight takes, over that of the servos which carry the joint"
-    return Probe(title, "", _outdone, (tuple(actuators),), dynamic=False)
 
 
 @kept
@@ -165,12 +163,8 @@ def travel(servo: Servo) -> float:
     return servo.range[1] - servo.range[0] if servo.range else 2 * SPREAD
 
 
-def _yields(simulation: Simulation, actuators: Sequence[int]) -> float:
+@probe(f"how far the weight moves a servo's joint within {HANGS:g} s that is told to hold the start", "of its range")
+def yields(simulation: Simulation, actuators: Sequence[int]) -> float:
+    """How far servos of a closed loop give way to the weight."""
     found = yielded(simulation).items()
     return max((way / travel(each) for each, way in found if each.actuator in actuators), default=0.0)
-
-
-def yields(actuators: Sequence[int]) -> Probe:
-    """How far servos of a closed loop give way to the weight."""
-    title = f"how far the weight moves a servo's joint within {HANGS:g} s that is told to hold the start"
-    return Probe(title, "of its range", _yields, (tuple(actuators),))

@@ -23,7 +23,7 @@ from clinic.diagnosis.probes.vector import (
 )
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import probe
 
 ABSURD = 6.0  # a radius of gyration as many times that of the geoms, or that in it
 OVERDAMPED = 0.025  # s: inertia over damping, below which a joint does not show the inertia
@@ -221,70 +221,49 @@ def _heavier(simulation: Simulation, body: int) -> float:
     return best
 
 
-def _heaviest(simulation: Simulation, *bodies: int) -> float:
+@probe("inertia at the joint, unlike that of the geoms by", "times", dynamic=False)
+def joint_inertia(simulation: Simulation, *bodies: int) -> float:
+    """How many times the joints' inertia is what the geoms would give, or that in it."""
     simulation.begin()
     return max(_heavier(simulation, body) for body in bodies)
 
 
-def joint_inertia(bodies: tuple[int, ...]) -> Probe:
-    """How many times the joints' inertia is what the geoms would give, or that in it."""
-    return Probe("inertia at the joint, unlike that of the geoms by", "times", _heaviest, bodies, dynamic=False)
-
-
-def _unlike(simulation: Simulation, *bodies: int) -> float:
+@probe("radius of gyration, unlike that of the geoms by", "times", dynamic=False)
+def gyration(simulation: Simulation, *bodies: int) -> float:
+    """How many times the radius of gyration is that of the geoms, or that in it."""
     found = [matter(simulation, body) for body in bodies]
     return max((max(each.radius, 1 / each.radius) for each in found if each is not None), default=1.0)
 
 
-def gyration(bodies: tuple[int, ...]) -> Probe:
-    """How many times the radius of gyration is that of the geoms, or that in it."""
-    return Probe("radius of gyration, unlike that of the geoms by", "times", _unlike, bodies, dynamic=False)
-
-
-def _mass(simulation: Simulation, *bodies: int) -> float:
+@probe("mass", "kg", dynamic=False)
+def mass_of(simulation: Simulation, *bodies: int) -> float:
+    """The mass of some bodies."""
     return sum(simulation.model("body_mass")[body] for body in bodies)
 
 
-def mass_of(bodies: tuple[int, ...]) -> Probe:
-    """The mass of some bodies."""
-    return Probe("mass", "kg", _mass, bodies, dynamic=False)
-
-
-def _outside(simulation: Simulation, *bodies: int) -> float:
+@probe("centre of mass outside of the geoms by", "half lengths", dynamic=False)
+def centre_outside(simulation: Simulation, *bodies: int) -> float:
+    """How far the centre of mass is outside of the geoms, in half lengths of the body."""
     found = [matter(simulation, body) for body in bodies]
     return max((each.outside / max(each.half) for each in found if each is not None), default=0.0)
 
 
-def centre_outside(bodies: tuple[int, ...]) -> Probe:
-    """How far the centre of mass is outside of the geoms, in half lengths of the body."""
-    return Probe("centre of mass outside of the geoms by", "half lengths", _outside, bodies, dynamic=False)
-
-
-def _across(simulation: Simulation, body: int) -> float:
+@probe("inertia about the long axis, times the mean", dynamic=False)
+def across(simulation: Simulation, body: int) -> float:
+    """The inertia about the geoms' long axis, where the mean of the three principal ones is 1."""
     found = matter(simulation, body)
     return found.along[1] if found is not None else 0.0
 
 
-def _flat(simulation: Simulation, *bodies: int) -> float:
+@probe("mean inertia over that about a flat body's own axis", dynamic=False)
+def flat(simulation: Simulation, *bodies: int) -> float:
+    """The mean of the three principal inertias over that about a flat body's own axis, the most of several bodies."""
     found = [each.flat[1] for body in bodies if (each := matter(simulation, body)) is not None]
     return max((1 / own for own in found if own > 0), default=0.0)
 
 
-def flat(bodies: tuple[int, ...]) -> Probe:
-    """The mean of the three principal inertias over that about a flat body's own axis, the most of several bodies."""
-    return Probe("mean inertia over that about a flat body's own axis", "", _flat, bodies, dynamic=False)
-
-
-def across(body: int) -> Probe:
-    """The inertia about the geoms' long axis, where the mean of the three principal ones is 1."""
-    return Probe("inertia about the long axis, times the mean", "", _across, (body,), dynamic=False)
-
-
-def _density(simulation: Simulation, *bodies: int) -> float:
+@probe("density", "kg/m3", dynamic=False)
+def density(simulation: Simulation, *bodies: int) -> float:
+    """The density of the densest body."""
     found = [matter(simulation, body) for body in bodies]
     return max((each.density for each in found if each is not None), default=0.0)
-
-
-def density(bodies: tuple[int, ...]) -> Probe:
-    """The density of the densest body."""
-    return Probe("density", "kg/m3", _density, bodies, dynamic=False)

@@ -14,7 +14,7 @@ from clinic.diagnosis.probes.shape import falling, geoms_of_tree, root_of, roots
 from clinic.diagnosis.probes.vector import at
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import probe
 
 LIMBS = 3  # that make a walker
 OFTEN = 0.2  # of the poses
@@ -92,18 +92,15 @@ def _turns(simulation: Simulation, body: int) -> bool:
     return bool(kinds) and all(kind == HINGE for kind in kinds)
 
 
-def _share(simulation: Simulation) -> float:
+@probe("deepest overlap of relatives at the start", "of the geom's thickness", dynamic=False)
+def of_relatives(simulation: Simulation) -> float:
+    """The deepest overlap of relatives at the start, as a share of the thinner geom's thickness."""
     made = 0.0
     for _, _, contact in relatives(simulation):
         thick = min(thickness(simulation, geom) for geom in contact.geoms)
         if contact.force > 0 and thick > 0:
             made = max(made, -contact.distance / thick)
     return made
-
-
-def of_relatives() -> Probe:
-    """The deepest overlap of relatives at the start, as a share of the thinner geom's thickness."""
-    return Probe("deepest overlap of relatives at the start", "of the geom's thickness", _share, dynamic=False)
 
 
 def tree_extent(simulation: Simulation, root: int) -> float:
@@ -134,13 +131,10 @@ def buried(simulation: Simulation, holes: Collection[tuple[int, int]] = ()) -> d
     return made
 
 
-def _buried(simulation: Simulation) -> float:
-    return max((share for share, _ in buried(simulation).values()), default=0.0)
-
-
-def at_start() -> Probe:
+@probe("deepest overlap at the start", "of its extent", dynamic=False)
+def at_start(simulation: Simulation) -> float:
     """The deepest overlap at the start of something that can fall, as a share of its extent."""
-    return Probe("deepest overlap at the start", "of its extent", _buried, dynamic=False)
+    return max((share for share, _ in buried(simulation).values()), default=0.0)
 
 
 def legged(model: ReaderModel) -> bool:

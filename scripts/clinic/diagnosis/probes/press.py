@@ -7,13 +7,15 @@ from collections.abc import Sequence
 
 from clinic.diagnosis.probes.servo import alone, hold, servos
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import probe
 
 SECONDS = 1.0
 
 
+@probe("farthest beyond a limit after 1 s at an end of the control range, as a share of the joint's range")
 @kept
-def _past(simulation: Simulation, actuators: Sequence[int]) -> float:
+def past_limit(simulation: Simulation, actuators: Sequence[int]) -> float:
+    """How far beyond their limits servos push their joints."""
     with alone(simulation):
         return max(_pressed(simulation, actuators, end) for end in (0, 1))
 
@@ -35,9 +37,3 @@ def _pressed(simulation: Simulation, actuators: Sequence[int], end: int) -> floa
         place = simulation.position(servo.joint)
         farthest = max(farthest, (low - place) / (high - low), (place - high) / (high - low))
     return farthest
-
-
-def past_limit(actuators: Sequence[int]) -> Probe:
-    """How far beyond their limits servos push their joints."""
-    title = "farthest beyond a limit after 1 s at an end of the control range, as a share of the joint's range"
-    return Probe(title, "", _past, (tuple(actuators),))

@@ -9,14 +9,16 @@ from clinic.diagnosis.probes.run import State, let_go, state
 from clinic.diagnosis.probes.shape import falling, root_of, size
 from clinic.diagnosis.probes.vector import Vector, at, cross, dot, sub
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import probe
 
 FRICTION = 0.3  # stops what is pushed within the time that the probe waits
 GRAVITY = 9.81
 PART = 0.1  # a push as fast as a fall over this part of the thing's size: without friction it slides by a third of it
 
 
-def _slides_on(simulation: Simulation) -> float:
+@probe("pushed at rest, its contacts still slide with", "of the push's speed")
+def slides_on(simulation: Simulation) -> float:
+    """The share of a push's speed with which the contacts still slide when friction 0.3 would have stopped them."""
     run = let_go(simulation)
     if run.end is None:
         return float("inf")
@@ -72,12 +74,9 @@ def _slips(simulation: Simulation) -> dict[int, float]:
     return {root: total / weight for root, (weight, total) in sums.items()}
 
 
-def slides_on() -> Probe:
-    """The share of a push's speed with which the contacts still slide when friction 0.3 would have stopped them."""
-    return Probe("pushed at rest, its contacts still slide with", "of the push's speed", _slides_on)
-
-
-def _rolls_on(simulation: Simulation, body: int) -> float:
+@probe("of its speed it has after a second of rolling")
+def rolls_on(simulation: Simulation, body: int) -> float:
+    """The share of a ball's speed that is left after a second of rolling."""
     run = let_go(simulation)
     if run.end is None:
         return 0.0
@@ -91,12 +90,9 @@ def _rolls_on(simulation: Simulation, body: int) -> float:
     return speeds[-1] / speeds[0] if rolled else 0.0
 
 
-def rolls_on(body: int) -> Probe:
-    """The share of a ball's speed that is left after a second of rolling."""
-    return Probe("of its speed it has after a second of rolling", "", _rolls_on, (body,))
-
-
-def _creeps(simulation: Simulation, body: int) -> float:
+@probe("contacts slide on it after 2 s with", "radii a second")
+def creeps(simulation: Simulation, body: int) -> float:
+    """How fast what is held slides in the grasp once the model was let go."""
     run = let_go(simulation)
     if run.end is None:
         return float("inf")
@@ -106,8 +102,3 @@ def _creeps(simulation: Simulation, body: int) -> float:
     for _ in simulation.run(0.1, samples=1):
         pass
     return _slips(simulation).get(body, 0.0) / max(size(simulation, body), 1e-9)
-
-
-def creeps(body: int) -> Probe:
-    """How fast what is held slides in the grasp once the model was let go."""
-    return Probe("contacts slide on it after 2 s with", "radii a second", _creeps, (body,))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from clinic.diagnosis.engine import Contact
 from clinic.diagnosis.probes.shape import root_of
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import probe
 
 FAST = 100.0  # rad/s, 16 turns a second: above it a joint is too fast
 
@@ -88,22 +88,16 @@ def let_go(simulation: Simulation) -> LetGo:
     return made
 
 
-def _resets(simulation: Simulation) -> float:
+@probe("goes to infinity after letting go")
+def resets(simulation: Simulation) -> float:
+    """Whether the simulation goes to infinity: 0 or 1."""
     return float(let_go(simulation).resets)
 
 
-def resets() -> Probe:
-    """Whether the simulation goes to infinity: 0 or 1."""
-    return Probe("goes to infinity after letting go", "", _resets)
-
-
-def _fastest(simulation: Simulation) -> float:
-    return let_go(simulation).fastest
-
-
-def fastest() -> Probe:
+@probe("fastest joint after letting go", "rad/s")
+def fastest(simulation: Simulation) -> float:
     """The highest speed of a degree of freedom."""
-    return Probe("fastest joint after letting go", "rad/s", _fastest)
+    return let_go(simulation).fastest
 
 
 @kept
@@ -117,10 +111,7 @@ def model_size(simulation: Simulation) -> float:
     return max([simulation.extent, *spreads, 1e-9])
 
 
-def _sunk(simulation: Simulation) -> float:
-    return let_go(simulation).deepest / model_size(simulation)
-
-
-def sunk() -> Probe:
+@probe("deepest contact after letting go", "of the model's extent")
+def sunk(simulation: Simulation) -> float:
     """How deep the deepest contact is while the model is let go, as a share of its extent."""
-    return Probe("deepest contact after letting go", "of the model's extent", _sunk)
+    return let_go(simulation).deepest / model_size(simulation)

@@ -21,7 +21,7 @@ from clinic.diagnosis.engine import (
     SPRINGS_OFF,
 )
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import probe
 
 STEP = {True: 0.1, False: 0.01}  # of a hinge in rad, of a slide in m
 COEFFICIENTS = {  # units of stiffness, damping and inertia, by that of the joint's position
@@ -223,7 +223,9 @@ def greatest(simulation: Simulation, number: Callable[[Servo], float], actuators
     return max((number(each) for each in servos(simulation) if each.actuator in actuators), default=0.0)
 
 
-def _overshoot(simulation: Simulation, actuators: Sequence[int]) -> float:
+@probe("overshoot of a step of 0.1 rad (0.01 m) without gravity that rings four times, as a share of the step")
+def overshoot(simulation: Simulation, actuators: Sequence[int]) -> float:
+    """How much a step of a servo rings: its overshoot as a share of the step, 0 where it soon comes to rest."""
     return max((_rings(simulation, actuator) for actuator in actuators), default=0.0)
 
 
@@ -267,7 +269,9 @@ def _stepped(simulation: Simulation, servo: Servo) -> float:
     return swings[1] if len(swings) > 4 else 0.0
 
 
-def _remaining(simulation: Simulation, actuators: Sequence[int]) -> float:
+@probe("share of a step of 0.1 rad (0.01 m) that is left after 1 s, without gravity")
+def remaining(simulation: Simulation, actuators: Sequence[int]) -> float:
+    """How late servos are."""
     return max((_late(simulation, actuator) for actuator in actuators), default=0.0)
 
 
@@ -283,15 +287,3 @@ def _late(simulation: Simulation, actuator: int) -> float:
             pass
         left = abs(goal - simulation.position(servo.joint)) / max(abs(way), 1e-9)
         return math.inf if simulation.unstable() else left
-
-
-def remaining(actuators: Sequence[int]) -> Probe:
-    """How late servos are."""
-    title = "share of a step of 0.1 rad (0.01 m) that is left after 1 s, without gravity"
-    return Probe(title, "", _remaining, (tuple(actuators),))
-
-
-def overshoot(actuators: Sequence[int]) -> Probe:
-    """How much a step of a servo rings: its overshoot as a share of the step, 0 where it soon comes to rest."""
-    title = "overshoot of a step of 0.1 rad (0.01 m) without gravity that rings four times, as a share of the step"
-    return Probe(title, "", _overshoot, (tuple(actuators),))

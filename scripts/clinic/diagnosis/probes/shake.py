@@ -7,7 +7,7 @@ import math
 from clinic.diagnosis.engine import SLIDE
 from clinic.diagnosis.probes.servo import alone, hold
 from clinic.diagnosis.simulation import ENDLESS, Simulation, kept
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import probe
 
 NUDGE = 0.01  # rad or m
 SECONDS = 0.5
@@ -16,8 +16,13 @@ LOOKED_AT = 40  # steps
 SHAKES = 5.0  # rad/s a step, above which a joint rattles
 
 
+@probe(
+    "to and fro of a joint's speed from step to step, 0.5 s after a nudge of 0.01 rad without contacts and gravity",
+    "rad/s",
+)
 @kept
-def _shake(simulation: Simulation) -> float:
+def shake(simulation: Simulation) -> float:
+    """How much the speed of a joint jumps to and fro from one step to the next, after a nudge."""
     with alone(simulation):
         return _shaken(simulation)
 
@@ -57,11 +62,3 @@ def _off_the_limits(simulation: Simulation, joint: int) -> float:
         return begin
     away = min(2 * NUDGE, (high - low) / 2)
     return min(max(begin, low + away), high - away)
-
-
-def shake() -> Probe:
-    """How much the speed of a joint jumps to and fro from one step to the next, after a nudge."""
-    title = (
-        "to and fro of a joint's speed from step to step, 0.5 s after a nudge of 0.01 rad without contacts and gravity"
-    )
-    return Probe(title, "rad/s", _shake)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import probe
 
 COARSE = 1.0  # the step times the natural frequency in rad/s: a period has 2 pi over that many steps
 SECONDS, SAMPLES, FINER = 1.0, 20, 10
@@ -38,8 +38,10 @@ def _way(simulation: Simulation, step: float) -> list[list[float]]:
     return made
 
 
+@probe("how far a spring's joint is from where a tenth of the step takes it, within 1 s", "of its range")
 @kept
-def _strays(simulation: Simulation) -> float:
+def strays(simulation: Simulation) -> float:
+    """How far springs of few steps a period are from where a tenth of the step takes them, within a second."""
     of, step = simulation, simulation.timestep
     if not coarse(of) or FINER * SECONDS / step > STEPS:
         return 0.0
@@ -51,9 +53,3 @@ def _strays(simulation: Simulation) -> float:
         for one, other, (low, high) in zip(there, here, ranges, strict=True)
     )
     return max(apart) if not of.unstable() else math.inf
-
-
-def strays() -> Probe:
-    """How far springs of few steps a period are from where a tenth of the step takes them, within a second."""
-    title = "how far a spring's joint is from where a tenth of the step takes it, within 1 s"
-    return Probe(title, "of its range", _strays)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from clinic.diagnosis.probes.servo import Servo, hold, servos
 from clinic.diagnosis.probes.shape import boxes, geoms_of_tree, in_pairs, plane_heights, root_of, solid
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import Probe, probe
 
 SECONDS = 1.0
 LEAST = 4  # servos of one robot
@@ -84,11 +84,7 @@ def goes_down(seconds: float = SECONDS) -> Probe:
     return Probe(title, "of its height", _lost, (seconds,))
 
 
-def _at_their_limit(simulation: Simulation) -> float:
-    return float(len(stance(simulation).full))
-
-
-def at_their_limit() -> Probe:
+@probe(f"servos that give all they can after {SECONDS:g} s in which all of them hold the start")
+def at_their_limit(simulation: Simulation) -> float:
     """How many servos give all they can under a robot that stands."""
-    title = f"servos that give all they can after {SECONDS:g} s in which all of them hold the start"
-    return Probe(title, "", _at_their_limit)
+    return float(len(stance(simulation).full))

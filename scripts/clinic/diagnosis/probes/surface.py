@@ -8,7 +8,7 @@ from clinic.diagnosis.engine import MESH, SDF
 from clinic.diagnosis.probes.shape import root_of, roots
 from clinic.diagnosis.probes.vector import Vector, add, at, dot, sub, times, transpose
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import probe
 
 SAMPLES = 25
 MOST_FACES = 20_000  # of a finer mesh nothing is told
@@ -125,10 +125,7 @@ def nearest(triangle: Triangle, point: Vector) -> Vector:
     return add(add(a, ab, vb / total), ac, vc / total) if total else a
 
 
-def _away(simulation: Simulation, geom: int) -> float:
-    return touched_off_surface(simulation).get(geom, 0.0)
-
-
-def away(geom: int) -> Probe:
+@probe("touched away from the mesh's surface, at most", "of its size")
+def away(simulation: Simulation, geom: int) -> float:
     """How far from its surface a mesh is touched."""
-    return Probe("touched away from the mesh's surface, at most", "of its size", _away, (geom,))
+    return touched_off_surface(simulation).get(geom, 0.0)

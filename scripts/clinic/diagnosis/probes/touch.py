@@ -11,7 +11,7 @@ from clinic.diagnosis.probes.run import let_go
 from clinic.diagnosis.probes.shape import pair_of, solid, thickness
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import probe
 
 DRY = {"geom": "1 0.005 0.0001", "pair": "1 1 0.005 0.0001 0.0001"}  # the friction of geoms and pairs by default
 
@@ -78,18 +78,15 @@ def names_of(simulation: Simulation, of: Iterable[Deciding]) -> tuple[str, ...]:
     return tuple(simulation.name(kind, index) for kind, index in found)
 
 
-def _depth(simulation: Simulation) -> float:
+@probe("deepest contact 2 s after letting go", "of the geom's thickness")
+def depth(simulation: Simulation) -> float:
+    """How deep contacts are once the model was let go, as a share of the thinner geom's thickness."""
     made, end = 0.0, let_go(simulation).end
     for contact in end.contacts if end else ():
         thick = min(thickness(simulation, geom) for geom in contact.geoms)
         if contact.force > 0 and 0 < thick < float("inf"):
             made = max(made, -contact.distance / thick)
     return made if end else float("inf")
-
-
-def depth() -> Probe:
-    """How deep contacts are once the model was let go, as a share of the thinner geom's thickness."""
-    return Probe("deepest contact 2 s after letting go", "of the geom's thickness", _depth)
 
 
 def all_alike(simulation: Simulation, field: str, value: float) -> bool:

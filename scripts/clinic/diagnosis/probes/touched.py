@@ -9,7 +9,7 @@ from clinic.diagnosis.engine import SENS_FORCE, SENS_TORQUE, SENS_TOUCH
 from clinic.diagnosis.probes.overlap import relatives
 from clinic.diagnosis.probes.vector import at
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe
+from clinic.diagnosis.suspect import probe
 
 
 @dataclass
@@ -51,11 +51,8 @@ def touched(simulation: Simulation) -> dict[int, Read]:
     return made
 
 
-def _unread(simulation: Simulation, sensor: int) -> float:
+@probe("of what contacts carry, not read")
+def unread(simulation: Simulation, sensor: int) -> float:
+    """The share of what contacts of its body carry that a sensor does not read."""
     seen = touched(simulation).get(sensor, Read())
     return 1.0 - min(1.0, seen.reading / seen.carried) if seen.carried > 0 else 0.0
-
-
-def unread(sensor: int) -> Probe:
-    """The share of what contacts of its body carry that a sensor does not read."""
-    return Probe("of what contacts carry, not read", "", _unread, (sensor,))

@@ -11,13 +11,16 @@ import math
 import pkgutil
 import re
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from random import Random
+from typing import TypeVar
 
 from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.reader_model import ReaderModel
 
+T = TypeVar("T")
 DOES_NOT_COMPILE = ("compiles",)  # the harm of a fault for which the model is refused
 
 
@@ -36,6 +39,10 @@ class Fault:
     elements: tuple[str, ...] = ()
     attribute: str = ""
     strength: float = 1.0
+
+
+class NoPlaceError(LookupError):
+    """A model without a place for a fault."""
 
 
 Planter = Callable[[ReaderModel, Random], Fault | None]
@@ -69,8 +76,13 @@ def kind(*rules: str, harms: Sequence[str], servos: bool = False) -> Callable[[P
     """Makes a function a kind of fault."""
 
     def register(plant: Planter) -> Planter:
+        def made(model: ReaderModel, random: Random) -> Fault | None:
+            with suppress(NoPlaceError):
+                return plant(model, random)
+            return None
+
         name = plant.__name__.replace("_", "-")
-        _KINDS[name] = Kind(name, (plant.__doc__ or "").strip(), rules, tuple(harms), servos, plant)
+        _KINDS[name] = Kind(name, (plant.__doc__ or "").strip(), rules, tuple(harms), servos, made)
         return plant
 
     return register
@@ -82,6 +94,17 @@ def kinds() -> dict[str, Kind]:
     for found in pkgutil.iter_modules(__path__, f"{__name__}."):
         importlib.import_module(found.name)
     return dict(sorted(_KINDS.items()))
+
+
+def pick(random: Random, found: Sequence[T]) -> T:
+    """One of several.
+
+    Raises:
+        NoPlaceError: If there is none.
+    """
+    if not found:
+        raise NoPlaceError
+    return random.choice(found)
 
 
 def between(random: Random, low: float, high: float) -> float:

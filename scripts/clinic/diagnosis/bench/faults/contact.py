@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from random import Random
 
-from clinic.diagnosis.bench.faults import Fault, between, kind, text_of
+from clinic.diagnosis.bench.faults import Fault, between, kind, pick, text_of
 from clinic.diagnosis.edit import delete, set_attribute
 from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.shape import falling, root_of, solid
@@ -79,9 +79,7 @@ def masks_of_a_body(model: ReaderModel, random: Random) -> Fault | None:
     """The geoms of one moving body collide with nothing."""
     simulation, colliding = model.simulation, set(_colliding(model))
     bodies = [b for b in simulation.moving_bodies if colliding.intersection(simulation.geoms_of(b))]
-    if not bodies:
-        return None
-    geoms = sorted(colliding.intersection(simulation.geoms_of(random.choice(bodies))))
+    geoms = sorted(colliding.intersection(simulation.geoms_of(pick(random, bodies))))
     return _of_all(model, geoms, len(geoms), contype="0", conaffinity="0")
 
 
@@ -110,9 +108,7 @@ def margin_large(model: ReaderModel, random: Random) -> Fault | None:
 def start_in_the_floor(model: ReaderModel, random: Random) -> Fault | None:
     """A free body begins lower by a part of the model's size."""
     free = [b for b in model.simulation.free_bodies if model.element("body", b) is not None]
-    if not free:
-        return None
-    body = random.choice(free)
+    body = pick(random, free)
     x, y, z = model.simulation.row("body_pos", body, 3)
     depth = model.simulation.extent * between(random, 0.01, 1)
     place = model.element("body", body)
@@ -127,9 +123,7 @@ def exclude_removed(model: ReaderModel, random: Random) -> Fault | None:
     """Two bodies that may not collide with each other collide: their `<exclude>` is gone."""
     assert model.source is not None
     there = [each for each in model.source.section("contact") if each.tag == "exclude"]
-    if not there:
-        return None
-    gone = random.choice(there)
+    gone = pick(random, there)
     return Fault((delete(gone),), (f'body "{gone.get("body1")}"', f'body "{gone.get("body2")}"'), "")
 
 

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 from random import Random
 
-from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, text_of, written
+from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, pick, text_of, written
 from clinic.diagnosis.edit import replace as replace_element
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.engine import FREE, HINGE
@@ -43,9 +43,7 @@ def _range(model: ReaderModel, joint: int, low: float, high: float, strength: fl
 def range_of_a_joint_in_the_other_unit(model: ReaderModel, random: Random) -> Fault | None:
     """The range of one hinge in degrees among radians, or in radians among degrees."""
     hinges = [i for i in _limited(model) if model.simulation.joint_type(i) == HINGE]
-    if not hinges:
-        return None
-    joint = random.choice(hinges)
+    joint = pick(random, hinges)
     low, high = numbers(model.value("joint", joint, "range"))[:2]
     factor = math.pi / 180 if max(abs(low), abs(high)) > 7 else 180 / math.pi
     return _range(model, joint, low * factor, high * factor, factor)
@@ -66,9 +64,7 @@ def angles_in_the_other_unit(model: ReaderModel, random: Random) -> Fault | None
 @kind("start-outside-range", harms=ENDS)
 def start_outside_of_the_range(model: ReaderModel, random: Random) -> Fault | None:
     """The range of a joint begins beyond where the joint starts, by 2 to 100 % of the range."""
-    if not (found := _limited(model)):
-        return None
-    joint, share = random.choice(found), between(random, 0.02, 1)
+    joint, share = pick(random, _limited(model)), between(random, 0.02, 1)
     low, high = numbers(model.value("joint", joint, "range"))[:2]
     way = share * (high - low)
     if random.random() < 0.5:
@@ -79,9 +75,7 @@ def start_outside_of_the_range(model: ReaderModel, random: Random) -> Fault | No
 @kind("range-too-narrow", harms=ENDS)
 def range_narrow(model: ReaderModel, random: Random) -> Fault | None:
     """The range of a joint 0.1 to 10 % of what it was, about the start."""
-    if not (found := _limited(model)):
-        return None
-    joint, share = random.choice(found), between(random, 0.001, 0.1)
+    joint, share = pick(random, _limited(model)), between(random, 0.001, 0.1)
     low, high = numbers(model.value("joint", joint, "range"))[:2]
     return _range(model, joint, low * share, high * share, share)
 
@@ -89,9 +83,7 @@ def range_narrow(model: ReaderModel, random: Random) -> Fault | None:
 @kind("range-empty", harms=ENDS)
 def range_emptied(model: ReaderModel, random: Random) -> Fault | None:
     """A range from its upper end to its lower, or of nothing; `limited` is left to the compiler."""
-    if not (found := _limited(model)):
-        return None
-    joint = random.choice(found)
+    joint = pick(random, _limited(model))
     low, high = numbers(model.value("joint", joint, "range"))[:2]
     fault, element = _range(model, joint, *random.choice(((high, low), (0.0, 0.0))), 1.0), model.element("joint", joint)
     assert element is not None
@@ -101,17 +93,13 @@ def range_emptied(model: ReaderModel, random: Random) -> Fault | None:
 @kind("range-not-applied", harms=ENDS)
 def range_not_applied(model: ReaderModel, random: Random) -> Fault | None:
     """A joint's range is written, and not applied."""
-    if not (found := _limited(model)):
-        return None
-    return _set(model, random.choice(found), "limited", "false", 1)
+    return _set(model, pick(random, _limited(model)), "limited", "false", 1)
 
 
 @kind("axis-wrong", "twin-joint-differs", harms=ENDS)
 def axis_wrong(model: ReaderModel, random: Random) -> Fault | None:
     """A joint's axis of the other sign, or along another direction of its body."""
-    if not (found := _single(model)):
-        return None
-    joint = random.choice(found)
+    joint = pick(random, _single(model))
     x, y, z = model.simulation.row("jnt_axis", joint, 3)
     return _set(model, joint, "axis", text_of(*random.choice(((-x, -y, -z), (y, z, x), (z, x, y)))), 1)
 
@@ -119,9 +107,7 @@ def axis_wrong(model: ReaderModel, random: Random) -> Fault | None:
 @kind("spring-too-stiff", "timestep-too-long", harms=BURSTS)
 def spring_stiff(model: ReaderModel, random: Random) -> Fault | None:
     """A joint's spring 2 to 1,000 times as stiff as the timestep bears, without damping."""
-    if not (found := _single(model)):
-        return None
-    joint, factor = random.choice(found), between(random, 2, 1000)
+    joint, factor = pick(random, _single(model)), between(random, 2, 1000)
     mass = model.simulation.mass_diagonal[model.simulation.dof(joint)]
     made = _set(model, joint, "stiffness", text_of(factor * mass * (2 / model.simulation.timestep) ** 2), factor)
     more = _set(model, joint, "damping", "0", factor)
@@ -133,9 +119,7 @@ def spring_stiff(model: ReaderModel, random: Random) -> Fault | None:
 @kind("spring-far-off", "spring-too-stiff", harms=("strays", *BURSTS))
 def spring_pulls_away(model: ReaderModel, random: Random) -> Fault | None:
     """A joint's spring that holds it away from its start, 2 to 200 times as strong as its load."""
-    if not (found := _single(model)):
-        return None
-    joint, factor = random.choice(found), between(random, 2, 200)
+    joint, factor = pick(random, _single(model)), between(random, 2, 200)
     model.simulation.begin()
     dof = model.simulation.dof(joint)
     load = max(abs(model.simulation.data("qfrc_bias")[dof]), model.simulation.mass_diagonal[dof])
@@ -147,9 +131,7 @@ def spring_pulls_away(model: ReaderModel, random: Random) -> Fault | None:
 @kind("joint-frozen", harms=("strays", "commands"))
 def joint_frozen(model: ReaderModel, random: Random) -> Fault | None:
     """A joint with so much damping or dry friction that it hardly moves."""
-    if not (found := _single(model)):
-        return None
-    joint, factor = random.choice(found), between(random, 10, 1e5)
+    joint, factor = pick(random, _single(model)), between(random, 10, 1e5)
     mass = model.simulation.mass_diagonal[model.simulation.dof(joint)]
     attribute = random.choice(("damping", "frictionloss"))
     return _set(model, joint, attribute, text_of(10 * mass * factor), factor)
@@ -158,9 +140,7 @@ def joint_frozen(model: ReaderModel, random: Random) -> Fault | None:
 @kind("negative-damping", harms=("strays", *BURSTS))
 def damping_negative(model: ReaderModel, random: Random) -> Fault | None:
     """A joint's damping with a minus before it."""
-    if not (found := _single(model)):
-        return None
-    joint, factor = random.choice(found), between(random, 0.3, 100)
+    joint, factor = pick(random, _single(model)), between(random, 0.3, 100)
     mass = model.simulation.mass_diagonal[model.simulation.dof(joint)]
     return _set(model, joint, "damping", text_of(-factor * mass), factor)
 
@@ -170,9 +150,7 @@ def free_joint_of_a_default(model: ReaderModel, random: Random) -> Fault | None:
     """A free joint has damping, dry friction or armature, as joints have them from a default."""
     of = model.simulation
     free = [i for i in written(model, "joint") if of.joint_type(i) == FREE]
-    if not free:
-        return None
-    joint = random.choice(free)
+    joint = pick(random, free)
     element = model.element("joint", joint)
     assert element is not None
     mass = of.model("body_subtreemass")[of.body_of("joint", joint)]
@@ -189,9 +167,7 @@ def free_joint_of_a_default(model: ReaderModel, random: Random) -> Fault | None:
 def damping_under_rk4(model: ReaderModel, random: Random) -> Fault | None:
     """RK4, and a hinge or slide with 1.5 to 300 times the damping that slows it down within a step."""
     joints = _single(model)
-    if not joints:
-        return None
-    joint, share = random.choice(joints), between(random, 1.5, 300)
+    joint, share = pick(random, joints), between(random, 1.5, 300)
     damping = share * model.simulation.mass_diagonal[model.simulation.dof(joint)] / model.simulation.timestep
     fault = _set(model, joint, "damping", text_of(damping), share)
     return replace(

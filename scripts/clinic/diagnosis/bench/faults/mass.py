@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from random import Random
 
-from clinic.diagnosis.bench.faults import Fault, between, kind, text_of, written
+from clinic.diagnosis.bench.faults import Fault, between, kind, pick, text_of, written
 from clinic.diagnosis.edit import Edit, delete, insert, set_attribute
 from clinic.diagnosis.engine import FREE
 from clinic.diagnosis.probes.shape import root_of, roots
@@ -51,18 +51,14 @@ def _fault(model: ReaderModel, body: int, edits: tuple[Edit, ...], attribute: st
 @kind(*INERTIA, harms=FELT)
 def inertia_placeholder(model: ReaderModel, random: Random) -> Fault | None:
     """A body's inertia is a placeholder: 1 1 1, 0.1, 0.01, 0.001 or 1e-6 in every direction."""
-    if not (found := _bodies(model)):
-        return None
-    body, value = random.choice(found), random.choice((1.0, 0.1, 0.01, 0.001, 1e-6))
+    body, value = pick(random, _bodies(model)), random.choice((1.0, 0.1, 0.01, 0.001, 1e-6))
     return _fault(model, body, _inertial(model, body, absolute=(value, value, value)), "diaginertia", value)
 
 
 @kind(*INERTIA, harms=FELT)
 def inertia_of_another_size(model: ReaderModel, random: Random) -> Fault | None:
     """A body's inertia 3 to 1,000 times too large or too small, its mass as it was."""
-    if not (found := _bodies(model)):
-        return None
-    body, factor = random.choice(found), between(random, 3, 1000) ** random.choice((-1, 1))
+    body, factor = pick(random, _bodies(model)), between(random, 3, 1000) ** random.choice((-1, 1))
     return _fault(model, body, _inertial(model, body, moments=(factor,) * 3), "diaginertia", factor)
 
 
@@ -80,9 +76,7 @@ def inertia_not_turned(model: ReaderModel, random: Random) -> Fault | None:
     """A body's principal moments in another order."""
     inertia = {b: model.simulation.row("body_inertia", b, 3) for b in _bodies(model)}
     found = [b for b, (x, y, z) in inertia.items() if max(x, y, z) > 3 * min(x, y, z)]
-    if not found:
-        return None
-    body = random.choice(found)
+    body = pick(random, found)
     x, y, z = inertia[body]
     return _fault(model, body, _inertial(model, body, absolute=(y, z, x)), "diaginertia", 1)
 
@@ -90,9 +84,7 @@ def inertia_not_turned(model: ReaderModel, random: Random) -> Fault | None:
 @kind("centre-of-mass-outside", harms=("accelerates", "strays"))
 def centre_of_mass_displaced(model: ReaderModel, random: Random) -> Fault | None:
     """A body's centre of mass away from where its geoms are, by 0.5 to 10 of their size."""
-    if not (found := _bodies(model)):
-        return None
-    body, factor = random.choice(found), between(random, 0.5, 10)
+    body, factor = pick(random, _bodies(model)), between(random, 0.5, 10)
     simulation = model.simulation
     size = max(simulation.model("geom_rbound")[g] for g in simulation.geoms_of(body)) or 0.1
     offset = [0.0, 0.0, 0.0]
@@ -104,27 +96,21 @@ def centre_of_mass_displaced(model: ReaderModel, random: Random) -> Fault | None
 @kind("denser-than-metal", *INERTIA, harms=FELT)
 def mass_too_large(model: ReaderModel, random: Random) -> Fault | None:
     """A body's mass and inertia 30 to 10,000 times too large."""
-    if not (found := _bodies(model)):
-        return None
-    body, factor = random.choice(found), random.choice((1000.0, between(random, 30, 1e4)))
+    body, factor = pick(random, _bodies(model)), random.choice((1000.0, between(random, 30, 1e4)))
     return _fault(model, body, _inertial(model, body, mass=factor, moments=(factor,) * 3), "mass", factor)
 
 
 @kind("whole-mass", "twin-inertia-differs", "denser-than-metal", harms=FELT)
 def mass_doubled(model: ReaderModel, random: Random) -> Fault | None:
     """A body's mass and inertia 2 or 7 times too large or too small."""
-    if not (found := _bodies(model)):
-        return None
-    body, factor = random.choice(found), random.choice((0.5, 1 / 7, 2.0, 7.0))
+    body, factor = pick(random, _bodies(model)), random.choice((0.5, 1 / 7, 2.0, 7.0))
     return _fault(model, body, _inertial(model, body, mass=factor, moments=(factor,) * 3), "mass", factor)
 
 
 @kind("whole-mass", *INERTIA, harms=FELT)
 def mass_without_its_inertia(model: ReaderModel, random: Random) -> Fault | None:
     """A body's mass 3 to 1,000 times too large or too small, its inertia as it was."""
-    if not (found := _bodies(model)):
-        return None
-    body, factor = random.choice(found), between(random, 3, 1000) ** random.choice((-1, 1))
+    body, factor = pick(random, _bodies(model)), between(random, 3, 1000) ** random.choice((-1, 1))
     return _fault(model, body, _inertial(model, body, mass=factor), "mass", factor)
 
 
@@ -134,9 +120,7 @@ def mass_near_zero(model: ReaderModel, random: Random) -> Fault | None:
     simulation, parents = model.simulation, set(model.simulation.model("body_parentid"))
     collides = simulation.model("geom_contype")
     found = [b for b in _bodies(model) if b not in parents and any(collides[g] for g in simulation.geoms_of(b))]
-    if not found:
-        return None
-    body, factor = random.choice(found), between(random, 1e-10, 1e-6)
+    body, factor = pick(random, found), between(random, 1e-10, 1e-6)
     return _fault(model, body, _inertial(model, body, mass=factor, moments=(factor,) * 3), "mass", factor)
 
 
@@ -152,9 +136,7 @@ def visual_geom_with_mass(model: ReaderModel, random: Random) -> Fault | None:
                 for g in simulation.geoms_of(body)
                 if simulation.model("geom_type")[g] in (2, 3, 4, 5, 6) and simulation.model("geom_contype")[g]
             ]
-    if not found:
-        return None
-    body, geom = random.choice(found)
+    body, geom = pick(random, found)
     factor = between(random, 1, 3)
     shape = ("sphere", "capsule", "ellipsoid", "cylinder", "box")[int(simulation.model("geom_type")[geom]) - 2]
     size = [factor * each for each in simulation.row("geom_size", geom, 3)]
@@ -190,9 +172,7 @@ def geom_twice(model: ReaderModel, random: Random) -> Fault | None:
     geoms = [(b, e, g) for b, e in found if e and not e.first("inertial") for g in simulation.geoms_of(b)]
     placed = [(b, e, g, model.element("geom", g)) for b, e, g in geoms]
     copies = [(b, e, g, geom) for b, e, g, geom in placed if geom is not None and geom.empty]
-    if not copies:
-        return None
-    body, around, geom, element = random.choice(copies)
+    body, around, geom, element = pick(random, copies)
     written_ = "".join(f' {name}="{value}"' for name, value in element.attributes.items() if name != "name")
     name = simulation.name("body", body)
     own = f"geom {simulation.geoms_of(body)[-1] + 1} of {name}"
@@ -203,9 +183,7 @@ def geom_twice(model: ReaderModel, random: Random) -> Fault | None:
 def freejoint_removed(model: ReaderModel, random: Random) -> Fault | None:
     """A body without the free joint that it had, so that it hangs in the air."""
     free = [j for j in written(model, "joint") if model.simulation.joint_type(j) == 0]
-    if not free:
-        return None
-    joint = random.choice(free)
+    joint = pick(random, free)
     element = model.element("joint", joint)
     assert element is not None
     body = model.simulation.body_of("joint", joint)
@@ -219,9 +197,7 @@ def joint_removed(model: ReaderModel, random: Random) -> Fault | None:
     used = {value for each in model.source.root.walk() for name, value in each.attributes.items() if name != "name"}
     joints = [j for j in written(model, "joint") if model.simulation.joint_type(j) > 1]
     joints = [j for j in joints if model.simulation.engine.name("joint", j) not in used]
-    if not joints:
-        return None
-    joint = random.choice(joints)
+    joint = pick(random, joints)
     element = model.element("joint", joint)
     assert element is not None
     body = model.simulation.name("body", model.simulation.body_of("joint", joint))
@@ -242,9 +218,7 @@ def gravity_compensated_in_part(model: ReaderModel, random: Random) -> Fault | N
     simulation, owner, masses = model.simulation, root_of(model.simulation), model.simulation.model("body_mass")
     fixed = [r for r in roots(simulation) if all(simulation.joint_type(j) != FREE for j in simulation.joints_of(r))]
     arms = [[b for b in written(model, "body") if owner[b] == root and masses[b] > 0] for root in fixed]
-    if not (arms := [arm for arm in arms if len(arm) > 1]):
-        return None
-    arm = random.choice(arms)
+    arm = pick(random, [arm for arm in arms if len(arm) > 1])
     bare = random.choice(arm[:-1])
     edits = tuple(edit for b in arm if b != bare for edit in model.set("body", [b], "gravcomp", "1"))
     return Fault(edits, (simulation.name("body", bare),), "gravcomp")
@@ -255,9 +229,7 @@ def geom_too_dense(model: ReaderModel, random: Random) -> Fault | None:
     """A geom of 30,000 to 1,000,000 kg/m3, where gold has 19,300."""
     found = [g for b in _bodies(model) for g in model.simulation.geoms_of(b) if model.value("geom", g, "mass") is None]
     found = [g for g in found if model.element("geom", g) is not None]
-    if not found:
-        return None
-    geom, density = random.choice(found), between(random, 3e4, 1e6)
+    geom, density = pick(random, found), between(random, 3e4, 1e6)
     element = model.element("geom", geom)
     assert element is not None
     body = model.simulation.name("body", model.simulation.body_of("geom", geom))
@@ -269,7 +241,5 @@ def geom_too_dense(model: ReaderModel, random: Random) -> Fault | None:
 def mesh_in_millimetres(model: ReaderModel, random: Random) -> Fault | None:
     """A mesh that stands in millimetres, without its `scale`."""
     meshes = [mesh for mesh in mesh_sizes(model.simulation) if any(scaled(model, mesh, 1000.0))]
-    if not meshes:
-        return None
-    mesh = random.choice(meshes)
+    mesh = pick(random, meshes)
     return Fault(tuple(scaled(model, mesh, 1000.0)), (model.simulation.name("mesh", mesh),), "scale", 1000.0)

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace as replace_
 from random import Random
 
-from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, text_of, written
+from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, pick, text_of, written
 from clinic.diagnosis.edit import Edit, remove_attribute, replace, set_attribute
 from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.reader_model import ReaderModel
@@ -109,9 +109,7 @@ def _own(model: ReaderModel, random: Random, attribute: str, of_stiffness: float
     found = [(i, model.simulation.driven_joint(i)) for i in _servos(model)]
     joints = [(i, joint, model.element("joint", joint)) for i, joint in found if joint is not None]
     joints = [each for each in joints if each[2] is not None]
-    if not joints:
-        return None
-    i, _, element = random.choice(joints)
+    i, _, element = pick(random, joints)
     assert element is not None
     gear = model.simulation.gear(i) or 1.0
     value = of_stiffness * _gain(model, i) * gear**2
@@ -153,9 +151,7 @@ def force_range_small(model: ReaderModel, random: Random) -> Fault | None:
         load = abs(loads[model.simulation.dof(model.simulation.driven_joint(i) or 0)])
         if load > 1e-3:
             found.append((i, load))
-    if not found:
-        return None
-    i, load = random.choice(found)
+    i, load = pick(random, found)
     share = between(random, 0.02, 0.8)
     gear = abs(model.simulation.gear(i)) or 1.0
     limit = share * load / gear
@@ -170,9 +166,7 @@ def force_range_small(model: ReaderModel, random: Random) -> Fault | None:
 
 def _control_range(model: ReaderModel, random: Random, low: float, high: float) -> Fault | None:
     """The control range of a servo times a factor."""
-    if not (found := _servos(model)):
-        return None
-    i, factor = random.choice(found), between(random, low, high)
+    i, factor = pick(random, _servos(model)), between(random, low, high)
     return _controlled(model, i, [factor * end for end in model.simulation.row("actuator_ctrlrange", i, 2)], factor)
 
 
@@ -222,9 +216,7 @@ def control_range_of_one(model: ReaderModel, random: Random) -> Fault | None:
 @kind("gear-divides-target", harms=("misses", *GOES), servos=True)
 def gear_of_a_servo(model: ReaderModel, random: Random) -> Fault | None:
     """A gear of 3 to 300 on a position servo, which divides its target."""
-    if not (found := _servos(model)):
-        return None
-    i, factor = random.choice(found), between(random, 3, 300)
+    i, factor = pick(random, _servos(model)), between(random, 3, 300)
     element = model.element("actuator", i)
     assert element is not None
     return Fault((set_attribute(element, "gear", text_of(factor)),), _names(model, i), "gear", factor)
@@ -237,9 +229,7 @@ def gear_of_a_motor(model: ReaderModel, random: Random) -> Fault | None:
     found = [
         i for i in written(model, "actuator") if simulation.driven_joint(i) is not None and i not in _servos(model)
     ]
-    if not found:
-        return None
-    i, factor = random.choice(found), random.choice((-1.0, between(random, 0.02, 0.5), between(random, 2, 50)))
+    i, factor = pick(random, found), random.choice((-1.0, between(random, 0.02, 0.5), between(random, 2, 50)))
     element = model.element("actuator", i)
     assert element is not None
     gear = simulation.gear(i) * factor

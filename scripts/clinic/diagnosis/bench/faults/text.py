@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from random import Random
 
-from clinic.diagnosis.bench.faults import DOES_NOT_COMPILE, Fault, between, kind, text_of, written
+from clinic.diagnosis.bench.faults import DOES_NOT_COMPILE, Fault, between, kind, pick, text_of, written
 from clinic.diagnosis.edit import delete, insert, remove_attribute, replace, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.source import Element
@@ -37,9 +37,7 @@ def attribute_misspelt(model: ReaderModel, random: Random) -> Fault | None:
     """An attribute with two letters swapped, one doubled or one left out."""
     found = [(e, name) for e in _elements(model, "geom", "joint", "body", "motor", "position") for name in e.attributes]
     found = [(element, name) for element, name in found if len(name) > 3 and name != "class"]
-    if not found:
-        return None
-    element, name = random.choice(found)
+    element, name = pick(random, found)
     at = random.randrange(1, len(name) - 1)
     swapped = name[:at] + name[at + 1] + name[at] + name[at + 2 :]
     wrong = random.choice((swapped, name[:at] + name[at] + name[at:], name[:at] + name[at + 1 :]))
@@ -53,9 +51,7 @@ def element_misspelt(model: ReaderModel, random: Random) -> Fault | None:
     """An element's name misspelt, or another format's."""
     other = {"geom": "geometry", "joint": "hinge", "site": "sites", "motor": "moter", "camera": "cam", "light": "lamp"}
     found = [element for element in _elements(model, *other) if element.empty]
-    if not found:
-        return None
-    element = random.choice(found)
+    element = pick(random, found)
     wrong = other[element.tag]
     xml = model.text_of(element).replace(f"<{element.tag}", f"<{wrong}", 1)
     return Fault((replace(element, xml),), (), wrong)
@@ -75,9 +71,7 @@ def element_in_the_wrong_place(model: ReaderModel, random: Random) -> Fault | No
 def file_missing(model: ReaderModel, random: Random) -> Fault | None:
     """A mesh, texture or height field that is not where the text says."""
     found = [element for element in _elements(model, "mesh", "texture", "hfield") if element.get("file")]
-    if not found:
-        return None
-    element = random.choice(found)
+    element = pick(random, found)
     old = element.get("file")
     stem, dot, ending = old.rpartition(".")
     new = random.choice((f"meshes/nowhere/{old}", f"{stem}_v2{dot}{ending}", f"{stem.upper()}{dot}{ending}"))
@@ -103,9 +97,7 @@ def number_malformed(model: ReaderModel, random: Random) -> Fault | None:
     """A number with a second point, a comma, a unit or a letter."""
     attributes = ("pos", "size", "axis", "mass", "range", "damping")
     found = [(e, n) for e in _elements(model, "geom", "joint", "body", "inertial") for n in attributes if e.get(n)]
-    if not found:
-        return None
-    element, name = random.choice(found)
+    element, name = pick(random, found)
     words = element.get(name).split()
     at = random.randrange(len(words))
     words[at] = random.choice(("0..1", "0.1.2", "1,0", "0.1m", "O.1", "1e", "--1"))
@@ -116,9 +108,7 @@ def number_malformed(model: ReaderModel, random: Random) -> Fault | None:
 def tag_not_closed(model: ReaderModel, random: Random) -> Fault | None:
     """An element that is not closed, or a quotation mark that is missing."""
     found = [element for element in _elements(model, "geom", "joint") if element.empty and element.attributes]
-    if not found:
-        return None
-    element = random.choice(found)
+    element = pick(random, found)
     xml = model.text_of(element)
     wrong = xml[: xml.rindex("/")] + ">" if random.random() < 0.5 else xml.replace('"', "", 1)
     return Fault((replace(element, wrong),), (), "")
@@ -132,9 +122,7 @@ def name_unknown(model: ReaderModel, random: Random) -> Fault | None:
         for tag in ("actuator", "sensor", "contact", "equality"):
             assert model.source is not None
             found += [(element, name) for element in model.source.section(tag) if element.get(name)]
-    if not found:
-        return None
-    element, name = random.choice(found)
+    element, name = pick(random, found)
     old = element.get(name)
     return Fault(
         (
@@ -155,9 +143,7 @@ def body_without_mass(model: ReaderModel, random: Random) -> Fault | None:
     simulation = model.simulation
     leaves = set(written(model, "body")) - {int(parent) for parent in simulation.model("body_parentid")}
     bodies = [b for b in simulation.moving_bodies if b in leaves and simulation.joints_of(b)]
-    if not bodies:
-        return None
-    element = model.element("body", random.choice(bodies))
+    element = model.element("body", pick(random, bodies))
     assert element is not None
     gone = [each for each in element.children if each.tag in ("geom", "inertial")]
     return Fault(tuple(delete(each) for each in gone), (), "mass") if gone else None
@@ -167,9 +153,7 @@ def body_without_mass(model: ReaderModel, random: Random) -> Fault | None:
 def value_invalid(model: ReaderModel, random: Random) -> Fault | None:
     """A size or an axis of zero, a type that MuJoCo does not know."""
     found = [(e, n) for e in _elements(model, "geom", "joint") for n in ("size", "axis", "type") if e.get(n)]
-    if not found:
-        return None
-    element, name = random.choice(found)
+    element, name = pick(random, found)
     words = element.get(name).split()
     value = words[0][0] + words[0] if name == "type" else " ".join("0" for _ in words)
     return Fault((set_attribute(element, name, value),), (), name)
@@ -180,9 +164,7 @@ def inertia_impossible(model: ReaderModel, random: Random) -> Fault | None:
     """A body's inertia with a negative moment, or with one above the sum of the others by 1.2 to 1,000 times."""
     simulation = model.simulation
     bodies = [b for b in written(model, "body") if b and simulation.model("body_mass")[b] > 0]
-    if not bodies:
-        return None
-    body = random.choice(bodies)
+    body = pick(random, bodies)
     moments = list(simulation.row("body_inertia", body, 3))
     at = random.randrange(3)
     largest = (sum(moments) - moments[at]) * between(random, 1.2, 1000)

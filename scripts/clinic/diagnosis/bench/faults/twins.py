@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from random import Random
 
-from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, text_of, written
+from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, pick, text_of, written
 from clinic.diagnosis.edit import set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 
@@ -82,9 +82,7 @@ def twin_axis(model: ReaderModel, random: Random) -> Fault | None:
 def twin_range(model: ReaderModel, random: Random) -> Fault | None:
     """One of a pair of joints with its range mirrored, or another."""
     pairs = _pairs(model, "joint", "range")
-    if not pairs:
-        return None
-    pair = random.choice(pairs)
+    pair = pick(random, pairs)
     i = random.choice(pair)
     low, high = numbers(model.value("joint", i, "range"))[:2]
     element = model.element("joint", i)
@@ -135,9 +133,7 @@ def twin_size(model: ReaderModel, random: Random) -> Fault | None:
 def twin_mass(model: ReaderModel, random: Random) -> Fault | None:
     """One of a pair of geoms with 0.1 to 10 times its mass."""
     pairs = _pairs(model, "geom", "")
-    if not pairs:
-        return None
-    pair = random.choice(pairs)
+    pair = pick(random, pairs)
     i, factor = random.choice(pair), between(random, 1.3, 10) ** random.choice((-1, 1))
     mass = model.simulation.model("body_mass")[model.simulation.body_of("geom", i)]
     element = model.element("geom", i)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from random import Random
 
-from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, text_of, written
+from clinic.diagnosis.bench.faults import Fault, between, kind, numbers, pick, text_of, written
 from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.source import ORIENTATIONS, Element
@@ -16,9 +16,7 @@ def touch_site_small(model: ReaderModel, random: Random) -> Fault | None:
     kinds, of = model.simulation.model("sensor_type"), model.simulation.model("sensor_objid")
     touched = {int(of[i]) for i, each in enumerate(kinds) if each == 0}
     sites = sorted(touched.intersection(written(model, "site", "size")))
-    if not sites:
-        return None
-    site, factor = random.choice(sites), between(random, 0.01, 0.5)
+    site, factor = pick(random, sites), between(random, 0.01, 0.5)
     element = model.element("site", site)
     assert element is not None
     size = text_of(*(factor * each for each in numbers(model.value("site", site, "size"))))

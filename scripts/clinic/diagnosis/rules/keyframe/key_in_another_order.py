@@ -74,7 +74,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             element.get("qpos"),
             written(qpos),
             (set_attribute(element, "qpos", written(qpos)),),
-            astray(key, qpos),
+            astray(key, tuple(qpos)),
             0.5,
             "Four of its numbers are read as a quaternion and are none; in another order of the joints they are.",
             "the order of the joints in the model; a quaternion has length 1",

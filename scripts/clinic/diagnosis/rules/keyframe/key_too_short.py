@@ -77,7 +77,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"{len(values)} numbers",
             f"{len(start)} numbers",
             (set_attribute(element, "qpos", written(qpos)),),
-            astray(key, qpos),
+            astray(key, tuple(qpos)),
             0.5,
             f"It has {len(values)} of {len(start)} numbers: {of.name('joint', 0)}, free, takes the first.",
             "as many numbers as nq",

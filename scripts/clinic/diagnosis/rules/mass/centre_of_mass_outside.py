@@ -66,7 +66,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         says = f"{each.mass:.3g} kg lie {each.outside:.3g} m outside of the box around its geoms; with the other sign "
         says += "inside."
         name = (of.name("body", body),)
-        yield Suspect(name, "inertial", now, value, edits, centre_outside((body,)), LITTLE, says, "inside")
+        yield Suspect(name, "inertial", now, value, edits, centre_outside(body), LITTLE, says, "inside")
     for body, each in found:
         if any(body == other for other, *_ in turned):
             continue
@@ -77,7 +77,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"pos {written(each.centre)}",
             f"pos {written(centre)}",
             set_inertial(model, body, each.mass, centre, each.about),
-            centre_outside((body,)),
+            centre_outside(body),
             LIMIT,
             f"{each.mass:.3g} kg lie {each.outside:.3g} m outside of the box around its geoms.",
             "inside, as in 95 % of 1475 bodies of healthy models",
@@ -95,7 +95,7 @@ def _slipped(model: ReaderModel) -> Iterator[Suspect]:
             now, value = f"pos {written(found.centre)}", f"pos {written(centre)}"
             edits = set_inertial(model, body, found.mass, centre, found.about)
             says = f"{found.mass:.3g} kg lie {found.outside:.3g} m outside of the box around its geoms."
-            name, probe = (of.name("body", body),), centre_outside((body,))
+            name, probe = (of.name("body", body),), centre_outside(body)
             yield Suspect(name, "inertial", now, value, edits, probe, LIMIT, says, "inside", level="hint")
 
 

@@ -73,7 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "",
             f"without {of.name('geom', geom)}",
             edits,
-            mass_of((body,)),
+            mass_of(body),
             MORE * rest if edits else 0.0,
             f"It has the type, the size and the place of {of.name('geom', first)}.",
             "one geom in one place",

@@ -68,7 +68,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "1000 (default)",
             "that of the object",
             (),
-            mass_of((worst,)),
+            mass_of(worst),
             limit,
             f"{of.name('body', worst)} weighs {rounded(masses[worst])} kg: nothing says its mass, and the default is "
             f"that of water.{beside}",

@@ -93,7 +93,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "quat " + (model.value("body", next(iter(wheels)), "quat") or "left out"),
             "axes of the geoms",
             tuple(edit for _, edits in wheels.values() for edit in edits),
-            flat(tuple(wheels)),
+            flat(*wheels),
             OFF,
             f"Its geoms are flat: their inertia about their own axis is {geoms:.3g} of the mean, its own {own:.2g}.",
             "a disk has 1.5, a wheel as wide as its radius 1.2",

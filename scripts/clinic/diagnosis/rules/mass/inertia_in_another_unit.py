@@ -77,7 +77,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         f"10^{power} times",
         f"1e{-power} times as much",
         edits,
-        joint_inertia(tuple(body for body, _ in alike)),
+        joint_inertia(*(body for body, _ in alike)),
         LIMIT,
         f"{len(alike)} of {len(found)} bodies have about 10^{middle:.1f} times the inertia of their geoms{unit}.",
         "kg m2",

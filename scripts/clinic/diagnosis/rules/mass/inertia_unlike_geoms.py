@@ -70,14 +70,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         worst = max((found[body] for body in bodies), key=lambda each: max(each.radius, 1 / each.radius))
         if not placeholder and (FAR[0] < worst.radius < FAR[1] or unusual > max(1, FEW * len(found))):
             continue
-        probe, limit = joint_inertia(tuple(bodies)), 2 * LIMIT
+        probe, limit = joint_inertia(*bodies), 2 * LIMIT
         if placeholder:
             limit = ALIKE if len(bodies) > 1 else LIMIT
             if max(worst.radius, 1 / worst.radius) > ABSURD:
                 limit = FELT
             point = all(found[body].radius < POINT for body in bodies)
             if found[bodies[0]].absurd and (point or LITTLE < model.measured(probe) <= limit):
-                probe, limit = gyration(tuple(bodies)), ABSURD
+                probe, limit = gyration(*bodies), ABSURD
         edits = tuple(
             edit
             for body in bodies

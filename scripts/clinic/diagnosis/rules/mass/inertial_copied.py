@@ -85,7 +85,7 @@ def _told(model: ReaderModel, body: int, copies: list[int], more: str = "") -> S
     first, mass = of.name("body", body), of.model("body_mass")[body]
     says = f"Mass{more} and principal inertia are those of {first}, {mass:.4g} kg, to four digits."
     told, at = tuple(of.name("body", each) for each in copies), model.element("body", copies[0])
-    healthy, probe = "each link its own", mass_of(tuple(copies))
+    healthy, probe = "each link its own", mass_of(*copies)
     return Suspect((*told, first), "inertial", f"{mass:.4g} kg", "its own", (), probe, 0.0, says, healthy, at=at)
 
 

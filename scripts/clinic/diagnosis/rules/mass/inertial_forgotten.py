@@ -96,7 +96,7 @@ def _jointed(model: ReaderModel) -> Iterator[Suspect]:
             mass = of.model("body_mass")[body]
             says = f"{others} others have an <inertial>; its {mass:.3g} kg are those of its geoms."
             names = (of.name("body", body),)
-            yield Suspect(names, "inertial", "left out", "", (), mass_of((body,)), 0.0, says, "its own <inertial>")
+            yield Suspect(names, "inertial", "left out", "", (), mass_of(body), 0.0, says, "its own <inertial>")
 
 
 def _by_class(model: ReaderModel, body: int) -> set[str]:
@@ -132,7 +132,7 @@ def _fixed(model: ReaderModel) -> Iterator[Suspect]:
             "1000 (default)",
             "0",
             tuple(edit for body in found for edit in model.set("geom", of.geoms_of(body), "density", "0")),
-            mass_of(tuple(found)),
+            mass_of(*found),
             MORE * masses[first],
             f"{holder} states its mass; what is fixed to it adds {mass:.3g} kg by the default density of its geoms.",
             'density="0", where the link\'s <inertial> has all of its mass',

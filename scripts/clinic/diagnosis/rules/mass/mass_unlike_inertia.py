@@ -81,7 +81,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"{each.mass:.4g}",
             rounded(meant),
             set_inertial(model, body, meant, each.centre, each.about),
-            mass_of((body,)),
+            mass_of(body),
             each.mass / TIMES,
             f"Its inertia is that of {meant:.2g} kg in its geoms, {usual:.3g} kg/m3 as in the other links; it has "
             f"{each.mass:.4g} kg.",

@@ -83,7 +83,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "left out",
             "0",
             edits,
-            mass_of(bodies),
+            mass_of(*bodies),
             MORE * rest,
             f"Geoms that touch nothing add {now - rest:.3g} kg to the {rest:.3g} kg of those that collide.",
             'mass="0" for geoms that are only seen',

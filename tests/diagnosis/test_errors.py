@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from clinic.diagnosis.diagnose import examine
 from clinic.diagnosis.native import NativeEngine
+from clinic.engine.mjcf import SINCE
 from clinic.pages.messages import load_messages
 from diagnosed import FILE, causes, diagnosed, mended
 
@@ -229,3 +230,15 @@ def test_a_joint_that_a_class_limits_without_a_range_is_kept():
     text = ARM.format("<default><joint limited='true'/></default>", "", "")
     (cause, *_) = causes(text)
     assert (cause.attribute, cause.value) == ("limited", "false")
+
+
+@pytest.mark.parametrize(
+    ("names", "text"), [("flag.glitter", '<option><flag glitter="enable"/></option>'), ("glitter", "<glitter/>")]
+)
+def test_what_a_newer_release_reads_is_no_mistake(names, text, monkeypatch):
+    monkeypatch.setitem(SINCE, "9.0", [names])
+    found = diagnosed(f'<mujoco>{text}<worldbody><geom size="0.1"/></worldbody></mujoco>')
+    (hint,) = found.hints
+    assert not found.causes
+    assert not hint.edit
+    assert "does not know `glitter`; MuJoCo 9.0 does." in hint.says

@@ -64,7 +64,8 @@ def diagnosis_files(root: Path, cache: Cache) -> Files:
     package = Path(__file__).parents[1]
     bench = package / "diagnosis" / "bench"
     every = [path for kind in ("py", "toml") for path in sorted((package / "diagnosis").rglob(f"*.{kind}"))]
-    rules = [path for path in every if not path.is_relative_to(bench)]
+    needed = [package / "engine" / name for name in ("__init__.py", "mjcf.py", "since.json")]
+    rules = [*(path for path in every if not path.is_relative_to(bench)), *needed]
     files = {f"clinic/{path.relative_to(package).as_posix()}": path.read_bytes() for path in rules}
     made |= {"clinic.zip": _zip({"clinic/__init__.py": (package / "__init__.py").read_bytes(), **files})}
     return {f"{DIAGNOSIS}/{name}": content for name, content in made.items()}

@@ -11,6 +11,7 @@ from clinic.diagnosis.probes.compiled import COMPILES
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect
+from clinic.engine.mjcf import newer_release
 
 SECTIONS = {"sensor", "actuator", "tendon", "equality"}
 SPOKEN = re.compile(r"([A-Za-z]+)_?(\d+)")
@@ -89,6 +90,13 @@ def mends(
 ) -> Suspect:
     """A suspect whose edits make the text compile."""
     return Suspect((told(element),), attribute, now, value, tuple(edits), COMPILES, 0.0, says)
+
+
+def newer(model: ReaderModel, element: Element) -> Suspect | None:
+    """That a newer MuJoCo knows what this one does not: nothing is wrong with the model then."""
+    said = newer_release(model.error, model.engine.version)
+    says = f"{said} Leave it out to have the rest looked at with this one."
+    return Suspect((told(element),), "", "", "", (), COMPILES, 0.0, says, level="hint", at=element) if said else None
 
 
 def nearest(word: str, known: Iterable[str]) -> list[str]:

@@ -34,7 +34,7 @@ from clinic.diagnosis.edit import Edit, remove_attribute, set_attribute
 from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._converted import converted
-from clinic.diagnosis.rules.errors._message import meant, mends, nearest, sentence
+from clinic.diagnosis.rules.errors._message import meant, mends, nearest, newer, sentence
 from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect
 
@@ -82,6 +82,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for element in meant(model):
         if attribute not in element.attributes:
             continue
+        if (hint := newer(model, element)) is not None:
+            yield hint
+            return
         now = element.get(attribute)
         for edits, value, why in converted(model, element, attribute):
             made = model.with_edits(edits)

@@ -33,7 +33,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, delete, insert, replace
 from clinic.diagnosis.reader_model import ReaderModel
-from clinic.diagnosis.rules.errors._message import meant, mends, nearest, sentence
+from clinic.diagnosis.rules.errors._message import meant, mends, nearest, newer, sentence
 from clinic.diagnosis.source import Element
 from clinic.diagnosis.suspect import Suspect
 
@@ -73,6 +73,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not re.match(r"(?:Schema violation: )?unrecognized element", sentence(model)):
         return
     for element in meant(model):
+        if (hint := newer(model, element)) is not None:
+            yield hint
+            return
         *tries, gone = _tries(model, element)
         for edits, value in [*tries, *_together(model, element), gone]:
             if not _refused(model, edits, element, value):

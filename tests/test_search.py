@@ -232,8 +232,17 @@ def test_what_is_not_covered_is_told_so(ask: Ask) -> None:
 
 def test_a_sentence_that_is_not_covered_is_asked_for_its_likeliest_symptom_first(page: Page, served: str) -> None:
     page.goto(served)
-    page.locator(".search input").first.fill("my hexapod's tibia keeps wobbling to and fro on the sandbox terrain")
-    expect(page.locator(".search-results p a").first).to_have_attribute("href", re.compile("symptoms/oscillates.html"))
+    page.locator(".search input").first.fill("my excavator's bucket chatters and slips on gravel")
+    links = page.locator(".search-results p a")
+    expect(links.first).to_have_attribute("href", re.compile("symptoms/oscillates.html"))
+    expect(links.nth(1)).to_have_attribute("href", re.compile("symptoms/slips.html"))
+
+
+def test_a_symptom_is_enough_whatever_robot_has_it(ask: Ask) -> None:
+    told = {"quadruped explodes": "explodes", "go2 unstable": "explodes", "my hexapod's tibia wobbles": "oscillates"}
+    for (query, family), answer in zip(told.items(), ask(list(told)), strict=True):
+        assert answer["covered"], query
+        assert any(f"symptoms/{family}.html" in link for link in answer["links"]), answer["links"]
 
 
 def test_nothing_is_fetched_before_the_first_letter(page: Page, served: str) -> None:

@@ -23,12 +23,14 @@ export default class {
     const { mujoco, model, rate, steps } = this;
     const data = new mujoco.MjData(model);
     mujoco.mj_resetDataKeyframe(model, data, 0);
-    let [images, bounce, step] = [0, null, 0];
+    let [images, bounce, seen, step] = [0, null, Infinity, 0];
     while (data.time < DURATION) {
       mujoco.mj_step(model, data);
       step += 1;
-      if (step % steps === 0) images += 1;
-      if (bounce === null && data.qvel[0] > 0) bounce = step / steps / rate;
+      if (step % steps !== 0) continue;
+      const height = data.qpos[0];
+      if (bounce === null && height > seen) bounce = (images - 1) / rate;
+      [images, seen] = [images + 1, height];
     }
     const [length, pace] = [step / steps / rate, (data.time * steps * rate) / step];
     data.delete();

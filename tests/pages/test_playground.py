@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 from clinic.engine.node import executable as node
@@ -17,7 +18,8 @@ def test_the_file_holds_what_the_browser_needs(tmp_path: Path) -> None:
     spin = ("  contacts: {path: ncon}\n", "  contacts: {path: ncon}\n  spin: {path: 'cvel[1][2]', unit: rad/s}\n")
     case = tiny_case(tmp_path, spin, ("picture: {camera: side}", "picture: {camera: side}\nwarnings: [BADQACC]"))
 
-    made = json.loads(playground(case, [case]))
+    other = replace(case, slug="another-box")
+    made = json.loads(playground(case, [case, other]))
 
     assert made["text"] == case.text
     assert made["signals"]["spin"] == {
@@ -31,7 +33,7 @@ def test_the_file_holds_what_the_browser_needs(tmp_path: Path) -> None:
     assert not made["signals"]["contacts"]["seen"]
     assert made["checks"]["fixed"] == [{"signal": "height", "take": "final", "between": [0.045, 0.051]}]
     assert made["explained"] == {
-        "BADQACC": [{"href": "../falling-box/index.html", "title": "1. A box falls through the floor"}]
+        "BADQACC": [{"href": "../another-box/index.html", "title": "1. A box falls through the floor"}]
     }
     symptom, measure, found = made["hints"]
     assert "contacts" not in symptom["text"]

@@ -21,6 +21,7 @@ const TOGETHER = 1; // by which the weight grows of what has all that is asked f
 const LIKE = 0.5; // a synonym's weight
 const WORTH = 0.1; // of the best one's score, for what is shown at all
 const COVERED = 0.42; // of what the words of a query weigh
+const SURE = 0.98; // how likely a symptom is that is spoken of, whatever else a query names
 
 /**
  * @param {{documents: Document[], synonyms: string[][], families: import("./families.js").Weights}} index
@@ -71,6 +72,6 @@ export function searcher({ documents, synonyms, families: weights }, answers = {
     const found = worth.map(({ id }) => texts[id]);
     const shown = found.findIndex(({ at }) => at === found[0].case);
     if (shown > 1 && pasted(worth[0].id)) found.splice(1, 0, ...found.splice(shown, 1)); // what is about the message, right after it
-    return { found, covered: Math.max(0, ...best) >= COVERED, families };
+    return { found, covered: Math.max(0, ...best) >= COVERED || Math.max(0, ...families.values()) >= SURE, families };
   };
 }

@@ -6,6 +6,7 @@ import { stem, stems, words } from "./words.js";
 /** @typedef {import("./index.js").Document} Document */
 
 const MOST = 12; // results
+const LIKELY = 3; // symptoms that may be meant
 /** @type {Record<string, string>} */
 const NAMES = { case: "Case", symptom: "Symptom", message: "MuJoCo says", rule: "Rule", page: "Page" };
 
@@ -21,7 +22,7 @@ export function show(place, query, { found, covered, families }, { site, symptom
   if (covered) status.textContent = `${found.length} found`;
   else status.append("Nothing here is about ", element("em", {}, query), " yet.");
   const parts = [status];
-  if (!covered) parts.push(elsewhere(site, likeliest(symptoms, families), report));
+  if (!covered) parts.push(elsewhere(site, likeliest(symptoms, families).slice(0, LIKELY), report));
   if (!covered && shown.length) parts.push(element("p", {}, "Nearest, and perhaps not it:"));
   const asked = new Set(stems(query));
   parts.push(element("ol", {}, ...shown.slice(0, covered ? MOST : 3).map((document) => item(document, site, asked))));
@@ -42,7 +43,8 @@ const likeliest = (symptoms, families) => [...symptoms].sort((one, other) => (fa
 /** @param {string} site @param {Document[]} symptoms @param {string} [report] */
 function elsewhere(site, symptoms, report) {
   const links = symptoms.flatMap(({ at, title }) => [element("a", { href: new URL(at, site).href }, title), " · "]).slice(0, -1);
-  const box = element("p", {}, "What do you see? ", ...links, ".");
+  const all = element("a", { href: new URL("symptoms.html", site).href }, "another symptom");
+  const box = element("p", {}, "What do you see? ", ...links, " · ", all, ".");
   if (report) box.append(" Missing a case? ", element("a", { href: report }, "Tell us"), ".");
   return box;
 }

@@ -70,7 +70,7 @@ def playground(case: Case, cases: Iterable[Case], evidence: Evidence | None = No
         "speed": record.filmed.speed if record.filmed else 1.0,
         "telling": record.filmed.overlays if record.filmed else [],
         "hints": _hints(case),
-        "explained": _explained(cases),
+        "explained": _explained(other for other in cases if other.slug != case.slug),
     }
     return (json.dumps(made, ensure_ascii=False, allow_nan=False) + "\n").encode()
 

@@ -69,8 +69,10 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             damping, share = explicit_damping(of)[dof], shares[dof]
             _, damps, mass = COEFFICIENTS[of.unit(of.dof_joints[dof])]
             inertia = f"{of.timestep * damping / share:.2g} {mass}"
-            says = f"At {name}: explicit damping {damping:.3g} {damps} on an inertia of {inertia}; "
-            says += f"timestep x damping / inertia is {share:.3g}."
+            says = (
+                f"At {name}: explicit damping {damping:.3g} {damps} on an inertia of {inertia}, with the joints around "
+            )
+            says += f"it free; timestep x damping / inertia is {share:.3g}."
             well = f"timestep x damping / inertia < {BEARS[integrator]:g}"
             now = "RK4" if integrator else "Euler" if damping_is_implicit(of) else "Euler without eulerdamp"
             yield Suspect(

@@ -99,6 +99,11 @@ class Simulation:
         return math.hypot(*self.model("opt.gravity"))
 
     @property
+    def in_fluid(self) -> bool:
+        """Whether the medium has a density or a viscosity."""
+        return any(self.model(f"opt.{what}")[0] for what in ("density", "viscosity"))
+
+    @property
     def extent(self) -> float:
         """What MuJoCo takes for the size of the model, or somebody wrote, in m."""
         return self.model("stat.extent")[0]

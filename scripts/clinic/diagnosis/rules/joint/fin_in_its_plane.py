@@ -75,8 +75,7 @@ def _fins(of: Simulation) -> list[int]:
     """The hinges with a range that alone move bodies whose wet geoms all are flat along their axes."""
     hinges = [joint for joint in of.ranges if of.joint_type(joint) == HINGE]
     alone = [joint for joint in hinges if of.joints_of(of.body_of("joint", joint)) == [joint]]
-    medium = any(of.model(f"opt.{what}")[0] for what in ("density", "viscosity"))
-    return [joint for joint in alone if medium and _flat(of, joint)]
+    return [joint for joint in alone if of.in_fluid and _flat(of, joint)]
 
 
 def _wet(of: Simulation, body: int) -> list[int]:

@@ -86,7 +86,7 @@ def _undamped(of: Simulation) -> dict[int, float]:
     tied = {joint for each in fixed for joint, _ in each}
     tied |= {joint for _, coupling in couplings(of) for joint in coupling[:2]}
     loops = any(int(kind) != COUPLED for kind in of.model("eq_type")) or not all(fixed)
-    if loops or any(of.model(f"opt.{air}")[0] > 0 for air in ("density", "viscosity")):
+    if loops or of.in_fluid:
         return {}
     springs = of.model("jnt_stiffness")
     found = [each for each in of.scalar_joints if springs[each] > 0 and each not in tied]

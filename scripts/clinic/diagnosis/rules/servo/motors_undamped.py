@@ -112,9 +112,8 @@ def _bare(of: Simulation) -> list[int]:
     fields = ("dof_damping", "dof_armature", "dof_frictionloss")
     held = any(of.model(field)[of.dof(joint)] for joint in hinges for field in fields)
     motors = all(of.actuator_types(each)[:2] == (0, 0) for each in actuators)
-    fluid = _in_fluid(of)
     ranged = [joint for joint in hinges if joint in of.ranges]  # a rotor turns round, as a wheel does
-    return [] if held or not motors or fluid or len(ranged) < len(hinges) else hinges
+    return [] if held or not motors or of.in_fluid or len(ranged) < len(hinges) else hinges
 
 
 def _loose(of: Simulation) -> list[int]:
@@ -122,8 +121,4 @@ def _loose(of: Simulation) -> list[int]:
     fields = [of.model(field) for field in ("dof_damping", "dof_frictionloss")]
     served = {of.driven_joint(each) for each in range(of.count("actuator")) if not of.is_motor(each)}
     free = [each for each in of.scalar_joints if each not in served]
-    return [] if _in_fluid(of) else [each for each in free if not any(field[of.dof(each)] for field in fields)]
-
-
-def _in_fluid(of: Simulation) -> bool:
-    return any(of.model(f"opt.{what}")[0] for what in ("density", "viscosity"))
+    return [] if of.in_fluid else [each for each in free if not any(field[of.dof(each)] for field in fields)]

@@ -135,7 +135,7 @@ def _read(of: Simulation, attribute: str, each: int) -> bool:
         case "fluidcoef":
             return bool(of.model("geom_fluid")[FLUID * each])
         case _:
-            return any(of.model(f"opt.{what}")[0] for what in ("density", "viscosity"))
+            return of.in_fluid
 
 
 def _untouched(model: ReaderModel, geom: int) -> bool:

@@ -6,19 +6,20 @@ and lets the thing creep or sink, and it hides what is wrong with the grasp.
 Bad:
 
     <mujoco>
+      <option cone="elliptic"/>
       <worldbody>
         <geom type="plane" size="1 1 0.1"/>
         <body pos="0 0 0.1">
           <freejoint/>
-          <geom name="box" type="box" size="0.1 0.1 0.1" friction="1000 1000 1000"/>
+          <geom name="box" type="box" size="0.1 0.1 0.1" mass="2" friction="1000 1000 1000"/>
         </body>
       </worldbody>
     </mujoco>
 
 Good:
 
-    -       <geom name="box" type="box" size="0.1 0.1 0.1" friction="1000 1000 1000"/>
-    +       <geom name="box" type="box" size="0.1 0.1 0.1"/>
+    -       <geom name="box" type="box" size="0.1 0.1 0.1" mass="2" friction="1000 1000 1000"/>
+    +       <geom name="box" type="box" size="0.1 0.1 0.1" mass="2"/>
 
 The number: the largest coefficient of sliding friction; rubber on concrete has about 1, and none of 208 files of robots
 has more than 10. Told are those from 20 on. Where `condim` is 6, so is the third coefficient from 0.05 m on: it is the

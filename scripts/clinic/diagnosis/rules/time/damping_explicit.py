@@ -10,12 +10,12 @@ Bad:
       <option integrator="RK4"/>
       <worldbody>
         <body pos="0 0 0.5">
-          <joint name="wheel" axis="0 1 0" damping="4"/>
+          <joint name="wheel" axis="0 1 0" damping="4" armature="0.002"/>
           <geom type="cylinder" size="0.05 0.01" mass="0.2" quat="0.7071068 0.7071068 0 0"/>
         </body>
       </worldbody>
       <actuator>
-        <motor joint="wheel" ctrlrange="-1 1"/>
+        <motor joint="wheel" ctrlrange="-10 10"/>
       </actuator>
     </mujoco>
 

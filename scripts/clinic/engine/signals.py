@@ -35,7 +35,7 @@ from clinic.record.problem import article, closest, listed
 Reader = Callable[[], float]
 
 KINDS = ("body", "joint", "geom", "site", "camera", "actuator", "tendon", "sensor", "light", "equality", "key")
-COUNTS = {"body": "nbody", "joint": "njnt", "camera": "ncam", "actuator": "nu", "equality": "neq"}
+COUNTS = {"joint": "njnt", "camera": "ncam", "actuator": "nu", "equality": "neq"}
 CONTACT = {"friction": 5, "dist": 1, "pos": 3, "frame": 9, "includemargin": 1, "dim": 1, "force": 6, "count": 1}
 """What can be read of a contact, and how many numbers it has."""
 PATH = re.compile(

@@ -21,7 +21,7 @@ def benchmark(of: Kept) -> Files:
     """The page and its data."""
     scores = {rule.id: score(of, rule.id) for rule in rules().values()}
     unowned = {row.rule: score(of, row.rule) for row in of.kinds.values() if row.rule not in rules()}
-    harms = {name: (measure.__doc__ or "").strip() for name, measure in HARMS.items()}
+    data = benchmark_data(of)
     page = render(
         "benchmark",
         kept=of,
@@ -29,11 +29,11 @@ def benchmark(of: Kept) -> Files:
         scores=scores,
         unowned=unowned,
         texts={kind.name: kind.text for kind in kinds().values()},
-        harms=harms,
+        harms=data["harms"],
         least=LEAST,
         totals={side: _total(of, side) for side in SIDES},
     )
-    text = json.dumps(benchmark_data(of), indent=1, ensure_ascii=False) + "\n"
+    text = json.dumps(data, indent=1, ensure_ascii=False) + "\n"
     return {"rules/benchmark.md": page.encode(), "rules/benchmark.json": text.encode()}
 
 

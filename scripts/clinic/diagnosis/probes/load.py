@@ -40,19 +40,18 @@ def poses(simulation: Simulation) -> list[list[float]]:
 @kept
 def loads(simulation: Simulation) -> list[float]:
     """The largest force of gravity on each degree of freedom over the poses, in N m or N."""
-    with alone(simulation, gravity=True):
-        return _loads(simulation)
+    return _over_poses(simulation, max)
 
 
 @kept
 def least_loads(simulation: Simulation) -> list[float]:
     """The smallest force of gravity on each degree of freedom over the poses, in N m or N."""
+    return _over_poses(simulation, min)
+
+
+def _over_poses(simulation: Simulation, pick: Callable[..., float]) -> list[float]:
     with alone(simulation, gravity=True):
-        return list(map(min, zip(*_all_loads(simulation), strict=True)))
-
-
-def _loads(simulation: Simulation) -> list[float]:
-    return list(map(max, zip(*_all_loads(simulation), strict=True)))
+        return list(map(pick, zip(*_all_loads(simulation), strict=True)))
 
 
 def _all_loads(simulation: Simulation) -> Iterator[list[float]]:

@@ -33,7 +33,6 @@ ACTS = (
 """What titles say, and the names or parts of names of attributes of which one then is changed."""
 VALUES = (("radian", "degree"), ("enable", "disable"), ("RK4", "implicitfast", "discrete"), ("elliptic", "pyramidal"))
 SWITCHED = {"disable": r"\boff\b|\bdisable", "enable": r"\bon\b|\benable|\blet\b"}
-TOKEN = re.compile(r"\w+|[^\w\s]")
 CODE_NAME = re.compile(r"\b[A-Za-z]+(?:[._][A-Za-z]+)+\b")
 
 

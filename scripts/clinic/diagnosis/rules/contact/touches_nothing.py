@@ -57,7 +57,7 @@ from clinic.diagnosis.probes.shape import boxes, clear, collides, in_pairs, mask
 from clinic.diagnosis.probes.vector import Vector
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect, how_many
+from clinic.diagnosis.suspect import Suspect, how_many
 
 TITLE = "A foot, wheel or finger that touches nothing"
 FAMILIES = ("falls-through", "slips", "drifts")
@@ -88,7 +88,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not found:
         return
     geoms = [geom for body in found for geom in of.geoms_of(body)]
-    probe = Probe("feet, wheels and fingers without a geom that collides", "", _count, (), dynamic=False)
+    probe = how_many("feet, wheels and fingers without a geom that collides", _bare)
     names = (*(of.name("body", body) for body in found), *(of.name("geom", geom) for geom in geoms))
     says = f"{of.name('body', found[0])} has no geom that can touch anything, and other parts of the robot have."
     masks = masks_told(of, geoms[0])
@@ -135,7 +135,7 @@ def _ground(model: ReaderModel) -> Iterator[Suspect]:
     says = f"{names[0]} touches nothing, and nothing in its place does."
     masks = masks_told(of, found[0])
     edits = model.set("geom", found, "contype", "1") + model.set("geom", found, "conaffinity", "1")
-    probe = Probe("floors, tables and steps that nothing touches", "", _count_ground, (), dynamic=False)
+    probe = how_many("floors, tables and steps that nothing touches", _untouched)
     yield Suspect(names, "contype, conaffinity", masks, "1, 1", edits, probe, 0, says, "a geom that collides")
 
 
@@ -170,10 +170,6 @@ def _passed(of: Simulation, *geoms: int) -> list[int]:
     return made
 
 
-def _count_ground(of: Simulation) -> float:
-    return float(len(_untouched(of)))
-
-
 def _untouched(of: Simulation) -> list[int]:
     of.begin()
     bodies, moving, kinds = of.model("geom_bodyid"), set(of.moving_bodies), of.model("geom_type")
@@ -201,10 +197,6 @@ def _around(of: Simulation, every: Mapping[int, tuple[Vector, Vector]], solid_: 
     if int(of.model("geom_type")[solid_]) == PLANE:
         return abs(place[2] + half[2] - of.data_row("geom_xpos", solid_, 3)[2]) < THIN
     return all(abs(a - b) < c + d - THIN for a, b, c, d in zip(place, there, half, extent, strict=True))
-
-
-def _count(simulation: Simulation) -> float:
-    return float(len(_bare(simulation)))
 
 
 def _bare(of: Simulation) -> list[int]:

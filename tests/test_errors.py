@@ -10,6 +10,7 @@ import pkgutil
 import clinic
 import pytest
 from clinic.commands.diagnosis_options import OptionError
+from clinic.diagnosis.bench.faults import NoPlaceError
 from clinic.diagnosis.engine import CompileError
 from clinic.diagnosis.process import DiagnosisError
 from clinic.diagnosis.source import SourceError
@@ -38,6 +39,7 @@ EXAMPLES = [
     ExpressionError("a number"),
     MissingRequirementError("no Node"),
     ModelError(3, "a file", "none", "write it out"),
+    NoPlaceError(),
     OptionError("--ctrl x"),
     ProseError("{{ x }}", "a field", "correct it"),
     QuotationError("no such element", "cube"),

@@ -15,7 +15,7 @@ let under = new AbortController();
  * Diagnoses what was given, and shows it.
  * @param {HTMLElement} place emptied and filled
  * @param {URL} base where the playground's files are
- * @param {string} rules the address of the rules' pages
+ * @param {string} rules the address of the rules' pages, as the page has it
  * @param {string} symptom the family that the reader sees; empty for none
  * @param {Iterable<FileSystemEntry | File>} given
  */
@@ -29,7 +29,7 @@ export async function start(place, base, rules, symptom, given) {
     const found = models(files);
     if (mine.signal.aborted) return;
     if (found.length === 0) throw new FilesError("There is no MJCF or URDF file among these: expected one that ends in .xml, .mjcf or .urdf.");
-    await examine(place, { base, rules, symptom, files, single, found }, found[0]);
+    await examine(place, { base, rules: new URL(rules, location.href).href, symptom, files, single, found }, found[0]);
   } catch (error) {
     if (!mine.signal.aborted) place.replaceChildren(complaint(said(error)));
   }

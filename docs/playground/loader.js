@@ -149,22 +149,22 @@ function take(root) {
   form.children[1].innerHTML = CHOICES;
   const seen = /** @type {HTMLSelectElement} */ (form.querySelector("select"));
   for (const each of root.dataset.symptoms?.split("|") ?? []) seen.add(new Option(...each.split(": ").reverse()));
-  /** @type {(FileSystemEntry | File)[]} */
-  let last = [];
-  const given = async (/** @type {Iterable<FileSystemEntry | File>} */ files) => {
-    last = [...files];
+  /** @type {(FileSystemEntry | File)[] | undefined} */
+  let last;
+  const given = async (/** @type {(FileSystemEntry | File)[]} */ files) => {
+    last = files;
     try {
       const { start } = await import(base + "diagnose.js");
-      await start(place, base, new URL(root.dataset.rules ?? "", location.href).href, seen.value, last);
+      await start(place, base, root.dataset.rules, seen.value, files);
     } catch (error) {
       console.error(error);
       note.hidden = false;
     }
   };
+  seen.onchange = () => last && given(last);
   form.onchange = async ({ target }) => {
-    if (target === seen && last.length > 0) await given(last);
     if (!(target instanceof HTMLInputElement) || !target.files?.length) return;
-    await given(target.files);
+    await given([...target.files]);
     target.value = ""; // the same file can be chosen again
   };
   form.ondragover = (event) => event.preventDefault();

@@ -107,14 +107,17 @@ def procedure(family: str, cases: Iterable[Case]) -> str:
 
 def measurement(family: str, cases: Iterable[Case]) -> str:
     """What the program does once it has `model`, and `data` at its start; it needs `mujoco` and `np` besides."""
-    rows = []
-    for case in measured(cases):
+    own, rows = measured(cases), []
+    for case in own:
         telling = case.record.telling
         assert telling is not None
         sign, bound = (1, telling.above) if telling.above is not None else (-1, telling.below)
         name, kind = json.dumps(telling.cause or case.record.title, ensure_ascii=False), telling.of or ""
         rows.append(f'    ("{case.slug}", {name}, {telling.expr}, "{kind}", {sign}, {bound}),')
-    return MEASUREMENT.format(probe=families()[family].probe.strip(), rows="\n".join(rows), none=NONE)
+    probes = dict.fromkeys(
+        families()[each].probe.strip() for each in (family, *(case.record.family or family for case in own))
+    )
+    return MEASUREMENT.format(probe="\n".join(filter(None, probes)), rows="\n".join(rows), none=NONE)
 
 
 def asked(cases: Iterable[Case]) -> dict[str, str]:

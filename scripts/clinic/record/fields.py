@@ -64,7 +64,7 @@ class Telling(Strict):
     below: float | None = Field(default=None, description="Holds where the smallest number is smaller.")
     also: list[FamilyName] = Field(
         default=[],
-        description="Further families in which it tells: their `probe` measures what `expr` is over as well.",
+        description="Further families in which it tells; what its own family's `probe` measures is measured there too.",
     )
     still: dict[Identifier, Text] = Field(
         default={}, description="Fixes after which it holds nevertheless, each with the reason."

@@ -43,9 +43,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import Edit
 from clinic.diagnosis.probes.grasp import Grasp, grasps, needed
-from clinic.diagnosis.probes.touch import DRY, edits_of, names_of
+from clinic.diagnosis.probes.touch import DRY, Deciding, edits_of, names_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.suspect import Suspect
 
@@ -62,9 +61,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """What decides the contacts of a body that fingers hold with too little friction."""
     of = model.simulation
     for found in grasps(of):
-        low = [each for each in found.deciding if each.friction < LOW]
-        if found.weight <= found.carries or not low or not would_hold(model, found):
+        if not would_hold(model, found):
             continue
+        low = _low(found)
         least = min(each.friction for each in low)
         says = (
             f"The fingers press with {found.force:.3g} N in all, of which friction {least:g} carries "
@@ -75,7 +74,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             "friction",
             f"{least:g}",
             "1",
-            _rougher(model, found),
+            edits_of(model, low, "friction", DRY),
             needed(found),
             1.0,
             says,
@@ -85,9 +84,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 
 def would_hold(model: ReaderModel, found: Grasp) -> bool:
     """Whether the fingers would hold what they drop, with something to spare, if it and they were rougher."""
-    edits = _rougher(model, found)
+    edits = edits_of(model, _low(found), "friction", DRY) if found.weight > found.carries else ()
     return bool(edits) and model.measured(needed(found)) > 1 and model.measured(needed(found), edits) <= RESERVE
 
 
-def _rougher(model: ReaderModel, found: Grasp) -> tuple[Edit, ...]:
-    return edits_of(model, [each for each in found.deciding if each.friction < LOW], "friction", DRY)
+def _low(found: Grasp) -> list[Deciding]:
+    return [each for each in found.deciding if each.friction < LOW]

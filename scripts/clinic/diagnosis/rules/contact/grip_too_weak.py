@@ -62,7 +62,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The actuators of jaws whose friction would do if they pressed harder."""
     of = model.simulation
     for found in grasps(of):
-        if would_hold(model, found) or found.carries > FEW * found.weight:
+        if found.carries > FEW * found.weight or would_hold(model, found):
             continue
         gains = {each: TIMES * of.gain(each)[0] for each in found.jaws.actuators}
         written = all(model.value("actuator", each, "kp") is not None for each in gains)

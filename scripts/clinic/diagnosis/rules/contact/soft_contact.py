@@ -54,7 +54,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if model.measured(depth()) <= MOST:
         return
     rests = [decides for _, decides in resting(simulation)]
-    weak = _weak_at_first if model.symptom == FAMILIES[0] else _weak
+    weak = partial(_weak, 0 if model.symptom == FAMILIES[0] else 1)
     for attribute, value, softness in (("solref", "0.02 1", _slow), ("solimp", "0.9 0.95 0.001", weak)):
         soft = [_soft_ones(each, partial(softness, simulation, each.kind)) for each in rests]
         soft = [each for each in soft if each.elements]
@@ -87,11 +87,6 @@ def _slow(simulation: Simulation, kind: str, index: int) -> float:
     return time * damping / (1.5 * TIME) if time > 0 else SOFT / max(-time, 1e-9)
 
 
-def _weak(simulation: Simulation, kind: str, index: int) -> float:
-    """How many times smaller than a half the largest impedance is."""
-    return 0.5 / max(simulation.row(f"{kind}_solimp", index, 5)[1], 1e-3)
-
-
-def _weak_at_first(simulation: Simulation, kind: str, index: int) -> float:
-    """How many times smaller than a half the least impedance is, that of a contact which only begins."""
-    return 0.5 / max(simulation.row(f"{kind}_solimp", index, 5)[0], 1e-3)
+def _weak(number: int, simulation: Simulation, kind: str, index: int) -> float:
+    """How many times smaller than a half an impedance is: 0 that of a contact which only begins, 1 the largest."""
+    return 0.5 / max(simulation.row(f"{kind}_solimp", index, 5)[number], 1e-3)

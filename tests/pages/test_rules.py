@@ -6,6 +6,7 @@ import tempfile
 from pathlib import Path
 
 import pytest
+import yaml
 from clinic.commands.cli import app
 from clinic.diagnosis.bench.lock import Kept
 from clinic.diagnosis.rules import rules
@@ -31,6 +32,14 @@ def test_what_the_command_is_said_to_print_is_what_it_prints(
     said = page.partition(f"## {which}\n")[2]
     assert f"`clinic diagnose` prints:\n\n``` {{ .text .wrap }}\n{printed}```" in said
     assert printed.startswith("1  cause   visual-mass" if which == "Bad" else "Nothing found, by ")
+
+
+def test_titles_and_descriptions_are_plain_text(tmp_path: Path) -> None:
+    pages = rule_pages({}, Cache(tmp_path / "cache"), Kept())
+    for name, rule in rules().items():
+        front = yaml.safe_load(pages[f"rules/{name}.md"].decode().split("---\n")[1])
+        assert set("<`*\"").isdisjoint(front["description"]), name
+        assert set("<`*\"&").isdisjoint(rule.title), name
 
 
 def test_files_that_lie_around_are_no_part_of_an_example(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import os
 import re
@@ -110,5 +111,13 @@ def _page(rule: Rule, told: Mapping[str, str], cases: Mapping[str, Case], kept: 
     case = cases.get(rule.case or "")
     found = score(kept, rule.id)
     return render(
-        "rule", rule=rule, first=first, rest=rest, families=own, case=case, found=found, engine=mujoco.__version__
+        "rule",
+        rule=rule,
+        description=json.dumps(html.escape(first.replace("`", "").replace("\n", " ")), ensure_ascii=False),
+        first=first,
+        rest=rest,
+        families=own,
+        case=case,
+        found=found,
+        engine=mujoco.__version__,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import re
 import tomllib
@@ -147,7 +148,8 @@ def _pages(pages: Files) -> Iterator[Document]:
         kind = "rule" if path.startswith("rules/") and PurePosixPath(path).stem != "index" else "page"
         words = "" if kind == "rule" else "; ".join(headings[1:])
         at = path.removesuffix(".md") + ".html"
-        yield {"kind": kind, "at": at, "title": title, "words": words, "text": meta.get("description", "")}
+        text = html.unescape(meta.get("description", ""))
+        yield {"kind": kind, "at": at, "title": title, "words": words, "text": text}
 
 
 def _script(name: str, content: object) -> bytes:

@@ -37,7 +37,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
-TITLE = "Every <inertial> is overruled"
+TITLE = "Every inertial element is overruled"
 FAMILIES = ("wrong-mass", "sags")
 UNPLANTED = "no healthy model has the attribute and an <inertial>"
 

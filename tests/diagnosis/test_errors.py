@@ -242,3 +242,11 @@ def test_what_a_newer_release_reads_is_no_mistake(names, text, monkeypatch):
     assert not found.causes
     assert not hint.edit
     assert "does not know `glitter`; MuJoCo 9.0 does." in hint.says
+
+
+def test_materials_that_are_there_twice_are_taken_out_where_they_come_again():
+    materials = "".join(f"<material name='{name}' rgba='1 0 0 1'/>" for name in ("link", "joint"))
+    text = f"<mujoco><asset>{materials}<material name='table'/>{materials}</asset><worldbody/></mujoco>"
+    found = mended(text)
+    assert [(each.rule, each.value) for each in found.causes] == [("repeated-name", "removed")]
+    assert found.fixed["model.xml"].count("<material") == 3

@@ -122,6 +122,21 @@ def test_a_rolling_friction_in_the_place_of_the_torsional_one_is_told(written, t
     assert [each.value for each in found] == ([told] if told else [])
 
 
+@pytest.mark.parametrize(
+    ("ball", "cloth", "told"),
+    [
+        pytest.param('condim="4"', 'friction="0.8 0.8 0.5"', ["cloth"], id="of the floor"),
+        pytest.param('condim="4" friction="1 0.4 0.0001"', "", ["ball"], id="its own"),
+        pytest.param('condim="4" friction="1 0.2 0.0001"', "", [], id="of three times its size"),
+        pytest.param('condim="4" priority="1"', 'friction="0.8 0.8 0.5"', [], id="the ball decides"),
+        pytest.param('friction="1 0.4 0.0001"', "", [], id="not read"),
+    ],
+)
+def test_a_foot_that_cannot_pivot_is_told(ball, cloth, told):
+    found = hints(BALL.format(ball=ball, cloth=cloth), "friction-beyond-any-material")
+    assert [one for each in found for one in each.elements] == [f'geom "{name}"' for name in told]
+
+
 PADS = """<mujoco><worldbody><body name="hand" pos="0 0 1">
   <body name="left"><joint type="slide" axis="0 1 0"/><geom name="{name}" type="box" size=".01 .01 .02" {pad}/></body>
 </body></worldbody></mujoco>"""

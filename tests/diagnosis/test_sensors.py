@@ -248,3 +248,21 @@ def test_a_place_and_its_rate_in_two_frames_are_told(place: str, rate: str, told
     sensors = "".join(f'<{each} objtype="body" objname="ball"/>' for each in (place, rate))
     text = f"<mujoco><worldbody>{PLATE}</worldbody><sensor>{sensors}</sensor></mujoco>"
     assert [each.elements[0] for each in hints(text, "sensor-frames-differ")] == [f'sensor "{name}"' for name in told]
+
+
+@pytest.mark.parametrize(
+    ("site", "told"),
+    [
+        ('pos="0 0 -0.2" size="0.056 0.301"', "0.056 0.1505"),
+        ('pos="0 0 -0.2" size="0.056 0.156"', None),
+        ('pos="0 0 -0.1" size="0.056 0.301"', None),
+        ('pos="0 0 -0.2" size="0.056 0.301" euler="30 0 0"', None),
+        ('pos="0 0 -0.2" size="0.1 0.301"', None),
+    ],
+    ids=["full length", "half", "elsewhere", "aslant", "thick"],
+)
+def test_a_touch_site_that_is_twice_as_long_as_its_geom_is_told(site: str, told: str | None) -> None:
+    thigh = '<geom type="capsule" fromto="0 0 -0.05 0 0 -0.35" size="0.055"/>'
+    body = f'<body><joint/>{thigh}<site name="thigh" type="capsule" {site}/></body>'
+    model = f'<mujoco><worldbody>{body}</worldbody><sensor><touch site="thigh"/></sensor></mujoco>'
+    assert [each.value for each in hints(model, "full-lengths")] == ([told] if told else [])

@@ -206,3 +206,14 @@ def test_a_hopper_on_a_boom_has_one_leg_and_does_not_turn(legs: int):
         f'<mujoco><worldbody><body pos="0 0 3">{root}{below}</body></worldbody><actuator>{motors}</actuator></mujoco>'
     )
     assert len(hints(text, "planar-root-incomplete")) == legs - 1
+
+
+@pytest.mark.parametrize(
+    ("more", "told"),
+    [("", True), ('<geom type="box" size="1 1 0.1" pos="0 0 0.1"/>', False), ("<camera/>", False)],
+    ids=["alone", "beside a table", "to be looked at"],
+)
+def test_a_thing_that_hangs_alone_above_the_floor_is_told(more: str, told: bool) -> None:
+    ball = '<geom type="plane" size="2 2 1"/><geom size="0.1" pos="0 0 1"/>'
+    model = f"<mujoco><worldbody>{ball}{more}</worldbody></mujoco>"
+    assert [each.level for each in findings(model, "nothing-can-move")] == ["cause"] * told

@@ -38,8 +38,8 @@ def test_titles_and_descriptions_are_plain_text(tmp_path: Path) -> None:
     pages = rule_pages({}, Cache(tmp_path / "cache"), Kept())
     for name, rule in rules().items():
         front = yaml.safe_load(pages[f"rules/{name}.md"].decode().split("---\n")[1])
-        assert set("<`*\"").isdisjoint(front["description"]), name
-        assert set("<`*\"&").isdisjoint(rule.title), name
+        assert set('<`*"').isdisjoint(front["description"]), name
+        assert set('<`*"&').isdisjoint(rule.title), name
 
 
 def test_files_that_lie_around_are_no_part_of_an_example(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

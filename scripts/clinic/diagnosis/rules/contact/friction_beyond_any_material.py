@@ -25,6 +25,8 @@ The number: the largest coefficient of sliding friction; rubber on concrete has 
 has more than 10. Told are those from 20 on. Where `condim` is 6, so is the third coefficient from 0.05 m on: it is the
 arm with which a contact brakes what rolls. And so is a third one of ten times the second and more: the two are
 exchanged, for the order is sliding, torsional, rolling, and nothing that turns on the spot rolls harder than that.
+Where `condim` is 4 or 6, the second coefficient may be read as the diameter of the patch that touches (MuJoCo's manual,
+Computation, Contact): told is one of more than five times the size of what rests on a plane, which cannot pivot there.
 
 When it is wrong: something that stands for glue.
 """
@@ -33,18 +35,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from clinic.diagnosis.engine import PLANE
 from clinic.diagnosis.probes.shape import solid
+from clinic.diagnosis.probes.touch import resting
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, how_many
 
 TITLE = "Friction beyond any material"
-FAMILIES = ("slips", "sinks", "rolls-on")
+FAMILIES = ("slips", "sinks", "rolls-on", "stuck")
 UNPLANTED = "what it does is planted as friction-too-high"
 
 MOST = 20.0
 ARM, TIMES = 0.05, 10  # m; of the torsional friction
+PATCH = 5.0  # times the size of what rests
+TURNS = 3  # the dimensions of a contact that does not resist turning on the spot
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -54,6 +60,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     if not rough:
         yield from _rolling(model)
         yield from _in_order(model)
+        yield from _turning(model)
         return
     now = " ".join(f"{x:g}" for x in of.row("geom_friction", rough[0], 3))
     probe = Probe("coefficient of friction", "", _most, rough, dynamic=False)
@@ -90,6 +97,42 @@ def _in_order(model: ReaderModel) -> Iterator[Suspect]:
     names, now = tuple(of.name("geom", geom) for geom in found), written(of.row("geom_friction", found[0], 3))
     probe = how_many("geoms that resist rolling far more than turning", _exchanged)
     yield Suspect(names, "friction", now, values[found[0]], edits, probe, 0, says, "1 0.005 0.0001, MuJoCo's default")
+
+
+def _turning(model: ReaderModel) -> Iterator[Suspect]:
+    """The geoms that a contact holds against turning on the spot as if they touched far beyond their own size."""
+    of = model.simulation
+    if not (wide := [(geom, other) for geom, other in _patches(of) if _patch(of, geom, other) > PATCH]):
+        return
+    geom, other = max(wide, key=lambda pair: _patch(of, *pair))
+    row, size = of.row("geom_friction", geom, 3), 2 * of.model("geom_rbound")[other]
+    rows = {each: of.row("geom_friction", each, 3) for each in range(of.count("geom")) if solid(of, each)}
+    values = {each: written([slide, 0.005, roll]) for each, (slide, turn, roll) in rows.items() if turn > PATCH * size}
+    names = tuple(of.name("geom", each) for each in sorted(values, key=geom.__ne__))
+    says = f"The second coefficient of friction is a patch of {row[1]:g} m, under {of.name('geom', other)}, "
+    says += f"which is {size:.2g} m across."
+    probe = Probe("widest patch of a contact on a plane", "times the size of what rests there", _widest)
+    edits = model.set_each("geom", "friction", values)
+    yield Suspect(names, "friction", written(row), values[geom], edits, probe, PATCH, says, "0.005 m, the default")
+
+
+def _widest(of: Simulation) -> float:
+    return max((_patch(of, geom, other) for geom, other in _patches(of)), default=0.0)
+
+
+def _patches(of: Simulation) -> list[tuple[int, int]]:
+    """What decides the friction of a contact on a plane that resists turning on the spot, and what rests there."""
+    made = []
+    for contact, decides in resting(of):
+        other, *more = (geom for geom in contact.geoms if int(of.model("geom_type")[geom]) != PLANE)
+        if decides.kind == "geom" and decides.dim > TURNS and not more:
+            made += [(geom, other) for geom in decides.elements]
+    return made
+
+
+def _patch(of: Simulation, geom: int, other: int) -> float:
+    """The torsional friction of a geom over the size of another one."""
+    return of.row("geom_friction", geom, 3)[1] / (2 * of.model("geom_rbound")[other])
 
 
 def _exchanged(of: Simulation) -> list[int]:

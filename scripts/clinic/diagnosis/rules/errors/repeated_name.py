@@ -19,9 +19,10 @@ Good:
 
 The number: none; the text compiles with the edit.
 
-When it is wrong: what refers to the name now means the first of both. Where something refers to a name that nothing
-has, that is the one that was meant. A body whose joints are called as the first one's but for a word gets that word,
-not a number: `left_foot` with `left_ankle` and with `right_ankle` in it.
+When it is wrong: what refers to the name now means the first of both. An asset, or a line pasted twice, that is the
+same as one before is taken out. Where something refers to a name that nothing has, that is the one that was meant. A
+body whose joints are called as the first one's but for a word gets that word, not a number: `left_foot` with
+`left_ankle` and with `right_ankle` in it.
 """
 
 from __future__ import annotations
@@ -42,6 +43,7 @@ FAMILIES = ("will-not-compile",)
 
 MESSAGE = re.compile(r".*repeated (?:default )?(?:name|class name)(?: '([^']+)')?(?: in (\w+))?")
 WORD = re.compile(r"([A-Za-z]+|\d+)")
+ASSETS = ("material", "texture", "mesh", "hfield")
 KINDS = {"joint": ("joint", "freejoint"), "key": ("key",)}
 
 
@@ -53,15 +55,15 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     classes = "class name" in found[0]
     attribute, kind = ("class", "default") if classes else ("name", found.group(2) or "")
     every = list(model.source.elements(*KINDS.get(kind, (kind,)))) if kind else []
-    of_file = kind in ("mesh", "texture", "hfield")
+    of_file = kind in ASSETS[1:]
     names = {id(each): each.get(attribute) or (stem(each.get("file")) if of_file else "") for each in every}
     if not classes and found.group(1) not in names.values():
         every = [each for each in model.source.root.walk() if each.get("name") == found.group(1)]
         names = {id(each): each.get("name") for each in every}
-    if (again := _again(every, names)) is not None:
-        name = names[id(again)]
+    if again := _again(every, names) or _copies(every, kind):
+        name = names[id(again[0])]
         says = f"The same stands there before, with all that is in it: {name!r} is taken out where it comes again."
-        yield mends(again, (delete(again),), says, attribute=attribute, now=name, value="removed")
+        yield mends(again[0], tuple(map(delete, again)), says, attribute=attribute, now=name, value="removed")
         return
     if missing := _missing(model.source, kind, {*names.values()}):
         several = Counter(names.values())
@@ -124,14 +126,21 @@ def _like_its_parts(name: str, before: Element, again: Element) -> Iterator[str]
             yield "".join(apart[0][1] if word == apart[0][0] else word for word in WORD.split(name))
 
 
-def _again(elements: list[Element], names: dict[int, str]) -> Element | None:
+def _again(elements: list[Element], names: dict[int, str]) -> list[Element]:
     """The first element that is the next one to the same, attribute by attribute, as a line that was pasted twice."""
     for each in elements:
         around = each.parent.children if each.parent is not None else []
         at = next((place for place, one in enumerate(around) if one is each), 0)
         if at and names[id(each)] and _alike(around[at - 1], each):
-            return each
-    return None
+            return [each]
+    return []
+
+
+def _copies(elements: list[Element], kind: str) -> list[Element]:
+    """Every asset that is the same as one before it, as where a file is included twice."""
+    return [
+        each for i, each in enumerate(elements) if kind in ASSETS and any(_alike(one, each) for one in elements[:i])
+    ]
 
 
 def _alike(one: Element, other: Element) -> bool:

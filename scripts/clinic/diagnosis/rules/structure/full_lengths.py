@@ -25,7 +25,8 @@ The number: upright boxes and cylinders whose middle is as high above a plane, o
 half of their half height: with half the size they would stand on it. And a wall of a maze: of four boxes and more of a
 body that are as wide and as high, the one that ends beyond all its other boxes, and with half its length would not.
 And a box of something that moves which begins in two and more things that stand still, and with half its size in none,
-but nearer to two of them than a quarter of it.
+but nearer to two of them than a quarter of it. And the site of a touch sensor, in the middle and along the axis of a
+capsule or cylinder of its body, hardly thicker and twice as long.
 
 When it is wrong: a box that is to be sunk by exactly so much.
 """
@@ -35,10 +36,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.engine import BOX, CYLINDER, PLANE
+from clinic.diagnosis.engine import BOX, CAPSULE, CYLINDER, PLANE, SENS_TOUCH
 from clinic.diagnosis.probes.overlap import sunk_by_half
 from clinic.diagnosis.probes.shape import boxes, thickness
-from clinic.diagnosis.probes.vector import written
+from clinic.diagnosis.probes.vector import dot, norm, of_quaternion, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, counted, how_many
@@ -48,6 +49,8 @@ FAMILIES = ("jumps-at-start", "explodes", "wrong-numbers")
 UNPLANTED = "how large a box should be, only its maker knows"
 
 DEEP = 0.1  # of the thickness
+TWICE, THICK = (1.9, 2.1), 1.3  # of the geom's half length; of its radius
+BESIDE, ALONG = 0.1, 0.99  # of its half length; the cosine
 WALLS, OUT = 3, 0.02  # others in a row; of the length of all others
 
 
@@ -62,6 +65,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         wall = (of.name("geom", geom),)
         yield Suspect(wall, "size", written(half), value, model.set("geom", [geom], "size", value), probe, 0, says, "")
     yield from _stuck(model)
+    yield from _sensed(model)
     of.begin()
     found = [geom for geom in range(of.count("geom")) if sunk_by_half(of, geom)]
     placed = [(geom, element) for geom in found if (element := model.element("geom", geom)) is not None]
@@ -77,6 +81,18 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = "A size is half a length, and with half of it it would stand on what it is sunk into."
     now, probe = placed[0][1].get("size"), counted("boxes that are sunk by half their half height", len(placed))
     yield Suspect(names, "size", now, edits[0].value, tuple(edits), probe, 0.5, says, "half lengths")
+
+
+def _sensed(model: ReaderModel) -> Iterator[Suspect]:
+    """The sites of touch sensors that are twice as long as what they are around."""
+    of = model.simulation
+    for site in _around(of):
+        radius, half, _ = of.row("site_size", site, 3)
+        value, name = written([radius, half / 2]), of.name("site", site)
+        says = f"{name} of a touch sensor is twice as long as the geom that it is around."
+        probe = how_many("touch sites that are twice as long as their geom", _around)
+        edits = model.set("site", [site], "size", value)
+        yield Suspect((name,), "size", written([radius, half]), value, edits, probe, 0, says, "half lengths")
 
 
 def _stuck(model: ReaderModel) -> Iterator[Suspect]:
@@ -122,6 +138,25 @@ def _fits(of: Simulation, geom: int, others: set[int]) -> bool:
             apart = (abs(a - b) - c / 2 - d for a, b, c, d in zip(place, at, half, reach, strict=True))
             gaps.append(max(apart))
     return min(gaps) > 0 and sum(gap < max(size) / 8 for gap in gaps) > 1
+
+
+def _around(of: Simulation) -> list[int]:
+    """The sites of touch sensors that have the place and axis of a round geom of their body, and twice its length."""
+    kinds, sensed = of.model("sensor_type"), of.model("sensor_objid")
+    sites = {int(site) for kind, site in zip(kinds, sensed, strict=True) if int(kind) == SENS_TOUCH}
+    return sorted(
+        site for site in sites if any(_twice(of, site, geom) for geom in of.geoms_of(of.body_of("site", site)))
+    )
+
+
+def _twice(of: Simulation, site: int, geom: int) -> bool:
+    kinds = int(of.model("site_type")[site]), int(of.model("geom_type")[geom])
+    (thick, long, _), (radius, half, _) = of.row("site_size", site, 3), of.row("geom_size", geom, 3)
+    if not {*kinds} <= {CAPSULE, CYLINDER} or not TWICE[0] * half < long < TWICE[1] * half or thick > THICK * radius:
+        return False
+    place, middle = of.row("site_pos", site, 3), of.row("geom_pos", geom, 3)
+    axes = [of_quaternion(of.row(name, each, 4))[2::3] for name, each in (("site_quat", site), ("geom_quat", geom))]
+    return norm(sub(place, middle)) < BESIDE * half and abs(dot(*axes)) > ALONG
 
 
 def _sticking_out(of: Simulation) -> list[int]:

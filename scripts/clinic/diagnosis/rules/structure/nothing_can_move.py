@@ -20,7 +20,7 @@ Good:
     +       <freejoint/>
 
 The number: the share of the bodies and geoms in the air that nothing can move. All of them, above a plane and with
-gravity, is a cause; geoms of the world itself count where they are meshes.
+gravity, is a cause; geoms of the world itself count where they are meshes, or hang alone above a plane.
 
 When it is wrong: a model that is meant to be looked at only; one with a camera is left alone.
 """
@@ -51,10 +51,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     planes = [geom for geom in of.geoms_of(0) if int(of.model("geom_type")[geom]) == PLANE]
     if of.count("dof") or of.count("camera") or not planes or model.source is None or model.urdf or not of.gravity:
         return
-    counts = of.model("body_geomnum")
-    in_air = _in_air(of)
-    bodies = [body for body in range(1, of.count("body")) if of.parent(body) == 0 and counts[body] and body in in_air]
-    geoms = [geom for geom in of.geoms_of(0) if int(of.model("geom_type")[geom]) == MESH]
+    kinds, in_air = of.model("geom_type"), _in_air(of)
+    roots = [body for body in range(1, of.count("body")) if of.parent(body) == 0 and of.geoms_of(body)]
+    bodies = [body for body in roots if in_air.issuperset(of.geoms_of(body))]
+    others = [geom for geom in of.geoms_of(0) if int(kinds[geom]) != PLANE]
+    geoms = [geom for geom in others if int(kinds[geom]) == MESH or (len(others) == 1 and geom in in_air)]
     if bodies:
         edits = tuple(insert(element, FREE_JOINT) for body in bodies if (element := model.element("body", body)))
     else:
@@ -77,16 +78,11 @@ def _own_body(model: ReaderModel, geom: Element) -> tuple[Edit, ...]:
 
 
 def _in_air(of: Simulation) -> set[int]:
-    """Bodies of which all geoms are above every plane."""
+    """Geoms above every plane."""
     of.begin()
     floor = max(plane_heights(of), default=float("-inf"))
-    lows = {geom: centre[2] - half[2] for geom, (centre, half) in boxes(of, range(of.count("geom"))).items()}
-    made = set()
-    for body in range(1, of.count("body")):
-        low = [lows[geom] for geom in of.geoms_of(body)]
-        if low and min(low) > floor + 1e-3:
-            made.add(body)
-    return made
+    places = boxes(of, range(of.count("geom"))).items()
+    return {geom for geom, (centre, half) in places if centre[2] - half[2] > floor + 1e-3}
 
 
 def _still(simulation: Simulation) -> float:

@@ -98,6 +98,18 @@ def test_a_muscle_that_is_a_hundred_times_weaker_or_stronger_is_told(forces, tol
     assert [(each.value, each.level) for each in hints(text, "strength-unlike-others")] == told
 
 
+@pytest.mark.parametrize(
+    ("attribute", "given"),
+    [("lengthrange", "0.6 0.9"), ("force", "0"), ("ctrlrange", "0 0.01"), ("range", "75 105")],
+)
+def test_a_muscle_without_force_is_told_by_what_takes_it(attribute: str, given: str) -> None:
+    good = {"force": "300", "lengthrange": "0.18 0.26", "range": "0.75 1.05"}
+    now, then = (" ".join(f'{name}="{x}"' for name, x in each.items()) for each in (good, {**good, attribute: given}))
+    text = rules()["muscle-gives-no-force"].example("Good")
+    assert now in text
+    assert [each.attribute for each in hints(text.replace(now, then), "muscle-gives-no-force")] == [attribute]
+
+
 @pytest.mark.parametrize(("driven", "told"), [("wrist", []), ("f1", ['actuator "A_f1"'])])
 def test_a_wrist_may_be_stronger_than_the_fingers_that_it_carries(driven, told):
     fingers = "".join(

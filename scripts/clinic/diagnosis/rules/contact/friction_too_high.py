@@ -7,17 +7,17 @@ Bad:
 
     <mujoco>
       <worldbody>
-        <geom name="floor" type="plane" size="1 1 0.1" friction="50"/>
+        <geom name="floor" type="plane" size="1 1 0.1" friction="8"/>
         <body name="box" pos="0 0 0.1">
           <freejoint/>
-          <geom type="box" size="0.1 0.1 0.1"/>
+          <geom type="box" size="0.1 0.1 0.1" mass="2"/>
         </body>
       </worldbody>
     </mujoco>
 
 Good:
 
-    -     <geom name="floor" type="plane" size="1 1 0.1" friction="50"/>
+    -     <geom name="floor" type="plane" size="1 1 0.1" friction="8"/>
     +     <geom name="floor" type="plane" size="1 1 0.1" friction="1"/>
 
 The number: the deepest contact 2 s after letting go as a share of the thinner geom's thickness; below 0.04 is well.

@@ -18,7 +18,7 @@ Bad:
 Good:
 
     -       <geom name="box" type="box" size="0.05 0.05 0.05" friction="0.05" priority="1"/>
-    +       <geom name="box" type="box" size="0.05 0.05 0.05" friction="0.05"/>
+    +       <geom name="box" type="box" size="0.05 0.05 0.05" friction="0.5" priority="1"/>
 
 The number: a push, once at rest, at the speed of a fall over a tenth of the size of what is pushed; with friction 0.3
 it would be over when the probe looks. Below 0.5 of the push's speed, which is friction 0.15, is well. PTFE on PTFE has

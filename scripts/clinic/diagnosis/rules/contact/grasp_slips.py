@@ -6,6 +6,7 @@ A grasp holds while friction times the normal forces is more than the weight. Wh
 Bad:
 
     <mujoco>
+      <option cone="elliptic" impratio="10"/>
       <worldbody>
         <geom type="plane" size="1 1 0.1"/>
         <body name="left" pos="-0.04 0 0.06">

@@ -17,7 +17,7 @@ Bad:
         <geom name="cup" type="mesh" mesh="cup"/>
         <body pos="0.01 0 0.2">
           <freejoint/>
-          <geom name="ball" size="0.02"/>
+          <geom name="die" type="box" size="0.02 0.02 0.02"/>
         </body>
       </worldbody>
     </mujoco>
@@ -33,7 +33,7 @@ Good:
         <geom name="front" type="box" size="0.05 0.005 0.04" pos="0 -0.055 0.04"/>
         <body pos="0.01 0 0.2">
           <freejoint/>
-          <geom name="ball" size="0.02"/>
+          <geom name="die" type="box" size="0.02 0.02 0.02"/>
         </body>
       </worldbody>
     </mujoco>

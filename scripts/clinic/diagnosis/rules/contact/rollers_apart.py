@@ -25,7 +25,7 @@ Bad:
 Good:
 
     -       <replicate count="6" euler="0 60 0">
-    +       <replicate count="20" euler="0 18 0">
+    +       <replicate count="16" euler="0 22.5 0">
 
 The number: how much the radius varies over a turn, as a share of its mean; above 3 % is told. A ring of n spheres of
 radius r around R varies by R (1 - cos(pi / n)). A wheel is a hinge that carries five and more bodies with one sphere

@@ -10,15 +10,15 @@ Bad:
         <geom type="plane" size="1 1 0.1"/>
         <body pos="0 0 0.1">
           <freejoint/>
-          <geom name="box" type="box" size="0.1 0.1 0.1" solref="0.0000001 1"/>
+          <geom name="box" type="box" size="0.1 0.1 0.1" mass="2" solref="0.0000001 1"/>
         </body>
       </worldbody>
     </mujoco>
 
 Good:
 
-    -       <geom name="box" type="box" size="0.1 0.1 0.1" solref="0.0000001 1"/>
-    +       <geom name="box" type="box" size="0.1 0.1 0.1" solref="0.02 1"/>
+    -       <geom name="box" type="box" size="0.1 0.1 0.1" mass="2" solref="0.0000001 1"/>
+    +       <geom name="box" type="box" size="0.1 0.1 0.1" mass="2" solref="0.02 1"/>
 
 The number: two timesteps over the time constant; more than 10.
 

@@ -11,15 +11,15 @@ Bad:
         <geom type="plane" size="1 1 0.1"/>
         <body pos="0 0 0.15">
           <freejoint/>
-          <geom name="box" type="box" size="0.1 0.1 0.1" solref="1 0.01"/>
+          <geom name="box" type="box" size="0.1 0.1 0.1" mass="2" solref="1 0.01"/>
         </body>
       </worldbody>
     </mujoco>
 
 Good:
 
-    -       <geom name="box" type="box" size="0.1 0.1 0.1" solref="1 0.01"/>
-    +       <geom name="box" type="box" size="0.1 0.1 0.1" solref="0.01 1"/>
+    -       <geom name="box" type="box" size="0.1 0.1 0.1" mass="2" solref="1 0.01"/>
+    +       <geom name="box" type="box" size="0.1 0.1 0.1" mass="2" solref="0.01 1"/>
 
 The number: the time constant, in which an oscillation dies down to a third; told from 0.3 s on, where the damping ratio
 is at most 0.1 and at least 0.001, so that both are usual ones in the other order. None of 385 healthy models has such a

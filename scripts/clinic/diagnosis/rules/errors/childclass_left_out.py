@@ -13,6 +13,7 @@ Bad:
       </default>
       <worldbody>
         <body name="base" pos="0 0 1">
+          <joint axis="0 0 1"/>
           <geom fromto="0 0 0 0 0 0.2"/>
           <body name="upper" pos="0 0 0.2">
             <joint axis="0 1 0"/>

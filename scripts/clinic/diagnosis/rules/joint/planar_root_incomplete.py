@@ -11,11 +11,11 @@ Bad:
           <joint name="rootx" type="slide" axis="1 0 0"/>
           <joint name="rootz" type="slide" axis="0 0 1"/>
           <geom type="capsule" fromto="0 0 -0.2 0 0 0.2" size="0.05"/>
-          <body name="left_leg" pos="0 0 -0.2">
+          <body name="left_leg" pos="0 0.06 -0.2">
             <joint name="left_hip" axis="0 1 0" range="-60 60"/>
             <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.04"/>
           </body>
-          <body name="right_leg" pos="0 0 -0.2">
+          <body name="right_leg" pos="0 -0.06 -0.2">
             <joint name="right_hip" axis="0 1 0" range="-60 60"/>
             <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.04"/>
           </body>

@@ -9,7 +9,7 @@ Bad:
       <worldbody>
         <body name="palm">
           <geom type="box" size="0.04 0.01 0.04"/>
-          <body name="FF" pos="0.03 0 0.04">
+          <body name="FF" pos="0.03 0 0.05">
             <joint name="FFJ2" axis="1 0 0" range="0 90"/>
             <geom type="capsule" fromto="0 0 0.01 0 0 0.03" size="0.008"/>
             <body pos="0 0 0.04">
@@ -25,7 +25,7 @@ Bad:
               <geom type="capsule" fromto="0 0 0.01 0 0 0.03" size="0.008"/>
             </body>
           </body>
-          <body name="RF" pos="-0.03 0 0.04">
+          <body name="RF" pos="-0.03 0 0.05">
             <joint name="RFJ2" axis="1 0 0" range="0 90"/>
             <geom type="capsule" fromto="0 0 0.01 0 0 0.03" size="0.008"/>
             <body pos="0 0 0.04">

@@ -8,10 +8,10 @@ Bad:
       <worldbody>
         <body pos="0 0 1">
           <joint name="hip" axis="0 1 0" damping="1" armature="0.1"/>
-          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.01"/>
           <body pos="0.2 0 0">
             <joint name="knee" axis="0 1 0" damping="1" armature="0.1"/>
-            <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
+            <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.01"/>
           </body>
         </body>
       </worldbody>

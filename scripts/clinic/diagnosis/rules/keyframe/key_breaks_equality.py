@@ -9,7 +9,7 @@ Bad:
     <mujoco>
       <worldbody>
         <body name="nut" pos="0 0 1">
-          <joint name="nut" axis="0 0 1"/>
+          <joint name="nut" axis="0 0 1" armature="0.02"/>
           <geom type="cylinder" size="0.03 0.02" mass="0.3"/>
         </body>
         <body name="quill" pos="0 0 1">

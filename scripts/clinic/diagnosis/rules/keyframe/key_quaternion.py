@@ -9,7 +9,7 @@ Bad:
         <geom type="plane" size="2 2 0.1"/>
         <body name="robot" pos="0 0 0.2">
           <freejoint/>
-          <geom type="box" size="0.2 0.1 0.1"/>
+          <geom type="box" size="0.2 0.1 0.1" mass="4"/>
         </body>
       </worldbody>
       <keyframe>

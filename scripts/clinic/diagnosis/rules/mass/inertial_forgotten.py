@@ -9,21 +9,16 @@ Bad:
     <mujoco>
       <worldbody>
         <body name="hip" pos="0 0 1">
-          <joint axis="0 1 0"/>
+          <joint axis="0 1 0" damping="0.5"/>
           <inertial pos="0.1 0 0" mass="1" diaginertia="0.001 0.004 0.004"/>
           <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
           <body name="thigh" pos="0.2 0 0">
-            <joint axis="0 1 0"/>
+            <joint axis="0 1 0" damping="0.5"/>
             <inertial pos="0.1 0 0" mass="1" diaginertia="0.001 0.004 0.004"/>
             <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
             <body name="shin" pos="0.2 0 0">
-              <joint axis="0 1 0"/>
+              <joint axis="0 1 0" damping="0.5"/>
               <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/>
-              <body name="foot" pos="0.2 0 0">
-                <joint axis="0 1 0"/>
-                <inertial pos="0.05 0 0" mass="0.5" diaginertia="0.0005 0.001 0.001"/>
-                <geom type="capsule" fromto="0 0 0 0.1 0 0" size="0.02"/>
-              </body>
             </body>
           </body>
         </body>
@@ -32,7 +27,7 @@ Bad:
 
 Good:
 
-                <joint axis="0 1 0"/>
+                <joint axis="0 1 0" damping="0.5"/>
     +           <inertial pos="0.1 0 0" mass="1" diaginertia="0.001 0.004 0.004"/>
 
 The number: told is one body where two others of its mechanism have an `<inertial>`, or two where three in four have

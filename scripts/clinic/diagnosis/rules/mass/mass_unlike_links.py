@@ -8,16 +8,16 @@ Bad:
     <mujoco>
       <worldbody>
         <body name="upper" pos="0 0 1">
-          <joint axis="0 1 0"/>
+          <joint axis="0 1 0" damping="0.5"/>
           <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="1.2"/>
           <body name="fore" pos="0.3 0 0">
-            <joint axis="0 1 0"/>
+            <joint axis="0 1 0" damping="0.5"/>
             <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="10"/>
             <body name="wrist" pos="0.3 0 0">
-              <joint axis="0 1 0"/>
+              <joint axis="0 1 0" damping="0.5"/>
               <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.03" mass="0.7"/>
               <body name="hand" pos="0.2 0 0">
-                <joint axis="0 1 0"/>
+                <joint axis="0 1 0" damping="0.5"/>
                 <geom type="box" pos="0.05 0 0" size="0.05 0.05 0.02" mass="0.3"/>
               </body>
             </body>

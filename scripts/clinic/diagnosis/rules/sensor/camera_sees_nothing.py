@@ -7,7 +7,7 @@ Bad:
 
     <mujoco>
       <worldbody>
-        <camera name="front" pos="2 0 0.5" euler="0 -90 0"/>
+        <camera name="front" pos="2 0 0.5" xyaxes="0 -1 0 0 0 1"/>
         <geom type="plane" size="1 1 0.1"/>
         <body name="box" pos="0 0 0.05">
           <freejoint/>
@@ -18,7 +18,7 @@ Bad:
 
 Good:
 
-    -     <camera name="front" pos="2 0 0.5" euler="0 -90 0"/>
+    -     <camera name="front" pos="2 0 0.5" xyaxes="0 -1 0 0 0 1"/>
     +     <camera name="front" pos="2 0 0.5" xyaxes="0 1 0 0 0 1"/>
 
 The number: the share of visible geoms, floors left out, of which neither the middle nor a corner of the box around it

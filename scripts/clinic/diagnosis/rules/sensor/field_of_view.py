@@ -6,7 +6,7 @@ Bad:
 
     <mujoco>
       <worldbody>
-        <camera name="front" pos="1 0 0.5" xyaxes="0 1 0 -0.4 0 1" fovy="0.8"/>
+        <camera name="front" pos="1 0 0.5" xyaxes="0 1 0 -0.5 0 1" fovy="0.8"/>
         <geom type="plane" size="1 1 0.1"/>
         <geom type="box" size="0.05 0.05 0.05"/>
       </worldbody>
@@ -14,8 +14,8 @@ Bad:
 
 Good:
 
-    -     <camera name="front" pos="1 0 0.5" xyaxes="0 1 0 -0.4 0 1" fovy="0.8"/>
-    +     <camera name="front" pos="1 0 0.5" xyaxes="0 1 0 -0.4 0 1" fovy="45"/>
+    -     <camera name="front" pos="1 0 0.5" xyaxes="0 1 0 -0.5 0 1" fovy="0.8"/>
+    +     <camera name="front" pos="1 0 0.5" xyaxes="0 1 0 -0.5 0 1" fovy="45"/>
 
 The number: how many times `fovy` is above 145 degrees, or, below 15 degrees, how many times the image shows less than a
 quarter of the scene's size. Cameras of robots have 30 to 100, fish eyes 180

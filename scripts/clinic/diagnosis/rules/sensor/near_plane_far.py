@@ -12,7 +12,7 @@ Bad:
         <geom name="floor" type="plane" size="0 0 1"/>
         <body name="car" pos="0 0 0.1">
           <freejoint/>
-          <geom type="box" size="0.2 0.1 0.05"/>
+          <geom type="box" size="0.2 0.1 0.05" mass="2"/>
           <camera name="front" pos="0.2 0 0.05" xyaxes="0 -1 0 0 0 1"/>
         </body>
       </worldbody>

@@ -11,7 +11,7 @@ Bad:
         <geom type="plane" size="5 5 0.1"/>
         <body name="car" pos="0 0 0.1">
           <freejoint/>
-          <geom type="box" size="0.2 0.1 0.05"/>
+          <geom type="box" size="0.2 0.1 0.05" mass="2"/>
           <site name="front" pos="0.21 0 0"/>
         </body>
       </worldbody>

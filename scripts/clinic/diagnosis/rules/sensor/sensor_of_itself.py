@@ -12,7 +12,7 @@ Bad:
           <geom type="box" size="0.1 0.1 0.05"/>
           <site name="mount"/>
           <body name="arm" pos="0 0 0.1">
-            <joint axis="0 1 0"/>
+            <joint axis="0 0 1"/>
             <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02"/>
             <site name="tip" pos="0.3 0 0"/>
           </body>

@@ -8,11 +8,11 @@ Bad:
     <mujoco>
       <worldbody>
         <body pos="0 0 1">
-          <joint name="left_hip" axis="0 1 0" damping="1"/>
+          <joint name="left_hip" axis="0 1 0" damping="0.5"/>
           <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02" mass="1"/>
         </body>
         <body pos="0 0.3 1">
-          <joint name="right_hip" axis="0 1 0" damping="1"/>
+          <joint name="right_hip" axis="0 1 0" damping="0.5"/>
           <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02" mass="1"/>
         </body>
       </worldbody>

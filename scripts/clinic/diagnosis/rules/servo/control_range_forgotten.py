@@ -8,7 +8,7 @@ Bad:
     <mujoco>
       <default>
         <joint axis="0 1 0" range="-60 60" damping="1" armature="0.1"/>
-        <position kp="50" kv="5"/>
+        <position kp="100" kv="10"/>
       </default>
       <worldbody>
         <body pos="0 0 1">

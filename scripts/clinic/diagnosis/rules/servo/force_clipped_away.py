@@ -9,7 +9,7 @@ Bad:
     <mujoco>
       <worldbody>
         <body name="finger" pos="0 0 1">
-          <joint name="knuckle" axis="0 1 0" range="0 90"/>
+          <joint name="knuckle" axis="0 1 0" range="-90 0"/>
           <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01"/>
         </body>
       </worldbody>

@@ -21,7 +21,7 @@ Bad:
         </body>
         <body pos="0 0 1.3">
           <joint name="neck" axis="0 0 1" damping="1" armature="0.1"/>
-          <geom type="box" size="0.05 0.05 0.05" mass="0.3"/>
+          <geom size="0.1" mass="3"/>
         </body>
       </worldbody>
       <actuator>

@@ -2,7 +2,7 @@
 
 A muscle is strong near the length at which it is best, and gives nothing below half and above 1.6 times that.
 `lengthrange`, in m, and `range`, in the muscle's own lengths, say where it is. With a `lengthrange` of another tendon,
-a `force` of 0, or a control range that ends at a hundredth, it does not pull.
+a `range` in percent, a `force` of 0, or a control range that ends at a hundredth, it does not pull.
 
 Bad:
 
@@ -22,14 +22,14 @@ Bad:
         </spatial>
       </tendon>
       <actuator>
-        <muscle tendon="biceps" force="300" lengthrange="0.6 0.9"/>
+        <muscle tendon="biceps" force="300" lengthrange="0.18 0.26" range="75 105"/>
       </actuator>
     </mujoco>
 
 Good:
 
-    -     <muscle tendon="biceps" force="300" lengthrange="0.6 0.9"/>
-    +     <muscle tendon="biceps" force="300" lengthrange="0.19 0.25"/>
+    -     <muscle tendon="biceps" force="300" lengthrange="0.18 0.26" range="75 105"/>
+    +     <muscle tendon="biceps" force="300" lengthrange="0.18 0.26" range="0.75 1.05"/>
 
 The number: the most that excitation adds to the muscle's force, at the start and at nine poses between the ends of all
 ranges, as a share of its peak force; what is missing of that, above 0.9.

@@ -7,6 +7,7 @@ sign of a gear, a centre of mass aside or a control range below the weight show 
 Bad:
 
     <mujoco>
+      <default><motor ctrlrange="0 1"/></default>
       <worldbody>
         <body name="drone" pos="0 0 1">
           <freejoint/>
@@ -14,36 +15,21 @@ Bad:
           <site name="one" pos="-0.1 -0.1 0"/>
           <site name="two" pos="-0.1 0.1 0"/>
           <site name="three" pos="0.1 0.1 0"/>
-          <site name="four" pos="0.1 0.1 0"/>
+          <site name="four" pos="0.1 -0.1 0"/>
         </body>
       </worldbody>
       <actuator>
-        <motor name="one" site="one" gear="0 0 1 0 0 -0.02" ctrlrange="0 1"/>
-        <motor name="two" site="two" gear="0 0 1 0 0 0.02" ctrlrange="0 1"/>
-        <motor name="three" site="three" gear="0 0 1 0 0 -0.02" ctrlrange="0 1"/>
-        <motor name="four" site="four" gear="0 0 1 0 0 -0.02" ctrlrange="0 1"/>
+        <motor name="one" site="one" gear="0 0 1 0 0 -0.02"/>
+        <motor name="two" site="two" gear="0 0 1 0 0 0.02"/>
+        <motor name="three" site="three" gear="0 0 1 0 0 -0.02"/>
+        <motor name="four" site="four" gear="0 0 1 0 0 0.02"/>
       </actuator>
-      <keyframe>
-        <key name="hover" qpos="0 0 1 1 0 0 0" ctrl="0.9 0.9 0.9 0.9"/>
-      </keyframe>
     </mujoco>
 
 Good:
 
-    -       <site name="four" pos="0.1 0.1 0"/>
-    +       <site name="four" pos="0.1 -0.1 0"/>
-
-    -     <motor name="one" site="one" gear="0 0 1 0 0 -0.02" ctrlrange="0 1"/>
-    +     <motor name="one" site="one" gear="0 0 1 0 0 -0.02" ctrlrange="0 3"/>
-    -     <motor name="two" site="two" gear="0 0 1 0 0 0.02" ctrlrange="0 1"/>
-    +     <motor name="two" site="two" gear="0 0 1 0 0 0.02" ctrlrange="0 3"/>
-    -     <motor name="three" site="three" gear="0 0 1 0 0 -0.02" ctrlrange="0 1"/>
-    +     <motor name="three" site="three" gear="0 0 1 0 0 -0.02" ctrlrange="0 3"/>
-    -     <motor name="four" site="four" gear="0 0 1 0 0 -0.02" ctrlrange="0 1"/>
-    +     <motor name="four" site="four" gear="0 0 1 0 0 0.02" ctrlrange="0 3"/>
-
-    -     <key name="hover" qpos="0 0 1 1 0 0 0" ctrl="0.9 0.9 0.9 0.9"/>
-    +     <key name="hover" qpos="0 0 1 1 0 0 0" ctrl="1.226 1.226 1.226 1.226"/>
+    -   <default><motor ctrlrange="0 1"/></default>
+    +   <default><motor ctrlrange="0 3"/></default>
 
 The number: how level they push, where all have the gear that is MuJoCo's own, 1 along the x axis of the site. Else the
 weight over what the rotors lift at most, above 1 or below 1/30. At equal controls that carry the weight: the torque of

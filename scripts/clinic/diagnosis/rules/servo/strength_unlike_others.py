@@ -7,16 +7,16 @@ Bad:
     <mujoco>
       <worldbody>
         <body pos="0 0 1">
-          <joint name="hip" axis="0 1 0" damping="1"/>
+          <joint name="hip" axis="0 1 0" damping="0.1"/>
           <geom type="capsule" size="0.03" fromto="0 0 0 0 0 -0.3"/>
           <body pos="0 0 -0.3">
-            <joint name="knee" axis="0 1 0" damping="1"/>
+            <joint name="knee" axis="0 1 0" damping="0.1"/>
             <geom type="capsule" size="0.03" fromto="0 0 0 0 0 -0.3"/>
             <body pos="0 0 -0.3">
-              <joint name="ankle" axis="0 1 0" damping="1"/>
+              <joint name="ankle" axis="0 1 0" damping="0.1"/>
               <geom type="capsule" size="0.03" fromto="-0.05 0 0 0.1 0 0"/>
               <body pos="0.1 0 0">
-                <joint name="toe" axis="0 1 0" damping="1"/>
+                <joint name="toe" axis="0 1 0" damping="0.1"/>
                 <geom type="capsule" size="0.02" fromto="0 0 0 0.05 0 0"/>
               </body>
             </body>

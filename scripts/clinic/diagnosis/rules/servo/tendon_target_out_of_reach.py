@@ -28,14 +28,14 @@ Bad:
         </fixed>
       </tendon>
       <actuator>
-        <position tendon="split" kp="100" kv="5" ctrlrange="0 255"/>
+        <position tendon="split" kp="100" kv="5" forcerange="-5 5" ctrlrange="0 255"/>
       </actuator>
     </mujoco>
 
 Good:
 
-    -     <position tendon="split" kp="100" kv="5" ctrlrange="0 255"/>
-    +     <position tendon="split" kp="100" kv="5" ctrlrange="0 0.04"/>
+    -     <position tendon="split" kp="100" kv="5" forcerange="-5 5" ctrlrange="0 255"/>
+    +     <position tendon="split" kp="100" kv="5" forcerange="-5 5" ctrlrange="0 0.04"/>
 
 The number: the share of the targets that the tendon cannot reach while its joints are within their ranges; more than
 two thirds. Of a spatial tendon the reach is that of 64 poses, and a fifth more at each end. Targets that take the

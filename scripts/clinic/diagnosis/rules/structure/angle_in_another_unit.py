@@ -10,7 +10,7 @@ Bad:
       <worldbody>
         <body name="car" pos="0 0 0.1">
           <freejoint/>
-          <geom type="box" size="0.2 0.1 0.05"/>
+          <geom type="box" size="0.2 0.1 0.05" mass="2"/>
           <site name="lidar" pos="0.2 0 0" euler="0 90 45"/>
         </body>
       </worldbody>

@@ -7,19 +7,16 @@ Bad:
 
     <mujoco>
       <worldbody>
-        <body name="base" pos="0 0 20">
-          <freejoint/>
-          <geom type="box" size="0.1 0.1 0.05"/>
-          <body name="upper" pos="0 0 0.05">
+        <body name="upper" pos="0 0 20">
+          <joint axis="0 1 0"/>
+          <geom name="upper" type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
+          <body name="fore" pos="0 0 0.3">
             <joint axis="0 1 0"/>
-            <geom name="upper" type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
-            <body name="fore" pos="0 0 0.3">
+            <geom name="fore" type="capsule" fromto="0 0 0 0 0 0.3" size="3"/>
+            <body name="hand" pos="0 0 0.3">
               <joint axis="0 1 0"/>
-              <geom name="fore" type="capsule" fromto="0 0 0 0 0 0.3" size="3"/>
-              <body name="hand" pos="0 0 0.3">
-                <joint axis="0 1 0"/>
-                <geom name="hand" type="box" size="0.03 0.03 0.01"/>
-              </body>
+              <geom name="palm" type="box" size="0.03 0.03 0.01"/>
+              <geom name="finger" type="box" size="0.01 0.01 0.03" pos="0 0 0.04"/>
             </body>
           </body>
         </body>
@@ -28,8 +25,8 @@ Bad:
 
 Good:
 
-    -           <geom name="fore" type="capsule" fromto="0 0 0 0 0 0.3" size="3"/>
-    +           <geom name="fore" type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
+    -         <geom name="fore" type="capsule" fromto="0 0 0 0 0 0.3" size="3"/>
+    +         <geom name="fore" type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
 
 The number: the smallest extent of a geom over the size of the box around all others of its mechanism, which are three
 at least; more than 2.

@@ -8,7 +8,7 @@ Bad:
       <worldbody>
         <body name="upper" pos="0 0 1">
           <joint axis="0 1 0"/>
-          <geom type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>
+          <geom type="box" pos="0 0 0.15" size="0.03 0.03 0.15"/>
           <body name="fore" pos="0 0 300">
             <joint axis="0 1 0"/>
             <geom type="capsule" fromto="0 0 0 0 0 0.3" size="0.03"/>

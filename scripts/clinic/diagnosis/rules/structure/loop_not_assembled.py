@@ -9,14 +9,14 @@ Bad:
     <mujoco>
       <worldbody>
         <body name="crank" pos="0 0 1">
-          <joint axis="0 1 0"/>
+          <joint axis="0 1 0" damping="0.5"/>
           <geom type="capsule" fromto="0 0 0 0.15 0 0" size="0.02"/>
           <site name="pin" pos="0.2 0 0"/>
         </body>
         <body name="rocker" pos="0.5 0 1">
-          <joint axis="0 1 0"/>
+          <joint axis="0 1 0" damping="0.5"/>
           <geom type="capsule" fromto="0 0 0 -0.25 0 0" size="0.02"/>
-          <site name="hole" pos="-0.2 0 0"/>
+          <site name="hole" pos="-0.4 0 0"/>
         </body>
       </worldbody>
       <equality>
@@ -26,7 +26,7 @@ Bad:
 
 Good:
 
-    -       <site name="hole" pos="-0.2 0 0"/>
+    -       <site name="hole" pos="-0.4 0 0"/>
     +       <site name="hole" pos="-0.3 0 0"/>
 
 The number: how far apart the two places are at the start that an equality holds together, as a share of the model's

@@ -9,7 +9,7 @@ Bad:
       <worldbody>
         <body pos="0 0 1" quat="1 nan 0 0">
           <freejoint/>
-          <geom type="box" size="0.1 0.1 0.1"/>
+          <geom type="box" size="0.1 0.1 0.1" mass="2"/>
         </body>
       </worldbody>
     </mujoco>

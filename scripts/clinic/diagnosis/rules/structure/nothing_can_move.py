@@ -9,7 +9,7 @@ Bad:
       <worldbody>
         <geom type="plane" size="2 2 0.1"/>
         <body name="box" pos="0 0 0.5">
-          <geom type="box" size="0.1 0.1 0.1"/>
+          <geom type="box" size="0.1 0.1 0.1" mass="2"/>
         </body>
       </worldbody>
     </mujoco>

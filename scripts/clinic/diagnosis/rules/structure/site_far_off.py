@@ -9,9 +9,9 @@ Bad:
       <worldbody>
         <body name="pelvis" pos="0 0 1">
           <freejoint/>
-          <geom type="capsule" fromto="0 0 0 0 0 0.5" size="0.1"/>
-          <geom type="sphere" size="0.1" pos="0 0 0.7"/>
-          <geom type="capsule" fromto="0 0.1 0 0 0.1 -0.9" size="0.05"/>
+          <geom type="capsule" fromto="0 0 0 0 0 0.5" size="0.1" mass="20"/>
+          <geom type="sphere" size="0.1" pos="0 0 0.7" mass="4"/>
+          <geom type="capsule" fromto="0 0.1 0 0 0.1 -0.9" size="0.05" mass="8"/>
           <site name="head" pos="0 0 1.75"/>
         </body>
       </worldbody>

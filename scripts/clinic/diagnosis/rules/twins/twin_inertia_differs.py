@@ -37,7 +37,7 @@ Bad:
             <geom size="0.03"/>
           </body>
           <body name="right_rear" pos="-0.2 -0.1 0">
-            <inertial pos="0 0.06 0" mass="0.2" diaginertia="1e-4 1e-4 1e-4"/>
+            <inertial pos="0 0.02 0" mass="0.2" diaginertia="1e-4 1e-4 1e-4"/>
             <joint name="right_rear" axis="0 1 0" range="-30 60"/>
             <geom size="0.03"/>
           </body>
@@ -47,7 +47,7 @@ Bad:
 
 Good:
 
-    -         <inertial pos="0 0.06 0" mass="0.2" diaginertia="1e-4 1e-4 1e-4"/>
+    -         <inertial pos="0 0.02 0" mass="0.2" diaginertia="1e-4 1e-4 1e-4"/>
     +         <inertial pos="0 0 0" mass="0.2" diaginertia="1e-4 1e-4 1e-4"/>
 
 The number: how unlike the two are once one side is reflected across the plane that fits the most (or turned by half a

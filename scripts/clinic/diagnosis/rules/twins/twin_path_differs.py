@@ -8,18 +8,19 @@ Bad:
     <mujoco>
       <worldbody>
         <body name="pelvis" pos="0 0 1">
+          <freejoint/>
           <geom type="box" size="0.05 0.1 0.05"/>
           <site name="left_front" pos="0.05 0.1 0"/>
           <site name="left_back" pos="-0.05 0.1 0"/>
           <site name="right_front" pos="0.05 -0.1 0"/>
           <site name="right_back" pos="-0.05 -0.1 0"/>
           <body name="left_thigh" pos="0 0.1 -0.05">
-            <joint name="left_hip" axis="0 1 0"/>
+            <joint name="left_hip" axis="0 1 0" range="-60 60"/>
             <geom type="capsule" fromto="0 0 -0.05 0 0 -0.3" size="0.03"/>
             <site name="left_knee" pos="-0.03 0 -0.3"/>
           </body>
           <body name="right_thigh" pos="0 -0.1 -0.05">
-            <joint name="right_hip" axis="0 1 0"/>
+            <joint name="right_hip" axis="0 1 0" range="-60 60"/>
             <geom type="capsule" fromto="0 0 -0.05 0 0 -0.3" size="0.03"/>
             <site name="right_knee" pos="-0.03 0 -0.3"/>
           </body>

@@ -9,8 +9,8 @@ Bad:
       <worldbody>
         <body name="trunk" pos="0 0 1">
           <freejoint/>
-          <geom type="box" size="0.1 0.08 0.2"/>
-          <body name="left_upper" pos="0 0.12 0.15" euler="30 0 0">
+          <geom type="box" size="0.1 0.08 0.05"/>
+          <body name="left_upper" pos="0 0.12 0.05" euler="30 0 0">
             <joint name="left_shoulder" axis="0 1 0" range="-90 90"/>
             <geom type="capsule" fromto="0 0 -0.03 0 0.02 -0.2" size="0.025"/>
             <body name="left_lower" pos="0 0.03 -0.25">
@@ -22,7 +22,7 @@ Bad:
               </body>
             </body>
           </body>
-          <body name="right_upper" pos="0 -0.12 0.15" euler="30 0 0">
+          <body name="right_upper" pos="0 -0.12 0.05" euler="30 0 0">
             <joint name="right_shoulder" axis="0 1 0" range="-90 90"/>
             <geom type="capsule" fromto="0 0 -0.03 0 -0.02 -0.2" size="0.025"/>
             <body name="right_lower" pos="0 -0.03 -0.25">
@@ -40,8 +40,8 @@ Bad:
 
 Good:
 
-    -       <body name="right_upper" pos="0 -0.12 0.15" euler="30 0 0">
-    +       <body name="right_upper" pos="0 -0.12 0.15" euler="-30 0 0">
+    -       <body name="right_upper" pos="0 -0.12 0.05" euler="30 0 0">
+    +       <body name="right_upper" pos="0 -0.12 0.05" euler="-30 0 0">
 
 The number: bodies, centres of mass and joints of the limb that are not where the image of the other side has them;
 told where the mirrored turn of one body mends at least four of five, and three at least.

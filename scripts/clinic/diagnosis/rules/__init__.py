@@ -13,8 +13,9 @@ CASE       the case that shows it, where there is one
 suspects   a function that takes a `ReaderModel` and gives `Suspect`s; for a model that does not compile, with FAMILIES
            `will-not-compile`, it reads `model.error`
 
-and a docstring that is its page: what it is, why it matters, `Bad:` with an example of a few lines, `Good:` with the
-diff that makes a good one of it or with another example, the number and its source, and when it is wrong.
+and a docstring that is its page: what it is, why it matters, `Bad:` with an example of a few lines of which it is told
+first, `Good:` with the diff that makes one of it of which nothing is told, or with another example, the number and its
+source, and when it is wrong.
 """
 
 from __future__ import annotations

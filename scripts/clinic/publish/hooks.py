@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,9 +12,18 @@ from clinic.publish.policy import policy
 
 
 def on_config(config: Any, **_: object) -> Any:
-    """Gives templates the versions."""
+    """Gives templates the versions, and *Cases by topic* the order of the cases."""
     config["extra"]["about"] = about()
+    if tags := config["plugins"].get("material/tags"):
+        tags.config.listings_sort_by = _number
     return config
+
+
+def _number(listed: Any) -> tuple[int, str]:
+    """The number that a case's title begins with, and the title."""
+    title = str(listed.item.title)
+    number = title.partition(".")[0]
+    return int(number) if number.isdecimal() else sys.maxsize, title
 
 
 def on_env(env: Any, *, config: Any, **_: object) -> Any:

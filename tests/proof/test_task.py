@@ -59,7 +59,11 @@ def told(find: str, replace: str, *may: str) -> list[str]:
          "dof_frictionloss is 1e+06: that holds what should move; at most 10 is accepted."),
         ('size="1 1 0.1"', 'size="1 1 0.1" friction="1e6"',
          "geom_friction is 1e+06: that holds what should move; at most 100 is accepted."),
+        ('size="1 1 0.1"', 'size="1 1 0.1" margin="-0.3"',
+         "geom_margin is -0.3: below zero things go into each other before they push."),
         ('<body name="arm"', '<geom name="prop" size="0.1"/><body name="arm"', "You added geom prop."),
+        ('<body name="arm"', '<body name="prop"><geom size="0.1"/></body><body name="arm"', "You added body prop."),
+        ('<body name="arm"', '<body name="prop" mocap="true"/><body name="arm"', "You added body prop."),
         ('<geom name="arm" type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="0.4"/>',
          '<geom name="link" type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="0.4"/>',
          "You changed the size of geom arm from 0.02 0.15 0 to 0.03 0.15 0 m."),
@@ -85,7 +89,22 @@ def test_a_change_of_the_task_is_told(find: str, replace: str, said: str) -> Non
 
 def test_an_armature_far_beyond_the_arm_s_inertia_is_told() -> None:
     (said,) = told('damping="1"', 'armature="1e6"')
-    assert said.startswith("dof_armature is 1e+06, more than 100 times the inertia")
+    assert said.startswith("The armature of joint hinge is 1e+06, more than 1000 times its inertia 0.02")
+
+
+def test_an_actuator_s_armature_is_seen_through_its_gear() -> None:
+    broken, model = (
+        mujoco.MjModel.from_xml_string(MODEL.replace('kp="20"', f'kp="20" gear="20" armature="{each}"'))
+        for each in (0, 0.2)
+    )
+    (said,) = changes(broken, model, Task())
+    assert said.startswith("The armature of joint hinge is 80, more than 1000 times its inertia 0.02")
+
+
+def test_of_a_sensor_of_another_type_nothing_else_is_told() -> None:
+    assert told('<jointpos name="angle" joint="hinge"/>', '<framepos name="angle" objtype="body" objname="hand"/>') == [
+        "You changed the type of sensor angle from jointpos to framepos."
+    ]
 
 
 def test_dry_friction_of_a_free_joint_is_told() -> None:
@@ -109,6 +128,7 @@ def test_dry_friction_of_a_free_joint_is_told() -> None:
         ('damping="1"', 'damping="5" armature="0.1" frictionloss="0.1"'),
         ('kp="20"', 'kp="200" kv="5" ctrlrange="-3 3"'),
         ('<camera name="side"', '<camera name="other"/><light/><site name="mark"/><camera name="side"'),
+        ('<camera name="side"', '<body name="look" pos="0 0 1"/><camera name="side"'),
         ("<sensor>", '<contact><exclude body1="arm" body2="hand"/></contact><sensor><clock/>'),
         ('qpos="0.1"/>', 'qpos="0.1"/><key name="other" qpos="1"/>'),
         ('size="0.02" mass="0.1"', 'size="0.02" mass="0.1" rgba="1 0 0 1"'),

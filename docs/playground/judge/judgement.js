@@ -149,7 +149,7 @@ export function missed(record, { check, measured }) {
   const { label, unit: its } = record.signals[check.signal];
   const unit = check.take === "onset" ? "s" : its;
   const span = check.window ? `, ${general(check.window[0])} to ${general(check.window[1])} s` : "";
-  const seen = Number.isNaN(measured) ? "nothing" : `${general(measured, 4)} ${unit}`.trimEnd();
+  const seen = Number.isNaN(measured) ? "cannot be measured" : `is ${general(measured, 4)} ${unit}`.trimEnd();
   const bound = expected(check, (value) => `${general(value)} ${unit}`.trimEnd());
-  return `${label} (${check.take}${span}) is ${seen}; expected ${bound}.`;
+  return `${label} (${check.take}${span}) ${seen}; expected ${bound}.`;
 }

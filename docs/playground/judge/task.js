@@ -52,11 +52,20 @@ class Comparison {
         const [before, after] = [this.value(this.broken, kind, field, i), this.value(this.model, kind, field, other)];
         const allowed = [field, WORDS[field] ?? field].some((word) => this.may.includes(`${kind}(${name}).${word}`));
         const hidden = kind === "geom" && field === "quat" && this.fillsTheSame(i, before, after);
-        if (!allowed && !hidden && !same(before, after, field)) yield changed(field, ` of ${kind} ${name}`, before, after);
+        if (allowed || hidden || same(before, after, field)) continue;
+        yield changed(field, ` of ${kind} ${name}`, before, after);
+        if (kind === "sensor" && field === "type") break; // what else differs is because of it
       }
     }
     if ([...TABLES.further, ...this.may].includes(kind)) return;
-    for (const name of there.keys()) if (!here.has(name)) yield `You added ${kind} ${name}.`;
+    for (const [name, i] of there) {
+      if (!here.has(name) && !(kind === "body" && this.isFrame(i))) yield `You added ${kind} ${name}.`;
+    }
+  }
+
+  /** Whether a body is a place in the world and nothing more: what a camera is turned to. @param {number} body */
+  isFrame(body) {
+    return this.model.body_weldid[body] === 0 && this.model.body_geomnum[body] === 0;
   }
 
   /**
@@ -120,22 +129,39 @@ class Comparison {
   /** @returns {Generator<string>} */
   *excessive() {
     for (const [field, most] of Object.entries(TABLES.most)) {
-      const [before, after] = [largest(this.broken[field]), largest(this.model[field])];
+      const size = field.endsWith("prm") ? Math.abs : undefined;
+      const [before, after] = [largest(this.broken[field], size), largest(this.model[field], size)];
       if (after > Math.max(most, before)) {
         yield `${field} is ${general(after)}: that holds what should move; at most ${general(most)} is accepted.`;
       }
     }
-    const [inertia, times] = [largest(this.broken.dof_M0), TABLES.heaviest];
-    for (const field of ["dof_armature", "actuator_armature"]) {
-      const after = largest(this.model[field]);
-      if (after > times * inertia) {
-        yield `${field} is ${general(after)}, more than ${times} times the inertia ${general(inertia, 3)} of the model itself.`;
+    for (const field of ["geom_margin", "pair_margin"]) {
+      const [before, after] = [this.broken, this.model].map((each) => -largest(each[field], (margin) => -margin));
+      if (after < before) yield `${field} is ${general(after)}: below zero things go into each other before they push.`;
+    }
+    const [inertias, times] = [numbers(this.broken.dof_M0), TABLES.heaviest];
+    for (const [i, armature] of this.armature().slice(0, inertias.length).entries()) {
+      if (armature > times * inertias[i]) {
+        const of = this.name(this.broken, "JOINT", this.broken.dof_jntid[i]);
+        yield `The armature of joint ${of} is ${general(armature)}, more than ${times} times its inertia ${general(inertias[i], 3)}.`;
       }
     }
     const after = this.frictionOfFree(this.model);
     if (after > this.frictionOfFree(this.broken)) {
       yield `A free joint has a frictionloss of ${general(after)}: that holds to the world what should be free.`;
     }
+  }
+
+  /** The armature of each degree of freedom, with those of actuators, which a gear multiplies twice. */
+  armature() {
+    const { model } = this;
+    const made = numbers(model.dof_armature);
+    for (const [i, armature] of numbers(model.actuator_armature ?? []).entries()) {
+      if (!armature || model.actuator_trntype[i] > this.mujoco.mjtTrn.mjTRN_JOINTINPARENT.value) continue;
+      const [[joint], [gear]] = [row(model.actuator_trnid, i, model.nu), row(model.actuator_gear, i, model.nu)];
+      made[model.jnt_dofadr[joint]] += armature * gear ** 2;
+    }
+    return made;
   }
 
   /** @param {any} model */
@@ -269,9 +295,12 @@ function numbers(value) {
   return typeof value === "number" ? [value] : Array.from(value);
 }
 
-/** @param {ArrayLike<number> | undefined} values */
-function largest(values) {
-  return Array.from(values ?? []).reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+/**
+ * The largest of some numbers, or of what `size` makes of each; 0 where none is above.
+ * @param {ArrayLike<number> | undefined} values
+ */
+function largest(values, size = (/** @type {number} */ value) => value) {
+  return Array.from(values ?? []).reduce((most, value) => Math.max(most, size(value)), 0);
 }
 
 /**

@@ -25,7 +25,7 @@ class ModelError(ValueError):
         super().__init__(line, found, expected, repair)
 
     def __str__(self) -> str:
-        return f"line {self.line}: {self.found}"
+        return f"line {self.line}: {self.found}; expected {self.expected}"
 
 
 def check_text(xml: str) -> None:

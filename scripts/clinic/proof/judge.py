@@ -100,11 +100,12 @@ def _failed(case: Case, text: str, trial: Trial | None) -> list[str]:
         if not verdict.holds:
             signal = case.record.signals[check.signal]
             unit = "s" if check.take == "onset" else signal.unit
-            measured = "nothing" if isnan(verdict.measured) else f"{verdict.measured:.4g} {unit}".rstrip()
+            seen = f"is {verdict.measured:.4g} {unit}".rstrip()
+            seen = "cannot be measured" if isnan(verdict.measured) else seen
             taken = f"{signal.label or check.signal} ({check.take}"
             taken += f", {check.window[0]:g} to {check.window[1]:g} s)" if check.window else ")"
             bound = expected(check, (f"{{:g}} {unit}".rstrip()).format)
-            told.append(f"{where}{taken} is {measured}; expected {bound}.")
+            told.append(f"{where}{taken} {seen}; expected {bound}.")
     return told
 
 

@@ -2,7 +2,8 @@
 
 Every repair may change how the model is simulated and how things touch: a smaller timestep, integrator, solver, contact
 parameters, masks, pairs and excludes, damping, armature, friction, but for a free joint's, and an actuator's gains, up
-to a bound; colours, lights, further cameras, sites, sensors and keyframes. A record's `task.may` names more. Elements
+to a bound; colours, lights, further cameras, sites, sensors, keyframes and empty bodies of the
+world. A record's `task.may` names more. Elements
 are compared by name, unnamed ones by their order; a geom or site may have another name at the same place, and a geom
 may be turned as its symmetry hides.
 """
@@ -16,6 +17,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from clinic.record.fields import Task
 
@@ -35,7 +37,7 @@ Args:
     ranges: Those that a repair may set where there was none.
     flags, options: Flags and numbers of `<option>`.
     most: Beyond it nothing is repaired, but frozen; SI units.
-    heaviest: How many times the inertia of the model an armature may be.
+    heaviest: How many times the inertia that a joint turns an armature may be.
 """
 FIELDS: dict[str, str] = TABLES["fields"]
 WORDS: dict[str, str] = TABLES["words"]
@@ -65,8 +67,10 @@ def _of_kind(broken: mujoco.MjModel, model: mujoco.MjModel, kind: str, may: Sequ
             )
             if not allowed and not same:
                 yield _changed(field, f" of {kind} {name}", before, after)
+                if (kind, field) == ("sensor", "type"):
+                    break  # what else differs is because of it
     for name in there if kind not in (*TABLES["further"], *may) else ():
-        if name not in here:
+        if name not in here and not (kind == "body" and _is_frame(model, there[name])):
             yield f"You added {kind} {name}."
 
 
@@ -102,16 +106,35 @@ def _options(broken: mujoco.MjModel, model: mujoco.MjModel) -> Iterator[str]:
 
 def _excessive(broken: mujoco.MjModel, model: mujoco.MjModel) -> Iterator[str]:
     for field, most in TABLES["most"].items():
-        before, after = (np.max(np.abs(getattr(each, field, 0.0)), initial=0.0) for each in (broken, model))
+        size = np.abs if field.endswith("prm") else np.positive
+        before, after = (np.max(size(getattr(each, field, 0.0)), initial=0.0) for each in (broken, model))
         if after > max(most, before):
             yield f"{field} is {after:g}: that holds what should move; at most {most:g} is accepted."
-    inertia = np.max(broken.dof_M0, initial=0.0)
-    times = TABLES["heaviest"]
-    for field in ("dof_armature", "actuator_armature"):
-        if (after := np.max(getattr(model, field, 0.0), initial=0.0)) > times * inertia:
-            yield f"{field} is {after:g}, more than {times} times the inertia {inertia:.3g} of the model itself."
+    for kind in ("geom", "pair"):
+        before, after = (np.min(getattr(each, f"{kind}_margin"), initial=0.0) for each in (broken, model))
+        if after < before:
+            yield f"{kind}_margin is {after:g}: below zero things go into each other before they push."
+    times, reflected = TABLES["heaviest"], _armature(model)
+    for i, (armature, inertia) in enumerate(zip(reflected, broken.dof_M0, strict=False)):
+        if armature > times * inertia:
+            of = _name(broken, "JOINT", int(broken.dof_jntid[i]))
+            yield f"The armature of joint {of} is {armature:g}, more than {times} times its inertia {inertia:.3g}."
     if (after := _friction_of_free(model)) > _friction_of_free(broken):
         yield f"A free joint has a frictionloss of {after:g}: that holds to the world what should be free."
+
+
+def _armature(model: mujoco.MjModel) -> NDArray[np.float64]:
+    """The armature of each degree of freedom, with those of actuators, which a gear multiplies twice."""
+    made = np.array(model.dof_armature)
+    for i, armature in enumerate(getattr(model, "actuator_armature", ())):
+        if armature and model.actuator_trntype[i] <= int(mujoco.mjtTrn.mjTRN_JOINTINPARENT):
+            made[model.jnt_dofadr[model.actuator_trnid[i, 0]]] += armature * model.actuator_gear[i, 0] ** 2
+    return made
+
+
+def _is_frame(model: mujoco.MjModel, body: int) -> bool:
+    """Whether a body is a place in the world and nothing more: what a camera is turned to."""
+    return bool(model.body_weldid[body] == 0 and not model.body_geomnum[body])
 
 
 def _friction_of_free(model: mujoco.MjModel) -> float:

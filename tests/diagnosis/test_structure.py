@@ -217,3 +217,20 @@ def test_a_thing_that_hangs_alone_above_the_floor_is_told(more: str, told: bool)
     ball = '<geom type="plane" size="2 2 1"/><geom size="0.1" pos="0 0 1"/>'
     model = f"<mujoco><worldbody>{ball}{more}</worldbody></mujoco>"
     assert [each.level for each in findings(model, "nothing-can-move")] == ["cause"] * told
+
+
+@pytest.mark.parametrize(
+    ("foot", "more", "told"),
+    [
+        ('name="foot"', "", "0 0 -0.3"),
+        ('name="foot" pos="0 0 -0.3"', "", None),
+        ('name="knee"', "", None),
+        ('name="foot"', '<body name="toes" pos="0 0 -0.3"><joint/><geom size="0.02"/></body>', None),
+    ],
+    ids=["at the knee", "at the end", "a knee", "beside toes"],
+)
+def test_a_foot_at_the_knee_is_told(foot: str, more: str, told: str | None) -> None:
+    shin = '<geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03"/>'
+    body = f'<body pos="0 0 1"><joint axis="0 1 0"/>{shin}<geom size="0.04" {foot}/>{more}</body>'
+    found = hints(f"<mujoco><worldbody>{body}</worldbody></mujoco>", "foot-at-the-joint")
+    assert [each.value for each in found] == ([told] if told else [])

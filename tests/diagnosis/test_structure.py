@@ -234,3 +234,20 @@ def test_a_foot_at_the_knee_is_told(foot: str, more: str, told: str | None) -> N
     body = f'<body pos="0 0 1"><joint axis="0 1 0"/>{shin}<geom size="0.04" {foot}/>{more}</body>'
     found = hints(f"<mujoco><worldbody>{body}</worldbody></mujoco>", "foot-at-the-joint")
     assert [each.value for each in found] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(
+    ("floor", "told"),
+    [
+        ('name="floor" type="box" size="0.2 3 0.05"', "5 5 0.05"),
+        ('name="floor" type="box" size="0.2 0.2 0.05"', "5 5 0.05"),
+        ('name="floor" type="box" size="3 3 0.05"', None),
+        ('name="table" type="box" size="0.1 0.1 0.05"', None),
+        ('name="floor" type="plane" size="0.1 0.1 0.05"', None),
+    ],
+)
+def test_a_floor_that_a_robot_steps_off_is_told(floor: str, told: str | None) -> None:
+    head = '<body pos="0 0 0.25"><joint/><geom type="box" size="0.05 0.05 0.05"/></body>'
+    robot = f'<body pos="0 0 0.45"><freejoint/><geom type="box" size="0.1 0.1 0.2"/>{head}</body>'
+    model = f'<mujoco><worldbody><geom {floor} pos="0 0 -0.05"/>{robot}</worldbody></mujoco>'
+    assert [each.value for each in hints(model, "floor-too-small")] == ([told] if told else [])

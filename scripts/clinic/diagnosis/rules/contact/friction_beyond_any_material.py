@@ -108,7 +108,7 @@ def _turning(model: ReaderModel) -> Iterator[Suspect]:
     row, size = of.row("geom_friction", geom, 3), 2 * of.model("geom_rbound")[other]
     rows = {each: of.row("geom_friction", each, 3) for each in range(of.count("geom")) if solid(of, each)}
     values = {each: written([slide, 0.005, roll]) for each, (slide, turn, roll) in rows.items() if turn > PATCH * size}
-    names = tuple(of.name("geom", each) for each in sorted(values, key=geom.__ne__))
+    names = tuple(of.name("geom", each) for each in sorted(values, key=lambda each: each != geom))
     says = f"The second coefficient of friction is a patch of {row[1]:g} m, under {of.name('geom', other)}, "
     says += f"which is {size:.2g} m across."
     probe = Probe("widest patch of a contact on a plane", "times the size of what rests there", _widest)

@@ -239,8 +239,8 @@ def test_a_foot_at_the_knee_is_told(foot: str, more: str, told: str | None) -> N
 @pytest.mark.parametrize(
     ("floor", "told"),
     [
-        ('name="floor" type="box" size="0.2 3 0.05"', "5 5 0.05"),
-        ('name="floor" type="box" size="0.2 0.2 0.05"', "5 5 0.05"),
+        ('name="floor" type="box" size="0.2 3 0.05"', "3.36603 3.36603 0.05"),
+        ('name="floor" type="box" size="0.2 0.2 0.05"', "3.36603 3.36603 0.05"),
         ('name="floor" type="box" size="3 3 0.05"', None),
         ('name="table" type="box" size="0.1 0.1 0.05"', None),
         ('name="floor" type="plane" size="0.1 0.1 0.05"', None),

@@ -100,8 +100,8 @@ def _failed(case: Case, text: str, trial: Trial | None) -> list[str]:
         if not verdict.holds:
             signal = case.record.signals[check.signal]
             unit = "s" if check.take == "onset" else signal.unit
-            seen = f"is {verdict.measured:.4g} {unit}".rstrip()
-            seen = "cannot be measured" if isnan(verdict.measured) else seen
+            value = verdict.measured
+            seen = "cannot be measured" if isnan(value) else f"is {value:.4g} {unit}".rstrip()
             taken = f"{signal.label or check.signal} ({check.take}"
             taken += f", {check.window[0]:g} to {check.window[1]:g} s)" if check.window else ")"
             bound = expected(check, (f"{{:g}} {unit}".rstrip()).format)

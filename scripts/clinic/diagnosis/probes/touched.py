@@ -24,6 +24,12 @@ class Read:
     reach: float = 0.0
 
 
+def touch_sites(of: Simulation) -> list[int]:
+    """The sites of all touch sensors."""
+    pairs = zip(of.model("sensor_type"), of.model("sensor_objid"), strict=True)
+    return [int(site) for kind, site in pairs if int(kind) == SENS_TOUCH]
+
+
 @kept
 def touched(simulation: Simulation) -> dict[int, Read]:
     """Each touch, force and torque sensor, over the time after letting go, but for parts that overlap at the start."""

@@ -102,9 +102,9 @@ def _in_order(model: ReaderModel) -> Iterator[Suspect]:
 def _turning(model: ReaderModel) -> Iterator[Suspect]:
     """The geoms that a contact holds against turning on the spot as if they touched far beyond their own size."""
     of = model.simulation
-    if not (wide := [(geom, other) for geom, other in _patches(of) if _patch(of, geom, other) > PATCH]):
+    share, geom, other = max(_patches(of), default=(0.0, 0, 0))
+    if share <= PATCH:
         return
-    geom, other = max(wide, key=lambda pair: _patch(of, *pair))
     row, size = of.row("geom_friction", geom, 3), 2 * of.model("geom_rbound")[other]
     rows = {each: of.row("geom_friction", each, 3) for each in range(of.count("geom")) if solid(of, each)}
     values = {each: written([slide, 0.005, roll]) for each, (slide, turn, roll) in rows.items() if turn > PATCH * size}
@@ -117,22 +117,21 @@ def _turning(model: ReaderModel) -> Iterator[Suspect]:
 
 
 def _widest(of: Simulation) -> float:
-    return max((_patch(of, geom, other) for geom, other in _patches(of)), default=0.0)
+    return max(_patches(of), default=(0.0,))[0]
 
 
-def _patches(of: Simulation) -> list[tuple[int, int]]:
-    """What decides the friction of a contact on a plane that resists turning on the spot, and what rests there."""
+def _patches(of: Simulation) -> list[tuple[float, int, int]]:
+    """Of contacts on planes that resist turning on the spot: the patch over the size of what rests, and both geoms.
+
+    The first is one that decides the friction, the second the one that rests.
+    """
     made = []
     for contact, decides in resting(of):
         other, *more = (geom for geom in contact.geoms if int(of.model("geom_type")[geom]) != PLANE)
         if decides.kind == "geom" and decides.dim > TURNS and not more:
-            made += [(geom, other) for geom in decides.elements]
+            size, turning = 2 * of.model("geom_rbound")[other], of.model("geom_friction")[1::3]
+            made += [(turning[geom] / size, geom, other) for geom in decides.elements]
     return made
-
-
-def _patch(of: Simulation, geom: int, other: int) -> float:
-    """The torsional friction of a geom over the size of another one."""
-    return of.row("geom_friction", geom, 3)[1] / (2 * of.model("geom_rbound")[other])
 
 
 def _exchanged(of: Simulation) -> list[int]:

@@ -38,7 +38,7 @@ from collections.abc import Iterator
 
 from clinic.diagnosis.engine import SENS_TOUCH
 from clinic.diagnosis.probes.shape import solid
-from clinic.diagnosis.probes.touched import touched, unread
+from clinic.diagnosis.probes.touched import touch_sites, touched, unread
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.sensor.touch_site_off_the_surface import OUTSIDE
@@ -61,7 +61,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each touch sensor that is alone on its body, with a site as large as the contacts are far."""
     simulation = model.simulation
     kinds, of, owners = (simulation.model(name) for name in ("sensor_type", "sensor_objid", "site_bodyid"))
-    sites = [int(of[i]) for i, kind in enumerate(kinds) if int(kind) == SENS_TOUCH]
+    sites = touch_sites(simulation)
     bodies = [owners[site] for site in sites]
     yield from _none_of_many(model)
     for sensor, seen in touched(simulation).items():

@@ -36,9 +36,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import set_attribute
-from clinic.diagnosis.engine import BOX, CAPSULE, CYLINDER, PLANE, SENS_TOUCH
+from clinic.diagnosis.engine import BOX, CAPSULE, CYLINDER, PLANE
 from clinic.diagnosis.probes.overlap import sunk_by_half
 from clinic.diagnosis.probes.shape import boxes, thickness
+from clinic.diagnosis.probes.touched import touch_sites
 from clinic.diagnosis.probes.vector import dot, norm, of_quaternion, sub, written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -142,10 +143,10 @@ def _fits(of: Simulation, geom: int, others: set[int]) -> bool:
 
 def _around(of: Simulation) -> list[int]:
     """The sites of touch sensors that have the place and axis of a round geom of their body, and twice its length."""
-    kinds, sensed = of.model("sensor_type"), of.model("sensor_objid")
-    sites = {int(site) for kind, site in zip(kinds, sensed, strict=True) if int(kind) == SENS_TOUCH}
     return sorted(
-        site for site in sites if any(_twice(of, site, geom) for geom in of.geoms_of(of.body_of("site", site)))
+        site
+        for site in {*touch_sites(of)}
+        if any(_twice(of, site, geom) for geom in of.geoms_of(of.body_of("site", site)))
     )
 
 

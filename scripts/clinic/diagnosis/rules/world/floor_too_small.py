@@ -24,8 +24,8 @@ Good:
     -     <geom name="floor" type="box" size="0.15 0.15 0.05" pos="0 0 -0.05"/>
     +     <geom name="floor" type="plane" size="3 3 0.1"/>
 
-The number: how many boxes that are called a floor or the ground, and are all that stands still, are narrower than a
-robot with a free joint is in its longest direction. None of 206 healthy models has one.
+The number: how many boxes that are called a floor or the ground, and are all that stands still, have an edge nearer to
+their middle than a robot with a free joint reaches from its root. None of 206 healthy models has one.
 
 When it is wrong: a pedestal that is called a floor.
 """
@@ -36,8 +36,9 @@ import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.engine import BOX
-from clinic.diagnosis.probes.shape import boxes, mechanisms, solid
-from clinic.diagnosis.probes.vector import Vector, written
+from clinic.diagnosis.probes.overlap import tree_extent
+from clinic.diagnosis.probes.shape import solid
+from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, how_many
@@ -47,38 +48,29 @@ FAMILIES = ("falls-through",)
 UNPLANTED = "how large a floor should be, only its maker knows"
 
 FLOOR = re.compile(r"floor|ground", re.IGNORECASE)
-ENOUGH = 10  # times the robot
+ENOUGH = 10  # times what the robot reaches
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """The floor that a robot steps off."""
     of = model.simulation
-    for geom, size in _narrow(of).items():
+    for geom, reach in _narrow(of).items():
         half, name = of.row("geom_size", geom, 3), of.name("geom", geom)
-        value = written([ENOUGH * size, ENOUGH * size, half[2]])
-        says = f"{name} is {2 * min(half[:2]):.3g} m wide, and the robot over it {size:.3g} m long: it steps off."
+        value = written([ENOUGH * reach, ENOUGH * reach, half[2]])
+        says = f"{name} is {2 * min(half[:2]):.3g} m wide, and the robot reaches {reach:.3g} m from its root."
         probe = how_many("floors that are smaller than the robot", _narrow)
         edits = model.set("geom", [geom], "size", value)
         yield Suspect((name,), "size", written(half), value, edits, probe, 0, says, "larger than the robot")
 
 
 def _narrow(of: Simulation) -> dict[int, float]:
-    """The box called a floor that is narrower than a robot, and how long that is in m."""
+    """The box called a floor whose edge a robot reaches from its middle, and how far the robot reaches in m."""
     welds = of.model("body_weldid")
-    grounds = [geom for geom in range(of.count("geom")) if solid(of, geom) and welds[of.body_of("geom", geom)] == 0]
-    if len(grounds) != 1 or int(of.model("geom_type")[grounds[0]]) != BOX:
+    still = [geom for geom in range(of.count("geom")) if solid(of, geom) and not welds[of.body_of("geom", geom)]]
+    floor = still[0] if len(still) == 1 else None
+    if floor is None or int(of.model("geom_type")[floor]) != BOX or of.row("geom_quat", floor, 4)[0] != 1:
         return {}
-    (floor,) = grounds
-    if not FLOOR.search(of.name("geom", floor)) or of.row("geom_quat", floor, 4)[0] != 1:
+    if not FLOOR.search(of.name("geom", floor)):
         return {}
-    of.begin()
-    robots = [geoms for root, geoms in mechanisms(of).items() if root in of.free_bodies and root in of.children]
-    longest = max((_longest([*boxes(of, geoms).values()]) for geoms in robots), default=0.0)
-    return {floor: longest} if longest > 2 * min(of.row("geom_size", floor, 3)[:2]) else {}
-
-
-def _longest(around: list[tuple[Vector, Vector]]) -> float:
-    """The longest side of the box around some boxes, in m."""
-    return max(
-        max(at[i] + half[i] for at, half in around) - min(at[i] - half[i] for at, half in around) for i in range(3)
-    )
+    reach = max((tree_extent(of, root) for root in of.free_bodies if root in of.children), default=0.0)
+    return {floor: reach} if reach > min(of.row("geom_size", floor, 3)[:2]) else {}

@@ -181,6 +181,15 @@ def test_several_models_are_diagnosed_and_one_that_cannot_be_holds_up_no_other(m
     assert run("diagnose", "well.xml", "nowhere.xml").exit_code == 2
 
 
+def test_elements_that_stand_too_deep_are_a_sentence(tmp_path):
+    deep = tmp_path / "deep.xml"
+    bodies = 20_000
+    deep.write_text(f"<mujoco><worldbody>{'<body>' * bodies}{'</body>' * bodies}</worldbody></mujoco>")
+    done = run("diagnose", deep)
+    assert done.exit_code == 2
+    assert "the model is too large: its elements stand too deep within one another" in done.output
+
+
 def test_standard_input_is_read():
     assert run("diagnose", "-", given=BROKEN).exit_code == 1
     bent = run("diagnose", "-", "--keyframe", "bent", "--select", "spring-too-stiff,masks", given=DRIVEN)

@@ -259,8 +259,11 @@ def main() -> None:
             print(f"trying {MEASURING}", flush=True)
             told = measure(request.symptom, request.measurement, engine, made.texts, request.start)
             made = replace(made, measured=told)
-    except (MemoryError, RecursionError) as error:
-        said = error if "MuJoCo" in str(error) else f"{type(error).__name__}: the model is too large"
+    except RecursionError:
+        print(f"wrong {request.name}: the model is too large: its elements stand too deep within one another", flush=True)
+        return
+    except MemoryError as error:
+        said = error if "MuJoCo" in str(error) else "the model is too large: there is not memory enough"
         print(f"wrong {request.name}: {said}", flush=True)
         return
     except StartError as error:

@@ -260,7 +260,9 @@ def main() -> None:
             told = measure(request.symptom, request.measurement, engine, made.texts, request.start)
             made = replace(made, measured=told)
     except RecursionError:
-        print(f"wrong {request.name}: the model is too large: its elements stand too deep within one another", flush=True)
+        print(
+            f"wrong {request.name}: the model is too large: its elements stand too deep within one another", flush=True
+        )
         return
     except MemoryError as error:
         said = error if "MuJoCo" in str(error) else "the model is too large: there is not memory enough"

@@ -8,6 +8,10 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
 
+DIAGONAL = ("ixx", "iyy", "izz")
+PART = 1e-7  # of the largest moment: a rod of 1 m and 0.2 mm
+ZERO = 1e-15  # kg m2: below it is what was left of a subtraction
+
 
 def tensor(simulation: Simulation, body: int) -> Vector:
     """The inertia about the centre of mass in the axes of the body's frame, in kg m2."""
@@ -46,3 +50,29 @@ def set_inertial(model: ReaderModel, body: int, mass: float, centre: Vector, abo
         xml = f'<inertial pos="{written(centre)}" mass="{mass:.6g}" fullinertia="{full}"/>'
     there = element.first("inertial")
     return (replace(there, xml) if there else insert(element, xml),)
+
+
+def possible(moments: list[float]) -> list[float]:
+    """Three moments that a body can have, with as few changed as may be.
+
+    A negative one loses its sign, one of zero, or a negative one that does not fit so, is the mean of the others, and
+    one above the sum of the others loses decimal places until it fits, or becomes that sum, or the larger of them where
+    that is too little.
+    """
+    least = max(ZERO, PART * max(map(abs, moments)))
+    made = [abs(each) if abs(each) > least else 0.0 for each in moments]
+    if 2 * max(made) > sum(made) and sum(each > 0 for each in moments) == 2:
+        made = [0.0 if each < 0 else size for each, size in zip(moments, made, strict=True)]
+    for index, each in enumerate(made):
+        rest = [other for k, other in enumerate(made) if k != index]
+        if each == 0:
+            made[index] = sum(rest) / 2 or 1e-6
+    largest = max(range(3), key=lambda index: made[index])
+    rest_sum = sum(made) - made[largest]
+    while made[largest] > 3 * rest_sum:
+        made[largest] /= 10
+    others = [each for k, each in enumerate(made) if k != largest]
+    made[largest] = min(made[largest], 0.999 * rest_sum)
+    if made[largest] <= max(others) - min(others):
+        made[largest] = max(others)
+    return made

@@ -32,6 +32,7 @@ import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import remove_attribute, set_attribute
+from clinic.diagnosis.probes.inertia import DIAGONAL, possible
 from clinic.diagnosis.probes.sides import right_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence
@@ -43,10 +44,7 @@ FAMILIES = ("will-not-compile",)
 
 NO_BODY = "Of any body each principal moment is positive, and at most the sum of the other two."
 ONCE = "fullinertia says how the body is turned, so that nothing else can."
-DIAGONAL = ("ixx", "iyy", "izz")
-PART = 1e-7  # of the largest moment: a rod of 1 m and 0.2 mm
 ALIKE = 0.05
-ZERO = 1e-15  # kg m2: below it is what was left of a subtraction
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -128,29 +126,3 @@ def _unlike_twin(inertia: Element, moments: list[float]) -> tuple[str, str, str]
         if len(odd) == 1:
             return DIAGONAL[odd[0]], theirs.get(DIAGONAL[odd[0]]), twin
     return None
-
-
-def possible(moments: list[float]) -> list[float]:
-    """Three moments that a body can have, with as few changed as may be.
-
-    A negative one loses its sign, one of zero, or a negative one that does not fit so, is the mean of the others, and
-    one above the sum of the others loses decimal places until it fits, or becomes that sum, or the larger of them where
-    that is too little.
-    """
-    least = max(ZERO, PART * max(map(abs, moments)))
-    made = [abs(each) if abs(each) > least else 0.0 for each in moments]
-    if 2 * max(made) > sum(made) and sum(each > 0 for each in moments) == 2:
-        made = [0.0 if each < 0 else size for each, size in zip(moments, made, strict=True)]
-    for index, each in enumerate(made):
-        rest = [other for k, other in enumerate(made) if k != index]
-        if each == 0:
-            made[index] = sum(rest) / 2 or 1e-6
-    largest = max(range(3), key=lambda index: made[index])
-    rest_sum = sum(made) - made[largest]
-    while made[largest] > 3 * rest_sum:
-        made[largest] /= 10
-    others = [each for k, each in enumerate(made) if k != largest]
-    made[largest] = min(made[largest], 0.999 * rest_sum)
-    if made[largest] <= max(others) - min(others):
-        made[largest] = max(others)
-    return made

@@ -20,12 +20,14 @@ Good:
     -   <option gravity="0 0 9.81"/>
     +   <option gravity="0 0 -9.81"/>
 
-The number: the angle between gravity and the way down to the floor (-z where there is no horizontal plane), at most
-45 degrees; and the time in which something falls as far as the model is wide: 0.45 s for 1 m, told where it is under
-0.025 s or over 5 s. A hint tells of more than 15 m/s2 or less than 1, but for 981 and 9810 in a model in cm or mm,
-where water has a density of 1 and not of 1,000. What points the wrong way keeps a size that is not told: 3.71 on Mars.
+The number: the angle between gravity and the way down to the floor (a plane, or a flat box that stands still; -z where
+there is none), at most 45 degrees; and the time in which something falls as far as the model is wide: 0.45 s for 1 m,
+told where it is under 0.025 s or over 5 s. A hint tells of more than 15 m/s2 or less than 1, but for 981 and 9810 in a
+model in cm or mm, where water has a density of 1 and not of 1,000. What points the wrong way keeps a size that is not
+told: 3.71 on Mars.
 
-When it is wrong: a slope or a wall that is made by tilting gravity. Gravity 0 where free bodies are above a floor is a
+When it is wrong: a slope or a wall that is made by tilting gravity; a mechanism drawn in the plane of x and y, which is
+left alone where all its hinges turn about z. Gravity 0 where free bodies are above a floor is a
 hint, for it is often meant, but in a medium as dense as a liquid, in which things swim. So is the flag that switches it
 off, where a hinge without motor and spring would swing: its weight turns it, and its damping is below a half of the
 critical one.
@@ -37,10 +39,10 @@ import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, set_attribute
-from clinic.diagnosis.engine import GRAVITY_OFF, HINGE, PLANE
+from clinic.diagnosis.engine import BOX, GRAVITY_OFF, HINGE, PLANE
 from clinic.diagnosis.probes.couplings import couplings
 from clinic.diagnosis.probes.matter import matter
-from clinic.diagnosis.probes.shape import LIQUID, falling
+from clinic.diagnosis.probes.shape import LIQUID, falling, solid
 from clinic.diagnosis.probes.vector import dot
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -54,17 +56,41 @@ USUAL = "0 0 -9.81"
 EARTH = 1.0, 15.0  # m/s2
 QUARTERS = tuple(math.pi / 2 * turn for turn in range(4))
 SLIGHT, RATIO = 0.1, 0.5  # of the load, dry friction; of critical damping
+ALONG, FLAT = 0.99, 0.1  # cosine; thickness over width
 LIGHT = 50.0  # of water's density as it is in kg and m, that is 1,000
 
 
-def _up(simulation: Simulation) -> tuple[float, float, float]:
+def _up(simulation: Simulation) -> tuple[float, ...]:
+    """Away from the floor; where there is none, and nothing but hinges about z, against a gravity across them."""
     simulation.begin()
-    matrices, kinds = simulation.data("geom_xmat"), simulation.model("geom_type")
-    ups = [
-        (m[2], m[5], m[8]) for g, kind in enumerate(kinds) if int(kind) == PLANE for m in [matrices[9 * g : 9 * g + 9]]
-    ]
+    ups = list(_planes(simulation)) or list(_slabs(simulation))
     level = [up for up in ups if up[2] > 0.5]
-    return (0.0, 0.0, 1.0) if level or not ups else ups[0]
+    if level or ups:
+        return (0.0, 0.0, 1.0) if level else ups[0]
+    hinges = [joint for joint in range(simulation.count("joint")) if simulation.joint_type(joint) == HINGE]
+    upright = bool(hinges) and all(abs(simulation.data("xaxis")[3 * joint + 2]) > ALONG for joint in hinges)
+    x, y, z = simulation.model("opt.gravity")
+    size = simulation.gravity
+    return (-x / size, -y / size, 0.0) if upright and abs(z) < SLIGHT * size else (0.0, 0.0, 1.0)
+
+
+def _planes(of: Simulation) -> Iterator[tuple[float, ...]]:
+    """The normals of the planes."""
+    for geom, kind in enumerate(of.model("geom_type")):
+        if int(kind) == PLANE:
+            yield tuple(of.data("geom_xmat")[9 * geom + 2 : 9 * geom + 9 : 3])
+
+
+def _slabs(of: Simulation) -> Iterator[tuple[float, ...]]:
+    """The normals of the flat boxes that stand still: up, or against gravity where they are walls."""
+    for geom, kind in enumerate(of.model("geom_type")):
+        half = of.row("geom_size", geom, 3)
+        thin = min(range(3), key=half.__getitem__)
+        still = not of.model("body_weldid")[of.body_of("geom", geom)] and solid(of, geom)
+        if int(kind) == BOX and still and half[thin] < FLAT * sorted(half)[1]:
+            normal = of.data("geom_xmat")[9 * geom + thin : 9 * geom + 9 : 3]
+            away = normal[2] if abs(normal[2]) > 0.5 else -dot(normal, of.model("opt.gravity"))
+            yield tuple(each if away > 0 else -each for each in normal)
 
 
 def _angle(simulation: Simulation) -> float:

@@ -152,6 +152,15 @@ def test_a_moment_that_the_twin_link_has_is_the_one_that_is_told() -> None:
     assert (cause.rule, cause.attribute, cause.value) == ("invalid-inertia", "izz", "0.0066")
 
 
+def test_products_of_inertia_with_the_other_sign_are_turned_where_that_alone_fits() -> None:
+    inertia = '<inertia ixx="0.0054" iyy="0.0032" izz="0.005" ixy="0.0014" ixz="-0.0009" iyz="-0.0017"/>'
+    link = f'<link name="arm"><inertial><mass value="2"/>{inertia}</inertial></link>'
+    joint = '<joint name="j" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint>'
+    found = causes(f'<robot name="r"><link name="base"/>{link}{joint}</robot>')
+    assert [(each.rule, each.attribute, each.value) for each in found] == [("invalid-inertia", "ixy", "-0.0014")]
+    assert [each.value for each in found[0].edit] == ["-0.0014", "0.0009", "0.0017"]
+
+
 def test_an_origin_of_a_link_that_is_its_joints_is_told() -> None:
     origin = '<origin rpy="1.5708 0 0"/>'
     text = rover()

@@ -9,6 +9,7 @@ from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.source import Element
 
 DIAGONAL = ("ixx", "iyy", "izz")
+PRODUCTS = ("ixy", "ixz", "iyz")
 PART = 1e-7  # of the largest moment: a rod of 1 m and 0.2 mm
 ZERO = 1e-15  # kg m2: below it is what was left of a subtraction
 
@@ -50,6 +51,17 @@ def set_inertial(model: ReaderModel, body: int, mass: float, centre: Vector, abo
         xml = f'<inertial pos="{written(centre)}" mass="{mass:.6g}" fullinertia="{full}"/>'
     there = element.first("inertial")
     return (replace(there, xml) if there else insert(element, xml),)
+
+
+def fit(diagonal_: list[float], products: list[float]) -> bool:
+    """Whether a body can have a tensor xx, yy, zz with xy, xz, yz: each principal moment is at most half of their sum.
+
+    That is so where half of the trace on the diagonal, less the tensor, has no negative principal minor.
+    """
+    half = sum(diagonal_) / 2
+    (a, b, c), (d, e, f) = (half - each for each in diagonal_), products
+    pairs = (a * b - d * d, a * c - e * e, b * c - f * f)
+    return min(a, b, c, *pairs, a * b * c - 2 * d * e * f - a * f * f - b * e * e - c * d * d) >= 0
 
 
 def possible(moments: list[float]) -> list[float]:

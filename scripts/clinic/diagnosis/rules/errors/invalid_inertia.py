@@ -20,8 +20,8 @@ Good:
     -       <inertial pos="0.1 0 0" mass="1" diaginertia="0.01 0.01 0.1"/>
     +       <inertial pos="0.1 0 0" mass="1" diaginertia="0.01 0.01 0.01"/>
 
-The number: A + B >= C is checked by MuJoCo. The edit takes off a sign, fills in a zero, or shortens the largest moment
-until it fits.
+The number: A + B >= C is checked by MuJoCo. The edit turns the signs of a URDF's products if that alone fits, or takes
+off a sign, fills in a zero, or shortens the largest moment until it fits.
 
 When it is wrong: this is a stopgap; the right numbers stand in the CAD model.
 """
@@ -32,7 +32,7 @@ import re
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import remove_attribute, set_attribute
-from clinic.diagnosis.probes.inertia import DIAGONAL, possible
+from clinic.diagnosis.probes.inertia import DIAGONAL, PRODUCTS, fit, possible
 from clinic.diagnosis.probes.sides import right_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.rules.errors._message import meant, mends, sentence
@@ -43,6 +43,7 @@ TITLE = "An impossible inertia"
 FAMILIES = ("will-not-compile",)
 
 NO_BODY = "Of any body each principal moment is positive, and at most the sum of the other two."
+TURNED = "With the other sign of the products they fit: CAD programs differ in it."
 ONCE = "fullinertia says how the body is turned, so that nothing else can."
 ALIKE = 0.05
 
@@ -98,8 +99,15 @@ def _in_urdf(link: Element, said: str) -> Iterator[Suspect]:
             now, edit = inertia.get(name), set_attribute(inertia, name, value)
             yield mends(inertia, (edit,), says, attribute=name, now=now, value=value)
             continue
+        products = [float(inertia.get(name, "0")) for name in PRODUCTS]
+        if fit(before, [-each for each in products]) and not fit(before, products):
+            turned = [set_attribute(inertia, name, f"{-p:g}") for name, p in zip(PRODUCTS, products, strict=True) if p]
+            says = f"{said}. {TURNED}"
+            now, value = inertia.get(str(turned[0].attribute)), turned[0].value
+            yield mends(inertia, turned, says, attribute=turned[0].attribute, now=now, value=value)
+            continue
         edits = [set_attribute(inertia, name, f"{v:.4g}") for name, v in zip(DIAGONAL, possible(before), strict=True)]
-        edits += [set_attribute(inertia, name, "0") for name in ("ixy", "ixz", "iyz") if float(inertia.get(name, "0"))]
+        edits += [set_attribute(inertia, name, "0") for name in PRODUCTS if float(inertia.get(name, "0"))]
         wrong = max(range(3), key=lambda k: abs(float(edits[k].value) - before[k]))
         told, now, value = DIAGONAL[wrong], inertia.get(DIAGONAL[wrong]), edits[wrong].value
         if all(abs(float(edits[k].value) - before[k]) <= 1e-3 * before[k] for k in range(3)) and len(edits) > 3:

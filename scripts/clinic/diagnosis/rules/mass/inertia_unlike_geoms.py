@@ -28,8 +28,8 @@ differ 2.5 times; 1.5 times where several bodies have the same, and 5 times wher
 1.1 times for one that is equal about all axes and whose radius differs more than 6 times.
 
 What a body has beyond its geoms is not seen where it is less than 25 ms times the damping of that joint: it was added
-to steady a finger. A radius below a thirtieth is always told: it is as good as a point, and none of the 289 healthy
-models has one.
+to steady a finger. Always told are a radius below a thirtieth, which is as good as a point, and none of the 289 healthy
+models has; and one beyond 6 of three bodies with the same inertia and more than 1 % of the model's mass each.
 
 When it is wrong: a body whose geoms are a small part of it, such as the feet of an unseen leg.
 """
@@ -53,8 +53,9 @@ USUAL = (0.4, 2.5)  # radius of gyration over that of the geoms
 FAR = (0.25, 4.0)  # the same, for an inertia that is not equal about all axes, which nobody types in
 LIMIT, ALIKE = 2.5, 1.5  # times the inertia at the joint; where several bodies have the same inertia
 LITTLE, FELT = 1.1, 1.3  # at the joint, of a placeholder with an absurd radius
+MANY, LIGHT = 3, 0.01  # bodies with the same absurd inertia; of the model's mass
 POINT = 1 / 30  # of the radius of the geoms: no body of a healthy model is so near to a point
-FEW = 0.5  # of the bodies: where more are so, the geoms show little of them
+FEW = 0.5  # of the inertias: where more are so, the geoms show little of them
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -64,19 +65,20 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for body, each in sorted(found.items(), key=lambda one: -one[1].mass):
         if not USUAL[0] < each.radius < USUAL[1]:
             groups.setdefault(model.simulation.row("body_inertia", body, 3), []).append(body)
-    unusual = sum(map(len, groups.values()))
+    unusual, distinct = len(groups), len({model.simulation.row("body_inertia", body, 3) for body in found})
     for inertia, bodies in groups.items():
         placeholder = max(inertia) < 1.03 * min(inertia)
         worst = max((found[body] for body in bodies), key=lambda each: max(each.radius, 1 / each.radius))
-        if not placeholder and (FAR[0] < worst.radius < FAR[1] or unusual > max(1, FEW * len(found))):
+        if not placeholder and (FAR[0] < worst.radius < FAR[1] or unusual > max(1, FEW * distinct)):
             continue
         probe, limit = joint_inertia(*bodies), 2 * LIMIT
         if placeholder:
             limit = ALIKE if len(bodies) > 1 else LIMIT
             if max(worst.radius, 1 / worst.radius) > ABSURD:
                 limit = FELT
-            point = all(found[body].radius < POINT for body in bodies)
-            if found[bodies[0]].absurd and (point or LITTLE < model.measured(probe) <= limit):
+            many = len(bodies) >= MANY and found[bodies[0]].mass > LIGHT * sum(each.mass for each in found.values())
+            plain = many or all(found[body].radius < POINT for body in bodies)
+            if found[bodies[0]].absurd and (plain or LITTLE < model.measured(probe) <= limit):
                 probe, limit = gyration(*bodies), ABSURD
         edits = tuple(
             edit

@@ -27,8 +27,9 @@ Good:
     +   <joint name="elbow" type="revolute">
 
 The number: fixed joints with a range that is not a point and an effort above 0. One is told; more of them were made by
-the program that wrote the file. And two or more wheels that have an axis and are fixed, where no joint is continuous.
-And what is called fixed, and floats.
+the program that wrote the file. And two or more wheels that are fixed, where no joint is continuous, and they have an
+axis or nothing else moves; the fork and the wheel of a caster, both fixed and each with its axis; and what is called
+fixed, and floats.
 
 When it is wrong: a joint that is locked on purpose and may be freed again.
 """
@@ -48,6 +49,7 @@ FAMILIES = ("stuck",)
 UNPLANTED = "the healthy models that faults are planted in are MJCF"
 
 WHEEL = re.compile(r"(?i)wheel(?!.*(cover|mount|guard|encoder|hub))(?<!caster_wheel)(?<!steering_wheel)")
+CASTER = re.compile(r"(?i)cast[eo]r(?!.*(base|mount))")
 FIXED = re.compile("(?i)(?<![a-z])fix(ed)?(?![a-z])")
 SLIDES = re.compile("(?i)slid|prism|lift|finger")
 
@@ -64,9 +66,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         low, high = _range(ranged[0]) or (0.0, 0.0)
         value = "prismatic" if SLIDES.search(ranged[0].get("name")) else "revolute"
         yield _fixed(ranged, value, f"It is fixed, and its limit is {low:g} to {high:g}.")
-    held = [each for each in joints if WHEEL.search(each.get("name")) and _turns(each)]
+    wheels = [each for each in joints if WHEEL.search(each.get("name"))]
+    held = wheels if len(joints) == len(all_joints) else [each for each in wheels if _turns(each)]
     if len(held) > 1 and not any(each.get("type") == "continuous" for each in all_joints):
-        yield _fixed(held, "continuous", "All wheels are fixed, and have an axis to turn about.")
+        yield _fixed(held, "continuous", "All wheels are fixed, and no joint is continuous.")
+    casters = [each for each in joints if CASTER.search(each.get("name")) and _turns(each)]
+    if len(casters) > 1:
+        yield _fixed(casters, "continuous", "A caster is fixed, and has axes to turn about.")
 
 
 def _called_fixed(source: Source) -> Iterator[Suspect]:

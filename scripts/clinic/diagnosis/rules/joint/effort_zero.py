@@ -11,8 +11,16 @@ Bad:
         <inertial><origin xyz="0 0 0.1"/><mass value="1"/>
           <inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.0005"/></inertial>
       </link>
+      <link name="hand">
+        <inertial><origin xyz="0 0 0.05"/><mass value="0.3"/>
+          <inertia ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.0005"/></inertial>
+      </link>
       <joint name="shoulder" type="revolute">
         <parent link="base"/><child link="arm"/><axis xyz="0 1 0"/>
+        <limit lower="-1" upper="1" effort="20" velocity="3"/>
+      </joint>
+      <joint name="wrist" type="revolute">
+        <origin xyz="0 0 0.2"/><parent link="arm"/><child link="hand"/><axis xyz="0 1 0"/>
         <limit lower="-1" upper="1" effort="0" velocity="0"/>
       </joint>
     </robot>
@@ -20,9 +28,10 @@ Bad:
 Good:
 
     -     <limit lower="-1" upper="1" effort="0" velocity="0"/>
-    +     <limit lower="-1" upper="1" effort="20" velocity="3"/>
+    +     <limit lower="-1" upper="1" effort="10" velocity="3"/>
 
-The number: how many joints have no limit of force once the model is compiled, although the text states an effort.
+The number: how many joints have no limit of force once the model is compiled, although the text states an effort. Where
+no joint of the file has another effort, it is told with `--symptom stuck` or `explodes` only.
 
 When it is wrong: a joint that nothing drives.
 """
@@ -51,9 +60,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     limits = {joint: limit for joint, each in joints.items() if (limit := each.first("limit"))}
     efforts = {joint: float(limit.get("effort") or -1) for joint, limit in limits.items()}
     without = tuple(joint for joint, effort in efforts.items() if effort == 0)
-    if not without:
+    most = max(efforts.values(), default=0.0)
+    if not without or (most == 0 and model.symptom not in FAMILIES):
         return
-    most = max(efforts.values())
     edits = tuple(set_attribute(limits[joint], "effort", f"{most:g}") for joint in without if most)
     says = "A joint that may give nothing cannot be driven in ROS; MuJoCo reads it as a joint without a limit."
     probe = Probe("joints without a limit of force", "", _unlimited, without, dynamic=False)

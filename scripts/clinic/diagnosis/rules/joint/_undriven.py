@@ -35,6 +35,7 @@ def _hung(model: ReaderModel) -> Iterator[Suspect]:
         damping, friction = (simulation.model(f"dof_{name}")[simulation.dof(joint)] for name in FIELDS)
         attribute = "damping" if STILL * damping >= friction else "frictionloss"
         edits = model.set("joint", [joint], attribute, "0")
+        moves = f"moves it at less than {STILL:g} rad/s (m/s)" if attribute == "damping" else "does not move it"
         yield Suspect(
             (simulation.name("joint", joint),),
             attribute,
@@ -44,7 +45,7 @@ def _hung(model: ReaderModel) -> Iterator[Suspect]:
             Probe("what holds the joint, times its own weight", "", _most_held, (joint,), dynamic=False),
             1.0,
             f"Nothing drives {simulation.name('joint', joint)}, and its own weight, "
-            f"{loads(simulation)[simulation.dof(joint)]:.3g} N m (N) at most, does not move it.",
+            f"{loads(simulation)[simulation.dof(joint)]:.3g} N m (N) at most, {moves}.",
             "a joint that swings where nothing drives it",
         )
 

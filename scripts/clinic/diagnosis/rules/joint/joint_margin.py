@@ -2,7 +2,7 @@
 
 `margin` is subtracted from the distance to the limit: the limit pushes as if it stood that far inside of the range. A
 hinge with a range to 60 degrees and a margin of 0.5 rad stops at 31 degrees, and no motor brings it further without
-pressing it in. `margin` is in rad whatever the unit of angles is: 5 for 5 degrees is a turn.
+pressing it in. `margin` is in rad whatever the unit of angles is: 5 for 5 degrees is 286.
 
 Bad:
 

@@ -139,8 +139,8 @@ def _astray(of: Simulation, coupling: Coupling) -> str:
     follower, leader, _ = coupling
     (low, high), led = of.row("jnt_range", follower, 2), led_over(of, coupling)
     return (
-        f"{of.name('joint', leader)} leads {of.name('joint', follower)} to {min(led):.3g} to {max(led):.3g}, and its "
-        f"range is {low:.3g} to {high:.3g}."
+        f"{of.name('joint', leader)} leads {of.name('joint', follower)} to {min(led):.3g} to {max(led):.3g} "
+        f"{of.unit(follower)}, and its range is {low:.3g} to {high:.3g}."
     )
 
 

@@ -24,8 +24,9 @@ Good:
     +   <compiler angle="radian"/>
 
 The number: ranges under 0.12 rad (7 degrees) or over 25 rad (4 turns), of more than half of the hinges that have a
-range, or of the only one; or of a few, where the number as it is written is a usual angle in the other unit. Between
-0.3 and 6.5 rad lie the ranges of 95 % of the hinges of 81 healthy models.
+range, or of the only one; or of a few, where the number as it is written is a usual angle in the other unit. Of 1296
+hinges with a range in 65 healthy models 89 % have one of 0.3 to 6.5 rad, 5 % one below 0.12 rad, and none one over 25
+rad.
 
 When it is wrong: flexures, and screws of many turns. A model without anything fixed, not even a floor, is a part for
 another model, which says in what unit angles are: then it is a hint, as it is of all ranges of a URDF.

@@ -47,7 +47,7 @@ from clinic.diagnosis.probes.key import start_at
 from clinic.diagnosis.probes.tendons import path, pulled
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect, rounded
+from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A tendon starts outside of its range"
 FAMILIES = ("jumps-at-start", "explodes")
@@ -71,7 +71,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         of.begin()
         (low, high), length = of.row("tendon_range", tendon, 2), of.data("ten_length")[tendon]
         least, most = min(low, 0.98 * length), max(high, 1.02 * length)
-        value = f"{rounded(least)} {rounded(1.01 * most)}"
+        value = f"{least:.3g} {1.01 * most:.3g}"
         if low / 1000 <= length <= high / 1000:
             value = f"{low / 1000:g} {high / 1000:g}"  # in m
         says, limit = f"It is {length:.3g} long at the start, and its range is {low:g} to {high:g}.", OUTSIDE

@@ -1,7 +1,7 @@
 """A joint's spring is at rest far outside of what the joint can reach.
 
-`springref` is an angle in the unit of the text. One that was written in degrees and is read as radians, or belongs to
-another joint, presses the joint against its limit, or winds it up.
+`springref` of a hinge is an angle in the unit of the text. One that was written in degrees and is read as radians, or
+belongs to another joint, presses the joint against its limit, or winds it up.
 
 Bad:
 

@@ -1,11 +1,11 @@
 """A joint that follows another may not go where it is led.
 
 `<equality><joint joint1=".." joint2=".."/>` (in URDF `<mimic>`) makes joint1 follow joint2. Where the follower's range
-leaves out what the leader's range asks for, limit and equality fight, and the leader is held. The sign in `polycoef` is
-told where one follower alone is led astray, has the range of its leader, or of its twin on the other side, and with the
-other sign keeps to it. The leader's range is told where it is 1000 times as wide (mm) and wider than the model, or a
-hinge's 57.3 times (degrees) and wider than a turn; else the follower's is. What keyframes say of the coupling comes
-before that.
+leaves out what the leader's range asks for, limit and equality fight: the leader stops short, and the follower is
+pressed past its limit. The sign in `polycoef` is told where one follower alone is led astray, has the range of its
+leader, or of its twin on the other side, and with the other sign keeps to it. The leader's range is told where it is
+1000 times as wide (mm) and wider than the model, or a hinge's 57.3 times (degrees) and wider than a turn; else the
+follower's is. What keyframes say of the coupling comes before that.
 
 Bad:
 

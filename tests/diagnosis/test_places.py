@@ -77,7 +77,7 @@ def test_a_pulled_tendon_a_little_outside_of_its_range_is_told(high: float, moto
       <tendon><spatial name="f" range="0 {high}" limited="true"><site site="palm"/><site site="tip"/></spatial></tendon>
       <actuator>{'<motor tendon="f" ctrlrange="-9 0"/>' * motor}</actuator></mujoco>"""
     found = hints(text, "tendon-outside-range")
-    assert [(each.attribute, each.value) for each in found] == [("range", "0 0.14")] * told
+    assert [(each.attribute, each.value) for each in found] == [("range", "0 0.144")] * told
 
 
 @pytest.mark.parametrize(

@@ -147,3 +147,24 @@ MUSCLES = '<muscle tendon="flexor" lengthrange=".2 .4"/><muscle tendon="extensor
 def test_an_elbow_that_bends_the_other_way_than_its_muscles_are_for_is_told(turn, drive, told):
     found = hints(FOREARM.format(range=turn, drive=drive), "tendon-turns-back")
     assert [each.value for each in found] == told
+
+
+def test_a_range_of_a_class_that_a_joint_takes_back_is_a_hint():
+    def arm(own: str) -> str:
+        joint = f'<joint name="table" axis="0 0 1" {own} limited="false"/>'
+        return f"""<mujoco><default><joint range="-60 60"/></default><worldbody><body pos="0 0 1">{joint}
+          <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/></body></worldbody></mujoco>"""
+
+    (hint,) = hints(arm(""), "range-not-applied")
+    assert "-60 to 60 degrees" in hint.says
+    assert [each.level for each in causes(arm('range="-30 30"'), "range-not-applied")] == ["cause"]
+
+
+def test_a_urdf_in_degrees_is_told_to_change_its_limits():
+    inertial = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    text = f"""<robot name="arm"><link name="base"/><link name="upper">{inertial}</link>
+      <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 1 0"/>
+        <limit lower="-90" upper="90" effort="20" velocity="3"/></joint></robot>"""
+    (found,) = hints(text, "range-in-the-wrong-unit")
+    assert (found.attribute, found.value) == ("range", "-1.571 1.571")
+    assert {(each.element, each.attribute) for each in found.edit} == {("limit", "lower"), ("limit", "upper")}

@@ -183,3 +183,10 @@ def test_the_spring_of_a_hopper_without_a_damper_is_told(root: str, drive: str, 
       <body pos="0 0 -0.4"><joint name="leg" type="slide" axis="0 0 1" range="0 0.2" stiffness="2500"/>
       <geom size="0.025" mass="0.25"/></body></body></worldbody><actuator>{drive}</actuator></mujoco>"""
     assert [each.value for each in hints(text, "spring-undamped")] == told
+
+
+def test_the_rest_of_a_spring_gets_the_unit_of_the_file() -> None:
+    joint = '<joint name="elbow" axis="0 1 0" range="-60 60" ref="30" stiffness="1" springref="450" damping="0.1"/>'
+    text = f"""<mujoco><worldbody><body pos="0 0 1">{joint}
+      <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.02"/></body></worldbody></mujoco>"""
+    assert [each.value for each in hints(text, "spring-far-off")] == ["30"]

@@ -35,6 +35,9 @@ def _hung(model: ReaderModel) -> Iterator[Suspect]:
         damping, friction = (simulation.model(f"dof_{name}")[simulation.dof(joint)] for name in FIELDS)
         attribute = "damping" if STILL * damping >= friction else "frictionloss"
         edits = model.set("joint", [joint], attribute, "0")
+        moves = (
+            f"moves it at less than {STILL:g} rad/s (m/s)" if attribute == "damping" else "is less than its friction"
+        )
         yield Suspect(
             (simulation.name("joint", joint),),
             attribute,
@@ -44,7 +47,7 @@ def _hung(model: ReaderModel) -> Iterator[Suspect]:
             Probe("what holds the joint, times its own weight", "", _most_held, (joint,), dynamic=False),
             1.0,
             f"Nothing drives {simulation.name('joint', joint)}, and its own weight, "
-            f"{loads(simulation)[simulation.dof(joint)]:.3g} N m (N) at most, does not move it.",
+            f"{loads(simulation)[simulation.dof(joint)]:.3g} N m (N) at most, {moves}.",
             "a joint that swings where nothing drives it",
         )
 
@@ -87,7 +90,7 @@ def _shut(model: ReaderModel) -> Iterator[Suspect]:
         now = damping if attribute == "damping" else friction
         edits = model.set("joint", [joint], attribute, f"{now / 1000:.2g}")
         slow = f"at {_push(of, joint) * _reach(of, joint) / max(damping, 1e-9):.2g} rad/s (m/s)"
-        moves = f"moves it {slow} at most" if attribute == "damping" else "does not move it"
+        moves = f"moves it {slow} at most" if attribute == "damping" else "gives less than its friction"
         says = f"Nothing drives it, and a push of {_push(of, joint):.3g} N at its far end {moves}."
         probe = Probe("what holds it, times a strong push", "", _push_held, (joint,), dynamic=False)
         name = of.name("joint", joint)

@@ -30,7 +30,8 @@ Good:
     -     <parent link="upper"/><child link="fore"/><origin xyz="0 0 0.25" rpy="0 0 0"/>
     +     <parent link="upper"/><child link="fore"/><origin xyz="0 0 0.25" rpy="0 0 0"/><axis xyz="0 1 0"/>
 
-The number: the joints that move and have no axis. None is told where no joint that moves has one.
+The number: the joints that move and have no axis. Where no joint that moves has one, none is told, unless one is called
+a wheel.
 
 When it is wrong: a joint that does turn about x; an axis that is written says so.
 """

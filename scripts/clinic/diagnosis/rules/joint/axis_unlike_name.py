@@ -105,7 +105,7 @@ def _lying(model: ReaderModel) -> Iterator[Suspect]:
         if alone and said and _tilt(of, joint) > FAR:
             up = tuple(round(x, 6) + 0.0 for x in times(transpose(of.data_row("xmat", body, 9)), (0.0, 0.0, 1.0)))
             value, edits = written(up), model.set("joint", [joint], "axis", written(up))
-            says = f"{of.name('joint', joint)} is level at the zero pose."
+            says = f"Its axis is {_tilt(of, joint):.0f} degrees off the vertical at the zero pose."
             probe = Probe("angle of the axis to the vertical", "degrees", _tilt, (joint,), dynamic=False)
             now = written(of.row("jnt_axis", joint, 3))
             yield Suspect((of.name("joint", joint),), "axis", now, value, edits, probe, FAR, says, "upright")

@@ -45,8 +45,8 @@ Good:
     +           <joint name="c" axis="0 0 1"/>
 
 The number: the hinges in a row, each alone on its body, about one axis of their own frames, x, y or z, of which one in
-the middle turns about another, with two and more on either side of it and five and more in all. Arms with `1 0 0`,
-`0 1 0` and `0 0 1` in turn have no such row: none of 260 healthy models has.
+the middle turns about another, with two others and more on either side of it and five others and more in all. Arms with
+`1 0 0`, `0 1 0` and `0 0 1` in turn have no such row: none of 260 healthy models has.
 
 When it is wrong: a row that is bent there on purpose.
 """

@@ -38,9 +38,9 @@ Good:
     -       <joint joint="right" coef="-0.5"/>
     +       <joint joint="right" coef="0.5"/>
 
-The number: tendons of two hinges without a range on one line, of which nothing else drives one, and couplings of two
-hinges that carry such a hinge each, side by side along its axis, with a sign that lets the two go against each other.
-The directions of the axes count.
+The number: tendons of two hinges without a range on one line, neither of which anything else drives, and couplings of
+two hinges that carry such a hinge each, side by side along its axis, with a sign that lets the two go against each
+other. The directions of the axes count.
 
 When it is wrong: a drive that is to turn a robot on the spot.
 """

@@ -1,7 +1,7 @@
 """A driven joint takes nothing of the default class that is made for it.
 
 A class applies where it is named: as `class` of the joint, or as `childclass` of a body around it. Where neither is
-written, the joint has no damping and no armature, and nothing says so.
+written, the joint takes the outermost class alone, and MuJoCo says nothing.
 
 Bad:
 
@@ -27,8 +27,8 @@ Good:
     -     <body name="upper" pos="0 0 1">
     +     <body name="upper" pos="0 0 1" childclass="arm">
 
-The number: how many driven joints have no class and none of damping, armature and frictionloss, where a class gives
-joints some of it, which no joint uses, or more than there are such driven joints. A class that all used ones stand in
+The number: how many driven joints have no class and none of damping, armature and frictionloss, where a class has some
+of these for joints, and either no joint uses it, or more joints do than lack it. A class that all used ones stand in
 and nothing uses itself is the one that is told. And how many elements are called as a class that nothing uses and that
 has something for their kind: a geom `bolt` of class `panel`, beside a class `bolt`. Of 1113 models one has such a geom,
 a cube without the friction of class `cube`. And the one actuator that is not of its joint's class, where that gives

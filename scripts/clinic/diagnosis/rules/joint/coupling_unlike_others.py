@@ -45,7 +45,8 @@ Good:
     +     <joint joint1="b2" joint2="b1"/>
 
 The number: three and more couplings of two joints each. In all but one the leader is as many joints above its follower;
-in that one it is on another branch, though a joint is as far above its follower as well.
+in that one it is on another branch, though a joint is as far above its follower as well. Or of three and more with
+factors of one size, one alone bends the other way, and would leave its range less with its sign turned.
 
 When it is wrong: a mechanism in which one coupling is of another kind than all others.
 """

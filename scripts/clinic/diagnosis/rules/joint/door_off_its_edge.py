@@ -21,8 +21,8 @@ Good:
     +       <joint axis="0 0 1" range="0 100" damping="1" pos="0 0.38 0"/>
 
 The number: how far the hinge is from the middle of the door's geoms, in half widths of them; less than 0.3 is told, and
-0 stands for an axis across the panel, which is the largest geom. Looked at are bodies with one hinge that are called a
-door, gate, hatch, flap or lid, where the panel is flat.
+0 stands for an axis across the panel, which is the largest geom; a hatch or a lid may turn so. Looked at are bodies
+with one hinge that are called a door, gate, hatch, flap or lid, where the panel is flat.
 
 When it is wrong: a revolving door, or a flap that turns about its middle, as in a valve.
 """

@@ -1,7 +1,8 @@
-"""A fin turns in its own plane, and pushes nothing.
+"""A fin turns in its own plane, and pushes little.
 
-A plate moves water when it turns about a line in its plane. About its normal only its rim moves water: an axis that was
-copied from another joint, or two numbers of a size that were exchanged, and the fish stays where it is.
+A plate moves water when it turns about a line in its plane. About its normal it cuts through the water: an axis that
+was copied from another joint, or two numbers of a size that were exchanged. The tail below, turned to and fro by 0.6
+rad at 1.5 Hz, then pushes with a ninth of the force that it has about z.
 
 Bad:
 

@@ -2,7 +2,7 @@
 
 The factor of the coupling and the axes of two slides belong together: with opposite axes it is 1, with the same axis
 -1. With one of the signs wrong a gripper carries its fingers to and fro, and grasps nothing. Fingers that nothing
-couples close at equal controls: with the same axis and the same range they go side by side.
+couples are to close at equal controls: with the same axis and the same range they go side by side.
 
 Bad:
 

@@ -1,11 +1,11 @@
 """A joint that follows another may not go where it is led.
 
 `<equality><joint joint1=".." joint2=".."/>` (in URDF `<mimic>`) makes joint1 follow joint2. Where the follower's range
-leaves out what the leader's range asks for, limit and equality fight, and the leader is held. The sign in `polycoef` is
-wrong where one follower alone is led astray, has the range of its leader, or of its twin on the other side, and with
-the other sign keeps to it. The leader's range is, where it is 1000 times as wide (mm) and wider than the model, or a
-hinge's 57.3 times (degrees) and wider than a turn; else the follower's is. What keyframes say of the coupling comes
-before that.
+leaves out what the leader's range asks for, limit and equality fight: the leader stops short, and the follower is
+pressed past its limit. The sign in `polycoef` is told where one follower alone is led astray, has the range of its
+leader, or of its twin on the other side, and with the other sign keeps to it. The leader's range is told where it is
+1000 times as wide (mm) and wider than the model, or a hinge's 57.3 times (degrees) and wider than a turn; else the
+follower's is. What keyframes say of the coupling comes before that.
 
 Bad:
 
@@ -92,13 +92,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         led = led_over(simulation, each)
         edits += model.set("joint", [each[0]], "range", f"{min(led) * scale:.4g} {max(led) * scale:.4g}")
     follower = found[0][0]
-    low, high = simulation.row("jnt_range", follower, 2)
-    led = led_over(simulation, found[0])
+    scale = 1 / model.angle_unit if simulation.joint_type(follower) == HINGE else 1.0
+    low, high = (end * scale for end in simulation.row("jnt_range", follower, 2))
+    led = [place * scale for place in led_over(simulation, found[0])]
     yield Suspect(
         tuple(simulation.name("joint", each[0]) for each in found),
         "range",
-        f"{low:.3g} {high:.3g}",
-        f"{min(led):.3g} {max(led):.3g}",
+        f"{low:.4g} {high:.4g}",
+        f"{min(led):.4g} {max(led):.4g}",
         edits,
         Probe("share of a leader's range that leads a joint out of its own", "", lost, (tuple(found),), dynamic=False),
         LOST,
@@ -138,8 +139,8 @@ def _astray(of: Simulation, coupling: Coupling) -> str:
     follower, leader, _ = coupling
     (low, high), led = of.row("jnt_range", follower, 2), led_over(of, coupling)
     return (
-        f"{of.name('joint', leader)} leads {of.name('joint', follower)} to {min(led):.3g} to {max(led):.3g}, and its "
-        f"range is {low:.3g} to {high:.3g}."
+        f"{of.name('joint', leader)} leads {of.name('joint', follower)} to {min(led):.3g} to {max(led):.3g} "
+        f"{of.unit(follower)}, and its range is {low:.3g} to {high:.3g}."
     )
 
 

@@ -23,8 +23,8 @@ Good:
     -       <joint type="free"/>
     +       <freejoint/>
 
-The number: what the joint takes of the weight at the speed of a fall over its own size, or one size below its start;
-armature counts by its share of the mass that gravity then has to move. Below 0.1 is well.
+The number: what the joint takes of the weight at the speed of a fall over half of the radius of its largest geom, or
+one radius below its start; armature counts by its share of the mass that gravity then has to move. Below 0.1 is well.
 
 When it is wrong: a floating base that stands in for a crane or for water.
 """

@@ -1,7 +1,7 @@
 """A hinge has the range or the name of a slide: its `type` was left out.
 
-A joint without `type` is a hinge. A range of 0 to 0.04 is then no way of 4 cm but an angle of 2 degrees, and a cart on
-a joint `slider` turns about its rail.
+A joint without `type` is a hinge. A range of 0 to 0.04 is then no way of 4 cm but an angle of 0.04 degrees, or of 2.3
+with `angle="radian"`, and a cart on a joint `slider` turns about its rail.
 
 Bad:
 

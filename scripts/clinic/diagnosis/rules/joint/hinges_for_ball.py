@@ -1,8 +1,8 @@
 """Three hinges, one after the other, let a body turn freely.
 
 Three hinges in one body are Euler angles: with the second one at 90 degrees the first and the third turn about the same
-axis, one of the three ways to turn is lost, and the speeds grow without bound. A `ball` joint, or a `freejoint` in
-place of three slides and three hinges, has no such pose.
+axis, one of the three ways to turn is lost, and near that the speeds grow without bound. A `ball` joint, or a
+`freejoint` in place of three slides and three hinges, has no such pose.
 
 Bad:
 

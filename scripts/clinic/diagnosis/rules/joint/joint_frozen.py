@@ -1,7 +1,7 @@
 """A joint's damping or dry friction is more than its actuators can move.
 
-`frictionloss` above the greatest force of the actuators holds a joint for good; `damping` lets it go at no more than
-force / damping.
+`frictionloss` above the greatest force of the actuators holds a joint, or lets it creep, for MuJoCo's friction is soft.
+`damping` lets it go at no more than force / damping.
 
 Bad:
 
@@ -22,20 +22,22 @@ Good:
     -       <joint name="elbow" axis="0 1 0" range="-90 90" damping="500"/>
     +       <joint name="elbow" axis="0 1 0" range="-90 90" damping="0.5"/>
 
-The number: driven for 2 s with all that its actuators give, without gravity and contacts, more than 80 % of the way to
+The number: driven for 2 s with all that its actuators give, without gravity and contacts, more than 70 % of the way to
 1 rad (0.1 m), or to the far limit, is left; motors at sites and tendons count, where nothing else drives the joint. Or
 the damping lets full force cross the joint's range in 25 s and more: of 260 healthy models none needs more than 6.7 s.
 A hinge without a range that motors drive needs 4 s and more for a turn: of 20 healthy models none more than 1.3 s. A
-position servo is told, too, of which friction takes more than 0.2 of the force and 0.05 rad (m) of the way: of 38
-models with dry friction at their servos none has more than 0.05.
+position servo is told, too, of which friction takes more than 0.2 of the force, and more than it gives 0.05 rad (m) off
+its target: of 38 models with dry friction at their servos none has more than 0.05.
 
 In a URDF, whose efforts no actuator gives yet, friction above the effort, or damping above it at half a rad/s (m/s), is
-told. So is a hinge without a range that nothing drives and that its weight would swing, where damping is more than
-twice the critical, so that it creeps down; of 385 healthy models none has more than 0.2 times. And a door or a drawer
-that nothing drives, its weight does not load, and a push of 50 N and twice its weight at its far end moves at less than
-0.1 rad/s (0.1 m/s).
+told. So is a joint that nothing drives, beside others that are driven, and that its weight would swing, where friction
+is more, or damping lets it move at less than 0.03 rad/s (m/s); or, without a range, where damping is more than twice
+the critical, so that it creeps down: of 385 healthy models none has more than 0.2 times. And a door or a drawer that
+nothing drives, its weight does not load, and a push of 50 N and twice its weight at its far end moves at less than 0.1
+rad/s (0.1 m/s).
 
-When it is wrong: a brake, or a worm gear that is meant to hold.
+When it is wrong: a brake, a worm gear that is meant to hold, or a joint so light that it creeps on in spite of its
+friction.
 """
 
 from __future__ import annotations
@@ -79,7 +81,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             force = _forces(simulation)[joint]
             edits += model.set("joint", [joint], attribute, f"{force / 5:.2g}" if attribute == "damping" else "0")
         force, now = _forces(simulation)[found[0]], held[simulation.dof(found[0])]
-        can = f"{force / now:.2g} rad/s (m/s) at most" if attribute == "damping" else "nothing"
+        slow = f"less than its friction of {now:.3g}"
+        if attribute == "damping":
+            slow = f"which moves it at {force / now:.2g} rad/s (m/s) at most"
         yield Suspect(
             tuple(simulation.name("joint", each) for each in found),
             attribute,
@@ -88,8 +92,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             edits,
             way_left(tuple(found)),
             LEFT,
-            f"The actuators of {simulation.name('joint', found[0])} give {force:.3g} N m (N), "
-            f"which moves it with {can}.",
+            f"The actuators of {simulation.name('joint', found[0])} give {force:.3g} N m (N), {slow}.",
             "full force that reaches 1 rad/s and more",
         )
     yield from _crawls(model, told)
@@ -144,8 +147,8 @@ def _rubbed(model: ReaderModel, told: Collection[int]) -> Iterator[Suspect]:
         return
     worst, joints = next(iter(rubbed.values())), list(rubbed)
     friction, value = of.model("dof_frictionloss")[worst.dof], rounded(worst.force / 100)
-    says = f"Friction takes {friction:.3g} of the {worst.force:.3g} {worst.force_unit} that its servo can give, and "
-    says += f"lets it stop up to {friction / worst.stiffness:.2g} {worst.unit} short of its target."
+    says = f"Friction takes {friction:.3g} of the {worst.force:.3g} {worst.force_unit} that its servo can give, "
+    says += f"as much as it gives {friction / worst.stiffness:.2g} {worst.unit} off its target."
     names, edits = tuple(of.name("joint", each) for each in joints), model.set("joint", joints, "frictionloss", value)
     probe = Probe("share of a servo's force that friction takes", "", _most_taken, tuple(joints), dynamic=False)
     yield Suspect(names, "frictionloss", f"{friction:.3g}", value, edits, probe, TAKEN, says, "below 0.05 in 38 models")

@@ -2,7 +2,7 @@
 
 `margin` is subtracted from the distance to the limit: the limit pushes as if it stood that far inside of the range. A
 hinge with a range to 60 degrees and a margin of 0.5 rad stops at 31 degrees, and no motor brings it further without
-pressing it in. `margin` is in rad whatever the unit of angles is: 5 for 5 degrees is a turn.
+pressing it in. `margin` of a hinge is in rad whatever the unit of angles is: 5 for 5 degrees is 286.
 
 Bad:
 
@@ -32,6 +32,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.servo import alone
+from clinic.diagnosis.probes.tendons import joints_of
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -54,9 +55,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         worst = max(wide, key=lambda each: wide[each])
         low, high = of.row(f"{_short(kind)}_range", worst, 2)
         margin = of.model(f"{_short(kind)}_margin")[worst]
-        unit = of.unit(worst) if kind == "joint" else "m"
-        says = f"{of.name(kind, worst)} is pushed back {margin:.3g} {unit} before its limit; its range is "
-        says += f"{high - low:.3g} {unit} wide."
+        unit = f" {of.unit(worst)}" if kind == "joint" else "" if joints_of(of, worst) else " m"
+        says = f"{of.name(kind, worst)} is pushed back {margin:.3g}{unit} before its limit; its range is "
+        says += f"{high - low:.3g}{unit} wide."
         yield Suspect(
             tuple(of.name(kind, each) for each in wide),
             "margin",

@@ -1,7 +1,8 @@
 """Two joints of one body turn about the same line, or slide along the same direction.
 
 Two corners of a mouth, two ends of a door: one hinge turns about the line through both. A second one on that line adds
-no motion, only a number that nothing determines: MuJoCo warns that the inertia matrix is too close to singular.
+no motion, only a number that nothing determines. Where neither has armature, MuJoCo warns that the inertia matrix is
+too close to singular.
 
 Bad:
 

@@ -35,6 +35,7 @@ TITLE = "Negative damping or stiffness"
 FAMILIES = ("explodes", "oscillates", "drifts")
 
 FIELDS = {"damping": "dof_damping", "stiffness": "jnt_stiffness"}
+DOES = {"damping": "feeds the motion", "stiffness": "pushes away from its rest"}
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -54,7 +55,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             edits,
             Probe(f"most negative {attribute} of a joint, without its sign", "", _most, (field,), dynamic=False),
             0.0,
-            f"The {attribute} of {simulation.name('joint', next(iter(found)))} is {first:g}: it feeds the motion.",
+            f"The {attribute} of {simulation.name('joint', next(iter(found)))} is {first:g}: it {DOES[attribute]}.",
             "0 and more",
         )
 

@@ -1,7 +1,7 @@
 """A joint's range is a point, or its ends are exchanged.
 
-MuJoCo takes `range="0 0"`, and `range="1.5 -1.5"`, for a joint without limits, and says nothing. The joint then turns
-through its neighbours.
+MuJoCo takes `range="0 0"`, and `range="1.5 -1.5"`, for a joint without limits, and says nothing: nothing stops the
+joint. With `limited="true"` it is an error.
 
 Bad:
 
@@ -21,8 +21,8 @@ Good:
 
 In URDF a `<limit>` that has no lower and upper, or none at all, is the same, where another joint has a range.
 
-The number: 1 where nothing pushes the joint back from beyond its range. A point becomes the control range of the
-joint's position servo, or the range of its twin; where it has neither, it is a hint.
+The number: 1 where nothing pushes the joint back from beyond its range. A point becomes the range of the joint's twin,
+or the control range of its position servo; where it has neither, it is a hint.
 
 When it is wrong: a range of a default class that is taken back on purpose; `limited="false"` says that.
 """

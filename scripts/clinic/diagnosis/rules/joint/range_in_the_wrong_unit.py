@@ -23,12 +23,13 @@ Good:
       <mujoco>
     +   <compiler angle="radian"/>
 
-The number: ranges under 0.12 rad (7 degrees) or over 25 rad (4 turns), of at least half of the hinges that have a
-range; or of a few, where the number as it is written is a usual angle in the other unit. Between 0.3 and 6.5 rad lie
-the ranges of 95 % of the hinges of 81 healthy models.
+The number: ranges under 0.12 rad (7 degrees) or over 25 rad (4 turns), of more than half of the hinges that have a
+range, or of the only one; or of a few, where the number as it is written is a usual angle in the other unit. Of 1296
+hinges with a range in 65 healthy models 89 % have one of 0.3 to 6.5 rad, 5 % one below 0.12 rad, and none one over 25
+rad.
 
 When it is wrong: flexures, and screws of many turns. A model without anything fixed, not even a floor, is a part for
-another model, which says in what unit angles are: then it is a hint.
+another model, which says in what unit angles are: then it is a hint, as it is of all ranges of a URDF.
 """
 
 from __future__ import annotations
@@ -82,21 +83,22 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue  # it is in that unit already
         if not most and unit == "radian" and (not in_degrees or any(_round(model, each) for each in meant)):
             continue  # a narrow range in whole degrees is one
-        edits: tuple[Edit, ...] = model.option("angle", unit, "compiler") if most else ()
+        of_file = most and not model.urdf  # MuJoCo reads URDF in radians, whatever its <compiler> says
+        edits: tuple[Edit, ...] = model.option("angle", unit, "compiler") if of_file else ()
         ranges = {
             joint: " ".join(f"{each * factor / model.angle_unit:.4g}" for each in simulation.row("jnt_range", joint, 2))
             for joint in meant
         }
-        edits += () if most else model.set_each("joint", "range", ranges)
+        edits += () if of_file else model.set_each("joint", "range", ranges)
         low, high = simulation.row("jnt_range", meant[0], 2)
         now = {"radian": "degree", "degree": "radian"}[unit]
-        if not most:
+        if not of_file:
             now = f"{low / model.angle_unit:g} {high / model.angle_unit:g}"
         yield Suspect(
             tuple(simulation.name("joint", each) for each in meant),
-            "angle" if most else "range",
+            "angle" if of_file else "range",
             now,
-            unit if most else ranges[meant[0]],
+            unit if of_file else ranges[meant[0]],
             edits,
             Probe(
                 "times a range is narrower than 0.3 rad or wider than 6.5 rad", "", _off, (tuple(meant),), dynamic=False
@@ -106,7 +108,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             + (f", as of {len(meant) - 1} more" if len(meant) > 1 else "")
             + f"; read in {unit}s it is {low * factor:.3g} to {high * factor:.3g} rad.",
             "0.3 to 6.5 rad",
-            level="hint" if most and not simulation.geoms_of(0) else "cause",
+            level="hint" if most and (model.urdf or not simulation.geoms_of(0)) else "cause",
         )
 
 

@@ -1,6 +1,6 @@
 """A joint has a range that is not applied.
 
-`limited="false"`, or `<compiler autolimits="false"/>` without `limited="true"`, leaves a range without effect.
+`limited="false"` leaves a range without effect, and MuJoCo says nothing.
 
 Bad:
 
@@ -23,7 +23,8 @@ The number: the joint is put a tenth of its range beyond a limit; 1 where nothin
 A hinge whose range is a turn and more is left alone, and so are the joints of a body that goes about by a slide of ten
 times the model's extent. With `--symptom passes-limit` a hint names the driven joints that have no range at all.
 
-When it is wrong: a range that is kept for reference.
+When it is wrong: a range that is kept for reference. Where the range is that of a default class, and the joint itself
+has `limited="false"`, it may be taken back on purpose: then it is a hint.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ from clinic.diagnosis.probes.limits import unstopped
 from clinic.diagnosis.probes.wheels import is_wheel
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Suspect, how_many
+from clinic.diagnosis.suspect import Level, Suspect, how_many
 
 TITLE = "A range that is not applied"
 FAMILIES = ("passes-limit",)
@@ -65,21 +66,24 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         names, probe = tuple(simulation.name("joint", each) for each in endless), how_many("such joints", _endless)
         says = f"{names[0]} is driven and has no range: nothing stops it."
         yield Suspect(names, "range", "left out", "", (), probe, 0, says, "the range of the real joint", level="hint")
-    if not found:
-        return
-    low, high = simulation.row("jnt_range", found[0], 2)
-    yield Suspect(
-        tuple(simulation.name("joint", each) for each in found),
-        "limited",
-        "false",
-        "true",
-        model.set("joint", found, "limited", "true"),
-        unstopped(found),
-        0.5,
-        f"The range of {simulation.name('joint', found[0])}, {low:.3g} to {high:.3g} {simulation.unit(found[0])}, "
-        "has no effect.",
-        'limited="auto", with autolimits',
-    )
+    taken_back = [joint for joint in found if _taken_back(model, joint)]
+    level: Level
+    for joints, level in (([each for each in found if each not in taken_back], "cause"), (taken_back, "hint")):
+        if not joints:
+            continue
+        low, high = simulation.row("jnt_range", joints[0], 2)
+        degrees = simulation.joint_type(joints[0]) == HINGE and model.angle_unit != 1.0  # as written, for it is unused
+        unit = "degrees" if degrees else simulation.unit(joints[0])
+        names = tuple(simulation.name("joint", joint) for joint in joints)
+        says = f"The range of {names[0]}, {low:.3g} to {high:.3g} {unit}, has no effect."
+        healthy, edits = 'limited="auto", with autolimits', model.set("joint", joints, "limited", "true")
+        yield Suspect(names, "limited", "false", "true", edits, unstopped(joints), 0.5, says, healthy, level=level)
+
+
+def _taken_back(model: ReaderModel, joint: int) -> bool:
+    """Whether a joint itself says that the range of its default class is not for it."""
+    element = model.element("joint", joint)
+    return element is not None and element.get("limited") == "false" and not element.get("range")
 
 
 def _endless(of: Simulation) -> list[int]:

@@ -22,9 +22,10 @@ Good:
     +         <joint type="slide" axis="1 0 0" range="0 0.3" damping="5"/>
 
 The number: the gap, along the slide, between what moves and the body that carries it where the range ends, in lengths
-of what moves, told from 0 on; for a slide without a range, and for every one of a URDF below 50 lengths, whether its
-body is called a drawer, a tray or a door. A slide with a spring is left alone. And, driven or not, a slide on a
-straight rail of what carries it, where the range is 20 times as long as the rail and more, and in cm or mm fits on it.
+of what moves, told from 0 on; for a slide without a range, and for every one of a URDF below 50 lengths, whether it or
+its body is called a drawer, a tray, a shelf, a door or a lid. A slide with a spring is left alone. And, driven or not,
+a slide on a straight rail of what carries it, where the range is 20 times as long as the rail and more, and in cm or mm
+fits on it.
 
 When it is wrong: a carriage on a rail that is not drawn.
 """

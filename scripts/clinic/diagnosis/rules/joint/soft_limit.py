@@ -22,7 +22,7 @@ Good:
 
 The number: the joint is put at its upper limit and moves outwards at 3 rad/s (0.3 m/s), without gravity, contacts,
 springs and actuators; how much further it goes than with MuJoCo's own limit, over 0.15 rad (5 % of the range of a
-slide). Above 1 is told. A time constant of 0.1 s, as fins have it in healthy models, is 0.6 of that.
+slide). Above 1 is told. A time constant of 0.1 s is 0.6 of that.
 
 When it is wrong: a bumper, a ligament, a limit that is meant to give way.
 """

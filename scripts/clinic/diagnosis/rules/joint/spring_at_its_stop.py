@@ -111,7 +111,7 @@ def _other_sign(model: ReaderModel) -> Suspect | None:
         if (before := model.measured(probe)) > LEAVES and model.measured(probe, edits) <= BACK * before:
             names = tuple(of.name("joint", joint) for joint in joints)
             now = f"{rest / unit:.4g}"
-            says = f"{names[0]} rests at {now}, on the side to which the load pushes it."
+            says = f"{names[0]} has springref {now}, on the side to which the load pushes it."
             return Suspect(names, "springref", now, value, edits, probe, LEAVES, says, "next to nothing")
     return None
 

@@ -1,7 +1,7 @@
 """A joint's spring is at rest far outside of what the joint can reach.
 
-`springref` is an angle in the unit of the text. One that was written in degrees and is read as radians, or belongs to
-another joint, presses the joint against its limit, or winds it up.
+`springref` of a hinge is an angle in the unit of the text. One that was written in degrees and is read as radians, or
+belongs to another joint, presses the joint against its limit, or winds it up.
 
 Bad:
 
@@ -55,7 +55,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         found, limit = odd, ODD
     if not found:
         return
-    begins = {joint: f"{simulation.model('qpos0')[simulation.place(joint)]:g}" for joint in found}
+    begins = {joint: f"{simulation.model('qpos0')[simulation.place(joint)] / model.angle_unit:.6g}" for joint in found}
     edits = model.set_each("joint", "springref", begins)
     rest = simulation.model("qpos_spring")[simulation.place(found[0])]
     yield Suspect(

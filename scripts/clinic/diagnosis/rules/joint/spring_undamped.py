@@ -34,8 +34,9 @@ Good:
     +       <joint type="slide" axis="0 0 1" range="-0.05 0.05" stiffness="2000" damping="41"/>
 
 The number: how many hinges and slides between two parts that move have a `stiffness`, no `damping`, no `frictionloss`
-and no actuator, of slides none but motors, where no tendon, equality or air takes energy out; hinges whose spring holds
-the weight within half a rad. The edit gives them 0.3 of critical damping. Of 465 healthy models none has such a spring.
+and no actuator (of a slide a motor is none), where no tendon, equality or air takes energy out; hinges whose spring
+holds the weight within half a rad. The edit gives them 0.3 of critical damping. Of 465 healthy models none has such a
+spring.
 
 When it is wrong: a study of a swing that is to go on, as of a runner on a spring of no loss.
 """
@@ -76,7 +77,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     says = f"{of.name('joint', worst)} has a spring of {found[worst]:.3g} {'N/m' if _slides(of, worst) else 'N m/rad'} "
     says += "and neither damping nor friction: what sets it swinging never ends."
     names, probe = tuple(of.name("joint", joint) for joint in joints), how_many("springs without a damper", _undamped)
-    yield Suspect(names, "damping", "0", most, edits, probe, 0, says, "a third of critical damping", level="hint")
+    yield Suspect(names, "damping", "0", most, edits, probe, 0, says, "0.3 of critical damping", level="hint")
 
 
 @kept

@@ -42,7 +42,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.probes.tendons import joints_of, pulled
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation, kept
-from clinic.diagnosis.suspect import Probe, Suspect, counted, rounded
+from clinic.diagnosis.suspect import Probe, Suspect, counted
 
 TITLE = "A rope that never gets taut"
 FAMILIES = ("falls-through", "drifts", "sensor-reads-zero", "stuck")
@@ -90,7 +90,7 @@ def _without_limit(model: ReaderModel) -> Iterator[Suspect]:
         ):
             continue
         length = of.model("tendon_length0")[tendon]
-        value = f"0 {rounded(length)}"
+        value = f"0 {length:.3g}"
         edits = model.set("tendon", [tendon], "range", value)
         says = f"A range from {low:g} to {high:g} is none, and nothing else acts on it: it holds nothing."
         probe = counted("ropes that hold nothing", 1)

@@ -2,7 +2,8 @@
 
 All of its sites are on parts that do not move against each other, or the coefficients of a fixed tendon are 0, or take
 each other away: two fingers that an equality lets close together, with coefficients 0.5 and -0.5. What drives the
-tendon moves nothing, its limit stops nothing, and a sensor of it reads a constant.
+tendon works against itself, its limit stops nothing, and a sensor of it reads a constant, or what a soft equality gives
+way.
 
 Bad:
 

@@ -28,12 +28,12 @@ Good:
     -     <spatial name="rope" limited="true" range="0 0.0001">
     +     <spatial name="rope" limited="true" range="0 0.16">
 
-The number: how far its length at the start lies outside of the range, as a share of that length or of the range, the
-larger of the two; more than 80 %. Where the range begins at ten times the length, that beginning takes the place of
-its width. In a model with keyframes it is so in the first of them as well. Of a tendon that an actuator pulls 20 % are
-enough: of 260 healthy models none has one that is outside by 3 %.
-From 20 % on, a tendon through sites is told where one thing in the text, and nothing else, brings it into its range:
-another site, through which no tendon goes, or another sign of a number in the `pos` or `euler` of what it is fixed to.
+The number: how far its length at the start lies outside of the range, as a share of the largest of that length, the
+width of the range and, where it is too short, the lower end of the range; more than 80 %. Where the range begins at ten
+times the length and more, its width does not count. In a model with keyframes it is so in the first of them as well. Of
+a tendon that an actuator pulls 20 % are enough: of 260 healthy models none has one that is outside by 3 %. From 20 %
+on, a tendon through sites is told where one thing in the text, and nothing else, brings it into its range: another
+site, through which no tendon goes, or another sign of a number in the `pos` or `euler` of what it is fixed to.
 
 When it is wrong: a rope that is to be pulled tight at the start.
 """
@@ -47,7 +47,7 @@ from clinic.diagnosis.probes.key import start_at
 from clinic.diagnosis.probes.tendons import path, pulled
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
-from clinic.diagnosis.suspect import Probe, Suspect, rounded
+from clinic.diagnosis.suspect import Probe, Suspect
 
 TITLE = "A tendon starts outside of its range"
 FAMILIES = ("jumps-at-start", "explodes")
@@ -71,7 +71,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         of.begin()
         (low, high), length = of.row("tendon_range", tendon, 2), of.data("ten_length")[tendon]
         least, most = min(low, 0.98 * length), max(high, 1.02 * length)
-        value = f"{rounded(least)} {rounded(1.01 * most)}"
+        value = f"{least:.3g} {1.01 * most:.3g}"
         if low / 1000 <= length <= high / 1000:
             value = f"{low / 1000:g} {high / 1000:g}"  # in m
         says, limit = f"It is {length:.3g} long at the start, and its range is {low:g} to {high:g}.", OUTSIDE
@@ -137,7 +137,7 @@ def _lowest() -> Probe:
 
 def _begins(tendon: int) -> Probe:
     title = "how far a tendon starts outside of its range"
-    return Probe(title, "of its length", _outside, (tendon,), dynamic=False)
+    return Probe(title, "of its length or range", _outside, (tendon,), dynamic=False)
 
 
 def _outside(simulation: Simulation, tendon: int) -> float:

@@ -128,7 +128,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     for (longer, shorter), (most, least) in _unequal(of).items():
         names = of.name("tendon", longer), of.name("tendon", shorter)
         says = f"{names[0]} and {names[1]} are ropes of one length between the same bodies, and may be {most:g} and "
-        says += f"{least:g} m long: the load hangs on the shorter alone. Or the other way round."
+        says += f"{least:g} m long: the load hangs on the shorter alone. Nothing here tells which of the two is wrong."
         value = written(of.row("tendon_range", shorter, 2))
         edits, now = model.set("tendon", [longer], "range", value), written(of.row("tendon_range", longer, 2))
         probe = how_many("pairs of ropes with unequal ranges", _unequal)

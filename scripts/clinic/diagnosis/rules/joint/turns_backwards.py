@@ -2,7 +2,7 @@
 
 In ROS a base has x forward, y to the left and z up (REP 103). A wheel whose axis points to the left drives forward at a
 positive speed; a steering hinge whose axis points up steers to the left at a positive angle. With the axes the other
-way, often by a frame with `rpy="-1.57 0 0"` that should have been `1.57 0 0`, the car drives backwards, or steers to
+way, often by a frame with `rpy="1.57 0 0"` that should have been `-1.57 0 0`, the car drives backwards, or steers to
 the other side than the odometry says.
 
 Bad:

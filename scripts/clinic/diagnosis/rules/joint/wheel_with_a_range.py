@@ -23,7 +23,7 @@ Good:
     -         <joint axis="0 1 0" range="-180 180"/>
     +         <joint axis="0 1 0"/>
 
-The number: how many turns the range lets a wheel make, at most 4; a wheel is a body or joint that is called so, with a
+The number: how many wheels have a range of less than 4 turns; a wheel is a body or joint that is called so, with a
 level hinge through the middle of its geoms. So is a crank, a shaft or a roller that a velocity servo turns, where its
 range has less than 0.5 rad and the servo's speed crosses it in a tenth of a second.
 
@@ -65,7 +65,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     low, high = of.row("jnt_range", found[0], 2)
     names = tuple(of.name("joint", joint) for joint in found)
     says = f"{names[0]} turns from {low:.3g} to {high:.3g} rad and no farther."
-    edits = model.set("joint", found, "limited", "false")
+    edits = model.remove("joint", found, "range") + model.remove("joint", found, "limited")
+    if any((each := model.element("joint", joint)) is None or not each.get("range") for joint in found):
+        edits = model.set("joint", found, "limited", "false")  # against a range of their default class
     if model.urdf:
         placed = [each for joint in found if (each := model.element("joint", joint)) is not None]
         edits = tuple(set_attribute(each, "type", "continuous") for each in placed)

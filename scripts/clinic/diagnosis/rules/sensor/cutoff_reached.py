@@ -1,7 +1,7 @@
 """A sensor reads nothing but its `cutoff`.
 
-`cutoff` clips the readings at plus and minus that value. An accelerometer at rest reads 9.81 m/s2; with a cutoff of 5
-it reads 5 for ever.
+`cutoff` clips each number of a reading at plus and minus that value. An accelerometer that stands upright and still
+reads 9.81 m/s2 on its z axis; with a cutoff of 5 it reads 5.
 
 Bad:
 
@@ -24,11 +24,11 @@ Good:
     +     <accelerometer name="imu" site="imu" cutoff="100"/>
 
 The number: the share of the time after letting go in which some value of the sensor is at its cutoff; below 0.8 is
-well. A rangefinder is told where two others and more have one cutoff, at least 5 times as much: else nothing is in its
-reach. A hint tells of an actuator's force or a joint's position whose cutoff is a fifth or less of the force range or
-of the range.
+well. A rangefinder is told only where two others and more have one cutoff, at least 5 times as much: else what it sees
+may be farther. A hint tells of an actuator's force or a joint's position whose cutoff is a fifth or less of the force
+range or of the range.
 
-When it is wrong: a bumper among rangefinders that look far.
+When it is wrong: a bumper among rangefinders that look far, or a touch sensor that is to be a switch.
 """
 
 from __future__ import annotations

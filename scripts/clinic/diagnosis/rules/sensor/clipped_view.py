@@ -66,12 +66,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if flat(model, camera):
             continue
         probe = Probe("cut away", "of what is in sight", _clipped, (camera,), dynamic=False)
-        if model.measured(probe) > MOST:
+        if (share := model.measured(probe)) > MOST:
             names = [name for name in ("znear", "zfar") if name in maps[-1].attributes]
             now = ", ".join(f"{name} {maps[-1].get(name)}" for name in names)
             edits = tuple(remove_attribute(maps[-1], name) for name in names)
             value = ", ".join(DEFAULTS[name] for name in names)
-            says = f"{now}, times the extent of {simulation.extent:.3g} m, cut it away."
+            says = f"{now}, times the extent of {simulation.extent:.3g} m, cut away "
+            says += f"{100 * share:.0f} % of the geoms in its sight."
             camera_name = simulation.name("camera", camera)
             yield Suspect(("<map>", camera_name), ", ".join(names), now, value, edits, probe, MOST, says)
             return

@@ -66,7 +66,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     maps = list(model.source.elements("map")) if model.source else []
     edits = (set_attribute(maps[-1], "znear", value),) if maps else model.add("visual", f'<map znear="{value}"/>')
     now = f"{of.model('vis.map.znear')[0]:g}"
-    says = f"znear {now} times the extent of {of.extent:.3g} m is {plane:.3g} m: what is nearer to it is not drawn."
+    says = f"znear {now} times the extent of {of.extent:.3g} m is {plane:.3g} m: what is nearer than that is not drawn."
     probe = Probe("the near plane's distance", "of the robot's size", _ahead, (worst,), dynamic=False)
     names = tuple(of.name("camera", each) for each in found)
     yield Suspect(names, "znear", now, value, edits, probe, FAR, says, "below half of the robot")

@@ -71,7 +71,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = [(each, meant) for each in sensors if (meant := _meant(each))]
     for element, meant in found:
         edits = _of_kind(element, meant) if element.get("site") and meant in SITED else ()
-        says = f"It is called so, and is a <{element.tag}>."
+        says = f"Its name speaks of a <{meant}>, and it is a <{element.tag}>."
         probe = counted("sensors of another kind than their name says", len(found))
         name = f'sensor "{element.get("name")}"'
         yield Suspect((name,), "", f"<{element.tag}>", f"<{meant}>", edits, probe, 0, says, at=element)

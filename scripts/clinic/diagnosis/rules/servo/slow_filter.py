@@ -68,6 +68,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         edits += model.set("actuator", some, name, USUAL[muscle])
     now, value = model.value("actuator", worst, attribute) or "left out", USUAL[_muscle(of, worst)]
     says = f"{slow[worst]:.3g} s after its control changes, {of.name('actuator', worst)} gives 63 % of the change."
+    if _muscle(of, worst):
+        says = f"The longer time constant of {of.name('actuator', worst)} is {slow[worst]:.3g} s."
     probe = Probe("greatest time constant of an actuator's filter", "s", _slowest, dynamic=False)
     names = tuple(of.name("actuator", each) for each in slow)
     yield Suspect(names, attribute, now, value, edits, probe, SLOW - 1e-6, says, "0.01 to 0.1 s", level="hint")

@@ -2,7 +2,7 @@
 
 A motor's torque is limited as a whole. Where a `<position>` and a `<velocity>` drive one joint and each is clipped by
 itself, the spring pulls with all it may while the damper brakes with as much: at forcerange over kv, here 3.8 rad/s,
-nothing is left, and the joint gets no faster. With one limit for the sum it gets to 13.9 rad/s on a step of 1.5 rad.
+nothing is left, and the joint gets no faster. With one limit for the sum it gets to 13.8 rad/s on a step of 1.5 rad.
 
 Bad:
 

@@ -2,7 +2,7 @@
 
 `damping` of a joint acts against its servo at every speed, and `armature` is inertia that has to be moved as well. With
 ten times too much of one of them the joint follows in seconds. More `kp` helps only until the force is at its limit:
-below, 40 N m against 100 N m s/rad turn the joint at 0.4 rad/s, whatever `kp` is.
+below, 40 N m against 100 N m s/rad turn the joint at 0.4 rad/s at most, whatever `kp` is.
 
 Bad:
 

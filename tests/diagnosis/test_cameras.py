@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from diagnosed import hints
+from diagnosed import findings, hints
 from scenery import ARM, FLOOR
 
 HALL = """<mujoco>{0}<worldbody><light pos="0 0 3"/>
@@ -167,3 +167,14 @@ WRIST = """<mujoco><worldbody><body name="flange" pos="0 0 .5"><joint axis="0 0 
 def test_a_camera_of_a_wrist_that_looks_away_from_its_gripper_is_told(name, axes, joint, told):
     found = hints(WRIST.format(name=name, axes=axes, joint=joint), "camera-blocked")
     assert ["beyond" in each.says for each in found] == [True] * told
+
+
+@pytest.mark.parametrize(
+    ("lens", "told"),
+    [('projection="orthographic" fovy="4"', 0), ('fovy="4"', 1)],
+    ids=["4 m high", "4 degrees high"],
+)
+def test_the_view_of_an_orthographic_camera_is_a_length(lens: str, told: int) -> None:
+    camera, box = f'<camera pos="0 0 5" {lens}/>', '<geom type="box" size=".1 .1 .1" pos="1 0 .1"/>'
+    text = f"<mujoco><worldbody>{camera}{FLOOR}{box}</worldbody></mujoco>"
+    assert len(findings(text, "camera-sees-nothing")) == told

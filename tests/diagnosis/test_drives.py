@@ -100,7 +100,7 @@ def test_a_muscle_that_is_a_hundred_times_weaker_or_stronger_is_told(forces, tol
 
 @pytest.mark.parametrize(
     ("attribute", "given"),
-    [("lengthrange", "0.6 0.9"), ("force", "0"), ("ctrlrange", "0 0.01"), ("range", "75 105")],
+    [("lengthrange", "0.6 0.9"), ("force", "0"), ("ctrlrange", "0 0.01"), ("range", "75 105"), ("forcerange", "0 500")],
 )
 def test_a_muscle_without_force_is_told_by_what_takes_it(attribute: str, given: str) -> None:
     good = {"force": "300", "lengthrange": "0.18 0.26", "range": "0.75 1.05"}

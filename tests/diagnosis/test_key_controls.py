@@ -141,3 +141,23 @@ def test_winches_that_a_keyframe_does_not_hold_are_told(winch: str, ctrl: str, t
       </body></worldbody><tendon>{ropes}</tendon><actuator>{winches}</actuator>
       <keyframe><key name="work" qpos="0 0 1 1 0 0 0" {ctrl}/></keyframe></mujoco>"""
     assert [each.value for each in findings(text, "key-targets-elsewhere")] == told
+
+
+def test_a_servo_keeps_its_target_where_motors_are_told_angles() -> None:
+    arm = "".join(f'<body><joint name="j{i}" axis="0 1 0"/><geom size="0.02" pos="0.1 0 0"/></body>' for i in range(3))
+    actuators = '<motor joint="j0"/><motor joint="j1"/><position joint="j2" kp="20" kv="1"/>'
+    key = '<keyframe><key qpos="0.3 0.5 -0.7" ctrl="0.3 0.5 -0.7"/></keyframe>'
+    text = f"<mujoco><worldbody>{arm}</worldbody><actuator>{actuators}</actuator>{key}</mujoco>"
+    (found,) = hints(text, "key-angles-for-motors")
+    assert found.says.endswith("as torques.")
+    assert 'ctrl="0 0 -0.7"' in with_edits(text, found)
+
+
+def test_the_control_that_holds_a_servo_takes_its_constant_force_off() -> None:
+    arm = "".join(f'<body><joint name="j{i}" axis="0 0 1"/><geom size="0.02" pos="0.1 0 0"/></body>' for i in range(2))
+    servo = '<general joint="j{}" gainprm="20" biastype="affine" biasprm="10 -20 -2"/>'
+    key = '<keyframe><key qpos="0.8 1.2" ctrl="-0.8 0"/></keyframe>'
+    actuators = servo.format(0) + servo.format(1)
+    text = f"<mujoco><worldbody>{arm}</worldbody><actuator>{actuators}</actuator>{key}</mujoco>"
+    (found,) = causes(text, "key-targets-elsewhere")
+    assert 'ctrl="0.3 0.7"' in with_edits(text, found)

@@ -89,3 +89,15 @@ def test_a_rotor_that_turns_loosely_keeps_its_drag_to_itself(hinge: str | None, 
       {rotor}</body></worldbody>
       <actuator><motor site="top" gear="0 0 1 0 0 0.02" ctrlrange="0 10"/></actuator></mujoco>"""
     assert [each.value for each in hints(text, "rotors-not-independent")] == ["0.0004"] * told
+
+
+@pytest.mark.parametrize("pose", ["0.1 0.1", "0.14 0"], ids=["x", "plus"])
+def test_rotors_that_all_turn_alike_are_mended_by_turning_every_other_one(pose: str) -> None:
+    x, y = map(float, pose.split())
+    places = [(x, y), (-y, x), (-x, -y), (y, -x)]
+    sites = "".join(f'<site name="s{i}" pos="{a} {b} 0"/>' for i, (a, b) in enumerate(places))
+    motors = "".join(f'<motor site="s{i}" gear="0 0 1 0 0 0.02" ctrlrange="0 5"/>' for i in range(4))
+    body = f'<body pos="0 0 1"><freejoint/><geom type="box" size="0.1 0.1 0.02" mass="0.5"/>{sites}</body>'
+    text = f"<mujoco><worldbody>{body}</worldbody><actuator>{motors}</actuator></mujoco>"
+    (found,) = hints(text, "rotors-not-independent")  # which its edit mends, as hints() has it
+    assert found.says == "All turn alike, so that yaw comes with lift."

@@ -266,3 +266,12 @@ def test_a_touch_site_that_is_twice_as_long_as_its_geom_is_told(site: str, told:
     body = f'<body><joint/>{thigh}<site name="thigh" type="capsule" {site}/></body>'
     model = f'<mujoco><worldbody>{body}</worldbody><sensor><touch site="thigh"/></sensor></mujoco>'
     assert [each.value for each in hints(model, "full-lengths")] == ([told] if told else [])
+
+
+@pytest.mark.parametrize(("end", "told_of"), [(".9 -.6 .4", 0), (".9 -.6 0", 1)], ids=["aside", "across the ray"])
+def test_a_rangefinder_beside_a_slanted_part_of_its_robot_does_not_see_it(end: str, told_of: int) -> None:
+    boom = f'<body pos="0 .3 0"><joint axis="0 1 0"/><geom type="capsule" fromto="0 0 0 {end}" size=".02"/></body>'
+    car = '<geom type="box" size=".2 .1 .05"/><site name="front" pos=".21 0 0" zaxis="1 0 0"/>'
+    body = f'<body pos="0 0 .3"><joint type="slide" axis="1 0 0"/>{car}{boom}</body>'
+    wall = '<geom type="box" size=".05 1 1" pos=".9 0 .5"/>'
+    assert len(told("rangefinder-hits-itself", wall + body, '<rangefinder site="front"/>')) == told_of

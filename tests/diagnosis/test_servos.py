@@ -295,6 +295,7 @@ def test_a_servo_that_rings_beside_its_twin_of_the_same_gains_moves_what_is_unli
         pytest.param('position kp="500" forcerange="-120 120"', [], id="both-ways"),
         pytest.param('position kp="500"', [], id="no-limit"),
         pytest.param('motor ctrlrange="0 50"', [("gear", "-1")], id="motor"),
+        pytest.param('muscle force="300" lengthrange="0.5 1.5" forcerange="0 500"', [], id="muscle-that-cannot"),
     ],
 )
 def test_a_winch_that_may_only_push_its_rope_is_told(actuator: str, told: list[tuple[str, str]]) -> None:
@@ -304,3 +305,24 @@ def test_a_winch_that_may_only_push_its_rope_is_told(actuator: str, told: list[t
         .replace('motor tendon="rope" ctrlrange="0 50"', f'{actuator} tendon="rope"')
     )
     assert [(each.attribute, each.value) for each in hints(text, "rope-pushes")] == told
+
+
+def test_two_limits_before_the_gear_become_one_behind_it() -> None:
+    text = rules()["limits-apart"].example("Bad")
+    for now, then in (('kp="1000"', 'gear="10" kp="10"'), ('kv="90"', 'gear="10" kv="0.9"'), ("-340 340", "-34 34")):
+        text = text.replace(now, then)
+    (found,) = hints(text, "limits-apart")
+    assert found.edit[-1].value == "-340 340"
+
+
+def test_a_servo_behind_a_gear_gets_the_controls_that_reach_its_joints_range() -> None:
+    text = rules()["control-range-forgotten"].example("Bad").replace('kp="100" kv="10"', 'kp="25" kv="2.5" gear="2"')
+    assert [each.value for each in hints(text, "control-range-forgotten")] == ["-2.094 2.094"]
+
+
+def test_a_servo_of_a_negative_gain_is_said_to_hold_the_other_side() -> None:
+    arm = '<body><joint name="a" axis="0 0 1"/><geom size=".02" pos=".1 0 0"/></body>'
+    servo = '<general joint="a" gainprm="-20" biastype="affine" biasprm="0 -20 -2"/>'
+    text = f"<mujoco><worldbody>{arm}</worldbody><actuator>{servo}</actuator></mujoco>"
+    (found,) = findings(text, "target-not-held")
+    assert found.says.endswith("holds the joint at minus its control.")

@@ -97,8 +97,14 @@ def through(simulation: Simulation, geom: int, start: Vector, way: Vector) -> tu
     return near, far
 
 
+def flat(model: ReaderModel, camera: int) -> bool:
+    """Whether a camera is orthographic: its `fovy` is the height of the image in m at every distance."""
+    written = {name: model.value("camera", camera, name) for name in ("projection", "orthographic")}
+    return written["projection"] == "orthographic" or written["orthographic"] == "true"
+
+
 def opening(simulation: Simulation, camera: int) -> tuple[float, float]:
-    """Half of the image's height at a distance of 1, and its width as a share of its height."""
+    """Half of the image's height at a distance of 1, and its width as a share of its height; of perspective ones."""
     wide, high = (int(each) for each in simulation.row("cam_resolution", camera, 2))
     tall = math.tan(math.radians(min(simulation.model("cam_fovy")[camera], 179.0)) / 2)
     return tall, wide / high if wide > 1 and high > 1 else ASPECT

@@ -1,6 +1,7 @@
-"""The controls of a keyframe are the angles of its pose, and the actuators are motors.
+"""The controls of a keyframe are the positions of its pose, and the actuators are motors.
 
-Copied from a model with position servos. To a motor the numbers are torques: the robot is pushed out of the pose.
+They were copied from a model with position servos. To a motor the numbers are torques in N m, or forces in N: they push
+the robot out of the pose.
 
 Bad:
 
@@ -29,8 +30,9 @@ Good:
     -     <key name="home" qpos="0.9 -1.8" ctrl="0.9 -1.8"/>
     +     <key name="home" qpos="0.9 -1.8"/>
 
-The number: of the motors of a keyframe whose control is not zero, how many have just the position of their joint; two
-and more, and all but one of them. So it is with velocity servos.
+The number: of the motors and velocity servos of a keyframe whose control is not zero, how many have just the position
+of their joint; two and more, and all of them, or all but one. The edit sets their controls to 0, and leaves `ctrl` out
+where nothing else is in it.
 
 When it is wrong: torques that happen to be the angles; so it is a hint.
 """
@@ -39,8 +41,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from clinic.diagnosis.edit import remove_attribute
+from clinic.diagnosis.edit import remove_attribute, set_attribute
+from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.key import start_at
+from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -52,37 +56,49 @@ FEW = 1.0
 
 
 def _copied(simulation: Simulation, key: int) -> float:
-    """How many motors have their joint's position as their control; none where two and more have something else."""
+    """How many motors have their joint's position as their control."""
+    return float(len(_same(simulation, key)))
+
+
+def _taken(of: Simulation, actuator: int) -> str:
+    """What an actuator takes its control as."""
+    hinge = of.joint_type(of.driven_joint(actuator) or 0) == HINGE
+    return "speeds" if of.bias(actuator)[2] else "torques" if hinge else "forces"
+
+
+def _same(simulation: Simulation, key: int) -> list[int]:
+    """The motors that have their joint's position as their control; none where two and more have something else."""
     start_at(simulation, key)
-    given, same = 0, 0
+    given, same = 0, list[int]()
     for actuator, value in enumerate(simulation.data("ctrl")):
         joint = simulation.driven_joint(actuator)
         if joint is None or value == 0 or any(simulation.bias(actuator)[:2]):
             continue
         given += 1
-        same += abs(simulation.position(joint) - value) < 1e-6
-    return float(same) if same > FEW and given - same <= 1 else 0.0
+        same += [actuator] * (abs(simulation.position(joint) - value) < 1e-6)
+    return same if len(same) > FEW and given - len(same) <= 1 else []
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Keyframes of motors that hold angles for torques."""
     of = model.simulation
     for key in range(of.count("key")):
-        element, same = model.element("key", key), _copied(of, key)
-        if same > FEW and element is not None and "ctrl" in element.attributes:
+        element, same = model.element("key", key), _same(of, key)
+        if same and element is not None and "ctrl" in element.attributes:
+            left = [0.0 if each in same else value for each, value in enumerate(of.data("ctrl"))]
+            edit = set_attribute(element, "ctrl", written(left)) if any(left) else remove_attribute(element, "ctrl")
             probe = Probe("motors whose control is their joint's position", "motors", _copied, (key,), dynamic=False)
-            speeds = any(of.bias(actuator)[2] for actuator in range(of.count("actuator")))
-            says = f"The controls of {same:.0f} motors are the positions of their joints, and are taken as "
-            says += "speeds." if speeds else "torques."
+            taken = " and ".join(dict.fromkeys(_taken(of, actuator) for actuator in same))
+            says = f"The controls of {len(same)} actuators are the positions of their joints, and are taken as {taken}."
             yield Suspect(
                 (of.name("key", key),),
                 "ctrl",
                 element.get("ctrl"),
-                "left out",
-                (remove_attribute(element, "ctrl"),),
+                written(left) if any(left) else "left out",
+                (edit,),
                 probe,
                 FEW,
                 says,
-                "torques",
+                taken,
                 level="hint",
             )

@@ -2,7 +2,7 @@
 
 The start of the model keeps it, and a keyframe, which was set up by hand or saved from a run, does not: at its first
 step the joints jump. The keyframe is wrong in a sign, or the equality: a lead in mm, or for a turn in place of a
-radian; its two joints in each other's place; the wrong joint.
+radian; its two joints in each other's place; or the wrong joint.
 
 Bad:
 

@@ -35,8 +35,8 @@ The number: how many numbers go to another joint. Told where a quaternion, as it
 from 1 by more than 2 %, and where with the free joints and what stands between them in another order all quaternions
 have length 1. Of several such orders the one that leaves the fewest joints outside of their ranges is proposed.
 
-The six numbers of a free joint in `qvel` are its velocity, then its angular velocity. They are a hint of a ball that,
-with the two exchanged, rolls without slipping to 5 %, and as it is written slides with half of its speed and more.
+The six numbers of a free joint in `qvel` are its velocity, then its angular velocity. A hint tells of a ball that, with
+the two exchanged, would roll and slip by less than 5 % of its speed, and as it is written slips by more than half.
 
 When it is wrong: a keyframe whose quaternion was typed without care for its length.
 """

@@ -1,7 +1,7 @@
 """The motor of a keyframe pushes its joint away, and with the sign of one number changed holds it.
 
-A `<key>` with a control of a motor is a pose that is held: against a spring, against the weight. Where the two are as
-large as each other and push the same way, one of them has the wrong sign, and at the first step the joint goes off.
+A `<key>` with a control of a motor is mostly a pose that is held: against a spring, or against the weight. Where the
+two are about equal and push the same way, one has the wrong sign, and the joint goes off at the first step.
 
 Bad:
 

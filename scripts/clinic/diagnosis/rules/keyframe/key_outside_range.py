@@ -33,7 +33,7 @@ exchanged; else it is put to the end of the range.
 
 A joint that every one of several keyframes puts outside is a hint that its range is wrong. Where no servo and no other
 keyframe moves it, the range may as well have the wrong sign, and nothing is edited. Of hinges without a range a whole
-multiple of 15 from 30 on is told as a hint, where no other keyframe turns them by more than once.
+multiple of 15 from 30 on is told as a hint, where no other keyframe has them beyond one turn.
 
 When it is wrong: a limit that is soft on purpose.
 """

@@ -22,9 +22,9 @@ Good:
     -     <key name="home" qpos="0 0 0.1 0 0 0 1"/>
     +     <key name="home" qpos="0 0 0.1 1 0 0 0"/>
 
-The number: the angle between the free body at the keyframe and at the model's start. Told for `0 0 0 1`, and
-where the body is tilted by more than 60 degrees and would be by less than 15 if w stood first. Of a thing that is the
-same after half a turn, a box, it is a hint.
+The number: the angle between the free body at the keyframe and at the model's start. Told for `0 0 0 1` and a half turn
+near it, and where the body is tilted by more than 60 degrees and would be by less than 15 with the last number as w. Of
+a thing that is the same after half a turn, such as a box, it is a hint.
 
 When it is wrong: a robot that is meant to look back.
 """
@@ -73,7 +73,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 (set_attribute(element, "qpos", written(changed)),),
                 Probe("angle between keyframe and start", "degrees", _angle, (key, at), dynamic=False),
                 LIMIT,
-                "Read as w x y z it turns the body round, or over; read as x y z w it stands as it does at the start.",
+                "Read as w x y z it turns the body by half a turn, or over; read as x y z w it does neither.",
                 "w first: 1 0 0 0 is no rotation",
                 level="hint" if _tilt((w, x, y, z), start) < 1 and _round(of, body) else "cause",
             )

@@ -29,8 +29,8 @@ Good:
     -     <key name="home" qpos="0.8 1.2"/>
     +     <key name="home" qpos="0.8 1.2" ctrl="0.8 1.2"/>
 
-The number: the distance between target and joint that three quarters of the position servos keep, in rad or m; 0.1 and
-more tells a cause, for keyframes in which at least two servos and half of them are off. Where there is no `ctrl`, two
+The number: how far three quarters of the position servos are at most from their joints, in rad or m; above 0.1 it is a
+cause, for keyframes in which at least two servos and half of them are off by that. Where there is no `ctrl`, two
 servos that go 0.5 away are told in a hint. Two that are each told the other's place are told as such. Joints outside of
 their ranges do not count: their places are wrong, which another rule tells. Winches that hold what moves freely count
 as servos of joints; another servo on a tendon, a gripper's, is told where it goes more than half of the tendon's way.
@@ -118,7 +118,8 @@ def _exchanged(found: Mapping[int, tuple[float, float]], one: int, other: int) -
 
 def _holding(of: Simulation, actuator: int, at: float) -> float:
     """The control with which a servo stays where its joint is."""
-    return at * of.gear(actuator) * -of.bias(actuator)[1] / of.gain(actuator)[0]
+    offset, slope = of.bias(actuator)[:2]
+    return (at * of.gear(actuator) * -slope - offset) / of.gain(actuator)[0]
 
 
 def _swap(

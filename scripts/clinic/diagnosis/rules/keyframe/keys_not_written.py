@@ -1,7 +1,7 @@
 """Room is kept for keyframes that nobody wrote.
 
-`<size nkey="5">` asks for five keyframes, and those that no `<key>` writes are made of nothing: the model's start with
-time and speeds of zero. A viewer offers them, and code that resets to one gets a start that may lie outside of ranges.
+`<size nkey="5">` asks for five keyframes. Those that no `<key>` writes are the model's own start, at time 0 and at
+rest. A viewer offers them, and code that resets to one gets a start that may lie outside of ranges.
 
 Bad:
 
@@ -53,7 +53,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     size = sizes[-1]
     probe = Probe("keyframes that are not written", "", _unwritten, (written,), dynamic=False)
-    says = f"nkey {size.get('nkey')} keeps room for more keyframes than the {written} that are written."
+    says = f"nkey {size.get('nkey')} makes {size.get('nkey')} keyframes, and the model writes {written} of them."
     edits = (remove_attribute(size, "nkey"),)
     yield Suspect(("<size>",), "nkey", size.get("nkey"), "left out", edits, probe, 0, says, "as many as are written")
 

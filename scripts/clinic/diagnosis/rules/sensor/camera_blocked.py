@@ -1,7 +1,7 @@
 """A camera looks into the body that carries it.
 
 A camera looks along -z of its frame. Where that was taken for +z or for x, or `euler` has a turn too few, a camera on a
-hand or a head looks at its own mount, and the image is of one colour.
+hand or a head looks at its own mount, and its image shows little else.
 
 Bad:
 
@@ -23,18 +23,19 @@ Good:
 
 The number: how many of nine rays through the image, the middle and those halfway to its edges and corners, meet the box
 around a visible geom of the body that carries the camera, and of what is fixed to it, or, of a head's camera, of its
-whole robot; meshes are left out. All nine are told. What the camera is in does not count: of a shell only the outside
-is drawn. Nor does what is nearer than `znear` times the extent, 1 % of the model's size: it is cut off.
+whole robot; meshes are left out. Told where all nine do. What the camera is in does not count: of a shell only the
+outside is drawn. Nor does what is nearer than `znear` times the extent, by default 1 % of that: it is cut off.
+Orthographic cameras are not asked.
 
 A camera that is below a plane and does not look up is told too, where what carries it, or most of what there is to see,
 is above.
 
 And so is the one of a left and a right camera of a body, turned alike, that looks towards the other: two eyes that look
 ahead are beside each other. So is the camera on a hand that looks the other way than the fingers on it are, to 45
-degrees, and one called after a wrist, a hand, a gripper or a tool, that looks away from all that moves beyond it. And a
-camera on what drives, flies or walks that is off the middle by half the way to its edge and more, and looks level and
-back over the middle, not across a narrow robot, from no higher than a quarter of that way above all the rest. A
-driver's, or one that follows, may.
+degrees. So is one called after a wrist, a hand, a gripper or a tool that looks away from all that moves beyond it. So
+is a camera on what drives, flies or walks that is off its middle by half of the way to the edge and more, and looks
+level and back over the middle, lengthways, from no higher than a quarter of that way above all the rest. One that is
+called after a driver or a pilot, or that follows or chases, is left alone.
 
 When it is wrong: a camera that watches a part of its own mount.
 """
@@ -50,7 +51,7 @@ from clinic.diagnosis.engine import CAM_FIXED, MESH, PLANE
 from clinic.diagnosis.probes.shape import boxes
 from clinic.diagnosis.probes.sides import by_name
 from clinic.diagnosis.probes.vector import add, dot, flipped, sub, times, transpose, unit, written
-from clinic.diagnosis.probes.view import HEAD, axes, opening, things, through, turned
+from clinic.diagnosis.probes.view import HEAD, axes, flat, opening, things, through, turned
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect, how_many
@@ -78,13 +79,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield from _across(model)
     moving = set(of.moving_bodies)
     for camera, body in enumerate(of.model("cam_bodyid")):
-        if int(body) in moving and _blocked(of, camera) > MOST:
+        if int(body) in moving and not flat(model, camera) and _blocked(of, camera) > MOST:
             right, up, _ = axes(of, camera)
             edits: tuple[Edit, ...] = turned(model, camera, sub((0.0, 0.0, 0.0), right), up)
             probe = Probe("rays of nine that meet the camera's own mount", "", _blocked, (camera,), dynamic=False)
             carrier = of.name("body", int(body))
             seen = f"the robot of {carrier}" if HEAD.search(carrier) else f"{carrier}, which carries it"
-            says = f"All of its image is {seen}."
+            says = f"All nine rays through its image meet {seen}."
             value = edits[-1].value if edits else "away from its mount"
             names = (of.name("camera", camera),)
             yield Suspect(names, "xyaxes", "", value, edits, probe, MOST, says, "a view past its mount", level="hint")

@@ -1,7 +1,7 @@
 """A camera looks past everything.
 
-A camera looks along its own -z, not along x as one expects of other programs: without an orientation it looks straight
-down.
+A camera looks along its own -z, not along x as one expects of other programs: a camera of the world without an
+orientation looks straight down.
 
 Bad:
 
@@ -21,10 +21,10 @@ Good:
     -     <camera name="front" pos="2 0 0.5" xyaxes="0 -1 0 0 0 1"/>
     +     <camera name="front" pos="2 0 0.5" xyaxes="0 1 0 0 0 1"/>
 
-The number: the share of visible geoms, floors left out, of which neither the middle nor a corner of the box around it
-is in the image; 1 is nothing in sight. By geometry, for a square image where `resolution` does not say otherwise, at
-the start. A camera of the world is told, too, where all that is to be seen takes less than 0.5 % of the image's height:
-its place is in mm.
+The number: the share of visible geoms, floors left out, whose box has neither its middle nor a corner in the image, and
+is not straight ahead; 1 is nothing in sight. By geometry, for a square image where `resolution` does not say otherwise,
+at the start. A camera of the world is told, too, where all that is to be seen takes less than 0.5 % of the image's
+height: its place may be in mm. Orthographic cameras are left alone.
 
 When it is wrong: things come into view later, or the camera is meant for the floor. Cameras on moving bodies are left
 alone, and of one that is called a head's there is a hint.
@@ -36,7 +36,7 @@ import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.vector import written
-from clinic.diagnosis.probes.view import HEAD, aimed, middle, onlookers, opening, sees, things
+from clinic.diagnosis.probes.view import HEAD, aimed, flat, middle, onlookers, opening, sees, things
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Level, Probe, Suspect
@@ -90,7 +90,7 @@ def _over(of: Simulation, camera: int) -> float:
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
     """Each camera that looks from outside and has nothing in sight."""
     simulation = model.simulation
-    for camera in onlookers(simulation):
+    for camera in (each for each in onlookers(simulation) if not flat(model, each)):
         if (small := _small(simulation, camera)) < LEAST:
             yield from _in_mm(model, camera, small)
             continue

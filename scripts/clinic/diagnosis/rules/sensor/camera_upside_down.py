@@ -21,9 +21,9 @@ Good:
     -     <camera name="front" pos="1.6 0 0.5" xyaxes="0 -1 0 0 0 -1"/>
     +     <camera name="front" pos="1.6 0 0.5" xyaxes="0 1 0 0 0 1"/>
 
-The number: the angle between the image's up and the world's, at most 100 degrees, for a camera that is fixed to the
-world or follows a robot, and does not look straight up or down. A hint tells of an image that lies on its side by more
-than 45 degrees, of a body with a free joint or a head too; an upside-down one there is a hint as well.
+The number: the angle between the image's up and the world's z; above 100 degrees is told, of a camera that is fixed to
+the world or follows a robot, and does not look within 25 degrees of straight up or down. On a body with a free joint or
+a head it is a hint. So is, on all of these, an image that lies on its side by more than 45 degrees.
 
 When it is wrong: a camera that is mounted upside down on purpose. Cameras on arms are left alone.
 """

@@ -23,7 +23,7 @@ Good:
     -   </visual>
 
 The number: of the geoms in a camera's sight, the share that is nearer than `znear` or farther than `zfar` times the
-extent; below 0.9 is well.
+extent; above 0.9 is told.
 
 When it is wrong: a camera that looks from within.
 """
@@ -33,7 +33,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import remove_attribute
-from clinic.diagnosis.probes.view import in_sight, onlookers
+from clinic.diagnosis.probes.view import flat, in_sight, onlookers
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -44,6 +44,7 @@ LEVEL = "cause"
 UNPLANTED = "no harm is measured in images"
 
 MOST = 0.9
+DEFAULTS = {"znear": "0.01", "zfar": "50"}  # MuJoCo's
 
 
 def _clipped(simulation: Simulation, camera: int) -> float:
@@ -62,12 +63,16 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if {"znear", "zfar"} & set(each.attributes)
     ]
     for camera in onlookers(simulation) if maps else ():
+        if flat(model, camera):
+            continue
         probe = Probe("cut away", "of what is in sight", _clipped, (camera,), dynamic=False)
-        if model.measured(probe) > MOST:
+        if (share := model.measured(probe)) > MOST:
             names = [name for name in ("znear", "zfar") if name in maps[-1].attributes]
             now = ", ".join(f"{name} {maps[-1].get(name)}" for name in names)
             edits = tuple(remove_attribute(maps[-1], name) for name in names)
-            says = f"{now}, times the extent of {simulation.extent:.3g} m, cut it away."
+            value = ", ".join(DEFAULTS[name] for name in names)
+            says = f"{now}, times the extent of {simulation.extent:.3g} m, cut away "
+            says += f"{100 * share:.0f} % of the geoms in its sight."
             camera_name = simulation.name("camera", camera)
-            yield Suspect(("<map>", camera_name), ", ".join(names), now, "0.01, 50", edits, probe, MOST, says)
+            yield Suspect(("<map>", camera_name), ", ".join(names), now, value, edits, probe, MOST, says)
             return

@@ -1,7 +1,7 @@
 """A sensor reads nothing but its `cutoff`.
 
-`cutoff` clips the readings at plus and minus that value. An accelerometer at rest reads 9.81 m/s2; with a cutoff of 5
-it reads 5 for ever.
+`cutoff` clips each number of a reading at plus and minus that value. An accelerometer that stands upright and still
+reads 9.81 m/s2 on its z axis; with a cutoff of 5 it reads 5.
 
 Bad:
 
@@ -24,11 +24,11 @@ Good:
     +     <accelerometer name="imu" site="imu" cutoff="100"/>
 
 The number: the share of the time after letting go in which some value of the sensor is at its cutoff; below 0.8 is
-well. A rangefinder is told where two others and more have one cutoff, at least 5 times as much: else nothing is in its
-reach. A hint tells of an actuator's force or a joint's position whose cutoff is a fifth or less of the force range or
-of the range.
+well. A rangefinder is told only where two others and more have one cutoff, at least 5 times as much: else what it sees
+may be farther. A hint tells of an actuator's force or a joint's position whose cutoff is a fifth or less of the force
+range or of the range.
 
-When it is wrong: a bumper among rangefinders that look far.
+When it is wrong: a bumper among rangefinders that look far, or a touch sensor that is to be a switch.
 """
 
 from __future__ import annotations
@@ -70,11 +70,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if cutoff <= 0 or (int(kinds[sensor]) == SENS_RANGEFINDER and cutoff * MUCH > usual):
             continue
         probe = Probe("time at its cutoff", "of the run", _clipped, (sensor,))
-        if model.measured(probe) > MOST:
+        if (share := model.measured(probe)) > MOST:
             element = model.element("sensor", sensor)
             has = element is not None and "cutoff" in element.attributes
             edits: tuple[Edit, ...] = (remove_attribute(element, "cutoff"),) if element is not None and has else ()
-            says, value = f"It reads {cutoff:g} and no more.", "left out"
+            says, value = f"For {100 * share:.0f} % of the run it is at its cutoff of {cutoff:g}.", "left out"
             if usual:
                 edits, value = model.set("sensor", [sensor], "cutoff", f"{usual:g}"), f"{usual:g}"
                 says += f" The other rangefinders read up to {usual:g}."
@@ -83,7 +83,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         elif (much := _clips(simulation, sensor)) >= MUCH:
             names, value = (simulation.name("sensor", sensor),), f"{much * cutoff:g}"
             edits = model.set("sensor", [sensor], "cutoff", value)
-            says = f"It reads {cutoff:g} at most, and what it reads goes up to {value}."
+            says = f"It reads {cutoff:g} at most, and by its range what it reads goes up to {value}."
             probe = Probe("what a sensor is to read over its cutoff", "times", _clips, (sensor,), dynamic=False)
             yield Suspect(names, "cutoff", f"{cutoff:g}", value, edits, probe, 1.0, says, "above", level="hint")
 

@@ -17,10 +17,10 @@ Good:
     -     <camera name="front" pos="1 0 0.5" xyaxes="0 1 0 -0.5 0 1" fovy="0.8"/>
     +     <camera name="front" pos="1 0 0.5" xyaxes="0 1 0 -0.5 0 1" fovy="45"/>
 
-The number: how many times `fovy` is above 145 degrees, or, below 15 degrees, how many times the image shows less than a
-quarter of the scene's size. Cameras of robots have 30 to 100, fish eyes 180
-that no perspective image can show. Where `resolution` is given and no field of view, the default of 45 degrees is a
-hint.
+The number: `fovy` over 145 degrees; below 15 degrees, a quarter of the scene's size over what the image shows of it.
+Told above 1. Cameras of robots have 30 to 100 degrees, fish eyes 180 that no perspective image can show. Where
+`resolution` is given and no field of view, the default of 45 degrees is a hint. Orthographic cameras, whose `fovy` is a
+length, are left alone.
 
 When it is wrong: a telescope.
 """
@@ -31,7 +31,7 @@ import math
 from collections.abc import Iterator
 
 from clinic.diagnosis.probes.vector import at
-from clinic.diagnosis.probes.view import middle, things
+from clinic.diagnosis.probes.view import flat, middle, things
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -63,10 +63,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     simulation = model.simulation
     for camera, angle in enumerate(simulation.model("cam_fovy")):
         name = (simulation.name("camera", camera),)
-        if (
-            model.value("camera", camera, "projection") == "orthographic"
-            or model.value("camera", camera, "orthographic") == "true"
-        ):
+        if flat(model, camera):
             continue
         if _beyond(simulation, camera) > 1:
             probe = Probe("field of view beyond a scene of this size by", "times", _beyond, (camera,), dynamic=False)
@@ -77,5 +74,5 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             model.value("camera", camera, lens) for lens in LENSES
         ):
             probe = Probe("field of view", "degrees", _default, (camera,), dynamic=False)
-            says = "It has a resolution and no field of view: MuJoCo's default of 45 degrees, not the real lens."
+            says = "It has a resolution and no field of view: MuJoCo takes 45 degrees, whatever the real lens has."
             yield Suspect(name, "fovy", "45", "the lens's", (), probe, 0.0, says)

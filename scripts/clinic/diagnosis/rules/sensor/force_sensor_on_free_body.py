@@ -1,8 +1,8 @@
-"""A force or torque sensor on a free body reads 0.
+"""A force or torque sensor on a free body reads nothing of its contacts.
 
-`<force>` and `<torque>` measure what a body and its parent do to each other through their joint. The parent of a
-free body is the world, and a free joint passes nothing to it of what contacts press: the sensor reads 0, whatever the
-body stands on.
+`<force>` and `<torque>` measure what a body and its parent do to each other through their joint. The parent of a free
+body is the world, and a free joint passes nothing to it of what contacts press: of that the sensor reads 0, whatever
+the body stands on. It does read the free joint's `damping`, `gravcomp`, and motors at sites of the body.
 
 Bad:
 
@@ -28,10 +28,10 @@ Good:
     -     <force name="force" site="sole"/>
     +     <touch name="touch" site="sole"/>
 
-The number: of what contacts of the body carry within 2 s after letting go, the share that the sensor never reads;
-below 0.99 is well.
+The number: of the most that contacts of the body carry within 2 s after letting go, the share that the sensor's largest
+reading lacks; above 0.99 is told.
 
-When it is wrong: nothing known.
+When it is wrong: a sensor of the thrust of a drone's rotors.
 """
 
 from __future__ import annotations

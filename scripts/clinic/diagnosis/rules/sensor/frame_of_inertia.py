@@ -1,7 +1,7 @@
 """A sensor of a body's orientation reads the axes of its inertia.
 
-In `objtype="body"` MuJoCo means the inertial frame, whose axes are the principal axes of inertia; the frame that is
-written in the XML is `xbody`. A torso that stands upright reads as lying on its side.
+With `objtype="body"` MuJoCo means the inertial frame, whose axes are the principal axes of inertia; the frame that is
+written in the XML is `xbody`. The torso below stands upright, and reads as turned by 24.5 degrees.
 
 Bad:
 

@@ -1,7 +1,8 @@
 """A robot's camera looks through what stands close before it.
 
-`znear` of `<map>` is no length: it is multiplied with the model's extent. In a hall of 80 m the default of 0.01 is a
-plane 0.8 m ahead of the lens, and a small robot's camera sees nothing that is nearer.
+`znear` of `<map>` is no length: it is multiplied with the model's extent. With an extent of 80 m the default of 0.01 is
+a plane 0.8 m ahead of the lens, and a small robot's camera sees nothing that is nearer. The extent of the 60 m wide
+hall below is 120 m.
 
 Bad:
 
@@ -23,9 +24,9 @@ Good:
       <mujoco>
     +   <visual><map znear="0.0002"/></visual>
 
-The number: how far ahead of a camera that moves along the near plane is, over the size of what the camera is built on;
-more than 0.5, where something else is that near to it at the start. A camera of the world is told where all of a
-mechanism before it is nearer than the plane.
+The number: how far the near plane is ahead of a camera that is fixed to a robot, over the robot's size; more than 0.5,
+where something else is nearer at the start than 1.5 times the plane's distance. A camera of the world is told where all
+of a mechanism before it is nearer than the plane.
 
 When it is wrong: a camera that only looks at what is far away.
 """
@@ -65,7 +66,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     maps = list(model.source.elements("map")) if model.source else []
     edits = (set_attribute(maps[-1], "znear", value),) if maps else model.add("visual", f'<map znear="{value}"/>')
     now = f"{of.model('vis.map.znear')[0]:g}"
-    says = f"znear {now} times the extent of {of.extent:.3g} m is {plane:.3g} m: what is nearer to it is not drawn."
+    says = f"znear {now} times the extent of {of.extent:.3g} m is {plane:.3g} m: what is nearer than that is not drawn."
     probe = Probe("the near plane's distance", "of the robot's size", _ahead, (worst,), dynamic=False)
     names = tuple(of.name("camera", each) for each in found)
     yield Suspect(names, "znear", now, value, edits, probe, FAR, says, "below half of the robot")

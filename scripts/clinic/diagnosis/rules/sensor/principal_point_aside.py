@@ -1,7 +1,7 @@
 """A camera's principal point lies far from the middle of its image.
 
 `principal` and `principalpixel` are offsets from the middle, in metres and pixels. Calibrations give the point from a
-corner: half of the resolution, which turns the view to the side by half of its angle.
+corner: half of the resolution, which shifts the image by half of its width and of its height.
 
 Bad:
 

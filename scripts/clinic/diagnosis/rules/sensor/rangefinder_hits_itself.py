@@ -1,7 +1,7 @@
 """A rangefinder sees the robot that carries it.
 
-The ray begins at the site and goes along its z axis. Geoms of the site's own body are left out, those of the bodies
-below and above are not: a site inside of a cover that hangs on another body reads a few millimetres for ever.
+The ray begins at the site and goes along its z axis. MuJoCo leaves out the geoms of the site's own body, and not those
+of the bodies below and above: a site inside of a cover that is a body of its own reads a few millimetres for ever.
 
 Bad:
 
@@ -39,6 +39,7 @@ from collections.abc import Iterator
 from clinic.diagnosis.engine import OBJ_SITE, SENS_RANGEFINDER
 from clinic.diagnosis.probes.shape import boxes, root_of
 from clinic.diagnosis.probes.vector import add
+from clinic.diagnosis.probes.view import through
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Suspect, how_many
@@ -80,11 +81,14 @@ def _blind(of: Simulation) -> dict[int, tuple[int, float]]:
             continue
         site = int(of.model("sensor_objid")[sensor])
         body = of.body_of("site", site)
-        end = add(of.data_row("site_xpos", site, 3), of.data_row("site_xmat", site, 9)[2::3], reading)
+        start, way = of.data_row("site_xpos", site, 3), of.data_row("site_xmat", site, 9)[2::3]
+        end = add(start, way, reading)
         for geom, (centre, half) in boxes(of, range(len(bodies))).items():
             other = int(bodies[geom])
             inside = all(abs(x - c) <= h + NEAR for x, c, h in zip(end, centre, half, strict=True))
             if inside and owner[body] and owner[other] == owner[body] and other != body:
-                made[sensor] = (geom, reading)
-                break
+                near, far = through(of, geom, start, way)  # of the box along the geom's own axes
+                if near - NEAR <= reading <= far + NEAR:
+                    made[sensor] = (geom, reading)
+                    break
     return made

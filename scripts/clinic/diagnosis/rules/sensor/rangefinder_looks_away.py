@@ -1,8 +1,8 @@
 """A rangefinder looks into the sky, or through the body that carries it.
 
 The ray goes along the z axis of the site, and without an orientation that axis is up: in the open a rangefinder then
-reads -1 for ever. Geoms of the site's own body are left out, so that one which looks inward reads what is on the other
-side of its robot.
+reads -1 for ever. MuJoCo leaves out the geoms of the site's own body, so that one which looks inward reads what is on
+the other side of that body.
 
 Bad:
 
@@ -25,10 +25,10 @@ Good:
     -       <site name="front" pos="0.21 0 0"/>
     +       <site name="front" pos="0.21 0 0" zaxis="1 0 0"/>
 
-The number: rangefinders that see nothing at the start nor at any keyframe, and point up in every pose; and those on one
-side of their body whose ray goes through it to the other. The edit lets them look the other way, where an orientation
-is written and something is to be seen there, or else away from the middle of their body. A model with more than 8 has a
-scan, whose rays go everywhere.
+The number: rangefinders that see nothing and point up at the start and at every keyframe, where no joint but a free one
+can tilt them; and those on one side of their body whose ray goes through it to the other. The edit lets them look the
+other way, where an orientation is written and something is to be seen there, or else away from the middle of their
+body. A model with more than 8 has a scan, whose rays go everywhere.
 
 When it is wrong: one that looks for a ceiling which another file has.
 """

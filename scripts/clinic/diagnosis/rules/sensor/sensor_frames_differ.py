@@ -32,7 +32,8 @@ The number: how many pairs of a `<framepos>` and a `<framelinvel>`, or a `<frame
 object are called alike but for the word of what they measure, and only one of them has a reference. Of 62 healthy
 models with such sensors none has one.
 
-When it is wrong: a place on the map, beside a velocity along the robot's own axes.
+When it is wrong: a place on the map, beside a velocity along the robot's own axes; or a reference that stands still and
+is not turned.
 """
 
 from __future__ import annotations

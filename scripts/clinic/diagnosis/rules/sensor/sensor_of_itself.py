@@ -1,8 +1,9 @@
 """A sensor measures a frame in itself, or in one that is fixed to it.
 
 `reftype` and `refname` say in which frame a position, an orientation or a velocity is measured. Where that is the frame
-itself, or another one of the same body, the reading is the same for ever: 0 for a place or a velocity. It is a
-copied name; or it was to give a velocity along the body's own axes, which `<velocimeter>` and `<gyro>` do.
+itself, or another one of the same body, the reading is the same for ever: 0 for a velocity, and for the place of a
+frame in itself. It is a copied name; or it was to give a velocity along the body's own axes, which `<velocimeter>` and
+`<gyro>` do.
 
 Bad:
 

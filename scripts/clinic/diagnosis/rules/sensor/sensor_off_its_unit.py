@@ -1,7 +1,7 @@
 """One sensor of a unit is at another site than the rest of it.
 
-A gyro, an accelerometer and a magnetometer are one chip, and force and torque are read by one cell. Where one of them
-names the site of something else it reads in other axes, or with the lever of another place.
+A gyro, an accelerometer and a magnetometer are mostly one chip, and force and torque are read by one cell. Where one of
+them names the site of something else it reads in other axes, or with the lever of another place.
 
 Bad:
 

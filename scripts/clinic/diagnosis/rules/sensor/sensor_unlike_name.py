@@ -25,9 +25,9 @@ Good:
     +     <gyro name="robot_gyro" site="imu"/>
 
 The number: how many sensors of motion have a name that names one other kind of them, and not their own. An `upvector`
-that lies within 30 degrees of the floor at the start, where another axis of its frame points up. And how many sensors
-whose names differ by one word, `left_enc` and `right_enc`, which read what differs by the same word, `left_wheel` and
-`right_wheel`, are of two kinds: of three and more the one that stands alone, of two both.
+that points less than 30 degrees above the horizontal at the start, where another axis of its frame points up. And how
+many sensors whose names differ by one word, `left_enc` and `right_enc`, which read what differs by the same word,
+`left_wheel` and `right_wheel`, are of two kinds: of three and more the one that stands alone, of two both.
 
 When it is wrong: a name that says what is made of the reading.
 """
@@ -71,7 +71,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     found = [(each, meant) for each in sensors if (meant := _meant(each))]
     for element, meant in found:
         edits = _of_kind(element, meant) if element.get("site") and meant in SITED else ()
-        says = f"It is called so, and is a <{element.tag}>."
+        says = f"Its name speaks of a <{meant}>, and it is a <{element.tag}>."
         probe = counted("sensors of another kind than their name says", len(found))
         name = f'sensor "{element.get("name")}"'
         yield Suspect((name,), "", f"<{element.tag}>", f"<{meant}>", edits, probe, 0, says, at=element)

@@ -1,8 +1,9 @@
 """A touch sensor's site does not reach the surface of anything that its body touches with.
 
-A `<touch>` sensor sums the contacts of its site's own body that lie inside of the site, and contacts lie at the surface
-of a geom. The default site, a sphere of 5 mm, hides in the middle of a finger; a site on the link above, or with a sign
-changed, is beside it. Such a sensor reads 0 whatever the robot touches.
+A `<touch>` sensor sums the contacts of its site's own body that lie inside of the site, or whose normal meets it on the
+way out of the body. Contacts lie at the surface of a geom. The default site, a sphere of 5 mm, hides in the middle of a
+finger, and reads none of its contacts. A site with a sign changed is beside the finger, and reads only contacts whose
+normal happens to meet it.
 
 Bad:
 
@@ -25,10 +26,10 @@ Good:
     +       <site name="pad" type="box" size="0.014 0.01 0.032"/>
 
 The number: 1 for a site of which all of 7 x 7 x 7 points lie more than 1 mm inside of the same geom, or that is farther
-from all geoms of its body that collide. Bodies with meshes or planes are left alone. Where no geom of the body
-collides, and one is at the site, that one's masks are told.
+than that from all geoms of its body that collide; of a thin geom it is a tenth of its half size. Bodies with meshes or
+planes are left alone. Where no geom of the body collides, and one is at the site, that one's masks are told.
 
-When it is wrong: geoms that code lets collide later.
+When it is wrong: geoms that code lets collide later, or a site that stands before the surface on purpose.
 """
 
 from __future__ import annotations
@@ -55,6 +56,7 @@ INSIDE, OUTSIDE = (
     "lies inside of its geom, and contacts are at the surface",
     "touches no geom of its body that collides",
 )
+READS = {INSIDE: "the sensor reads none of these", OUTSIDE: "the sensor reads only contacts whose normal meets it"}
 
 
 def suspects(model: ReaderModel) -> Iterator[Suspect]:
@@ -83,7 +85,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             (),
             Probe("1 where no contact can be inside of a touch sensor's site", "", _off, (site,), dynamic=False),
             0.5,
-            f"{of.name('site', site)} of {body} {reason}: the sensor reads 0.",
+            f"{of.name('site', site)} of {body} {reason}: {READS[reason]}.",
             "a site that holds the surface",
         )
 

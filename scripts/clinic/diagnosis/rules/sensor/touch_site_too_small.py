@@ -1,7 +1,8 @@
 """A touch sensor's site does not hold the points of contact.
 
-A `<touch>` sensor sums the normal forces of contacts of its site's body whose points lie inside of the site's volume.
-The default site is a sphere of 5 mm; contacts are at the geom's surface, often outside.
+A `<touch>` sensor sums the normal forces of contacts of its site's body whose points lie inside of the site, or whose
+normal meets it on the way out of the body. The default site is a sphere of 5 mm: most contacts of a larger face miss
+it.
 
 Bad:
 
@@ -24,9 +25,9 @@ Good:
     -       <site name="sole" pos="0 0 -0.05"/>
     +       <site name="sole" pos="0 0 -0.05" type="box" size="0.06 0.06 0.01"/>
 
-The number: of what contacts of the body carry within 2 s after letting go, the share that the sensor never reads;
-below 0.95 is well. A site that touches none of its body's geoms gets the place of the one that collides, where it is
-large enough there.
+The number: of the most that contacts of the body carry within 2 s after letting go, the share that the sensor's largest
+reading lacks; above 0.95 is told. A site that touches none of its body's geoms gets the place of the one that collides,
+where it is large enough there.
 
 When it is wrong: a sensor that is meant for a part of its body. Of several on one body only one far smaller
 than the others is told.

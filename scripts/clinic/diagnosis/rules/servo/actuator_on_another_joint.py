@@ -1,4 +1,4 @@
-"""An actuator drives another joint than the one of its name, which none drives, or the one of that joint's name.
+"""An actuator drives another joint than the one that it is named after.
 
 A name that was copied and not changed: the joint that was meant is never driven, and the other gets two commands. Or
 two that were swapped: each moves what the other should.
@@ -27,8 +27,9 @@ Good:
     -     <position name="right_hip" joint="left_hip" kp="50"/>
     +     <position name="right_hip" joint="right_hip" kp="50"/>
 
-The number: how many actuators drive another joint than the one that they are named after. Of `v1` to `v3`, which are
-called alike and drive `q1` to `q3`, two whose numbers are each other's.
+The number: how many actuators drive another joint than the one that they are named after, where no actuator drives that
+one, or only one that is named after the other. Of `v1` to `v3`, which are called alike and drive `q1` to `q3`, two
+whose numbers are each other's.
 
 When it is wrong: an actuator that drives another joint than the one of its name on purpose.
 """

@@ -37,10 +37,10 @@ Good:
     +     <motor name="ring_curl" tendon="ring_pull" ctrlrange="0 1"/>
 
 The number: actuators on a tendon that another one pulls as well, where one tendon is pulled by none and has a word of
-the actuator's name that its own has not, or is called like its own but for what sets the two actuators apart, or is
-the twin on the other side of the tendon that the actuator's twin pulls. And the
-one actuator on a tendon with a stiffness, beside others that have one and no actuator, where one fixed tendon alone has
-neither an actuator nor stiffness, damping, limit or equality.
+the actuator's name that its own has not, or is called like its own but for what sets the two actuators apart, or is the
+twin on the other side of the tendon that the actuator's twin pulls. And the one actuator on a tendon with a stiffness,
+beside others that have one and no actuator, where one fixed tendon alone has neither an actuator nor stiffness,
+damping, limit or equality.
 
 When it is wrong: two actuators on one tendon, beside a tendon that only limits.
 """

@@ -73,7 +73,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     lightest = min(of.free_bodies, key=lambda body: of.model("body_subtreemass")[body])
     value = rounded(LIFTS * heavy * gain)
     edits = model.set("actuator", found, "gain", value)
-    says = f"{of.name('body', lightest)} is the lightest free body, and weighs {heavy:.3g} times what it pulls with."
+    says = (
+        f"{of.name('body', lightest)} is the lightest free body; it weighs {heavy:.3g} times what all adhesions pull."
+    )
     probe = Probe("weight of the lightest free body over the adhesion", "", _heavy, dynamic=False)
     names = tuple(of.name("actuator", each) for each in found)
     yield Suspect(names, "gain", f"{gain:g}", value, edits, probe, 1, says, "well above the weight")

@@ -1,7 +1,7 @@
 """A ball joint has fewer motors than the three axes about which it turns.
 
 On a ball joint `gear` is an axis: its first three numbers. With one number it is the x axis, and about the other two
-nothing drives the joint. Three motors with `1 0 0`, `0 1 0` and `0 0 1`, times what they are to give, drive it all.
+nothing drives the joint. Three motors with `1 0 0`, `0 1 0` and `0 0 1`, times what they are to give, drive all three.
 
 Bad:
 

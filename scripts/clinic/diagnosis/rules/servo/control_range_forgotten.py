@@ -1,7 +1,7 @@
 """All servos have a control range, but for one; or none has.
 
-It was forgotten. The servo takes any target, and a policy or a slider that goes from -1 to 1, or to infinity, presses
-the joint against its limit.
+It was forgotten. The servo takes any target, and one beyond the joint's range, from a policy or a slider, presses the
+joint against its limit.
 
 Bad:
 
@@ -54,6 +54,7 @@ from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.probes.servo import Servo, servos
 from clinic.diagnosis.reader_model import ReaderModel
+from clinic.diagnosis.rules.servo.control_range_too_wide import inherited
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
@@ -78,7 +79,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
 def _suspect(model: ReaderModel, bare: Sequence[Servo], says: str) -> Suspect:
     """Servos without a control range, each to be given the range of its joint."""
     of = model.simulation
-    values = {each.actuator: f"{each.range[0]:.4g} {each.range[1]:.4g}" for each in bare if each.range}
+    values = {each.actuator: inherited(each) for each in bare if each.range}
     edits = model.set_each("actuator", "ctrlrange", values)
     names = (*(of.name("actuator", each) for each in values), of.name("joint", bare[0].joint))
     probe = Probe("servos that take any target", "", _bare, dynamic=False)

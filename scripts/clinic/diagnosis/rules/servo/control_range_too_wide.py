@@ -166,8 +166,9 @@ def in_degrees(servo: Servo) -> str:
     """What to say of a control range that is the joint's in degrees."""
     assert servo.targets is not None
     assert servo.range is not None
-    times = (servo.targets[1] - servo.targets[0]) / (servo.range[1] - servo.range[0])
-    return ": it is written in degrees, and MuJoCo takes radians" if servo.hinge and 30 < times < 90 else ""
+    apart = max(abs(math.radians(far) - near) for far, near in zip(servo.targets, servo.range, strict=True))
+    near = servo.hinge and apart < BEYOND * (servo.range[1] - servo.range[0])
+    return ": as degrees they are about that range, and MuJoCo takes radians" if near else ""
 
 
 def inherited(servo: Servo) -> str:

@@ -27,10 +27,10 @@ Good:
     -     <position name="lower" joint="hip" kp="200" dampratio="1"/>
     +     <position name="lower" joint="knee" kp="200" dampratio="1"/>
 
-The number: how many other actuators of the same gain, bias and dynamics drive the joint, where a joint of its mechanism
-is driven by none. One that is called like the driven joint, but for what sets the names of the actuators apart, was
-meant. So is a motor at a site whose force moves joints with an actuator of their own, where a joint that carries the
-site has none, and another axis of the site moves that one with ten times the lever, over 17 poses.
+The number: how many other actuators with the same types of gain, bias and dynamics drive the joint, where a joint of
+its mechanism is driven by none. One that is called like the driven joint, but for what sets the names of the actuators
+apart, was meant. So is a motor at a site whose force moves joints with an actuator of their own, where a joint that
+carries the site has none, and another axis of the site moves that one with ten times the lever, over 17 poses.
 
 When it is wrong: two motors on one axle, or a pair of muscles that a joint stands for.
 """

@@ -22,10 +22,9 @@ Good:
     -     <position joint="shoulder" kp="500" dampratio="1" forcerange="-1 1"/>
     +     <position joint="shoulder" kp="500" dampratio="1" forcerange="-10 10"/>
 
-The number: the model's own weight at the joint over the greatest force of its servos, in the worst of 17 poses. It may
-be a little above 1 in a pose that is never taken; where it is above 1 in all of them, and nothing else carries the
-joint, it is told. Or the height that a robot with a free base loses within 1 s, its servos told to stay where they are,
-where some give all they can.
+The number: the model's own weight at the joint over the greatest force of its servos, in the worst of 17 poses: above
+1.2, for that pose may never be taken; or above 1 in all of them, where nothing else carries the joint. Or the height
+that a robot with a free base loses within 1 s, its servos told to stay where they are, where some give all they can.
 
 In a closed loop, whose load only a run shows, it is how far the weight moves the joint of a servo that is told to
 hold the start and gives all it can: more than a tenth of the range. Of joints that equalities couple it is the

@@ -37,9 +37,8 @@ Good:
     +     <default class="head"><position kp="60" kv="3"/></default>
 
 The number: how many `<position>` have no `kp`, neither themselves nor by their class, where as many others and more
-have one. Where none has one, those that a kp of 1 lets swing at less than 3 rad/s: it takes seconds to get anywhere;
-or else
-those that friction may hold more than 5 % of their joint's range short of their target.
+have one. Where none has one, those that a kp of 1 lets swing at less than 3 rad/s: half a swing takes a second and
+more; or else those that friction may hold more than 5 % of their joint's range short of their target.
 
 When it is wrong: a servo for which 1 N m/rad is enough.
 """

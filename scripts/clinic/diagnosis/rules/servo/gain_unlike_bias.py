@@ -1,7 +1,7 @@
 """A servo's `gainprm` is not its `biasprm`: it goes to another place than its control says.
 
-A position servo gives `gainprm[0] ctrl + biasprm[1] length`. It rests where the two are equal: at `ctrl` where
-`biasprm="0 -kp"` has the kp of `gainprm`, and at twice or half of it where one of the two was changed alone.
+A position servo gives `gainprm[0] ctrl + biasprm[1] length`. Without a load it rests where the two cancel: at `ctrl`
+where `biasprm="0 -kp"` has the kp of `gainprm`, and at twice `ctrl` where `gainprm` alone was doubled.
 
 Bad:
 

@@ -22,8 +22,8 @@ Good:
     -     <position joint="hinge" gear="10"/>
     +     <position joint="hinge" kp="10"/>
 
-The number: the gear of a position servo without a control range; 1.5 and more is told. Where the joint and the servo
-have ranges, `control-range-too-narrow` says how much of the range is out of reach.
+The number: the gear of a position servo without a control range; above 1.5 is told. Where the joint and the servo have
+ranges, `control-range-too-narrow` says how much of the range is out of reach.
 
 When it is wrong: controls in the angle of the motor, before the gear; so it is a hint.
 """

@@ -28,10 +28,11 @@ Good:
           <motor joint="left_arm" gear="10" ctrlrange="-1 1"/>
     +     <motor joint="right_arm" gear="10" ctrlrange="-1 1"/>
 
-The number: joints that no actuator, tendon, coupling or spring of their own moves, where the twin of left and right is
-moved, or all others of three and more that are called alike but for a number or a finger, unless those hang as deep as
-each other and it does not; or the one other that is called so and hangs on the same body, with the same range and mass.
-So is the only loose joint with a range of a robot that has eight others and more. More than two are meant so.
+The number: joints that no actuator, tendon, coupling or spring of their own moves, and that are like one that is moved:
+the twin of left and right; the one of three and more that are called alike but for a number or a finger, unless the
+others hang as deep as each other and it does not; or the one of two that are called so, on the same body, with the same
+range and mass. The only loose joint with a range of a robot that has eight others and more is told as well. Where it
+would be more than two, they are meant to be loose.
 
 When it is wrong: a mechanism that is driven on one side, and whose other side the load closes.
 """

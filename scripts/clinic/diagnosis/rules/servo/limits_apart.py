@@ -1,8 +1,8 @@
 """The spring and the damper of a servo are two actuators, and each has a limit of force of its own.
 
 A motor's torque is limited as a whole. Where a `<position>` and a `<velocity>` drive one joint and each is clipped by
-itself, the spring pulls with all it may while the damper brakes with as much: at a quarter of the motor's speed nothing
-is left, and the joint creeps to its target although its torque is never near the limit.
+itself, the spring pulls with all it may while the damper brakes with as much: at forcerange over kv, here 3.8 rad/s,
+nothing is left, and the joint gets no faster. With one limit for the sum it gets to 13.8 rad/s on a step of 1.5 rad.
 
 Bad:
 
@@ -56,7 +56,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     of = model.simulation
     if not (found := _apart(of)):
         return
-    limits = {joint: written(of.row("actuator_forcerange", pair[0], 2)) for joint, pair in found.items()}
+    limits = {joint: written(_limit(of, pair[0])) for joint, pair in found.items()}
     pairs = [actuator for pair in found.values() for actuator in pair]
     first = next(iter(found))
     names = tuple(of.name("actuator", actuator) for actuator in pairs)
@@ -72,6 +72,11 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         "not their sum.",
         "one limit for the sum",
     )
+
+
+def _limit(of: Simulation, actuator: int) -> list[float]:
+    """The limits of an actuator's force at its joint."""
+    return sorted(of.gear(actuator) * end for end in of.row("actuator_forcerange", actuator, 2))
 
 
 def _apart(of: Simulation) -> dict[int, tuple[int, int]]:

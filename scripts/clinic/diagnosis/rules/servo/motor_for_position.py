@@ -1,7 +1,7 @@
 """A motor has the range of its joint as its control range.
 
-`<motor>` takes a force, `<position>` an angle. A control range that repeats the joint's range says that angles are
-sent; as N m they push the joint to one of its ends, or do not move it at all. `<velocity>` takes a speed.
+`<motor>` takes a force, `<velocity>` a speed, `<position>` an angle. A control range that repeats the joint's range
+says that angles are sent; as a torque in N m or a speed in rad/s they do not hold the joint there.
 
 Bad:
 
@@ -22,8 +22,8 @@ Good:
     -     <motor joint="elbow" ctrlrange="-2.0944 0.17453"/>
     +     <position joint="elbow" kp="100" ctrlrange="-2.0944 0.17453"/>
 
-The number: how many motors and velocity servos have the range of their joint, to 1 %. Ranges of 1 are left out, for
-they are those of scaled controls, and whole numbers are where no other actuator is a servo.
+The number: how many motors and velocity servos have the range of their joint, to 1 %. Ranges to 1 and -1 are left out,
+for they are those of scaled controls; where the model has no position servo all whole numbers are.
 
 When it is wrong: a force that happens to be as large in N m as the angle in rad.
 """
@@ -33,6 +33,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from clinic.diagnosis.edit import Edit, replace
+from clinic.diagnosis.engine import HINGE
 from clinic.diagnosis.probes.servo import servos
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
@@ -53,7 +54,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     joint = of.driven_joint(found[0])
     ends = " ".join(f"{end:.4g}" for end in of.row("actuator_ctrlrange", found[0], 2))
-    says = f"Its controls go from {ends.replace(' ', ' to ')}, the range of {of.name('joint', joint or 0)}, as N m."
+    speed, hinge = of.bias(found[0])[2] != 0, of.joint_type(joint or 0) == HINGE
+    unit = {(False, True): "N m", (False, False): "N", (True, True): "rad/s", (True, False): "m/s"}[speed, hinge]
+    says = f"Its controls go from {ends.replace(' ', ' to ')}, the range of {of.name('joint', joint or 0)}, as {unit}."
     probe = how_many("motors whose control range is the range of the joint", _told)
     names = tuple(of.name("actuator", actuator) for actuator in found)
     edits = tuple(edit for actuator in found for edit in _as_servo(model, actuator))

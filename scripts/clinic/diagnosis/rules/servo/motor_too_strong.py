@@ -57,8 +57,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     attribute = "gear" if abs(gear) > max(abs(low), abs(high)) else "ctrlrange"
     numbers, less = ([gear] if attribute == "gear" else [low, high]), USUAL / fast[worst]
     now, value = " ".join(f"{x:g}" for x in numbers), " ".join(rounded(less * x) for x in numbers)
-    says = f"Full control turns {of.name('joint', of.driven_joint(worst) or 0)} at {fast[worst]:.0f} rad/s after "
-    says += f"{SECONDS:g} s at most."
+    says = f"Full control brings {of.name('joint', of.driven_joint(worst) or 0)} to {fast[worst]:.0f} rad/s within "
+    says += f"{SECONDS:g} s."
     probe = Probe("speed that full control gives a hinge within 0.2 s", "rad/s", _fastest, dynamic=False)
     names = tuple(of.name("actuator", each) for each in fast)
     yield Suspect(names, attribute, now, value, (), probe, FAST, says, f"below {USUAL:g} rad/s")

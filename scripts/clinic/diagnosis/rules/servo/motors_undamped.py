@@ -1,8 +1,8 @@
 """Motors drive light joints without damping, friction or armature: a controller in code shakes them.
 
-With `<motor>` the gains stand in the code that computes the torques. What they may be hangs on the joints: a joint
-that has nothing but the inertia of a light link bears no derivative gain that a real wrist or ankle has. The model by
-itself shows nothing.
+With `<motor>` the gains stand in the code that computes the torques. How large they may be depends on the joints: one
+that has nothing but the inertia of a light link does not bear the derivative gain of a real wrist or ankle. The model
+by itself shows nothing.
 
 Bad:
 
@@ -72,9 +72,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         return
     lightest = min(joints, key=lambda joint: of.mass_diagonal[of.dof(joint)])
     inertia = of.mass_diagonal[of.dof(lightest)]
-    says = (
-        f"{len(joints)} joints have none. With its inertia of {inertia:.2g} kg m2 {of.name('joint', lightest)} bears "
-    )
+    says = f"Of {len(joints)} driven joints none has damping, friction or armature. "
+    says += f"With its inertia of {inertia:.2g} kg m2 {of.name('joint', lightest)} bears "
     says += f"a derivative gain of {2 * inertia / of.timestep:.2g} N m s/rad; in code it is often more."
     yield Suspect(
         tuple(of.name("joint", joint) for joint in (lightest, *(each for each in joints if each != lightest))),

@@ -51,7 +51,7 @@ from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
 
-TITLE = "A muscle is excited below zero"
+TITLE = "A muscle's control range goes beyond 0 to 1"
 FAMILIES = ("stuck", "wrong-numbers")
 MINOR = True
 UNPLANTED = "no healthy model has muscles with a range of their own"

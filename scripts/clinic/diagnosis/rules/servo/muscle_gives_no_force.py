@@ -1,8 +1,9 @@
 """A muscle gives next to no force, however it is excited.
 
-A muscle is strong near the length at which it is best, and gives nothing below half and above 1.6 times that.
-`lengthrange`, in m, and `range`, in the muscle's own lengths, say where it is. With a `lengthrange` of another tendon,
-a `range` in percent, a `force` of 0, or a control range that ends at a hundredth, it does not pull.
+Excitation adds the most to a muscle's force near its best length, and nothing below half of that and above 1.6 times
+(`lmin` and `lmax`). `lengthrange`, in m, and `range`, in the muscle's own lengths, say where it is. With a
+`lengthrange` of another tendon, a `range` in percent, a `force` of 0, a `forcerange` without negative forces, or a
+control range that ends at a hundredth, it does not pull.
 
 Bad:
 
@@ -63,15 +64,21 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         low, high = of.row("actuator_lengthrange", each, 2)
         force, length, most = _peak(of, each), _length(of, each), _excited(of, each)
         attribute, now, why = "lengthrange", f"{low:.4g} {high:.4g}", f"{length:.3g} long, and its lengthrange is"
-        says = f"At the start it is {why} {now}: it gives less than a tenth of its {force:.3g} N anywhere."
+        says = f"At the start it is {why} {now}: in none of ten poses does it give a tenth of its {force:.3g} N."
         if force <= 1e-9:
             attribute, now, says = "force", "0", "Its peak force is 0: leave it out, or give it in N."
+        elif of.model("actuator_forcelimited")[each] and of.row("actuator_forcerange", each, 2)[0] > force * (
+            LEAST - 1
+        ):
+            attribute, now = "forcerange", " ".join(f"{x:g}" for x in of.row("actuator_forcerange", each, 2))
+            says = f"A muscle's force is negative, and its forcerange is {now}."
         elif most < 1.0 - LEAST:
             attribute, now = "ctrlrange", " ".join(f"{x:g}" for x in of.row("actuator_ctrlrange", each, 2))
             says = f"It is excited by {most:g} at most, of 1."
         elif low < length < high:
             attribute, now = "range", " ".join(f"{x:g}" for x in of.gain(each)[:2])
-            says = f"Its own lengths go over {now}, and it gives force from 0.5 to 1.6, most at 1."
+            least, longest = of.gain(each)[4:6]
+            says = f"Its own lengths go over {now}, and it gives force from {least:g} to {longest:g}, most at 1."
         value = {"force": "left out", "ctrlrange": "0 1", "range": "0.75 1.05"}.get(attribute, "left out")
         written = model.value("actuator", each, attribute) is not None
         left = model.remove("actuator", [each], attribute)

@@ -32,7 +32,7 @@ Good:
     +     <motor tendon="rope" ctrlrange="0 50" gear="-1"/>
 
 The number: the most that the motor pushes over its control range in N, at least ten times what it can pull. Of servos
-of length, and of muscles, which pull with positive controls, it is their `forcerange`.
+of length it is their `forcerange`. Muscles are left alone: they never push.
 
 When it is wrong: a tendon that stands for a piston.
 """
@@ -42,7 +42,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from clinic.diagnosis.engine import BIAS_NONE, GAIN_FIXED
+from clinic.diagnosis.engine import BIAS_NONE, GAIN_FIXED, GAIN_MUSCLE
 from clinic.diagnosis.probes.tendons import joints_of, pulled
 from clinic.diagnosis.probes.vector import written
 from clinic.diagnosis.reader_model import ReaderModel
@@ -96,7 +96,9 @@ def _forces(of: Simulation, actuator: int) -> tuple[float, float]:
     """The most that an actuator on a spatial tendon pushes and pulls in N, by its limits; zeros for another one."""
     tendon = pulled(of).get(actuator)
     field, factor = ("ctrl", of.gain(actuator)[0]) if _is_motor(of, actuator) else ("force", 1.0)
-    if tendon is None or joints_of(of, tendon) or not of.model(f"actuator_{field}limited")[actuator]:
+    if tendon is None or joints_of(of, tendon) or of.actuator_types(actuator)[0] == GAIN_MUSCLE:
+        return 0.0, 0.0
+    if not of.model(f"actuator_{field}limited")[actuator]:
         return 0.0, 0.0
     forces = [factor * of.gear(actuator) * end for end in of.row(f"actuator_{field}range", actuator, 2)]
     return max(0.0, *forces), max(0.0, *(-force for force in forces))

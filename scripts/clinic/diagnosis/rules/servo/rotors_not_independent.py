@@ -1,8 +1,8 @@
 """The rotors of a drone cannot turn it about its vertical by themselves.
 
 Each rotor pushes up and, by its drag, turns the drone the other way round. Two turn to the left and two to the right,
-those that are diagonal alike. Where the two on one side turn alike, yaw comes with roll or with pitch, and no
-controller can take the one without the other.
+those that are diagonal alike. Where the two on one side turn alike, yaw comes with roll or with pitch, and where all
+do, with lift: no controller can take the one without the other.
 
 Bad:
 
@@ -43,6 +43,7 @@ When it is wrong: a drone that turns by other means. Only the drone itself tells
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 from clinic.diagnosis.edit import Edit
@@ -57,6 +58,7 @@ FAMILIES = ("drifts", "stuck", "wrong-numbers")
 UNPLANTED = "only one of the healthy models flies"
 
 ROTORS, LEAST = 4, 0.01
+SIDES = "Those on one side turn alike, so that yaw comes with roll or pitch."
 ALONG, SPIN = 0.9, 500.0  # cosine; rad/s, at which damping hands the whole torque on
 
 
@@ -72,12 +74,14 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         if not all(gear[5] for gear in gears):
             continue
         edits: tuple[Edit, ...] = ()
+        around = sorted(found, key=lambda each: math.atan2(each.place[1], each.place[0]))
         for each, gear in zip(found, gears, strict=True):
-            yaw = abs(gear[5]) if each.place[0] * each.place[1] < 0 else -abs(gear[5])
+            yaw = abs(gear[5]) * (-1) ** (around.index(each) + 1)
             edits += model.set("actuator", [each.actuator], "gear", " ".join(f"{x:g}" for x in (*gear[:5], yaw)))
         probe = Probe("how little the rotors' effects are independent", "", _alike, (body,), dynamic=False)
         names = tuple(of.name("actuator", each.actuator) for each in found)
-        says = "Those on one side turn alike, so that yaw comes with roll or pitch."
+        same = len({gear[5] > 0 for gear in gears}) == 1
+        says = "All turn alike, so that yaw comes with lift." if same else SIDES
         now = ", ".join(f"{gear[5]:+g}" for gear in gears)
         yield Suspect(names, "gear", now, "diagonal ones alike", edits, probe, 1 - LEAST, says, "diagonal rotors alike")
 

@@ -1,7 +1,8 @@
 """The joint holds its servo back: by damping or armature of its own.
 
 `damping` of a joint acts against its servo at every speed, and `armature` is inertia that has to be moved as well. With
-ten times too much of one of them the joint follows in seconds, and more `kp` is no cure.
+ten times too much of one of them the joint follows in seconds. More `kp` helps only until the force is at its limit:
+below, 40 N m against 100 N m s/rad turn the joint at 0.4 rad/s at most, whatever `kp` is.
 
 Bad:
 

@@ -152,7 +152,7 @@ def _told(of: Simulation, servo: Servo, attribute: str) -> tuple[str, str, str]:
     if attribute == "forcerange":
         low, high = of.row("actuator_forcerange", servo.actuator, 2)
         most = max(-low, high)
-        says = f"It pushes {name} with {low:g} to {high:g} {servo.force_unit}: to one side only."
+        says = f"Its force goes from {low:g} to {high:g}: it pushes {name} to one side only."
         return f"{low:g} {high:g}", f"{-most:g} {most:g}", says
     assert servo.ctrl is not None
     assert servo.targets is not None

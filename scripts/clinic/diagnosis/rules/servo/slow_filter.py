@@ -2,8 +2,8 @@
 
 `dyntype="filter"` and `filterexact` smooth the control with the time constant `dynprm`, which is 1 s where nobody wrote
 it; `timeconst` of `<position>` and `<velocity>` is the same, and that of `<cylinder>` is 1 s, too. The robot follows
-what it was told a second ago. A muscle has two of them, `0.01 0.04`; written in milliseconds they are a minute. A servo
-with as much `kv` as `kp` lags by a second as well: their quotient is a time constant.
+what it was told a second ago. A muscle has two of them, `0.01 0.04`; written in milliseconds they are 10 s and 40 s. A
+servo with as much `kv` as `kp` lags by a second as well: their quotient is a time constant.
 
 Bad:
 
@@ -67,7 +67,9 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         some = [each for each in slow if (where[each], _muscle(of, each)) == (name, muscle)]
         edits += model.set("actuator", some, name, USUAL[muscle])
     now, value = model.value("actuator", worst, attribute) or "left out", USUAL[_muscle(of, worst)]
-    says = f"After a control changes, {of.name('actuator', worst)} gives 63 % of it {slow[worst]:.3g} s later."
+    says = f"{slow[worst]:.3g} s after its control changes, {of.name('actuator', worst)} gives 63 % of the change."
+    if _muscle(of, worst):
+        says = f"The longer time constant of {of.name('actuator', worst)} is {slow[worst]:.3g} s."
     probe = Probe("greatest time constant of an actuator's filter", "s", _slowest, dynamic=False)
     names = tuple(of.name("actuator", each) for each in slow)
     yield Suspect(names, attribute, now, value, edits, probe, SLOW - 1e-6, says, "0.01 to 0.1 s", level="hint")

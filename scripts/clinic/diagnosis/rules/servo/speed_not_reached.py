@@ -36,11 +36,10 @@ Good:
     +         <joint name="right_wheel" axis="0 1 0" damping="0.01"/>
 
 The number: all velocity servos of hinges without limits are told half of their greatest speed; the share of it that is
-missing after 2 s, of the fastest wheel. Above 0.8 is told, and above 0.4 where kv asks for less than a fifth of the
-force that the servo can give, from the greatest speed back to the same, or where damping alone takes more than that
-force at the speed that is told. Where a servo gives three times what speeds up
-its part of the model in that time, against friction, damping and weight, its force is not what is missing: something
-blocks the wheels.
+missing after 2 s, of the fastest wheel. Above 0.8 is told, and above 0.4 where kv times twice the greatest speed, which
+a full reversal asks for, is less than a fifth of the servo's force limit, or where damping alone takes more than that
+limit at the speed that is told. Where a servo gives three times what speeds up its part of the model in that time,
+against friction, damping and weight, its force is not what is missing, and neither kv nor `forcerange` is told.
 
 When it is wrong: a robot that stands against something, or wheels that are meant to be slow.
 """

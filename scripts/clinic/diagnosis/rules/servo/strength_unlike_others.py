@@ -84,7 +84,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             light = odd == ranked[0] and _carried(of, odd) < LIGHT
             if times <= most or math.isinf(strengths[odd]) or carries or light:
                 continue
-            which = "most" if odd == ranked[-1] else "least"
+            which = "the most" if odd == ranked[-1] else "the least"
             says = f"Its {key[0]} is {strengths[odd]:.3g}; "
             has = f"{of.name('actuator', next_to)} has {which}, {strengths[next_to]:.3g}."
             others = f"{len(ranked) - 1} others"

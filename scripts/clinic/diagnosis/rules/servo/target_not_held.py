@@ -22,9 +22,9 @@ Good:
     -     <general joint="finger" biastype="affine" ctrlrange="0 1.57"/>
     +     <general joint="finger" biastype="affine" ctrlrange="0 1.57" gainprm="10" biasprm="0 -10 -0.1"/>
 
-The number: how the force changes when the joint is moved by 0.1 rad, over what the gain asks for; 1 where it does not.
-A position gain whose sign is the gain's, so that the joint is pushed away from its target, is told as well, and of a
-tendon and all else that an actuator pulls one that grows with the length.
+The number: 1 + biasprm[1] / gainprm[0]: 0 for a servo, 1 where the force does not depend on the place. Where the two
+have one sign, it is more: both positive, the joint is pushed away from its target; both negative, it is held at minus
+its control. Of a tendon, and of all else that is no joint, only two that are positive are told.
 
 When it is wrong: a velocity servo, which has biasprm[2] alone, is left alone.
 """
@@ -87,7 +87,13 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
         ),
         0.9,
         f"With gainprm {gain:g} and biasprm {now} the force "
-        + ("pushes away from the target." if bias[1] else "does not depend on where the joint is."),
+        + (
+            "does not depend on where the joint is."
+            if not bias[1]
+            else "pushes away from the target."
+            if gain > 0
+            else "holds the joint at minus its control."
+        ),
         "biasprm[1] = -gainprm[0], as <position> has it",
     )
 

@@ -23,7 +23,7 @@ Good:
     +     <position joint="hinge" kp="100" dampratio="1"/>
 
 The number: a damping ratio under 0.08, and a step of 0.1 rad (0.01 m for a slide), without gravity and contacts, that
-overshoots by more than 22 % and crosses its target four times. With a damping ratio z the overshoot of one joint alone
+overshoots by more than 22 % and crosses its target five times. With a damping ratio z the overshoot of one joint alone
 is exp(-pi z / sqrt(1 - z^2)), 0.78 for 0.08; neighbours take up some of it. A joint whose `frictionloss` holds the step
 is left alone.
 

@@ -31,8 +31,8 @@ after 5 s, and that with three times the stiffness stands; where it stands with 
 controller, and only `--symptom sags` tells it.
 
 Or more than 45 % of a step of 0.1 rad is left after 1 s, without gravity; a hint for what follows within 2 s and
-carries less than a twentieth of the mass, as a neck does; by a kv 20 times that of all others, over a usual kp, kv is
-told.
+carries less than a twentieth of the mass, as a neck does. Where its kv over its kp is 20 times the greatest of four
+others and more, kv is told in place of kp.
 
 Where the base is fixed, a hint tells of hinges that sag by more than 0.085 rad, and of slides that sag by more
 than 10 % of their range: fingers with 40 mm that swing by 5 mm as the arm turns, where grippers and lifters that work

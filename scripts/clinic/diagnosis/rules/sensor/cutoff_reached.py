@@ -26,17 +26,18 @@ Good:
 The number: the share of the time after letting go in which some value of the sensor is at its cutoff; below 0.8 is
 well. A rangefinder is told only where two others and more have one cutoff, at least 5 times as much: else what it sees
 may be farther. A hint tells of an actuator's force or a joint's position whose cutoff is a fifth or less of the force
-range or of the range.
+range or of the range; and of a touch sensor, which may be meant as a switch.
 
-When it is wrong: a bumper among rangefinders that look far, or a touch sensor that is to be a switch.
+When it is wrong: a bumper among rangefinders that look far.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from clinic.diagnosis.edit import Edit, remove_attribute
-from clinic.diagnosis.engine import SENS_ACTUATORFRC, SENS_JOINTPOS, SENS_RANGEFINDER
+from clinic.diagnosis.engine import SENS_ACTUATORFRC, SENS_JOINTPOS, SENS_RANGEFINDER, SENS_TOUCH
 from clinic.diagnosis.reader_model import ReaderModel
 from clinic.diagnosis.simulation import Simulation
 from clinic.diagnosis.suspect import Probe, Suspect
@@ -79,7 +80,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
                 edits, value = model.set("sensor", [sensor], "cutoff", f"{usual:g}"), f"{usual:g}"
                 says += f" The other rangefinders read up to {usual:g}."
             names = (simulation.name("sensor", sensor),)
-            yield Suspect(names, "cutoff", f"{cutoff:g}", value, edits, probe, MOST, says)
+            found = Suspect(names, "cutoff", f"{cutoff:g}", value, edits, probe, MOST, says)
+            yield replace(found, level="hint") if int(kinds[sensor]) == SENS_TOUCH else found
         elif (much := _clips(simulation, sensor)) >= MUCH:
             names, value = (simulation.name("sensor", sensor),), f"{much * cutoff:g}"
             edits = model.set("sensor", [sensor], "cutoff", value)

@@ -67,7 +67,8 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             continue
         if _beyond(simulation, camera) > 1:
             probe = Probe("field of view beyond a scene of this size by", "times", _beyond, (camera,), dynamic=False)
-            edits = model.set("camera", [camera], "fovy", "45")
+            lens = model.value("camera", camera, "sensorsize")  # then fovy has no effect
+            edits = () if lens else model.set("camera", [camera], "fovy", "45")
             says = f"The image spans {angle:.3g} degrees from top to bottom."
             yield Suspect(name, "fovy", f"{angle:g}", "45", edits, probe, 1.0, says, "15 to 145 degrees")
         elif model.value("camera", camera, "resolution") and not any(

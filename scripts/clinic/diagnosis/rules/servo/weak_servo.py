@@ -23,7 +23,8 @@ Good:
     +     <position joint="shoulder" kp="200" dampratio="1"/>
 
 The number: the model's own weight at the joint over the gain, in the worst of 17 poses: more than 0.3 rad (0.3 m),
-0.55 rad where the base is free: legs that a learned policy drives go up to 0.5 rad.
+0.55 rad where the base is free: legs that a learned policy drives go up to 0.5 rad. Beyond 10,000 rad it is a hint: a
+mass, gravity or a unit is wrong, and no servo.
 
 Or a robot with a free base goes down by a quarter of its height within 1 s, its servos told to stay where they are, and
 one of them bends by more than 0.45 rad. A hint tells of one that stands for a second and has lost half of its height
@@ -67,6 +68,7 @@ LEFT = 0.45  # of the step
 LONG, FALLEN, NEARLY, STIFFER = 5.0, 0.5, 2.0, 3.0  # s; of its height; times the stiffness, twice
 MEANT, LIGHT = 2.0, 0.05  # s and of the mass, below which it may be meant: a neck, an antenna
 BEYOND, OTHERS = 20.0, 4  # times the kv over kp of the most damped of so many others
+ABSURD = 1e4  # rad or m: no servo is so weak
 SAG, WALKS = 0.3, 0.55  # rad of a hinge, m of a slide; rad where the robot is free and stands on its feet
 LITTLE, SHARE = 0.085, 0.1  # rad of a hinge, share of the range of a slide, of which a hint tells
 KEEN = 0.2  # of these, where the reader sees something sag
@@ -98,6 +100,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
             f"The weight at {simulation.name('joint', worst.joint)} is up to {load[worst.dof]:.3g} "
             f"{worst.force_unit}, and its servo gives {worst.stiffness:.3g} {worst.force_unit} for each {worst.unit}.",
             f"below {most:g} {worst.unit}; of healthy models with servos 0.29 is the most, 0.5 where the base is free",
+            level="cause" if found[worst.actuator] < ABSURD else "hint",
         )
     yield from _bends(model, much)
     yield from _tips(model, much)

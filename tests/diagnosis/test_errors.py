@@ -84,7 +84,11 @@ WRITTEN = [  # what is written at the top, in the body and at the end; the rule,
     ("", "", "<actuator><motor name='elbow_motor'/></actuator>", "left-out", "joint", "elbow"),
     ("", "", "<actuator><damper joint='elbow' ctrlrange='-1 1'/></actuator>", "invalid-value", "ctrlrange", "0 1"),
     ("", "<composite type='cable' count='9 1 1' size='1'/>", "", "unknown-element", "", '<flexcomp dim="1">'),
-    ("", "<camera pos='0 0 2' lookat='0 0 0'/>", "", "unknown-attribute", "lookat", "zaxis='0 0 2'"),
+    ("", "<camera pos='0 0 2' lookat='0 0 0'/>", "", "unknown-attribute", "lookat", "xyaxes='1 0 0 0 1 0'"),
+    ("", "<site rpy='0 1.5708 0'/>", "", "unknown-attribute", "rpy", "quat='0.707105 0 0.707108 0'"),
+    ("", "<site euler='-pi/2 0 0'/>", "", "malformed-number", "euler", "-90 0 0"),
+    ("<compiler angle='radian'/>", "<site euler='90deg 0 0'/>", "", "malformed-number", "euler", "1.5708 0 0"),
+    ("<compiler angle='radian'/>", "<camera fovy='45deg'/>", "", "malformed-number", "fovy", "45"),
 ]
 
 

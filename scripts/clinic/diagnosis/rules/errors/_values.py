@@ -92,7 +92,7 @@ VALUES = (
     ),
     Remedy(
         r"(extent|znear|zfar|meaninertia|meansize|meanmass) must be",
-        "MuJoCo finds it by itself where nothing is written.",
+        "MuJoCo has a value of its own where nothing is written.",
         ("-{0}",),
     ),
     Remedy(
@@ -190,7 +190,7 @@ VALUES = (
     Remedy("builtin textures must have 3", "A pattern has three channels; one with alpha is a file.", ("-nchannel",)),
     Remedy(
         "number is too large in attribute '(contype|conaffinity)'",
-        "The numbers of collision groups have 31 bits.",
+        "A collision mask is at most 2147483647 in the text.",
         ("{0}=1",),
     ),
     Remedy("'num' must be positive", "num is how many contacts are told; 1 is the default.", ("-num",)),

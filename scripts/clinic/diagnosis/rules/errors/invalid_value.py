@@ -18,7 +18,7 @@ Good:
 
 The number: none; the text compiles with the edit.
 
-When it is wrong: a size or axis of zero is replaced by a small one or by the vertical, which is a guess.
+When it is wrong: in the place of a size of zero a small one is put, in that of an axis of zero 0 0 1: a guess.
 """
 
 from __future__ import annotations
@@ -64,13 +64,13 @@ SIZES = {  # how many numbers a geom takes
 ADVICE = {
     r"should be smaller|invalid .*range": "The smaller number comes first.",
     "should be 0": "A ball's range is from 0 to the largest angle.",
-    "axis too small": "An axis needs a length; the vertical is put in.",
+    "axis too small": "An axis needs a length; 0 0 1 of its body is put in.",
     "plane size": "size is half the length, half the width (0 for no end) and the distance of the grid's lines, not 0.",
     "fromto": "Both ends are the same point; the second is moved by 0.1 m.",
     "zero quaternion": "1 0 0 0 does not turn.",
     "orientation|at most one of": "One of them can be given; the last is taken off.",
     "both": "One of them is enough.",
-    "inheritrange": "It takes the range of the joint or tendon that is driven, for position and intvelocity.",
+    "inheritrange": "It takes the range of the joint or tendon that is driven, for position, intvelocity and pid.",
     "volume is|too small|coplanar": "A shell has the mass in its surface.",
     "mocap": "A mocap body is a child of the world and has no joint.",
     "global coordinates": "Without it positions are taken as local, which they are not in a model written so.",
@@ -116,7 +116,7 @@ def suspects(model: ReaderModel) -> Iterator[Suspect]:
     yield from _of_its_joint(model, said)
     yield from remedied(model, VALUES)
     for element in meant(model):
-        for edit, now in _edits(said, element):
+        for edit, now in _edits(said, element, model.source.value(element, "range") or "0"):
             value = {"set": edit.value, "delete": f"<{element.tag}> removed"}.get(edit.action, "left out")
             says = f"{said.rstrip('.')}. {_advice(said, element, edit)}".strip()
             yield mends(element, (edit,), says, attribute=edit.attribute, now=now, value=value)
@@ -176,11 +176,11 @@ def _positive(value: str) -> str:
     return " ".join(each.lstrip("-") if float(each) else "0.001" for each in value.split())
 
 
-def _edits(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
+def _edits(said: str, element: Element, written: str) -> Iterator[tuple[Edit, str]]:
     if "keyword" in said or "data attributes must be in order" in said or "joint type in URDF" in said:
         yield from _words(said, element)
     else:
-        yield from _numbers(said, element)
+        yield from _numbers(said, element, written)
 
 
 def _words(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
@@ -211,8 +211,8 @@ def _words(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
         yield from (put("type", value) for value in URDF.get(wrong) or nearest(wrong, URDF_TYPES.split()) or ["fixed"])
 
 
-def _numbers(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
-    """The number that may have been meant, or none."""
+def _numbers(said: str, element: Element, written: str) -> Iterator[tuple[Edit, str]]:
+    """The number that may have been meant, or none; `written` is the range, be it that of a default class."""
 
     def put(attribute: str, value: str) -> tuple[Edit, str]:
         return set_attribute(element, attribute, value), element.get(attribute, "nothing")
@@ -239,7 +239,7 @@ def _numbers(said: str, element: Element) -> Iterator[tuple[Edit, str]]:
     elif "has `range` but not `limited`" in said or "but not `" in said:
         yield put(re.findall(r"but not `(\w+)`", said)[0], "true")
     elif "range[0] should be 0" in said:
-        yield put("range", f"0 {(element.get('range').split() or ['90'])[-1]}")
+        yield put("range", f"0 {written.rsplit(maxsplit=1)[-1]}")
     elif "axis too small" in said:
         yield put("axis", "0 0 1")
     elif re.search(r"size \d+ must be positive", said):

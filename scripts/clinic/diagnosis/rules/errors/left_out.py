@@ -1,7 +1,7 @@
 """Something that must be there is left out.
 
-An inertial without mass, a hinge equation without its joint, a sensor that does not say of what, an asset without a
-name: MuJoCo says `required attribute missing` or `missing element`.
+An inertial without mass, a joint equality without its joint, a sensor that does not say of what, an asset without a
+name: MuJoCo says `required attribute missing`, `missing element` or `empty name`.
 
 Bad:
 

@@ -1,8 +1,8 @@
 """A moving body has no mass, or no inertia.
 
-A body that a joint moves, with no geom and no `<inertial>`, or with geoms without mass, cannot be accelerated: `mass
-and inertia of moving bodies must be larger than mjMINVAL`. Empty frames of a URDF and helper links are the usual
-ones.
+MuJoCo refuses a body that a joint moves where neither the body nor what is fixed to it has mass and inertia: `mass and
+inertia of moving bodies must be larger than mjMINVAL`. A link that hangs on it by another joint does not count. Empty
+frames of a URDF and helper links are the usual ones.
 
 Bad:
 

@@ -6,7 +6,7 @@ was removed has a replacement, or goes.
 Bad:
 
     <mujoco>
-      <compiler coordinate="local"/>
+      <option mpr_iterations="50"/>
       <worldbody>
         <geom name="ball" size="0.1" colour="1 0 0 1"/>
       </worldbody>
@@ -15,12 +15,14 @@ Bad:
 Good:
 
     <mujoco>
+      <option ccd_iterations="50"/>
       <worldbody>
         <geom name="ball" size="0.1" rgba="1 0 0 1"/>
       </worldbody>
     </mujoco>
 
-The number: none; the text compiles with the edit. Replacements are from MuJoCo's changelog.
+The number: none; the text compiles with the edit. The new names of `mpr_iterations` and `mpr_tolerance` are from
+MuJoCo's changelog; the other names are guessed.
 
 When it is wrong: where no known attribute is like it, it is taken off, and what it was meant to do is lost.
 """
@@ -42,7 +44,7 @@ TITLE = "An unknown or removed attribute"
 FAMILIES = ("will-not-compile",)
 
 MESSAGE = re.compile(r"(?:Schema violation: )?unrecognized attribute: '([\w:.-]+)'")
-RENAMED = {  # from the changelog
+RENAMED = {  # the first two by the changelog
     "mpr_iterations": "ccd_iterations",
     "mpr_tolerance": "ccd_tolerance",
     "colour": "rgba",

@@ -1,4 +1,4 @@
-"""A box stands half in the ground: its size has full lengths.
+"""A box is sunk into the ground: its size has full lengths.
 
 The `size` of a box, and the second one of a cylinder, are half lengths in MuJoCo. Written in full, a box that was
 meant to stand on the floor is twice as large, and a quarter of it is below the floor.

@@ -43,7 +43,7 @@ VALUES = (
     ),
     Remedy(
         "(?:damper|adhesion) control range cannot be negative",
-        "A damper and an adhesion are switched between nothing and all: 0 1.",
+        "The control of a damper or an adhesion is not negative: 0 1 goes from nothing to all of it.",
         ("ctrlrange=0 1",),
     ),
     Remedy("crank length must be positive", "cranklength is the length of the rod in m.", ("cranklength=0.1",)),

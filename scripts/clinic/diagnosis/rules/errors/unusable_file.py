@@ -59,7 +59,7 @@ FORMATS = {
 FORMATS |= {"gltf": FORMATS["glb"], "jpeg": FORMATS["jpg"], "bmp": FORMATS["jpg"], "tga": FORMATS["jpg"]}
 FACES, HEAD = 200_000, 84  # faces, bytes before them
 FLAT = "coplanar|volume is too small|at least 4 vertices|surface area is too small|eigenvalue of mesh inertia"
-BOX = "0.01 0.01 0.01"
+BOX, HALVES = "0.01 0.01 0.01", "0.005 0.005 0.005"  # of 10 mm in URDF, and in MJCF
 ANEW = "save it anew, or open it in another program."
 
 
@@ -195,7 +195,7 @@ def _without_volume(model: ReaderModel, said: str) -> Iterator[Suspect]:
 
 def _box(geom: Element) -> Iterator[Edit]:
     yield set_attribute(geom, "type", "box")
-    yield set_attribute(geom, "size", BOX)
+    yield set_attribute(geom, "size", HALVES)
     yield from (remove_attribute(geom, name) for name in ("mesh", "fitscale") if name in geom.attributes)
 
 

@@ -37,7 +37,7 @@ Good:
 
 The number: names with a word that differs by one letter, or by two neighbours exchanged, from a word of five letters
 and more that stands in four and more of the names of its kind. It stands in no other name of the model, and begins with
-the same letter. A plural is not told, nor is a `waist` beside wrists or an `angle` beside ankles.
+the same letter. A plural is not told, nor is a word that is known, such as `waist` beside wrists.
 
 When it is wrong: two words that happen to be so alike, or a name that your own code knows as it is.
 """
@@ -57,7 +57,8 @@ UNPLANTED = "what a name is to be, only its siblings tell"
 
 KINDS = ("body", "joint", "actuator", "sensor", "site")
 LETTERS, OFTEN = 5, 4
-OWN = {"waist", "wrist", "angle", "ankle", "plane", "plate", "black", "block", "track", "truck"}  # alike, and right
+OWN = {"waist", "wrist", "angle", "ankle", "plane", "plate", "black", "block", "track", "truck", "trunk", "spring",
+       "string", "crank", "crane", "shelf", "shell", "shaft", "shift", "slider", "spider"}  # alike, and right  # fmt: skip
 WORD = re.compile(r"[a-z]+|[A-Z]+(?![a-z])|[A-Z][a-z]+")
 
 

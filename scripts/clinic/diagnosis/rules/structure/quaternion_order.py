@@ -35,7 +35,7 @@ The number: how many `quat` of bodies, geoms, sites, cameras and frames turn by 
 where none turns by less, and all turn by less than 120 degrees, and by less than now, in the other order. Two and more
 are told.
 
-When it is wrong: parts that are all turned by half a turn about their own z.
+When it is wrong: parts that are all turned by more than a right angle about their own z.
 """
 
 from __future__ import annotations
